@@ -1,0 +1,1 @@
+"""The standalone classifier: numpy, scipy and laspy; never QGIS."""

@@ -1,0 +1,77 @@
+"""Output files that are there whole or not at all."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import os
+from pathlib import Path
+from typing import Iterator
+
+from .errors import BareEarthError
+
+_REASONS = {
+    errno.ENOSPC: "the disk is full. Free some space or choose another folder",
+    errno.EDQUOT: "your disk quota is used up. Free some space or choose another folder",
+    errno.EACCES: "you have no permission to write there. Choose another folder",
+    errno.EPERM: "you have no permission to write there. Choose another folder",
+    errno.EROFS: "the disk is read-only. Choose another folder",
+}
+
+
+def check_output(target: Path, sources: tuple[Path, ...] = ()) -> None:
+    """Refuse, before any work is done, an output that could not be written at the end.
+
+    Parameters
+    ----------
+    target : Path
+        The file to be made.
+    sources : tuple of Path
+        Files that must not be overwritten.
+
+    Raises
+    ------
+    BareEarthError
+        If the folder is missing, or the target is a folder or one of the sources.
+    """
+    if not target.parent.is_dir():
+        raise BareEarthError(
+            f"Cannot write {target}: the folder {target.parent} does not exist. Create it first."
+        )
+    if target.is_dir():
+        raise BareEarthError(f"Cannot write {target}: it is a folder. Give a file name.")
+    for source in sources:
+        if target.exists() and source.exists() and os.path.samefile(source, target):
+            raise BareEarthError(
+                f"Input and output are the same file, {source}. Choose another output."
+            )
+
+
+@contextlib.contextmanager
+def replacing(target: Path) -> Iterator[Path]:
+    """Give a temporary name beside `target` to write to; rename it when the block ends well.
+
+    If the block ends with any exception (a cancel among them), the temporary file is removed and
+    what was at `target` before is untouched. The temporary name keeps the suffixes of the target,
+    since libraries choose the format by them.
+
+    Raises
+    ------
+    BareEarthError
+        If the operating system refuses to write, with what to do about it.
+    """
+    temporary = target.with_name(f".{os.getpid()}-{id(object()):x}.part.{target.name}")
+    try:
+        yield temporary
+        os.replace(temporary, target)
+    except OSError as error:
+        raise describe_write_error(target, error) from error
+    finally:
+        with contextlib.suppress(OSError):
+            temporary.unlink()
+
+
+def describe_write_error(target: Path, error: OSError) -> BareEarthError:
+    """Turn an operating system error met while writing `target` into a sentence."""
+    reason = _REASONS.get(error.errno or 0, error.strerror or str(error))
+    return BareEarthError(f"Cannot write {target}: {reason}.")

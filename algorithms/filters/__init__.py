@@ -1,0 +1,51 @@
+"""The ground filters: parameters in, points in, mask out."""
+
+from __future__ import annotations
+
+from typing import Callable, NamedTuple
+
+import numpy as np
+
+from ..parameters import ParameterSet
+from ..points import Points
+from ..progress import Progress
+from . import tin_densification
+
+
+class Method(NamedTuple):
+    """One ground filter.
+
+    Attributes
+    ----------
+    name : str
+        As on the command line.
+    label : str
+        As in the toolbox.
+    parameters : type
+        Its `ParameterSet`.
+    classify : callable
+        ``classify(points, parameters, progress)``, a pure function that returns the ground mask.
+    """
+
+    name: str
+    label: str
+    parameters: type[ParameterSet]
+    classify: Callable[[Points, ParameterSet, Progress], np.ndarray]
+
+
+METHODS = {
+    method.name: method
+    for method in (
+        Method(
+            "tin-densification",
+            "TIN densification",
+            tin_densification.TinDensification,
+            tin_densification.classify,
+        ),
+    )
+}
+
+
+def method_of(parameters: ParameterSet) -> Method:
+    """Return the method that `parameters` belong to."""
+    return next(method for method in METHODS.values() if isinstance(parameters, method.parameters))

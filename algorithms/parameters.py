@@ -1,0 +1,170 @@
+"""Parameters declared once: dialog, command line, docs and validation come from here.
+
+A method's parameters are a frozen dataclass that derives from `ParameterSet`, each field made by
+`parameter`:
+
+>>> @dataclass(frozen=True)
+... class Example(ParameterSet):
+...     cell_size: float = parameter(
+...         0.5, label="Cell size", unit="m", minimum=0.01, help="Side of a square cell.")
+>>> Example().cell_size
+0.5
+>>> Example(cell_size=-1)  # doctest: +IGNORE_EXCEPTION_DETAIL
+Traceback (most recent call last):
+    ...
+BareEarthError: Cell size must be at least 0.01 m, not -1.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+from typing import Any, Mapping
+
+from .errors import BareEarthError
+
+_KEY = "declaration"
+
+
+@dataclass(frozen=True)
+class Declaration:
+    """What is said of one parameter, beside its name.
+
+    Attributes
+    ----------
+    name : str
+        The field's name; upper case in Processing, with hyphens on the command line.
+    kind : str
+        ``number``, ``integer``, ``boolean``, ``choice``, ``numbers`` or ``integers`` (lists).
+    default : object
+        The value when none is given; None where the parameter is off by default.
+    label, help, unit : str
+        The field's title, one or two sentences on what it does and how to choose it, and its unit
+        (``m``, ``deg``, ``points``; empty where it has none).
+    minimum, maximum : float or None
+        Inclusive limits of a number, or of each number of a list.
+    choices : mapping of str to str
+        For a choice: each value with its label.
+    optional : bool
+        Whether None (not used) is a value.
+    advanced : bool
+        Whether the dialog folds it away.
+    """
+
+    name: str
+    kind: str
+    default: Any
+    label: str
+    help: str
+    unit: str = ""
+    minimum: float | None = None
+    maximum: float | None = None
+    choices: Mapping[str, str] = dataclasses.field(default_factory=dict)
+    optional: bool = False
+    advanced: bool = False
+
+    def check(self, value: Any) -> Any:
+        """Return `value` as this parameter's type.
+
+        Raises
+        ------
+        BareEarthError
+            If it is not a value that this parameter takes.
+        """
+        if value is None:
+            if not self.optional:
+                raise BareEarthError(f"{self.label} must have a value.")
+            return None
+        if self.kind == "boolean":
+            return bool(value)
+        if self.kind == "choice":
+            if value not in self.choices:
+                raise BareEarthError(
+                    f"{self.label} must be one of {', '.join(self.choices)}, not {value}."
+                )
+            return value
+        if self.kind in ("numbers", "integers"):
+            if isinstance(value, (str, bytes)) or not hasattr(value, "__iter__"):
+                raise BareEarthError(f"{self.label} must be a list of numbers, not {value!r}.")
+            return tuple(self._check_number(each) for each in value)
+        return self._check_number(value)
+
+    def _check_number(self, value: Any) -> float | int:
+        try:
+            number = float(value)
+        except (TypeError, ValueError):
+            raise BareEarthError(f"{self.label} must be a number, not {value!r}.") from None
+        unit = f" {self.unit}" if self.unit else ""
+        if not math.isfinite(number):
+            raise BareEarthError(f"{self.label} must be a finite number, not {value}.")
+        if self.minimum is not None and number < self.minimum:
+            raise BareEarthError(
+                f"{self.label} must be at least {self.minimum:g}{unit}, not {value}."
+            )
+        if self.maximum is not None and number > self.maximum:
+            raise BareEarthError(
+                f"{self.label} must be at most {self.maximum:g}{unit}, not {value}."
+            )
+        if self.kind in ("integer", "integers"):
+            if number != int(number):
+                raise BareEarthError(f"{self.label} must be a whole number, not {value}.")
+            return int(number)
+        return number
+
+
+def parameter(
+    default: Any,
+    *,
+    label: str,
+    help: str,
+    unit: str = "",
+    minimum: float | None = None,
+    maximum: float | None = None,
+    choices: Mapping[str, str] | None = None,
+    kind: str | None = None,
+    optional: bool = False,
+    advanced: bool = False,
+) -> Any:
+    """Declare one field of a `ParameterSet`; see `Declaration` for the words.
+
+    `kind` follows from the default's type and from `choices`; give it where the default is None.
+    """
+    if kind is None:
+        kind = "choice" if choices else _kind_of(default)
+    declaration = Declaration(
+        "", kind, default, label, help, unit, minimum, maximum, dict(choices or {}),
+        optional or default is None, advanced,
+    )  # fmt: skip
+    return dataclasses.field(default=default, metadata={_KEY: declaration})
+
+
+def _kind_of(default: Any) -> str:
+    if isinstance(default, bool):
+        return "boolean"
+    if isinstance(default, int):
+        return "integer"
+    if isinstance(default, float):
+        return "number"
+    if isinstance(default, tuple):
+        whole = default and all(isinstance(each, int) for each in default)
+        return "integers" if whole else "numbers"
+    raise TypeError(f"Give the kind of a parameter whose default is {default!r}.")
+
+
+@dataclass(frozen=True)
+class ParameterSet:
+    """Base of every method's parameters: validates each value when an instance is made."""
+
+    def __post_init__(self) -> None:
+        for declaration in self.declarations():
+            checked = declaration.check(getattr(self, declaration.name))
+            object.__setattr__(self, declaration.name, checked)
+
+    @classmethod
+    def declarations(cls) -> tuple[Declaration, ...]:
+        """Return the declarations of all parameters, in their order."""
+        return tuple(
+            dataclasses.replace(field.metadata[_KEY], name=field.name)
+            for field in dataclasses.fields(cls)
+        )

@@ -1,0 +1,52 @@
+"""How a long computation talks to whoever called it: a terminal, a QGIS dialog or a test."""
+
+from __future__ import annotations
+
+
+class Progress:
+    """Receives how far a computation is and what it noticed; this base class ignores both.
+
+    A front end subclasses it and overrides `report`, `info` and `warning`. To cancel, `report`
+    raises `Cancelled`. An object is used instead of the logging module because several computations
+    may run in threads of one process, each with a log of its own.
+    """
+
+    def __call__(self, fraction: float) -> None:
+        """Say that `fraction` (0 to 1) is done; call it at least once a second.
+
+        Raises
+        ------
+        Cancelled
+            If the user asked to stop.
+        """
+        self.report(min(max(float(fraction), 0.0), 1.0))
+
+    def report(self, fraction: float) -> None:
+        """Show how far the whole computation is."""
+
+    def info(self, text: str) -> None:
+        """Tell the user something worth knowing about the data or the choices made."""
+
+    def warning(self, text: str) -> None:
+        """Tell the user something that may make the result worse than expected."""
+
+    def part(self, start: float, end: float) -> Progress:
+        """Return a progress whose 0 to 1 is the range `start` to `end` of this one."""
+        return _Part(self, start, end)
+
+
+class _Part(Progress):
+    def __init__(self, whole: Progress, start: float, end: float) -> None:
+        self._whole, self._start, self._end = whole, start, end
+
+    def report(self, fraction: float) -> None:
+        self._whole(self._start + fraction * (self._end - self._start))
+
+    def info(self, text: str) -> None:
+        self._whole.info(text)
+
+    def warning(self, text: str) -> None:
+        self._whole.warning(text)
+
+
+SILENT = Progress()
