@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
-from .files import check_output
+from .files import check_output, replacing
 from .filters import method_of
 from .parameters import ParameterSet
 from .pointcloud.cloud import PointCloud
@@ -16,6 +17,7 @@ from .pointcloud.selection import Selection
 from .pointcloud.writing import check_writable, write_classified
 from .progress import SILENT, Progress
 from .terrain.model import TerrainModel, write_terrain_model
+from .terrain.raster import check_raster_output
 
 
 @dataclass(frozen=True)
@@ -112,18 +114,23 @@ def classify_file(
     Cancelled
         If the user asked to stop; no output is left behind.
     """
-    for output in (target, dtm, hillshade):
-        if output is not None:
-            check_output(output, (source,))
+    check_output(target, (source,))
     check_writable(target)
+    for raster in filter(None, (dtm, hillshade)):
+        check_raster_output(raster, (source, target))
     cloud = read_cloud(source, progress.part(0.0, 0.15))
     classification, selected = classify(cloud, parameters, selection, progress.part(0.15, 0.7))
     ground = classification == selection.to_class
-    if dtm is not None or hillshade is not None:
-        write_terrain_model(
-            cloud.points(ground), cloud.frame, terrain, dtm, hillshade, progress.part(0.7, 0.85)
-        )
-    write_classified(source, target, classification, progress.part(0.85, 1.0))
+    with contextlib.ExitStack() as outputs:
+        # All outputs or none: the rasters get their names after the cloud is written.
+        rasters = [
+            raster and outputs.enter_context(replacing(raster)) for raster in (dtm, hillshade)
+        ]
+        if any(rasters):
+            write_terrain_model(
+                cloud.points(ground), cloud.frame, terrain, *rasters, progress.part(0.7, 0.85)
+            )
+        write_classified(source, target, classification, progress.part(0.85, 1.0))
     values, counts = np.unique(classification, return_counts=True)
     return Summary(
         point_count=cloud.count,

@@ -4,11 +4,16 @@ from __future__ import annotations
 
 import contextlib
 import errno
+import itertools
 import os
+import re
 from pathlib import Path
 from typing import Iterator
 
 from .errors import BareEarthError
+
+_numbers = itertools.count()
+_TEMPORARY = re.compile(r"\.\d+-\d+\.part\.")
 
 _REASONS = {
     errno.ENOSPC: "the disk is full. Free some space or choose another folder",
@@ -60,7 +65,7 @@ def replacing(target: Path) -> Iterator[Path]:
     BareEarthError
         If the operating system refuses to write, with what to do about it.
     """
-    temporary = target.with_name(f".{os.getpid()}-{id(object()):x}.part.{target.name}")
+    temporary = target.with_name(f".{os.getpid()}-{next(_numbers)}.part.{target.name}")
     try:
         yield temporary
         os.replace(temporary, target)
@@ -74,4 +79,9 @@ def replacing(target: Path) -> Iterator[Path]:
 def describe_write_error(target: Path, error: OSError) -> BareEarthError:
     """Turn an operating system error met while writing `target` into a sentence."""
     reason = _REASONS.get(error.errno or 0, error.strerror or str(error))
-    return BareEarthError(f"Cannot write {target}: {reason}.")
+    return BareEarthError(f"Cannot write {shown(target)}: {reason}.")
+
+
+def shown(path: object) -> str:
+    """Return a path, or a text that names one, without the marks of `replacing`."""
+    return _TEMPORARY.sub("", str(path))

@@ -1,0 +1,7 @@
+"""Lets `python -m bare_earth.algorithms` run the command."""
+
+import sys
+
+from .cli import main
+
+sys.exit(main())

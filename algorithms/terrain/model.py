@@ -1,0 +1,138 @@
+"""Digital terrain models: heights interpolated on the TIN of the ground points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..parameters import ParameterSet, parameter
+from ..points import Frame, Points
+from ..progress import SILENT, Progress
+from .hillshade import hillshade
+from .raster import NODATA, RasterGrid, write_geotiff
+from .tin import Tin
+
+# Rows are interpolated a strip at a time: enough work for one numpy call, soon enough to cancel.
+_CELLS_A_STRIP = 500_000
+# More vertices than this many along the side of a cell do not change the cell, but cost time.
+_VERTICES_A_SIDE = 2
+
+
+@dataclass(frozen=True)
+class TerrainModel(ParameterSet):
+    """How to make the rasters of the terrain."""
+
+    dtm_cell_size: float = parameter(
+        1.0,
+        label="Cell size of the terrain model",
+        unit="m",
+        minimum=0.01,
+        maximum=1000.0,
+        help="Side of a cell of the terrain model and of its hillshade. About the distance between "
+        "ground points is sensible; smaller cells only make the file larger.",
+    )
+    hillshade_azimuth: float = parameter(
+        315.0,
+        label="Hillshade azimuth",
+        unit="deg",
+        minimum=0.0,
+        maximum=360.0,
+        advanced=True,
+        help="Where the light comes from, clockwise from north.",
+    )
+    hillshade_altitude: float = parameter(
+        45.0,
+        label="Hillshade altitude",
+        unit="deg",
+        minimum=0.0,
+        maximum=90.0,
+        advanced=True,
+        help="How high the light stands above the horizon.",
+    )
+
+
+def interpolate(points: Points, grid: RasterGrid, progress: Progress = SILENT) -> np.ndarray:
+    """Interpolate heights linearly on the TIN of `points`, at the centres of the grid's cells.
+
+    Parameters
+    ----------
+    points : Points
+        The ground points; of those that share a quarter of a cell, the one nearest to its centre
+        is used.
+    grid : RasterGrid
+        Where heights are wanted.
+    progress : Progress
+        Receives progress.
+
+    Returns
+    -------
+    numpy.ndarray of float64, shape (rows, columns)
+        Heights in metres; NaN outside the convex hull.
+    """
+    vertices = points.take(_nearest_to_centre(points, grid.cell_metres / _VERTICES_A_SIDE))
+    progress(0.1)
+    tin = Tin(vertices.x, vertices.y, vertices.z)
+    progress(0.6)
+    heights = np.empty((grid.rows, grid.columns))
+    x, y = grid.x, grid.y
+    step = max(_CELLS_A_STRIP // grid.columns, 1)
+    for start in range(0, grid.rows, step):
+        rows = slice(start, min(start + step, grid.rows))
+        at_x, at_y = np.meshgrid(x, y[rows])
+        heights[rows] = tin.interpolate(at_x.ravel(), at_y.ravel()).reshape(at_x.shape)
+        progress(0.6 + 0.4 * rows.stop / grid.rows)
+    return heights
+
+
+def write_terrain_model(
+    ground: Points,
+    frame: Frame,
+    model: TerrainModel,
+    dtm: Path | None,
+    hillshade_file: Path | None,
+    progress: Progress = SILENT,
+) -> None:
+    """Write the terrain model of ground points, its hillshade, or both, as GeoTIFF.
+
+    Parameters
+    ----------
+    ground : Points
+        The ground points.
+    frame : Frame
+        Where they lie in the CRS; the terrain model's heights are in its vertical unit.
+    model : TerrainModel
+        Cell size and light.
+    dtm, hillshade_file : Path or None
+        The files to make.
+    progress : Progress
+        Receives progress and messages.
+
+    Raises
+    ------
+    BareEarthError
+        If there is no ground, or a file cannot be written.
+    """
+    grid = RasterGrid.over(ground, frame, model.dtm_cell_size)
+    heights = interpolate(ground, grid, progress.part(0.0, 0.8))
+    if dtm is not None:
+        values = np.where(np.isnan(heights), NODATA, heights / frame.vertical_unit)
+        write_geotiff(dtm, values.astype(np.float32), grid, NODATA, progress)
+    progress(0.9)
+    if hillshade_file is not None:
+        light = model.hillshade_azimuth, model.hillshade_altitude
+        write_geotiff(
+            hillshade_file, hillshade(heights, grid.cell_metres, *light), grid, 0, progress
+        )
+    progress(1.0)
+
+
+def _nearest_to_centre(points: Points, cell: float) -> np.ndarray:
+    """Return the index of the point nearest to the centre of each occupied cell."""
+    column, row = np.floor(points.x / cell), np.floor(points.y / cell)
+    distance = (points.x / cell - column - 0.5) ** 2 + (points.y / cell - row - 0.5) ** 2
+    order = np.lexsort((points.z, distance, column, row))
+    first = np.ones(len(order), dtype=bool)
+    first[1:] = (np.diff(column[order]) != 0) | (np.diff(row[order]) != 0)
+    return order[first]
