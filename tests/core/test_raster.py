@@ -1,0 +1,68 @@
+import numpy as np
+import pytest
+
+from bare_earth.algorithms.errors import BareEarthError
+from bare_earth.algorithms.points import Frame, Points
+from bare_earth.algorithms.progress import SILENT
+from bare_earth.algorithms.terrain.raster import NODATA, RasterGrid, write_geotiff
+
+rasterio = pytest.importorskip("rasterio")
+
+FEET = 0.3048
+
+
+def square(side, z=0.0):
+    corners = np.array([[0.0, 0.0], [side, 0.0], [0.0, side], [side, side]])
+    return Points(corners[:, 0], corners[:, 1], np.full(4, z))
+
+
+def test_the_grid_is_a_multiple_of_the_cell_size_and_covers_the_points():
+    grid = RasterGrid.over(square(9.0), Frame(origin=(100.3, 200.3)), 2.0)
+    assert (grid.west, grid.north) == (100.0, 210.0)
+    assert (grid.columns, grid.rows) == (5, 5)
+    assert grid.x[0] == pytest.approx(0.7) and grid.y[0] == pytest.approx(8.7)
+
+
+def test_a_cell_size_in_metres_is_converted_to_feet():
+    grid = RasterGrid.over(square(10.0), Frame(horizontal_unit=FEET), 1.0)
+    assert grid.cell_size == pytest.approx(1 / FEET)
+    assert grid.cell_metres == pytest.approx(1.0)
+    assert np.diff(grid.x) == pytest.approx(1.0)
+
+
+def test_a_stray_point_does_not_allocate_a_huge_raster():
+    points = Points(np.array([0.0, 1e6]), np.array([0.0, 1e6]), np.zeros(2))
+    with pytest.raises(BareEarthError, match="stray coordinates"):
+        RasterGrid.over(points, Frame(), 1.0)
+
+
+def test_no_points_are_an_error_that_says_so():
+    with pytest.raises(BareEarthError, match="no ground point"):
+        RasterGrid.over(square(1.0).take([]), Frame(), 1.0)
+
+
+@pytest.mark.parametrize("kind", ["float32", "uint8"])
+def test_the_geotiff_is_tiled_deflated_and_has_nodata_and_crs(tmp_path, kind):
+    wkt = rasterio.crs.CRS.from_epsg(25832).to_wkt()
+    grid = RasterGrid.over(square(300.0), Frame(origin=(5e5, 5.7e6), wkt=wkt), 1.0)
+    values = np.arange(grid.rows * grid.columns).reshape(grid.rows, grid.columns).astype(kind)
+    nodata = NODATA if kind == "float32" else 0
+    write_geotiff(tmp_path / "a.tif", values, grid, nodata, SILENT)
+    with rasterio.open(tmp_path / "a.tif") as raster:
+        assert np.array_equal(raster.read(1), values)
+        assert raster.profile["tiled"] and raster.profile["compress"] == "deflate"
+        assert (raster.nodata, raster.crs.to_epsg()) == (nodata, 25832)
+        assert raster.transform[:6] == (1.0, 0.0, 5e5, 0.0, -1.0, 5.7e6 + 300)
+    assert [path.name for path in tmp_path.iterdir()] == ["a.tif"]
+
+
+def test_a_crs_that_is_not_understood_is_left_out_with_a_warning(tmp_path):
+    warnings = []
+
+    class Listener(type(SILENT)):
+        def warning(self, text):
+            warnings.append(text)
+
+    grid = RasterGrid.over(square(3.0), Frame(wkt="LOCAL"), 1.0)
+    write_geotiff(tmp_path / "a.tif", np.zeros((3, 3), np.float32), grid, NODATA, Listener())
+    assert "without a CRS" in warnings[0]
