@@ -1,0 +1,125 @@
+"""Units and codes of a CRS given as GeoTIFF keys.
+
+References
+----------
+OGC GeoTIFF Standard 1.1 (OGC 19-008r4), and the LAS 1.2 specification on the records 34735 to 34737
+of ``LASF_Projection``.
+"""
+
+from __future__ import annotations
+
+import math
+import struct
+from typing import NamedTuple
+
+_MODEL, _CITATION, _GEOGRAPHIC_CODE, _GEOGRAPHIC_CITATION = 1024, 1026, 2048, 2049
+_PROJECTED_CODE, _PROJECTED_CITATION, _LINEAR_UNIT, _LINEAR_UNIT_SIZE = 3072, 3073, 3076, 3077
+_VERTICAL_CODE, _VERTICAL_UNIT = 4096, 4099
+_DOUBLES, _TEXTS = 34736, 34737
+_PROJECTED, _GEOGRAPHIC, _GEOCENTRIC = 1, 2, 3
+_USER_DEFINED = 32767
+
+# Metres in one unit, by EPSG code; a ratio where that is the definition.
+_UNITS = {
+    9001: 1.0,
+    9002: 0.3048,
+    9003: 1200 / 3937,
+    9005: 0.3047972654,
+    9014: 1.8288,
+    9030: 1852.0,
+    9031: 1.0000135965,
+    9036: 1000.0,
+    9037: 0.9143917962,
+    9040: 0.9143984146160287,
+    9041: 0.3047994715386762,
+    9042: 20.116765121552632,
+    9080: 0.3047995102481469,
+    9093: 1609.344,
+    9094: 0.304799710181509,
+    9095: 0.3048007491,
+    9096: 0.9144,
+    9098: 0.201168,
+}
+
+
+class GeoKeys(NamedTuple):
+    """What the keys say; None where they are silent.
+
+    Attributes
+    ----------
+    name : str
+        What the file calls its CRS.
+    is_geographic : bool
+        Whether the coordinates are degrees, or geocentric.
+    epsg, vertical_epsg : int or None
+        EPSG code of the horizontal and the vertical CRS.
+    horizontal_unit, vertical_unit : float or None
+        Metres in one unit.
+    unknown_units : tuple of int
+        Unit codes that are stated but not known here.
+    """
+
+    name: str
+    is_geographic: bool
+    epsg: int | None
+    vertical_epsg: int | None
+    horizontal_unit: float | None
+    vertical_unit: float | None
+    unknown_units: tuple[int, ...]
+
+
+def read_geokeys(directory: bytes, doubles: bytes = b"", texts: bytes = b"") -> GeoKeys | None:
+    """Return what the GeoTIFF keys say of the CRS, or None if they do not say which it is.
+
+    Parameters
+    ----------
+    directory, doubles, texts : bytes
+        Contents of the records 34735, 34736 and 34737.
+    """
+    keys = _read_keys(directory, doubles, texts)
+    projected, geographic = _code(keys, _PROJECTED_CODE), _code(keys, _GEOGRAPHIC_CODE)
+    model = keys.get(_MODEL)
+    if model not in (_PROJECTED, _GEOGRAPHIC, _GEOCENTRIC):
+        if _PROJECTED_CODE not in keys and geographic is None and _LINEAR_UNIT not in keys:
+            return None
+        model = _GEOGRAPHIC if geographic and _PROJECTED_CODE not in keys else _PROJECTED
+    is_geographic = model != _PROJECTED
+    citations = (_PROJECTED_CITATION, _CITATION, _GEOGRAPHIC_CITATION)
+    codes = [keys.get(key) for key in (_LINEAR_UNIT, _VERTICAL_UNIT)]
+    return GeoKeys(
+        name=next((str(keys[key]) for key in citations if keys.get(key)), ""),
+        is_geographic=is_geographic,
+        epsg=geographic if is_geographic else projected,
+        vertical_epsg=_code(keys, _VERTICAL_CODE),
+        horizontal_unit=_UNITS.get(codes[0]) or _size(keys.get(_LINEAR_UNIT_SIZE)),
+        vertical_unit=_UNITS.get(codes[1]),
+        unknown_units=tuple(
+            code for code in codes if code not in (None, 0, _USER_DEFINED) and code not in _UNITS
+        ),
+    )
+
+
+def _read_keys(directory: bytes, doubles: bytes, texts: bytes) -> dict[int, int | float | str]:
+    """Return the value of each key; entries that lead outside their record are left out."""
+    shorts = struct.unpack(f"<{len(directory) // 2}H", directory[: len(directory) // 2 * 2])
+    numbers = struct.unpack(f"<{len(doubles) // 8}d", doubles[: len(doubles) // 8 * 8])
+    keys: dict[int, int | float | str] = {}
+    for start in range(4, len(shorts) - 3, 4):
+        key, place, count, value = shorts[start : start + 4]
+        if place == 0:
+            keys[key] = value
+        elif place == _DOUBLES and value < len(numbers):
+            keys[key] = numbers[value]
+        elif place == _TEXTS:
+            text = texts[value : value + count].decode("latin-1")
+            keys[key] = text.replace("\0", "").rstrip("|").strip()
+    return keys
+
+
+def _code(keys: dict[int, int | float | str], key: int) -> int | None:
+    value = keys.get(key)
+    return value if isinstance(value, int) and 1024 <= value < _USER_DEFINED else None
+
+
+def _size(value: object) -> float | None:
+    return value if isinstance(value, float) and math.isfinite(value) and value > 0 else None

@@ -1,0 +1,148 @@
+"""Points as raw bytes, in and out of LAS and LAZ, by chunks."""
+
+from __future__ import annotations
+
+import struct
+from typing import BinaryIO, Iterator
+
+import numpy as np
+
+from .lasbytes import LASZIP, LasLayout, Vlr
+from .sources import damage_told, damaged, open_source
+
+CHUNK = 1_000_000
+_FIRST_EXTENDED_FORMAT = 6
+
+
+def read_records(layout: LasLayout, chunk: int = CHUNK) -> Iterator[np.ndarray]:
+    """Yield the points of a file as their bytes.
+
+    Yields
+    ------
+    numpy.ndarray of uint8, shape (up to `chunk`, record length)
+        A writable array; the next one may reuse its memory.
+
+    Raises
+    ------
+    BareEarthError
+        If the file is damaged.
+    """
+    with open_source(layout.path) as file:
+        file.seek(layout.points_start)
+        decompressor = _decompressor(layout, file) if layout.is_compressed else None
+        buffer = np.empty((min(chunk, layout.count), layout.record_length), dtype=np.uint8)
+        for start in range(0, layout.count, chunk):
+            records = buffer[: min(chunk, layout.count - start)]
+            with damage_told(layout.path):
+                if decompressor is not None:
+                    decompressor.decompress_many(records.reshape(-1))
+                elif file.readinto(records.reshape(-1)) != records.size:
+                    raise damaged(layout.path)
+            yield records
+
+
+def set_classes(layout: LasLayout, records: np.ndarray, classes: np.ndarray) -> None:
+    """Write classes into the bytes of points; flags in the same byte stay.
+
+    Parameters
+    ----------
+    layout : LasLayout
+        The file whose point format the records have.
+    records : numpy.ndarray of uint8, shape (n, record length)
+        Changed in place.
+    classes : numpy.ndarray of uint8, shape (n,)
+        Up to 31 in point formats 0 to 5, whose byte has three flags above the class.
+    """
+    if layout.point_format >= _FIRST_EXTENDED_FORMAT:
+        records[:, 16] = classes
+    else:
+        records[:, 15] = (records[:, 15] & 0xE0) | classes
+
+
+class LasRecordWriter:
+    """Writes the bytes of points as they are."""
+
+    def __init__(self, file: BinaryIO) -> None:
+        self._file = file
+
+    def write(self, records: np.ndarray) -> None:
+        """Append points."""
+        self._file.write(records.data)
+
+    def finish(self) -> None:
+        """End the points."""
+
+
+class LazRecordWriter:
+    """Compresses the bytes of points with lazrs."""
+
+    def __init__(self, file: BinaryIO, laszip_vlr: Vlr) -> None:
+        import lazrs
+
+        self._file = _ErrorKeeper(file)
+        self._compressor = self._call(
+            lazrs.ParLasZipCompressor, self._file, lazrs.LazVlr(laszip_vlr.data)
+        )
+
+    def write(self, records: np.ndarray) -> None:
+        """Append points."""
+        self._call(self._compressor.compress_many, records.reshape(-1))
+
+    def finish(self) -> None:
+        """Write the last chunk and the chunk table."""
+        self._call(self._compressor.done)
+
+    def _call(self, function, *arguments):
+        """Call lazrs; raise what the file raised instead of what lazrs makes of it."""
+        import lazrs
+
+        try:
+            return function(*arguments)
+        except lazrs.LazrsError as error:
+            if self._file.error is not None:
+                raise self._file.error from error
+            raise
+
+
+class _ErrorKeeper:
+    """A file that remembers its error, since lazrs passes on neither its kind nor its number."""
+
+    def __init__(self, file: BinaryIO) -> None:
+        self._file = file
+        self.error: OSError | None = None
+
+    def write(self, data: bytes) -> int:
+        return self._keep(self._file.write, data)
+
+    def flush(self) -> None:
+        self._keep(self._file.flush)
+
+    def seek(self, *where: int) -> int:
+        return self._keep(self._file.seek, *where)
+
+    def tell(self) -> int:
+        return self._file.tell()
+
+    def _keep(self, function, *arguments):
+        try:
+            return function(*arguments)
+        except OSError as error:
+            self.error = error
+            raise
+
+
+def laszip_vlr(layout: LasLayout) -> Vlr:
+    """Return the record that tells how lazrs compresses the points of a file."""
+    import lazrs
+
+    data = lazrs.LazVlr.new_for_compression(layout.point_format, layout.extra_bytes).record_data()
+    head = struct.pack("<H16sHH32s", 0, LASZIP[0].encode(), LASZIP[1], len(data), b"by lazrs")
+    return Vlr(head + bytes(data))
+
+
+def _decompressor(layout: LasLayout, file: BinaryIO):
+    import lazrs
+
+    record = layout.vlr(LASZIP)
+    with damage_told(layout.path):
+        return lazrs.ParLasZipDecompressor(file, record.data)

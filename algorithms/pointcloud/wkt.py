@@ -1,0 +1,156 @@
+"""Units and names in a CRS given as well-known text, WKT 1 and WKT 2.
+
+Read here rather than by PROJ, since a Python outside QGIS may have no PROJ, and the units are all
+that a classification needs.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import NamedTuple, Sequence
+
+_TOKEN = re.compile(r'"((?:[^"]|"")*)"|([A-Za-z_][A-Za-z0-9_]*)\s*[\[(]|([^\s,"\[\]()]+)|([\])])')
+
+_COMPOUND = {"COMPD_CS", "COMPOUNDCRS"}
+_BOUND = {"BOUNDCRS", "SOURCECRS"}
+_PROJECTED = {"PROJCS", "PROJCRS", "PROJECTEDCRS", "DERIVEDPROJCRS"}
+_LOCAL = {"LOCAL_CS", "ENGCRS", "ENGINEERINGCRS"}
+_GEOGRAPHIC = {"GEOGCS", "GEOGCRS", "GEOGRAPHICCRS", "GEODCRS", "GEODETICCRS", "GEOCCS"}
+_VERTICAL = {"VERT_CS", "VERTCS", "VERTCRS", "VERTICALCRS"}
+_UNITS = {"UNIT", "LENGTHUNIT"}
+_UPWARDS = {"up", "down"}
+
+
+class Node(NamedTuple):
+    """A keyword of well-known text and what stands in its brackets."""
+
+    keyword: str
+    values: list[str | Node]
+
+    @property
+    def name(self) -> str:
+        """The first text in the brackets."""
+        return self.values[0] if self.values and isinstance(self.values[0], str) else ""
+
+    def children(self, keywords: set[str]) -> list[Node]:
+        """Return the nodes directly inside that have one of the keywords."""
+        return [each for each in self.values if isinstance(each, Node) and each.keyword in keywords]
+
+
+class WktFacts(NamedTuple):
+    """What a classification wants to know of a CRS; a unit is None where it is not stated.
+
+    Attributes
+    ----------
+    name : str
+        Name of the CRS.
+    horizontal_unit, vertical_unit : float or None
+        Metres in one unit.
+    has_vertical : bool
+        Whether a vertical CRS is named.
+    is_geographic : bool
+        Whether the coordinates are degrees, or geocentric.
+    epsg : int or None
+        EPSG code of the horizontal CRS.
+    """
+
+    name: str
+    horizontal_unit: float | None
+    vertical_unit: float | None
+    has_vertical: bool
+    is_geographic: bool
+    epsg: int | None
+
+
+def read_wkt(text: str) -> WktFacts | None:
+    """Return what `text` says of its CRS, or None if it is not that of a CRS.
+
+    Examples
+    --------
+    >>> read_wkt('LOCAL_CS["site",UNIT["foot",0.3048]]').horizontal_unit
+    0.3048
+    """
+    roots = [each for each in _parse(text) if isinstance(each, Node)]
+    parts = [part for root in roots for part in _parts(root)]
+    horizontal = next((p for p in parts if p.keyword in _PROJECTED | _LOCAL | _GEOGRAPHIC), None)
+    if horizontal is None:
+        return None
+    vertical = next((part for part in parts if part.keyword in _VERTICAL), None)
+    flat, upwards = _axis_units(horizontal)
+    if vertical is not None:
+        upwards = _unit_of(vertical) or _axis_units(vertical)[1]
+    return WktFacts(
+        name=roots[0].name or horizontal.name,
+        horizontal_unit=_unit_of(horizontal) or flat,
+        vertical_unit=upwards,
+        has_vertical=vertical is not None or upwards is not None,
+        is_geographic=horizontal.keyword in _GEOGRAPHIC,
+        epsg=_epsg_of(horizontal),
+    )
+
+
+def _parse(text: str) -> list[str | Node]:
+    """Return the nodes of the text; brackets that are never closed end with the text."""
+    top: list[str | Node] = []
+    open_lists = [top]
+    for quoted, keyword, bare, closing in _TOKEN.findall(text):
+        if keyword:
+            node = Node(keyword.upper(), [])
+            open_lists[-1].append(node)
+            open_lists.append(node.values)
+        elif closing:
+            if len(open_lists) > 1:
+                open_lists.pop()
+        else:
+            open_lists[-1].append(bare or quoted.replace('""', '"'))
+    return top
+
+
+def _parts(node: Node) -> Sequence[Node]:
+    """Return the single CRSs of which a compound or bound one is made."""
+    if node.keyword in _COMPOUND | _BOUND:
+        inside = [each for each in node.values if isinstance(each, Node)]
+        return [part for each in inside for part in _parts(each)]
+    return [node]
+
+
+def _unit_of(node: Node) -> float | None:
+    """Return the unit that stands directly in the brackets of a CRS or an axis.
+
+    Only there: the units of its base CRS and of its projection's parameters are others.
+    """
+    for unit in node.children(_UNITS):
+        numbers = [_number(value) for value in unit.values[1:2] if isinstance(value, str)]
+        if numbers and numbers[0] is not None:
+            return numbers[0]
+    return None
+
+
+def _axis_units(node: Node) -> tuple[float | None, float | None]:
+    """Return the unit of the first horizontal and of the first vertical axis."""
+    horizontal = vertical = None
+    for axis in node.children({"AXIS"}):
+        is_vertical = any(value in _UPWARDS for value in axis.values if isinstance(value, str))
+        if is_vertical:
+            # WKT 2 has a unit for each axis or one for all; WKT 1 has one for all.
+            vertical = vertical or _unit_of(axis) or _unit_of(node)
+        else:
+            horizontal = horizontal or _unit_of(axis)
+    return horizontal, vertical
+
+
+def _number(text: str) -> float | None:
+    try:
+        number = float(text)
+    except ValueError:
+        return None
+    return number if math.isfinite(number) and number > 0 else None
+
+
+def _epsg_of(node: Node) -> int | None:
+    for authority in node.children({"AUTHORITY", "ID"}):
+        values = [value for value in authority.values if isinstance(value, str)]
+        if len(values) >= 2 and values[0].upper() == "EPSG" and values[1].isdigit():
+            return int(values[1])
+    return None

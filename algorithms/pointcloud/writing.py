@@ -1,0 +1,151 @@
+"""Writing a classified cloud: the file as it was, with other classes.
+
+laspy is not used here: it writes headers and records anew, and what it does not know gets lost. The
+bytes of the input are copied instead, and only those changed that have to.
+"""
+
+from __future__ import annotations
+
+import struct
+from pathlib import Path
+from typing import BinaryIO
+
+import numpy as np
+
+from ..errors import BareEarthError
+from ..files import replacing
+from ..progress import SILENT, Progress
+from .backends import WRITING_COPC, require
+from .lasbytes import COPC_HIERARCHY, COPC_INFO, EVLR_COUNT, LASZIP, LasLayout, read_layout
+from .records import LasRecordWriter, LazRecordWriter, laszip_vlr, read_records, set_classes
+from .sources import open_source
+
+_COPC_SUFFIX = ".copc.laz"
+_BLOCK = 1 << 24
+_EXTERNAL_WAVEFORMS = 0x04
+
+
+def check_writable(target: Path) -> None:
+    """Refuse, before any work is done, a file name or format that cannot be written here.
+
+    Raises
+    ------
+    BareEarthError
+        If the suffix is not .las, .laz or .copc.laz, or a package is missing.
+    """
+    target = Path(target)
+    if target.suffix.lower() not in (".las", ".laz"):
+        raise BareEarthError(f"Cannot write {target}: name it .las, .laz or .copc.laz.")
+    if _is_copc(target):
+        require(*WRITING_COPC, "lazrs")
+    elif target.suffix.lower() == ".laz":
+        require("lazrs")
+
+
+def write_classified(
+    source: Path, target: Path, classification: np.ndarray, progress: Progress = SILENT
+) -> None:
+    """Write `source` anew with other classes.
+
+    Points, their order, integers and extra bytes, the header and all records stay as they are,
+    but for what compressing or decompressing needs. Writing .copc.laz changes the order of the
+    points, and the point formats 0 to 5 to 6 to 8, as its specification wants.
+
+    Parameters
+    ----------
+    source, target : Path
+        The input, and the output: .las, .laz or .copc.laz.
+    classification : numpy.ndarray of uint8, shape (n,)
+        The class of every point, in the order of `source`.
+    progress : Progress
+        Told what an output cannot hold.
+
+    Raises
+    ------
+    BareEarthError
+        If the input cannot be read or the output not be written; nothing is left behind.
+    Cancelled
+        If the user asked to stop; nothing is left behind.
+    """
+    source, target = Path(source), Path(target)
+    check_writable(target)
+    layout = read_layout(source)
+    if len(classification) != layout.count:
+        raise BareEarthError(f"{source} has changed while it was classified. Classify it again.")
+    if layout.is_compressed:
+        require("lazrs")
+    with replacing(target) as temporary:
+        if _is_copc(target):
+            from .copc import write_copc
+
+            write_copc(layout, temporary, classification, progress)
+        else:
+            _write(layout, temporary, classification, progress)
+    _tell_of_waveforms(layout, target, progress)
+
+
+def _is_copc(target: Path) -> bool:
+    return target.name.lower().endswith(_COPC_SUFFIX)
+
+
+def _write(layout: LasLayout, target: Path, classification: np.ndarray, progress: Progress) -> None:
+    if layout.point_format <= 5 and classification.max() > 31:
+        raise BareEarthError(
+            f"Point format {layout.point_format} holds classes up to 31, not"
+            f" {classification.max()}. Choose another class for the ground."
+        )
+    if layout.is_copc:
+        progress.info(
+            "The points stay in the order of the COPC file, but its index is left out: choose an"
+            " output named .copc.laz to have one."
+        )
+    compressed = target.suffix.lower() == ".laz"
+    vlrs = [vlr for vlr in layout.vlrs if vlr.key not in (LASZIP, COPC_INFO)]
+    if compressed:
+        # Where the record was before, so that a file compressed anew differs in its points only.
+        before = [vlr.key for vlr in layout.vlrs if vlr.key != COPC_INFO]
+        vlrs.insert(before.index(LASZIP) if LASZIP in before else len(vlrs), laszip_vlr(layout))
+    with open(target, "w+b") as file:
+        file.write(layout.prefix(tuple(vlrs), compressed))
+        writer = LazRecordWriter(file, laszip_vlr(layout)) if compressed else LasRecordWriter(file)
+        start = 0
+        for records in read_records(layout):
+            set_classes(layout, records, classification[start : start + len(records)])
+            writer.write(records)
+            start += len(records)
+            progress(start / layout.count)
+        writer.finish()
+        _copy_tail(layout, file)
+
+
+def _copy_tail(layout: LasLayout, file: BinaryIO) -> None:
+    """Copy what follows the points, and let the header point to where it is now."""
+    tail = layout.kept_tail(COPC_HIERARCHY)
+    pointers = layout.pointers(tail, file.seek(0, 2))
+    with open_source(layout.path) as source:
+        for start, end in tail:
+            _copy(source, file, start, end)
+    for place, pointer in pointers.items():
+        file.seek(place)
+        file.write(struct.pack("<Q", pointer))
+    if len(tail) > 1:
+        file.seek(EVLR_COUNT)
+        file.write(struct.pack("<I", len(layout.evlrs) - len(tail) + 1))
+
+
+def _copy(source: BinaryIO, target: BinaryIO, start: int, end: int) -> None:
+    source.seek(start)
+    while start < end:
+        block = source.read(min(_BLOCK, end - start))
+        if not block:
+            raise BareEarthError(f"{source.name} has changed while it was classified.")
+        target.write(block)
+        start += len(block)
+
+
+def _tell_of_waveforms(layout: LasLayout, target: Path, progress: Progress) -> None:
+    if layout.global_encoding & _EXTERNAL_WAVEFORMS:
+        progress.warning(
+            f"The waveforms are in a file beside the input: copy"
+            f" {layout.path.with_suffix('.wdp').name} to {target.with_suffix('.wdp').name}."
+        )
