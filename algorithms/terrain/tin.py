@@ -1,0 +1,215 @@
+"""Triangulated irregular network (TIN): the surface through points, as triangles."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial import Delaunay
+
+# Queries are walked this many at a time: the arrays of one step then stay in the processor's cache.
+_QUERIES_A_STEP = 200_000
+# Twice the area, in m2, by which a query may lie outside an edge and count as on it: rounding.
+_ON_EDGE = 1e-11
+
+
+class Tin:
+    """A Delaunay triangulation of points, with heights.
+
+    `Delaunay.find_simplex` is not used: the transform it builds and its search from an arbitrary
+    triangle cost more than the triangulation. A walk over the neighbours from a vertex close to
+    the query is exact, because in a Delaunay triangulation a walk towards the query never returns
+    to a triangle (Devillers, Pion & Teillaud 2002, section 3).
+
+    Parameters
+    ----------
+    x, y, z : array_like of float, shape (n,)
+        Vertices in metres. Of vertices with the same x and y the lowest is kept. Their order does
+        not matter.
+
+    Attributes
+    ----------
+    x, y, z : numpy.ndarray of float64, shape (v,)
+        The vertices that were kept, in an order of the TIN's own.
+    source : numpy.ndarray of intp, shape (v,)
+        Where each vertex stands in the input.
+    triangles : numpy.ndarray of int32, shape (t, 3)
+        Vertices of each triangle; empty if there are no three vertices off one line.
+    neighbours : numpy.ndarray of int32, shape (t, 3)
+        The triangle opposite to each vertex; -1 beyond the convex hull.
+    """
+
+    def __init__(self, x: np.ndarray, y: np.ndarray, z: np.ndarray) -> None:
+        x, y, z = (np.asarray(values, dtype=np.float64) for values in (x, y, z))
+        kept = _lowest_of_duplicates(x, y, z)
+        strip, self._strip_edges = _strips(x[kept])
+        order = np.lexsort((x[kept], y[kept], strip))
+        self.source = kept[order]
+        self.x, self.y, self.z = x[self.source], y[self.source], z[self.source]
+        # Close to the origin, Qhull and the walk lose no digits to the size of the coordinates.
+        self._origin = (np.median(self.x), np.median(self.y)) if len(kept) else (0.0, 0.0)
+        self._x, self._y = self.x - self._origin[0], self.y - self._origin[1]
+        self.triangles, self.neighbours = _triangulate(np.column_stack((self._x, self._y)))
+        if len(self.triangles):
+            self._y_range = float(self.y.min()), float(np.ptp(self.y))
+            self._vertex_keys = self._keys(strip[order], self.y)
+            self._triangle_of_vertex = _triangle_of_vertex(self.triangles, len(self.x))
+
+    def locate(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Return the triangle in which each query lies.
+
+        Parameters
+        ----------
+        x, y : array_like of float, shape (q,)
+            Queries in metres.
+
+        Returns
+        -------
+        numpy.ndarray of int32, shape (q,)
+            Rows of `triangles`; -1 outside the convex hull.
+        """
+        x, y = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
+        found = np.full(len(x), -1, dtype=np.int32)
+        if not len(self.triangles):
+            return found
+        for first in range(0, len(x), _QUERIES_A_STEP):
+            part = slice(first, first + _QUERIES_A_STEP)
+            triangle = self._triangle_of_vertex[self._near(x[part], y[part])]
+            found[part] = self._walk(x[part] - self._origin[0], y[part] - self._origin[1], triangle)
+        return found
+
+    def interpolate(
+        self, x: np.ndarray, y: np.ndarray, triangle: np.ndarray | None = None
+    ) -> np.ndarray:
+        """Return the height of the surface at each query.
+
+        Parameters
+        ----------
+        x, y : array_like of float, shape (q,)
+            Queries in metres.
+        triangle : numpy.ndarray of int, shape (q,), optional
+            What `locate` returned for them, if it is known.
+
+        Returns
+        -------
+        numpy.ndarray of float64, shape (q,)
+            Heights in metres, linear in each triangle; NaN outside the convex hull.
+        """
+        x, y = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
+        if triangle is None:
+            triangle = self.locate(x, y)
+        height = np.full(len(x), np.nan)
+        inside = np.flatnonzero(triangle >= 0)
+        for first in range(0, len(inside), _QUERIES_A_STEP):
+            part = inside[first : first + _QUERIES_A_STEP]
+            weights = self._opposite_areas(
+                x[part] - self._origin[0], y[part] - self._origin[1], triangle[part]
+            )
+            # A query on the hull may lie outside by rounding: it must not be extrapolated.
+            weights = [np.maximum(weight, 0.0) for weight in weights]
+            corners = self.z[self.triangles[triangle[part]]]
+            weighted = sum(weight * corners[:, k] for k, weight in enumerate(weights))
+            total = weights[0] + weights[1] + weights[2]
+            # A triangle without area (three vertices on one line) has no weights: take its mean.
+            with np.errstate(invalid="ignore", divide="ignore"):
+                height[part] = np.where(total > 0.0, weighted / total, corners.mean(axis=1))
+        return height
+
+    def _near(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Return a vertex near each query: in the same strip of x, next in y."""
+        strip = np.searchsorted(self._strip_edges, x, side="right")
+        vertex = np.searchsorted(self._vertex_keys, self._keys(strip, y))
+        return np.minimum(vertex, len(self.x) - 1)
+
+    def _keys(self, strip: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Return numbers that sort first by strip and then by y."""
+        lowest, extent = self._y_range
+        return strip + np.clip((y - lowest) / max(extent, 1e-9), 0.0, 1.0) * 0.999999
+
+    def _walk(self, x: np.ndarray, y: np.ndarray, triangle: np.ndarray) -> np.ndarray:
+        """Walk from `triangle` (q,) towards queries (q,); return where it ends, -1 outside."""
+        found = triangle.copy()
+        moving = np.arange(len(x))
+        # No walk visits a triangle twice, so it ends; rounding at a vertex could make it circle.
+        for _ in range(len(self.triangles) + 1):
+            areas = self._opposite_areas(x, y, triangle)
+            worst = (areas[1] < areas[0]).astype(np.intp)
+            lowest = np.minimum(areas[0], areas[1])
+            worst[areas[2] < lowest] = 2
+            go = np.flatnonzero(np.minimum(lowest, areas[2]) < -_ON_EDGE)
+            triangle = self.neighbours[triangle[go], worst[go]]
+            moving = moving[go]
+            found[moving] = triangle
+            go = go[triangle >= 0]
+            moving, triangle = moving[triangle >= 0], triangle[triangle >= 0]
+            x, y = x[go], y[go]
+            if not len(moving):
+                break
+        return found
+
+    def _opposite_areas(
+        self, x: np.ndarray, y: np.ndarray, triangle: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return twice the signed area between each query and the edge opposite each corner.
+
+        All three are >= 0 inside a triangle; over their sum they are the barycentric weights.
+        """
+        corners = self.triangles[triangle]
+        a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+        ax, bx, cx = self._x[a] - x, self._x[b] - x, self._x[c] - x
+        ay, by, cy = self._y[a] - y, self._y[b] - y, self._y[c] - y
+        return bx * cy - by * cx, cx * ay - cy * ax, ax * by - ay * bx
+
+
+def _lowest_of_duplicates(x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndarray:
+    """Return the indices (v,) of the lowest point at each place."""
+    order = np.lexsort((z, y, x))
+    first = np.ones(len(order), dtype=bool)
+    first[1:] = (np.diff(x[order]) != 0) | (np.diff(y[order]) != 0)
+    return order[first]
+
+
+def _strips(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Cut vertices into strips of equally many along x.
+
+    Quantiles, not equal widths: one stray point far away must not put all others into one strip.
+
+    Returns
+    -------
+    strip : numpy.ndarray of intp, shape (n,)
+    edges : numpy.ndarray of float64
+        The x at which the second and each later strip begins.
+    """
+    count = max(int(np.sqrt(len(x) / 2)), 1)
+    edges = np.sort(x)[(np.arange(1, count) * len(x)) // count] if count > 1 else np.empty(0)
+    return np.searchsorted(edges, x, side="right"), edges
+
+
+def _triangulate(xy: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return triangles (t, 3), counterclockwise, and their neighbours (t, 3) of vertices (v, 2)."""
+    nothing = np.empty((0, 3), dtype=np.int32), np.empty((0, 3), dtype=np.int32)
+    if len(xy) < 3:
+        return nothing
+    spread = np.linalg.eigvalsh(np.cov(xy.T))
+    if spread[0] <= 1e-12 * max(spread[1], 1e-12):
+        return nothing  # one line: Qhull would raise
+    mesh = Delaunay(xy)
+    triangles = mesh.simplices.astype(np.int32)
+    neighbours = mesh.neighbors.astype(np.int32)
+    corners = xy[triangles]
+    clockwise = _twice_area(corners[:, 0], corners[:, 1], corners[:, 2]) < 0.0
+    for each in (triangles, neighbours):
+        each[clockwise] = each[clockwise][:, [0, 2, 1]]
+    return triangles, neighbours
+
+
+def _triangle_of_vertex(triangles: np.ndarray, count: int) -> np.ndarray:
+    """Return a triangle at each vertex; at a vertex that Qhull left out, that of the one before."""
+    triangle = np.full(count, -1, dtype=np.int32)
+    triangle[triangles.ravel()] = np.repeat(np.arange(len(triangles), dtype=np.int32), 3)
+    known = np.flatnonzero(triangle >= 0)
+    last_known = np.searchsorted(known, np.arange(count), side="right") - 1
+    return triangle[known[np.maximum(last_known, 0)]]
+
+
+def _twice_area(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
+    """Return twice the signed areas of triangles with corners (n, 2), counterclockwise positive."""
+    return (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
