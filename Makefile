@@ -1,0 +1,28 @@
+# The set-up is all in tools/environment: it makes what is missing, below build/.
+.PHONY: help demo test test-core lint test-qgis zip clean
+
+help:  ## list the targets
+	@sed -n 's/^\([a-z-]*\):.*## /  \1\t/p' Makefile | expand -t 14
+
+demo:  ## classify LAS=tile.laz (TRUTH=reference.laz), or a generated scene, into demo-output/
+	@tools/environment python -m demo $(if $(LAS),"$(LAS)") $(if $(TRUTH),--truth "$(TRUTH)")
+
+test:  ## run all that follows, installing a QGIS if there is none
+	@tools/test core lint qgis
+
+test-core:  ## test the classifier, without QGIS
+	@tools/test core
+
+lint:  ## check the style, and what plugins.qgis.org checks
+	@tools/test lint
+
+test-qgis:  ## test the plugin in the real QGIS
+	@tools/test qgis
+
+zip:  ## pack the last commit as dist/bare_earth.zip, to install in QGIS
+	@mkdir -p dist
+	@git diff --quiet HEAD || echo "Changes that are not committed are left out."
+	git archive --format=zip --prefix=bare_earth/ --output=dist/bare_earth.zip HEAD
+
+clean:  ## remove what these made
+	rm -rf build dist demo-output bare_earth.egg-info
