@@ -1,0 +1,100 @@
+"""Classify a tile, or a scene whose truth is known, as a user would, and draw what came out.
+
+A QGIS that is installed is asked, by qgis_process, and the command line where there is none.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from bare_earth.algorithms.assessment import AssessmentOptions, assess_files
+
+from .picture import draw
+from .scene import GROUND_CLASSES, write_scene
+
+_OUTPUT = Path("demo-output")
+_ENVIRONMENT = Path(__file__).parent.parent / "tools" / "environment"
+_ALGORITHM = "bareearth:tindensification"
+# Cuts the scene's stream, bank, large building and wood.
+_SCENE_NORTHING = 5_931_192.0
+
+
+def main() -> int:
+    """Run the demo; return its exit code."""
+    parser = argparse.ArgumentParser(prog="make demo", description=__doc__)
+    parser.add_argument("cloud", type=Path, nargs="?", help="a tile; a generated scene without it")
+    parser.add_argument("--truth", type=Path, help="the same points with their true classes")
+    options = parser.parse_args()
+    if options.truth is not None and options.cloud is None:
+        parser.error("a truth belongs to a tile: give both")
+    for path in filter(None, (options.cloud, options.truth)):
+        if not path.is_file():
+            return _fail(f"There is no file {path}.")
+    _OUTPUT.mkdir(exist_ok=True)
+    cloud, truth, classes, northing = options.cloud, options.truth, (2,), None
+    if cloud is None:
+        cloud, truth = _OUTPUT / "scene.laz", _OUTPUT / "truth.laz"
+        count = write_scene(cloud, truth)
+        classes, northing = GROUND_CLASSES, _SCENE_NORTHING
+        print(f"Generated a scene of {count:,} points: {cloud} (true classes: {truth})")
+    results = [_OUTPUT / name for name in ("classified.laz", "dtm.tif", "hillshade.tif")]
+    for result in results:  # those of an earlier run must not pass for new ones
+        result.unlink(missing_ok=True)
+
+    start = time.monotonic()
+    by = _classify(cloud, *results)
+    if by is None or not all(result.is_file() for result in results):
+        return _fail("The classification failed; what it said is above.")
+    print(f"Classified by {by} in {time.monotonic() - start:.1f} s")
+
+    if truth is not None:
+        assessment = assess_files(results[0], truth, AssessmentOptions(ground_classes=classes))
+        lines = assessment.lines()
+        (_OUTPUT / "errors.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        print("\nAgainst the truth:", *lines, sep="\n  ")
+    picture = _OUTPUT / "picture.png"
+    title = "Generated scene" if options.cloud is None else cloud.name
+    draw(*results, picture, truth, classes, northing, f"{title}: ground by {by}")
+    print("\nTo look at:", picture, *results, sep="\n  ")
+    return 0
+
+
+def _classify(cloud: Path, classified: Path, dtm: Path, hillshade: Path) -> str | None:
+    """Return what did it, or None if that failed."""
+    if shutil.which("qgis_process") is None:
+        print("No QGIS is installed: classifying by the command line.")
+        command = [sys.executable, "-m", "bare_earth.algorithms", "classify", cloud, classified]
+        done = _run(*command, "--dtm", dtm, "--hillshade", hillshade, "--verbose")
+        return "the command line" if done else None
+    print("A QGIS is installed: classifying by qgis_process.")
+    # In Debian 12 the wrapper of this name adds an option that it then does not know.
+    qgis_process = "qgis_process.bin" if shutil.which("qgis_process.bin") else "qgis_process"
+    if not _run(_ENVIRONMENT, "qgis", qgis_process, "plugins", "enable", "bare_earth"):
+        return None
+    # The working folder of QGIS may be another.
+    files = {"INPUT": cloud, "OUTPUT": classified, "DTM": dtm, "HILLSHADE": hillshade}
+    values = [f"{name}={path.resolve()}" for name, path in files.items()]
+    done = _run(_ENVIRONMENT, "qgis", qgis_process, "run", _ALGORITHM, "--", *values)
+    return "qgis_process" if done else None
+
+
+def _run(*command: str | os.PathLike) -> bool:
+    words = [os.fspath(word) for word in command]
+    print("$", shlex.join(words), flush=True)
+    return subprocess.run(words, check=False).returncode == 0
+
+
+def _fail(text: str) -> int:
+    print(f"make demo: {text}", file=sys.stderr)
+    return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
