@@ -1,0 +1,1 @@
+"""Bare Earth inside QGIS: everything that imports qgis."""

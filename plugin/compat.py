@@ -1,0 +1,84 @@
+"""The one place that knows how QGIS 3.22 to 4.x differ from each other, and build from build."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from qgis import core
+from qgis.core import (
+    NULL,
+    Qgis,
+    QgsPointCloudCategory,
+    QgsPointCloudClassifiedRenderer,
+    QgsPointCloudLayer,
+    QgsProcessingAlgorithm,
+    QgsProcessingContext,
+    QgsProcessingParameterDefinition,
+    QgsProcessingParameterFileDestination,
+    QgsProcessingParameterNumber,
+    QgsProviderRegistry,
+    QgsRasterLayer,
+)
+
+# From 3.36 on the enumerations are those of `Qgis`; the old names are on their way out.
+if hasattr(Qgis, "ProcessingParameterFlag"):
+    ADVANCED = Qgis.ProcessingParameterFlag.Advanced
+    NUMBER = Qgis.ProcessingNumberParameterType.Double
+    INTEGER = Qgis.ProcessingNumberParameterType.Integer
+else:
+    ADVANCED = QgsProcessingParameterDefinition.Flag.FlagAdvanced
+    NUMBER = QgsProcessingParameterNumber.Type.Double
+    INTEGER = QgsProcessingParameterNumber.Type.Integer
+
+# Came with 3.26.
+HAS_POINT_CLOUD_OUTPUTS = hasattr(core, "QgsProcessingParameterPointCloudDestination")
+
+
+def is_null(value: Any) -> bool:
+    """Return whether a Processing value is not set; PyQt's null differs with the version of Qt."""
+    return value is None or value == NULL
+
+
+def can_load(path: str) -> bool:
+    """Return whether this build of QGIS can show a point cloud file as a layer."""
+    providers = QgsProviderRegistry.instance().providerList()
+    return "pdal" in providers or (path.lower().endswith(".copc.laz") and "copc" in providers)
+
+
+def point_cloud_output(
+    name: str, label: str, extensions: list[str]
+) -> QgsProcessingParameterDefinition:
+    """Return the parameter of a point cloud to be made: a layer, or a file before QGIS 3.26."""
+    if HAS_POINT_CLOUD_OUTPUTS:
+        return core.QgsProcessingParameterPointCloudDestination(name, label)
+    # The first filter gives the extension of files that get no name.
+    filters = ";;".join(f"{each.upper()} files (*.{each})" for each in extensions)
+    return QgsProcessingParameterFileDestination(name, label, filters)
+
+
+def point_cloud_output_path(
+    algorithm: QgsProcessingAlgorithm,
+    parameters: dict[str, Any],
+    name: str,
+    context: QgsProcessingContext,
+) -> str:
+    """Return the path that the user chose for an output of `point_cloud_output`."""
+    if HAS_POINT_CLOUD_OUTPUTS:
+        return algorithm.parameterAsOutputLayer(parameters, name, context)
+    return algorithm.parameterAsFileOutput(parameters, name, context)
+
+
+def class_categories(layer: QgsPointCloudLayer) -> list[QgsPointCloudCategory]:
+    """Return the ASPRS classes with their usual colours; from 3.26 on only those in the layer."""
+    registry = core.QgsPointCloudRendererRegistry
+    if hasattr(registry, "classificationAttributeCategories"):
+        return registry.classificationAttributeCategories(layer)
+    return QgsPointCloudClassifiedRenderer.defaultCategories()
+
+
+def mark_as_elevation(layer: QgsRasterLayer) -> None:
+    """Tell 3D views and elevation profiles that the raster is a surface."""
+    properties = layer.elevationProperties()
+    properties.setEnabled(True)
+    if hasattr(properties, "setMode"):  # 3.38; before, being enabled says it
+        properties.setMode(Qgis.RasterElevationMode.RepresentsElevationSurface)

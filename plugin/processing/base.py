@@ -1,0 +1,247 @@
+"""What all Processing algorithms of the plugin have in common."""
+
+from __future__ import annotations
+
+import contextlib
+import shlex
+from html import escape
+from typing import Any, Iterator
+
+from qgis.core import (
+    QgsProcessingAlgorithm,
+    QgsProcessingContext,
+    QgsProcessingException,
+    QgsProcessingFeedback,
+)
+from qgis.PyQt.QtGui import QIcon
+
+from ...algorithms.errors import BareEarthError, Cancelled
+from ...algorithms.parameters import ParameterSet
+from ...algorithms.pointcloud.backends import install_hint, missing_packages
+from .. import compat
+from .feedback import FeedbackProgress
+from .fields import field_of, help_of, parameters_of, title_of
+from .outputs import do_not_load
+
+_PAGES = "https://github.com/bare-earth/bare-earth/blob/main/docs"
+
+
+class BareEarthAlgorithm(QgsProcessingAlgorithm):
+    """Base of the algorithms: a subclass says what it is, declares its fields and computes.
+
+    Attributes
+    ----------
+    identifier : str
+        Second half of the id; it never changes.
+    title, section, summary : str
+        Name and group in the toolbox, and the tooltip.
+    about : str
+        First paragraphs of the help.
+    keywords : tuple of str
+        What the search of the toolbox finds it by.
+    page : str
+        Its page in the folder docs.
+    """
+
+    identifier = title = section = summary = about = page = ""
+    keywords: tuple[str, ...] = ()
+
+    def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
+        """Return the declared parameters, in the order of the dialog."""
+        return ()
+
+    def compute(
+        self,
+        parameters: dict[str, Any],
+        context: QgsProcessingContext,
+        progress: FeedbackProgress,
+    ) -> dict[str, Any]:
+        """Do the work, in whatever thread, and return the outputs."""
+        raise NotImplementedError
+
+    def prepare(
+        self,
+        parameters: dict[str, Any],
+        context: QgsProcessingContext,
+        progress: FeedbackProgress,
+    ) -> None:
+        """Read from the project what `compute` needs; runs in the main thread."""
+
+    def check(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
+        """Refuse values, before anything runs, by raising BareEarthError."""
+        self.chosen(parameters, context)
+
+    def chosen(
+        self, parameters: dict[str, Any], context: QgsProcessingContext
+    ) -> list[ParameterSet]:
+        """Return the declared parameters with the user's values."""
+        return [parameters_of(self, each, parameters, context) for each in self.parameter_sets()]
+
+    def add_declared(self) -> None:
+        """Add the fields of the declared parameters to the dialog."""
+        for declared in self.parameter_sets():
+            for each in declared.declarations():
+                self.addParameter(field_of(each))
+
+    def point_cloud_destination(
+        self, parameters: dict[str, Any], name: str, context: QgsProcessingContext
+    ) -> str:
+        """Return the path of a point cloud to be made; see that QGIS loads only what it can."""
+        path = compat.point_cloud_output_path(self, parameters, name, context)
+        if not compat.can_load(path):
+            do_not_load(context, [path])
+        return path
+
+    # From here on, what QGIS asks.
+
+    def createInstance(self) -> BareEarthAlgorithm:
+        """Return a new algorithm of the same kind."""
+        return type(self)()
+
+    def name(self) -> str:
+        """Return the second half of the id."""
+        return self.identifier
+
+    def displayName(self) -> str:
+        """Return the name in the toolbox."""
+        return self.title
+
+    def group(self) -> str:
+        """Return the group in the toolbox."""
+        return self.section
+
+    def groupId(self) -> str:
+        """Return the id of the group."""
+        return self.section.lower().replace(" ", "")
+
+    def shortDescription(self) -> str:
+        """Return the tooltip."""
+        return self.summary
+
+    def tags(self) -> list[str]:
+        """Return what the search of the toolbox finds."""
+        return list(self.keywords)
+
+    def helpUrl(self) -> str:
+        """Return the address of the page on the algorithm."""
+        return f"{_PAGES}/{self.page}.md"
+
+    def shortHelpString(self) -> str:
+        """Return the help: what it does, and a paragraph on each declared parameter."""
+        paragraphs = [
+            f"<b>{escape(title_of(each))}</b>: {escape(help_of(each))}"
+            for declared in self.parameter_sets()
+            for each in declared.declarations()
+        ]
+        return "\n".join([self.about, *paragraphs])
+
+    def icon(self) -> QIcon:
+        """Return the provider's picture."""
+        return self.provider().icon() if self.provider() else super().icon()
+
+    def svgIconPath(self) -> str:
+        """Return the file of the provider's picture."""
+        return self.provider().svgIconPath() if self.provider() else super().svgIconPath()
+
+    def canExecute(self) -> tuple[bool, str]:
+        """Return whether the needed packages are there, and if not how to get them."""
+        if missing_packages(["scipy"]):
+            return False, (
+                "This QGIS has no scipy. On Windows, install python3-scipy with the OSGeo4W setup;"
+                " elsewhere, the scipy of the system or of a newer QGIS."
+            )
+        missing = missing_packages(["laspy"])
+        # lazrs is needed for .laz only; who reads or writes one is told then.
+        if missing:
+            missing = missing_packages(["laspy", "lazrs"])
+            return (
+                False,
+                f"{' and '.join(missing)} must be installed first. {install_hint(missing)}",
+            )
+        return True, ""
+
+    def checkParameterValues(
+        self, parameters: dict[str, Any], context: QgsProcessingContext
+    ) -> tuple[bool, str]:
+        """Check values with the words of the declarations first, then as QGIS does."""
+        try:
+            self.check(parameters, context)
+        except BareEarthError as error:
+            return False, str(error)
+        return super().checkParameterValues(parameters, context)
+
+    def prepareAlgorithm(
+        self,
+        parameters: dict[str, Any],
+        context: QgsProcessingContext,
+        feedback: QgsProcessingFeedback,
+    ) -> bool:
+        """Run `prepare`."""
+        with _errors_for_qgis():
+            self.prepare(parameters, context, FeedbackProgress(feedback))
+        return True
+
+    def processAlgorithm(
+        self,
+        parameters: dict[str, Any],
+        context: QgsProcessingContext,
+        feedback: QgsProcessingFeedback,
+    ) -> dict[str, Any]:
+        """Run `compute`; when cancelled or failed, no output is left to be loaded."""
+        before = set(context.layersToLoadOnCompletion())
+        results: dict[str, Any] = {}
+        try:
+            with _errors_for_qgis():
+                results = self.compute(parameters, context, FeedbackProgress(feedback))
+        except Cancelled:
+            feedback.pushInfo("Cancelled; nothing was written.")
+        finally:
+            if not results:
+                do_not_load(context, set(context.layersToLoadOnCompletion()) - before)
+        return results
+
+
+@contextlib.contextmanager
+def _errors_for_qgis() -> Iterator[None]:
+    """Pass on errors as those that QGIS shows without a traceback."""
+    try:
+        yield
+    except BareEarthError as error:
+        raise QgsProcessingException(str(error)) from error
+    except MemoryError as error:
+        raise QgsProcessingException("There is not enough memory for this file.") from error
+
+
+def command_line(
+    command: str, files: list[str], chosen: list[ParameterSet], options: dict[str, str]
+) -> str:
+    """Return the command line that does the same without QGIS.
+
+    Parameters
+    ----------
+    command : str
+        Subcommand of `bare-earth`.
+    files : list of str
+        Its positional arguments.
+    chosen : list of ParameterSet
+        Parameters; those at their default are left out.
+    options : dict of str to str
+        Other options and their values; those without a value are left out.
+    """
+    words = ["bare-earth", command, *files]
+    for option, value in options.items():
+        words += [f"--{option}", value] if value else []
+    for parameters in chosen:
+        for each in parameters.declarations():
+            value = getattr(parameters, each.name)
+            if value != each.default:
+                words += _option(each.name.replace("_", "-"), value)
+    return shlex.join(words)
+
+
+def _option(name: str, value: Any) -> list[str]:
+    if isinstance(value, bool):
+        return [f"--{name}" if value else f"--no-{name}"]
+    if isinstance(value, tuple):
+        return [f"--{name}", *(f"{each:g}" for each in value)]
+    return [f"--{name}", "none" if value is None else str(value)]

@@ -1,0 +1,105 @@
+"""Ground classification as a Processing algorithm, whichever method does it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from qgis.core import (
+    QgsProcessingContext,
+    QgsProcessingOutputNumber,
+    QgsProcessingParameterRasterDestination,
+)
+
+from ...algorithms.filters import METHODS
+from ...algorithms.parameters import ParameterSet
+from ...algorithms.pointcloud.selection import Selection
+from ...algorithms.terrain.model import TerrainModel
+from .. import compat
+from .base import BareEarthAlgorithm, command_line
+from .feedback import FeedbackProgress
+from .inputs import PointCloudInput, ignored_filter, source_path
+from .outputs import ClassStyle, ElevationStyle, point_cloud_formats, style
+
+
+class ClassificationAlgorithm(BareEarthAlgorithm):
+    """Base of the ground classifications; a subclass names its method.
+
+    Attributes
+    ----------
+    method : str
+        As on the command line.
+    """
+
+    method = ""
+    section = "Ground classification"
+
+    def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
+        """Return the method's parameters, then those that all methods share."""
+        return METHODS[self.method].parameters, Selection, TerrainModel
+
+    def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
+        """Declare the fields of the dialog and the results."""
+        self.addParameter(PointCloudInput("INPUT", "Point cloud"))
+        self.add_declared()
+        self.addParameter(
+            compat.point_cloud_output("OUTPUT", "Classified point cloud", point_cloud_formats())
+        )
+        rasters = (("DTM", "Terrain model (DTM)", True), ("HILLSHADE", "Hillshade", False))
+        for name, label, by_default in rasters:
+            self.addParameter(
+                QgsProcessingParameterRasterDestination(name, label, None, True, by_default)
+            )
+        self.addOutput(QgsProcessingOutputNumber("POINT_COUNT", "Points"))
+        self.addOutput(QgsProcessingOutputNumber("SELECTED_COUNT", "Points that took part"))
+        self.addOutput(QgsProcessingOutputNumber("GROUND_COUNT", "Ground points"))
+
+    def check(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
+        """Refuse values that are not allowed, and an input that is not there."""
+        super().check(parameters, context)
+        source_path(self, parameters, "INPUT", context)
+
+    def prepare(
+        self,
+        parameters: dict[str, Any],
+        context: QgsProcessingContext,
+        progress: FeedbackProgress,
+    ) -> None:
+        """Find the input's file."""
+        self._source = source_path(self, parameters, "INPUT", context)
+        if ignored_filter(self, parameters, "INPUT", context):
+            progress.warning("The layer's filter is not applied: all points are read.")
+
+    def compute(
+        self,
+        parameters: dict[str, Any],
+        context: QgsProcessingContext,
+        progress: FeedbackProgress,
+    ) -> dict[str, Any]:
+        """Classify the file."""
+        # Not at the start of QGIS.
+        from ...algorithms.classification import classify_file
+
+        chosen = self.chosen(parameters, context)
+        output = self.point_cloud_destination(parameters, "OUTPUT", context)
+        dtm = self.parameterAsOutputLayer(parameters, "DTM", context)
+        hillshade = self.parameterAsOutputLayer(parameters, "HILLSHADE", context)
+        options = {"method": self.method, "dtm": dtm, "hillshade": hillshade}
+        progress.command(command_line("classify", [str(self._source), output], chosen, options))
+        rasters = [Path(each) if each else None for each in (dtm, hillshade)]
+        summary = classify_file(self._source, Path(output), *chosen, *rasters, progress)
+        progress.info(
+            f"{summary.ground_count:,} of {summary.point_count:,} points are ground"
+            f" ({summary.ground_count / summary.point_count:.1%})."
+        )
+        if not compat.can_load(output):
+            progress.info(f"This QGIS cannot show such a file as a layer. It is at {output}.")
+        style(context, output, ClassStyle())
+        style(context, dtm, ElevationStyle())
+        paths = {"OUTPUT": output, "DTM": dtm, "HILLSHADE": hillshade}
+        return {
+            **{name: path for name, path in paths.items() if path},
+            "POINT_COUNT": summary.point_count,
+            "SELECTED_COUNT": summary.selected_count,
+            "GROUND_COUNT": summary.ground_count,
+        }

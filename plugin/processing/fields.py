@@ -1,0 +1,150 @@
+"""Declared parameters as fields of a Processing dialog, and their values back."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from qgis.core import (
+    QgsProcessingAlgorithm,
+    QgsProcessingContext,
+    QgsProcessingParameterBoolean,
+    QgsProcessingParameterDefinition,
+    QgsProcessingParameterEnum,
+    QgsProcessingParameterNumber,
+    QgsProcessingParameterString,
+)
+
+from ...algorithms.errors import BareEarthError
+from ...algorithms.parameters import Declaration, ParameterSet
+from .. import compat
+
+_SYMBOLS = {"deg": "°"}
+_LISTS = ("numbers", "integers")
+_FEWEST_DECIMALS = 3
+
+
+def field_of(declaration: Declaration) -> QgsProcessingParameterDefinition:
+    """Return the Processing parameter for a declared one.
+
+    Parameters
+    ----------
+    declaration : Declaration
+        What is said of the parameter.
+
+    Returns
+    -------
+    QgsProcessingParameterDefinition
+        With label, unit, limits, default and help.
+    """
+    name, label = declaration.name.upper(), title_of(declaration)
+    default, optional = declaration.default, declaration.optional
+    if declaration.kind == "boolean":
+        field = QgsProcessingParameterBoolean(name, label, default, optional)
+    elif declaration.kind == "choice":
+        # The values themselves, not their places in the list: they stay true in saved models.
+        field = QgsProcessingParameterEnum(
+            name, label, list(declaration.choices), False, default, optional, True
+        )
+    elif declaration.kind in _LISTS:
+        default = None if default is None else ", ".join(f"{each:g}" for each in default)
+        field = QgsProcessingParameterString(name, label, default, False, optional)
+    else:
+        field = _number_field(declaration, name, label)
+    field.setHelp(help_of(declaration))
+    if declaration.advanced:
+        field.setFlags(field.flags() | compat.ADVANCED)
+    return field
+
+
+def _number_field(declaration: Declaration, name: str, label: str) -> QgsProcessingParameterNumber:
+    kind = compat.INTEGER if declaration.kind == "integer" else compat.NUMBER
+    field = QgsProcessingParameterNumber(
+        name, label, kind, declaration.default, declaration.optional
+    )
+    if declaration.minimum is not None:
+        field.setMinimum(declaration.minimum)
+    if declaration.maximum is not None:
+        field.setMaximum(declaration.maximum)
+    if declaration.kind == "number":
+        # The usual six decimals are noise in a dialog of metres and degrees.
+        shown = (declaration.minimum, declaration.default)
+        decimals = max(_FEWEST_DECIMALS, *(_decimals(each) for each in shown if each is not None))
+        field.setMetadata({"widget_wrapper": {"decimals": decimals}})
+    return field
+
+
+def _decimals(value: float) -> int:
+    return len(f"{value:f}".rstrip("0").partition(".")[2])
+
+
+def title_of(declaration: Declaration) -> str:
+    """Return the label with the unit."""
+    unit = _SYMBOLS.get(declaration.unit, declaration.unit)
+    return f"{declaration.label} [{unit}]" if unit else declaration.label
+
+
+def help_of(declaration: Declaration) -> str:
+    """Return the help, with what each choice means."""
+    choices = [f"{value}: {label}." for value, label in declaration.choices.items()]
+    return " ".join([declaration.help, *choices])
+
+
+def parameters_of(
+    algorithm: QgsProcessingAlgorithm,
+    declared: type[ParameterSet],
+    parameters: dict[str, Any],
+    context: QgsProcessingContext,
+) -> ParameterSet:
+    """Return the declared parameters with the values that the user gave.
+
+    Raises
+    ------
+    BareEarthError
+        If a value is not allowed; the text says which and why.
+    """
+    return declared(
+        **{
+            each.name: _value(algorithm, each, parameters, context)
+            for each in declared.declarations()
+        }
+    )
+
+
+def _value(
+    algorithm: QgsProcessingAlgorithm,
+    declaration: Declaration,
+    parameters: dict[str, Any],
+    context: QgsProcessingContext,
+) -> Any:
+    name = declaration.name.upper()
+    given = parameters.get(name)
+    if name in parameters and (compat.is_null(given) or given == ""):
+        # Emptied on purpose; parameterAs... would return the default instead.
+        return None
+    if declaration.kind == "boolean":
+        return algorithm.parameterAsBool(parameters, name, context)
+    if declaration.kind == "choice":
+        if isinstance(given, (str, int)):
+            return given
+        return algorithm.parameterAsEnumString(parameters, name, context) or None
+    if declaration.kind in _LISTS:
+        if isinstance(given, (list, tuple)):
+            return given
+        text = algorithm.parameterAsString(parameters, name, context)
+        return re.split(r"[\s,;]+", text.strip()) if text.strip() else None
+    if name not in parameters:
+        return declaration.default
+    if isinstance(given, str) and not _is_number(given):
+        # parameterAsDouble would return the default without a word.
+        raise BareEarthError(f"{declaration.label} must be a number, not {given!r}.")
+    # As a number with decimals in either case: 2.5 is not to become 2 where a whole one is asked.
+    return algorithm.parameterAsDouble(parameters, name, context)
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True

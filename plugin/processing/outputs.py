@@ -1,0 +1,77 @@
+"""What QGIS does with output files: their default format, and how they look as layers."""
+
+from __future__ import annotations
+
+from typing import Iterable
+
+from qgis.core import (
+    QgsMapLayer,
+    QgsPointCloudClassifiedRenderer,
+    QgsPointCloudLayer,
+    QgsProcessingContext,
+    QgsProcessingFeedback,
+    QgsProcessingLayerPostProcessorInterface,
+    QgsRasterLayer,
+)
+
+from ...algorithms.pointcloud.backends import WRITING_COPC, missing_packages
+from .. import compat
+
+# QGIS calls them after the algorithm is gone, and owns the C++ half of each: one for each layer,
+# and a reference here that keeps the Python half.
+_KEPT: list[QgsProcessingLayerPostProcessorInterface] = []
+
+
+def point_cloud_formats() -> list[str]:
+    """Return the extensions of point clouds that can be written; the default comes first.
+
+    The default is what this QGIS can load, if any, or else the smallest that can be written.
+    """
+    formats = ["las"] if missing_packages(["lazrs"]) else ["laz", "las"]
+    if "laz" in formats and not missing_packages(WRITING_COPC):
+        loads_copc_only = compat.can_load("x.copc.laz") and not compat.can_load("x.laz")
+        formats.insert(0 if loads_copc_only else len(formats), "copc.laz")
+    return formats
+
+
+class ClassStyle(QgsProcessingLayerPostProcessorInterface):
+    """Colours a point cloud by class."""
+
+    def postProcessLayer(
+        self, layer: QgsMapLayer, context: QgsProcessingContext, feedback: QgsProcessingFeedback
+    ) -> None:
+        """Set the renderer; QGIS calls it once the layer is loaded."""
+        if isinstance(layer, QgsPointCloudLayer):
+            categories = compat.class_categories(layer)
+            layer.setRenderer(QgsPointCloudClassifiedRenderer("Classification", categories))
+            layer.triggerRepaint()
+
+
+class ElevationStyle(QgsProcessingLayerPostProcessorInterface):
+    """Marks a raster as elevation, for 3D views and profiles."""
+
+    def postProcessLayer(
+        self, layer: QgsMapLayer, context: QgsProcessingContext, feedback: QgsProcessingFeedback
+    ) -> None:
+        """Set the property; QGIS calls it once the layer is loaded."""
+        if isinstance(layer, QgsRasterLayer):
+            compat.mark_as_elevation(layer)
+
+
+def style(
+    context: QgsProcessingContext,
+    path: str,
+    processor: QgsProcessingLayerPostProcessorInterface,
+) -> None:
+    """Let `processor` work on the layer of an output, if QGIS is going to load it."""
+    if path and context.willLoadLayerOnCompletion(path):
+        _KEPT.append(processor)
+        context.layerToLoadOnCompletionDetails(path).setPostProcessor(processor)
+
+
+def do_not_load(context: QgsProcessingContext, paths: Iterable[str]) -> None:
+    """Take outputs off the list of layers to load."""
+    layers = context.layersToLoadOnCompletion()
+    for path in paths:
+        layers.pop(path, None)
+    context.setLayersToLoadOnCompletion(layers)
