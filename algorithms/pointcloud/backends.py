@@ -14,12 +14,11 @@ from typing import Iterable
 from ..errors import BareEarthError
 
 READING = ("laspy", "lazrs")
-WRITING_COPC = ("copclib",)
+WRITING_COPC = ("lazrs",)
 
 _PURPOSES = {
     "laspy": "reading point clouds",
-    "lazrs": "reading and writing .laz files",
-    "copclib": "writing .copc.laz files",
+    "lazrs": "reading and writing .laz and .copc.laz files",
 }
 
 

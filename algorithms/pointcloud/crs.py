@@ -11,8 +11,9 @@ from .geokeys import GeoKeys, read_geokeys
 from .lasbytes import LasLayout
 from .wkt import WktFacts, read_wkt
 
-_WKT = ("LASF_Projection", 2112)
-_GEOKEYS, _DOUBLES, _TEXTS = (("LASF_Projection", number) for number in (34735, 34736, 34737))
+WKT_RECORD = ("LASF_Projection", 2112)
+# The directory of the keys, their numbers and their texts.
+GEOKEY_RECORDS = tuple(("LASF_Projection", number) for number in (34735, 34736, 34737))
 _WKT_BIT = 0x10
 _SURVEY_FOOT = 1200 / 3937
 _UNIT_NAMES = {1.0: "metre", 0.3048: "foot", _SURVEY_FOOT: "US survey foot"}
@@ -99,15 +100,41 @@ def wkt_of_epsg(code: int) -> str | None:
     return None
 
 
+def compound_wkt(crs: Crs) -> str | None:
+    """Return the well-known text of a CRS, with the unit of its heights in it.
+
+    Text made from GeoTIFF keys is that of the horizontal CRS; a unit of the heights that differs
+    from its own would be lost. None if the CRS has no text, or states another horizontal unit.
+
+    Examples
+    --------
+    >>> compound_wkt(Crs('LOCAL_CS["site",UNIT["metre",1]]', "site", vertical_unit=0.3048))[:14]
+    'COMPD_CS["site'
+    """
+    facts = read_wkt(crs.wkt) if crs.wkt else None
+    if facts is None or crs.is_geographic:
+        return crs.wkt
+    plain = _crs_of(crs.wkt, facts, SILENT)
+    if not math.isclose(plain.horizontal_unit, crs.horizontal_unit, rel_tol=1e-9):
+        return None
+    if math.isclose(plain.vertical_unit, crs.vertical_unit, rel_tol=1e-9):
+        return crs.wkt
+    return (
+        f'COMPD_CS["{facts.name} + heights",{crs.wkt},VERT_CS["heights",'
+        f'VERT_DATUM["unknown",2005],UNIT["{unit_name(crs.vertical_unit)}",'
+        f'{crs.vertical_unit!r}],AXIS["Up",UP]]]'
+    )
+
+
 def _from_wkt(layout: LasLayout, progress: Progress) -> Crs | None:
-    record = layout.vlr(_WKT)
-    text = _decode(record.data) if record is not None and record.data else ""
+    record = layout.vlr(WKT_RECORD)
+    text = wkt_text(record.data) if record is not None and record.data else ""
     facts = read_wkt(text)
     return None if facts is None else _crs_of(text, facts, progress)
 
 
 def _from_geokeys(layout: LasLayout, progress: Progress) -> Crs | None:
-    records = [layout.vlr(key) for key in (_GEOKEYS, _DOUBLES, _TEXTS)]
+    records = [layout.vlr(key) for key in GEOKEY_RECORDS]
     keys = read_geokeys(*(record.data or b"" if record else b"" for record in records))
     if keys is None:
         return None
@@ -181,7 +208,8 @@ def _crs_of(text: str | None, facts: WktFacts, progress: Progress) -> Crs:
     return replace(crs, horizontal_unit=horizontal, vertical_unit=vertical)
 
 
-def _decode(data: bytes) -> str:
+def wkt_text(data: bytes) -> str:
+    """Return the well-known text in the bytes of its record."""
     return data.split(b"\0")[0].decode("utf-8", "replace").strip()
 
 

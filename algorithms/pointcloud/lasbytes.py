@@ -25,7 +25,7 @@ EVLR_COUNT = 243
 
 # Bytes of a record of each point format, before extra bytes.
 RECORD_LENGTHS = (20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67)
-_HEADER_SIZES = {0: 227, 1: 227, 2: 227, 3: 235, 4: 375}
+HEADER_SIZES = {0: 227, 1: 227, 2: 227, 3: 235, 4: 375}
 _MOST_EVLRS = 1_000_000
 _LARGEST_KEPT = 1 << 20
 
@@ -239,6 +239,13 @@ class LasLayout:
         }
 
 
+def new_vlr(key: tuple[str, int], data: bytes, description: str) -> Vlr:
+    """Return a variable length record."""
+    user, number = key
+    head = struct.pack("<H16sHH32s", 0, user.encode(), number, len(data), description.encode())
+    return Vlr(head + data)
+
+
 def read_layout(path: Path) -> LasLayout:
     """Read what lies around the points of a file.
 
@@ -266,15 +273,15 @@ def _read_header(path: Path, file: BinaryIO, size: int) -> bytes:
         raise BareEarthError(
             f"{path} is not a LAS or LAZ file. Give a .las, .laz or .copc.laz file."
         )
-    if len(start) < _HEADER_SIZES[0]:
+    if len(start) < HEADER_SIZES[0]:
         raise damaged(path)
     major, minor = start[_VERSION], start[_VERSION + 1]
-    if major != 1 or minor not in _HEADER_SIZES:
+    if major != 1 or minor not in HEADER_SIZES:
         raise BareEarthError(
             f"{path} is LAS {major}.{minor}; LAS 1.0 to 1.4 can be read. Convert it first."
         )
     header_size, points_start = struct.unpack_from("<HI", start, _HEADER_SIZE)
-    if not _HEADER_SIZES[minor] <= header_size <= points_start or points_start > size:
+    if not HEADER_SIZES[minor] <= header_size <= points_start or points_start > size:
         raise damaged(path)
     file.seek(0)
     return file.read(header_size)

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import struct
 from typing import BinaryIO, Iterator
 
 import numpy as np
 
-from .lasbytes import LASZIP, LasLayout, Vlr
+from ..errors import BareEarthError
+from .lasbytes import LASZIP, LasLayout, Vlr, new_vlr
 from .sources import damage_told, damaged, open_source
 
 CHUNK = 1_000_000
+_BLOCK = 1 << 24
 _FIRST_EXTENDED_FORMAT = 6
 
 
@@ -80,17 +81,26 @@ class LazRecordWriter:
         import lazrs
 
         self._file = _ErrorKeeper(file)
-        self._compressor = self._call(
-            lazrs.ParLasZipCompressor, self._file, lazrs.LazVlr(laszip_vlr.data)
-        )
+        self._vlr = lazrs.LazVlr(laszip_vlr.data)
+        self._compressor = self._call(lazrs.ParLasZipCompressor, self._file, self._vlr)
 
     def write(self, records: np.ndarray) -> None:
         """Append points."""
         self._call(self._compressor.compress_many, records.reshape(-1))
 
+    def write_chunks(self, chunks: list[np.ndarray]) -> None:
+        """Append points, each array as a chunk; only where chunks may differ in size."""
+        self._call(self._compressor.compress_chunks, [chunk.reshape(-1) for chunk in chunks])
+
     def finish(self) -> None:
         """Write the last chunk and the chunk table."""
         self._call(self._compressor.done)
+
+    def chunk_sizes(self, file: BinaryIO) -> list[int]:
+        """Return the bytes of each chunk in a finished file, which stands at its points."""
+        import lazrs
+
+        return [size for _, size in lazrs.read_chunk_table(file, self._vlr)]
 
     def _call(self, function, *arguments):
         """Call lazrs; raise what the file raised instead of what lazrs makes of it."""
@@ -131,13 +141,37 @@ class _ErrorKeeper:
             raise
 
 
-def laszip_vlr(layout: LasLayout) -> Vlr:
-    """Return the record that tells how lazrs compresses the points of a file."""
+def laszip_vlr(point_format: int, extra_bytes: int, variable_chunks: bool = False) -> Vlr:
+    """Return the record that tells how lazrs compresses points.
+
+    Parameters
+    ----------
+    point_format, extra_bytes : int
+        Format of the points, and the bytes of each that it does not define.
+    variable_chunks : bool
+        Whether chunks may differ in their number of points.
+    """
     import lazrs
 
-    data = lazrs.LazVlr.new_for_compression(layout.point_format, layout.extra_bytes).record_data()
-    head = struct.pack("<H16sHH32s", 0, LASZIP[0].encode(), LASZIP[1], len(data), b"by lazrs")
-    return Vlr(head + bytes(data))
+    vlr = lazrs.LazVlr.new_for_compression(point_format, extra_bytes, variable_chunks)
+    return new_vlr(LASZIP, bytes(vlr.record_data()), "by lazrs")
+
+
+def copy_range(source: BinaryIO, target: BinaryIO, start: int, end: int) -> None:
+    """Append the bytes of `source` from `start` to `end` to `target`.
+
+    Raises
+    ------
+    BareEarthError
+        If there are not so many.
+    """
+    source.seek(start)
+    while start < end:
+        block = source.read(min(_BLOCK, end - start))
+        if not block:
+            raise BareEarthError(f"{source.name} has changed while it was classified.")
+        target.write(block)
+        start += len(block)
 
 
 def _decompressor(layout: LasLayout, file: BinaryIO):

@@ -15,13 +15,20 @@ import numpy as np
 from ..errors import BareEarthError
 from ..files import replacing
 from ..progress import SILENT, Progress
-from .backends import WRITING_COPC, require
+from .backends import require
+from .copc import write_copc
 from .lasbytes import COPC_HIERARCHY, COPC_INFO, EVLR_COUNT, LASZIP, LasLayout, read_layout
-from .records import LasRecordWriter, LazRecordWriter, laszip_vlr, read_records, set_classes
+from .records import (
+    LasRecordWriter,
+    LazRecordWriter,
+    copy_range,
+    laszip_vlr,
+    read_records,
+    set_classes,
+)
 from .sources import open_source
 
 _COPC_SUFFIX = ".copc.laz"
-_BLOCK = 1 << 24
 _EXTERNAL_WAVEFORMS = 0x04
 
 
@@ -36,9 +43,7 @@ def check_writable(target: Path) -> None:
     target = Path(target)
     if target.suffix.lower() not in (".las", ".laz"):
         raise BareEarthError(f"Cannot write {target}: name it .las, .laz or .copc.laz.")
-    if _is_copc(target):
-        require(*WRITING_COPC, "lazrs")
-    elif target.suffix.lower() == ".laz":
+    if target.suffix.lower() == ".laz":
         require("lazrs")
 
 
@@ -76,12 +81,11 @@ def write_classified(
         require("lazrs")
     with replacing(target) as temporary:
         if _is_copc(target):
-            from .copc import write_copc
-
             write_copc(layout, temporary, classification, progress)
         else:
             _write(layout, temporary, classification, progress)
-    _tell_of_waveforms(layout, target, progress)
+    if not _is_copc(target):
+        _tell_of_waveforms(layout, target, progress)
 
 
 def _is_copc(target: Path) -> bool:
@@ -101,13 +105,14 @@ def _write(layout: LasLayout, target: Path, classification: np.ndarray, progress
         )
     compressed = target.suffix.lower() == ".laz"
     vlrs = [vlr for vlr in layout.vlrs if vlr.key not in (LASZIP, COPC_INFO)]
-    if compressed:
+    laszip = laszip_vlr(layout.point_format, layout.extra_bytes) if compressed else None
+    if laszip is not None:
         # Where the record was before, so that a file compressed anew differs in its points only.
         before = [vlr.key for vlr in layout.vlrs if vlr.key != COPC_INFO]
-        vlrs.insert(before.index(LASZIP) if LASZIP in before else len(vlrs), laszip_vlr(layout))
+        vlrs.insert(before.index(LASZIP) if LASZIP in before else len(vlrs), laszip)
     with open(target, "w+b") as file:
         file.write(layout.prefix(tuple(vlrs), compressed))
-        writer = LazRecordWriter(file, laszip_vlr(layout)) if compressed else LasRecordWriter(file)
+        writer = LazRecordWriter(file, laszip) if laszip else LasRecordWriter(file)
         start = 0
         for records in read_records(layout):
             set_classes(layout, records, classification[start : start + len(records)])
@@ -124,23 +129,13 @@ def _copy_tail(layout: LasLayout, file: BinaryIO) -> None:
     pointers = layout.pointers(tail, file.seek(0, 2))
     with open_source(layout.path) as source:
         for start, end in tail:
-            _copy(source, file, start, end)
+            copy_range(source, file, start, end)
     for place, pointer in pointers.items():
         file.seek(place)
         file.write(struct.pack("<Q", pointer))
     if len(tail) > 1:
         file.seek(EVLR_COUNT)
         file.write(struct.pack("<I", len(layout.evlrs) - len(tail) + 1))
-
-
-def _copy(source: BinaryIO, target: BinaryIO, start: int, end: int) -> None:
-    source.seek(start)
-    while start < end:
-        block = source.read(min(_BLOCK, end - start))
-        if not block:
-            raise BareEarthError(f"{source.name} has changed while it was classified.")
-        target.write(block)
-        start += len(block)
 
 
 def _tell_of_waveforms(layout: LasLayout, target: Path, progress: Progress) -> None:
