@@ -204,8 +204,8 @@ def _pixels(view: View, which: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Return an image of values of points, of which a later one covers an earlier one."""
     west, east, south, north = view.extent
     pixel = max(east - west, north - south) / _PIXELS
-    # Points may be sparser than pixels are small: then pixels follow the points.
-    pixel = max(pixel, np.sqrt((east - west) * (north - south) / max(len(view.x), 1)))
+    # Where points are sparse, pixels follow them, so that few stay empty.
+    pixel = max(pixel, 1.8 * np.sqrt((east - west) * (north - south) / max(len(view.x), 1)))
     shape = int(np.ceil((north - south) / pixel)), int(np.ceil((east - west) / pixel))
     row = np.clip((north - view.y[which]) / pixel, 0, shape[0] - 1).astype(int)
     column = np.clip((view.x[which] - west) / pixel, 0, shape[1] - 1).astype(int)

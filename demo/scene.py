@@ -236,9 +236,11 @@ def _grow_shrubs(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Lift the echo off the ground where shrubs and high grass stand, for some of the pulses."""
     x, y = pulses.at(z)
-    thick = (
-        0.6 * (np.sin(x / 9.0 + 2.0) * np.sin(y / 11.0) > 0.55) + 0.5 * (x > 232) * (y > 135) * 0.5
-    )
+    patches = np.sin(x / 17.0 + 2.0 + 1.3 * np.sin(y / 29.0)) * np.sin(
+        y / 21.0 + 1.7 * np.sin(x / 37.0)
+    ) + 0.5 * np.sin((x + 1.7 * y) / 13.0)
+    wood = (x > 232) & (y > 135)
+    thick = 0.6 * (patches > 0.85) + 0.25 * wood
     lifted = (kind == GROUND) & (random.random(len(z)) < thick)
     height = random.gamma(3.0, 0.22, len(z)) + 0.15
     return np.where(lifted, z + height, z), np.where(lifted, LOW_VEGETATION, kind)

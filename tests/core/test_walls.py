@@ -1,0 +1,143 @@
+"""The walls of the house: who may import whom, and what shipped code must not hold."""
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+SHIPPED = sorted(
+    [ROOT / "__init__.py", *(ROOT / "algorithms").rglob("*.py"), *(ROOT / "plugin").rglob("*.py")]
+)
+# One file per algorithm, as the list of them says; the others are what they share.
+WRAPPERS = [
+    ROOT / "plugin" / "processing" / f"{node.module}.py"
+    for node in ast.parse(
+        (ROOT / "plugin" / "processing" / "__init__.py").read_text(encoding="utf-8")
+    ).body
+    if isinstance(node, ast.ImportFrom)
+]
+# Qt's own names may come from here only, so that one code runs with Qt 5 and Qt 6.
+QT = {"PyQt5", "PyQt6", "PySide2", "PySide6", "sip"}
+
+
+def _name(path):
+    return path.relative_to(ROOT).as_posix()
+
+
+def _tree(path):
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
+def _imports(path):
+    """Return the modules that a file imports anywhere, relative ones as paths below the root."""
+    package = path.relative_to(ROOT).parts[:-1]
+    found = set()
+    for node in ast.walk(_tree(path)):
+        if isinstance(node, ast.Import):
+            found |= {each.name for each in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            base = list(package[: len(package) - node.level + 1]) if node.level else []
+            base += (node.module or "").split(".") if node.module else []
+            base = ".".join(["." if node.level else "", *base]).replace("..", ".")
+            found |= {base, *(f"{base}.{each.name}" for each in node.names)}
+    return found
+
+
+def _within(modules, *packages):
+    return sorted(
+        each for each in modules if any(f"{each}.".startswith(f"{name}.") for name in packages)
+    )
+
+
+@pytest.fixture(params=SHIPPED, ids=_name)
+def shipped(request):
+    return request.param
+
+
+def test_the_imports_are_read_rightly(tmp_path):
+    here = ROOT / "algorithms" / "filters" / "__init__.py"
+    assert ".algorithms.parameters.ParameterSet" in _imports(here)
+    assert ".algorithms.filters.tin_densification" in _imports(here)
+    assert ".algorithms.pointcloud.reading" in _imports(ROOT / "algorithms" / "cli.py")
+    assert "numpy" in _imports(here)
+    assert len(SHIPPED) > 20
+
+
+def test_the_classifier_imports_neither_qgis_nor_the_plugin():
+    for path in (ROOT / "algorithms").rglob("*.py"):
+        assert not _within(_imports(path), "qgis", "osgeo.gdal.qgis", ".plugin", *QT), path
+
+
+def test_the_filters_import_no_files_no_tiling_and_no_front_end():
+    for path in (ROOT / "algorithms" / "filters").rglob("*.py"):
+        above = [f".algorithms.{name}" for name in ("pointcloud", "tiling", "cli", "files")]
+        assert not _within(_imports(path), *above, "laspy", "lazrs"), path
+
+
+def test_only_the_point_cloud_package_knows_the_file_format():
+    for path in SHIPPED:
+        if "pointcloud" not in path.parts:
+            assert not _within(_imports(path), "laspy", "lazrs", "copclib"), path
+
+
+def test_imports_inside_the_package_are_relative(shipped):
+    # The plugin folder may have any name.
+    assert not _within(_imports(shipped), "bare_earth", "algorithms", "plugin")
+
+
+def test_qt_comes_from_qgis_only(shipped):
+    assert not _within(_imports(shipped), *QT)
+
+
+def test_shipped_code_holds_none_of_what_hides_or_varies(shipped):
+    for node in ast.walk(_tree(shipped)):
+        where = f"{_name(shipped)}:{getattr(node, 'lineno', 0)}"
+        assert not isinstance(node, ast.Assert), f"{where}: python -O removes assert"
+        if isinstance(node, ast.ExceptHandler):
+            assert node.type is not None, f"{where}: a bare except hides everything"
+            hides = all(isinstance(each, (ast.Pass, ast.Continue)) for each in node.body)
+            assert not hides, f"{where}: an error is swallowed"
+        if isinstance(node, ast.Constant) and isinstance(node.value, str):
+            assert "/tmp" not in node.value, f"{where}: not every system has it"
+    assert not _within(_imports(shipped), "random"), "results are deterministic"
+
+
+@pytest.mark.parametrize("wrapper", WRAPPERS, ids=_name)
+def test_a_processing_wrapper_is_thin(wrapper):
+    assert len(wrapper.read_text(encoding="utf-8").splitlines()) < 80
+
+
+def test_there_are_processing_wrappers():
+    assert WRAPPERS
+
+
+@pytest.mark.parametrize("module", ["bare_earth", "bare_earth.algorithms", "bare_earth.plugin"])
+def test_the_package_itself_loads_nothing_heavy(module):
+    # QGIS imports every plugin when it starts, and laspy may be missing.
+    code = (
+        f"import sys, {module}; print(*sorted({{'laspy', 'lazrs', 'numpy', 'scipy', 'qgis'}}"
+        " & set(sys.modules)))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == ""
+
+
+def test_every_module_of_the_classifier_imports_without_laspy():
+    modules = [
+        ".".join(["bare_earth", *path.relative_to(ROOT).with_suffix("").parts])
+        for path in (ROOT / "algorithms").rglob("*.py")
+        if path.stem not in ("__init__", "__main__")
+    ]
+    # None in sys.modules makes an import fail, as if the package were not installed.
+    code = (
+        "import importlib, sys\n"
+        "for name in ('laspy', 'lazrs', 'copclib', 'rasterio', 'osgeo', 'tqdm'):\n"
+        "    sys.modules[name] = None\n"
+        f"for name in {modules!r}:\n"
+        "    importlib.import_module(name)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
