@@ -94,10 +94,6 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
 
     # From here on, what QGIS asks.
 
-    def createInstance(self) -> BareEarthAlgorithm:
-        """Return a new algorithm of the same kind."""
-        return type(self)()
-
     def name(self) -> str:
         """Return the second half of the id."""
         return self.identifier

@@ -25,3 +25,7 @@ class TinDensificationAlgorithm(ClassificationAlgorithm):
         "axelsson",
     )  # fmt: skip
     page = "tin-densification"
+
+    def createInstance(self) -> TinDensificationAlgorithm:
+        """Return another instance."""
+        return TinDensificationAlgorithm()

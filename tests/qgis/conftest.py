@@ -1,0 +1,84 @@
+"""A real QGIS without a window, with the plugin's provider, and a scene whose truth is known."""
+
+import os
+import sys
+from pathlib import Path
+
+os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+
+import pytest
+from qgis.core import QgsApplication, QgsProcessingContext, QgsProject
+
+# For support.py, which the tests import too.
+sys.path.append(str(Path(__file__).parent))
+
+from support import ALGORITHM, ROOT, Log, Scene
+
+
+@pytest.fixture(scope="session", autouse=True)
+def qgis_app(tmp_path_factory):
+    # With widgets, for the dialogs; the profile is not the user's.
+    app = QgsApplication([], True, str(tmp_path_factory.mktemp("profile")))
+    app.initQgis()
+    # Processing is a plugin, too.
+    sys.path.append(str(Path(app.pkgDataPath()) / "python" / "plugins"))
+    yield app
+    QgsProject.instance().clear()
+
+
+@pytest.fixture(scope="session", autouse=True)
+def plugin(qgis_app):
+    from processing.core.Processing import Processing
+
+    from bare_earth import classFactory
+
+    Processing.initialize()
+    plugin = classFactory(None)
+    plugin.initProcessing()
+    yield plugin
+    plugin.unload()
+
+
+@pytest.fixture(scope="session")
+def registry(plugin):
+    return QgsApplication.processingRegistry()
+
+
+@pytest.fixture
+def algorithm(registry):
+    return registry.createAlgorithmById(ALGORITHM)
+
+
+@pytest.fixture
+def context():
+    context = QgsProcessingContext()
+    context.setProject(QgsProject.instance())
+    yield context
+    QgsProject.instance().clear()
+
+
+@pytest.fixture
+def log():
+    return Log()
+
+
+@pytest.fixture(params=[".las", ".laz"])
+def any_scene(request, tmp_path):
+    return Scene(tmp_path, request.param)
+
+
+@pytest.fixture
+def scene(tmp_path):
+    return Scene(tmp_path, ".laz")
+
+
+@pytest.fixture(scope="session")
+def data():
+    """The folder of labelled point clouds, where there is one."""
+    folders = [
+        os.environ.get("BARE_EARTH_DATA"), ROOT.parent / "shared" / "data", "/shared/data"
+    ]  # fmt: skip
+    for folder in filter(None, folders):
+        if Path(folder).is_dir():
+            return Path(folder)
+    return None

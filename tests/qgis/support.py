@@ -1,0 +1,64 @@
+"""What the tests in QGIS share."""
+
+from pathlib import Path
+
+import laspy
+import numpy as np
+from laspy.vlrs.known import WktCoordinateSystemVlr
+from qgis.core import QgsCoordinateReferenceSystem, QgsProcessingFeedback
+
+ROOT = Path(__file__).parents[2]
+ALGORITHM = "bareearth:tindensification"
+
+
+class Log(QgsProcessingFeedback):
+    """Keeps what is said, and cancels when so much percent are done."""
+
+    def __init__(self, cancel_at=None):
+        super().__init__(False)
+        self.said = []
+        self._cancel_at = cancel_at
+
+    def setProgress(self, progress):
+        super().setProgress(progress)
+        if self._cancel_at is not None and progress >= self._cancel_at:
+            self.cancel()
+
+    def _say(self, text):
+        self.said.append(text)
+
+    pushInfo = pushWarning = pushCommandInfo = _say
+
+    def reportError(self, error, fatalError=False):
+        self.said.append(error)
+
+    @property
+    def text(self):
+        return "\n".join(self.said)
+
+
+def write_scene(path, epsg=25832, origin=(500_000.0, 5_700_000.0)):
+    """Write a tilted plane of 80 x 80 m with a flat-roofed building; return the true ground."""
+    side = np.arange(0.25, 80.0, 0.5)
+    x, y = (each.ravel() for each in np.meshgrid(side, side))
+    ground = ~((x > 30) & (x < 48) & (y > 20) & (y < 46))
+    z = np.where(ground, 100 + 0.05 * x + 0.02 * y, 112.0)
+    header = laspy.LasHeader(point_format=6, version="1.4")
+    header.scales, header.offsets = (0.001, 0.001, 0.001), (*origin, 0.0)
+    if epsg:
+        wkt = QgsCoordinateReferenceSystem.fromEpsgId(epsg).toWkt()
+        header.vlrs.append(WktCoordinateSystemVlr(wkt))
+        header.global_encoding.wkt = True
+    las = laspy.LasData(header)
+    las.x, las.y, las.z = x + origin[0], y + origin[1], z
+    las.classification[:] = 1
+    las.return_number[:] = las.number_of_returns[:] = 1
+    las.write(str(path))
+    return ground
+
+
+class Scene:
+    def __init__(self, folder, suffix):
+        self.path = folder / f"scene{suffix}"
+        self.ground = write_scene(self.path)
+        self.count, self.ground_count = len(self.ground), int(self.ground.sum())

@@ -1,0 +1,209 @@
+import json
+import os
+import shlex
+import shutil
+import subprocess
+
+import laspy
+import numpy as np
+import pytest
+from osgeo import gdal
+from qgis.core import QgsProcessingException, QgsProject, QgsRasterLayer
+from support import ALGORITHM, Log, write_scene
+
+gdal.UseExceptions()
+
+
+def everything(scene, folder, suffix=".laz"):
+    return {
+        "INPUT": str(scene.path),
+        "OUTPUT": str(folder / f"ground{suffix}"),
+        "DTM": str(folder / "dtm.tif"),
+        "HILLSHADE": str(folder / "hillshade.tif"),
+    }
+
+
+@pytest.fixture
+def out(tmp_path):
+    (tmp_path / "out").mkdir()
+    return tmp_path / "out"
+
+
+def check(scene, results):
+    assert results["POINT_COUNT"] == results["SELECTED_COUNT"] == scene.count
+    assert results["GROUND_COUNT"] == scene.ground_count
+    cloud = laspy.read(results["OUTPUT"])
+    assert np.array_equal(np.asarray(cloud.classification) == 2, scene.ground)
+    dtm = gdal.Open(results["DTM"])
+    west, width, _, north, _, height = dtm.GetGeoTransform()
+    heights = dtm.ReadAsArray()
+    rows, columns = np.nonzero(heights != dtm.GetRasterBand(1).GetNoDataValue())
+    x, y = (columns + 0.5) * width + west - 500_000, (rows + 0.5) * height + north - 5_700_000
+    # Under the building, too, the terrain is the plane.
+    assert np.allclose(heights[rows, columns], 100 + 0.05 * x + 0.02 * y, atol=0.01)
+    assert len(rows) > 6000
+    assert "25832" in dtm.GetProjection()
+
+
+def test_run(algorithm, any_scene, out, context, log):
+    parameters = everything(any_scene, out, any_scene.path.suffix)
+    results, done = algorithm.run(parameters, context, log)
+    assert done
+    check(any_scene, results)
+    assert gdal.Open(results["HILLSHADE"]).ReadAsArray().max() > 0
+    assert log.progress() == 100
+    assert "points are ground" in log.text
+
+
+def test_processing_run(scene, out):
+    import processing
+
+    results = processing.run(ALGORITHM, everything(scene, out))
+    check(scene, results)
+
+
+def test_what_is_not_asked_for_is_not_made(scene, out):
+    import processing
+
+    parameters = {"INPUT": str(scene.path), "OUTPUT": str(out / "ground.las")}
+    results = processing.run(ALGORITHM, parameters)
+    assert "DTM" not in results and "HILLSHADE" not in results
+    assert os.listdir(out) == ["ground.las"]
+
+
+def test_temporary_outputs(scene):
+    import processing
+
+    parameters = {"INPUT": str(scene.path), "OUTPUT": "TEMPORARY_OUTPUT", "DTM": "TEMPORARY_OUTPUT"}
+    results = processing.run(ALGORITHM, parameters)
+    assert results["GROUND_COUNT"] == scene.ground_count
+    assert os.path.getsize(results["OUTPUT"]) and results["DTM"].endswith(".tif")
+
+
+def run_qgis_process(*words, **options):
+    # Debian 12 starts it by a script that adds an option which its QGIS does not know.
+    program = shutil.which("qgis_process.bin") or shutil.which("qgis_process")
+    return subprocess.run([program, *words], capture_output=True, text=True, **options)
+
+
+def test_qgis_process(scene, out, tmp_path):
+    environment = {**os.environ, "HOME": str(tmp_path), "QGIS_CUSTOM_CONFIG_PATH": str(tmp_path)}
+    run_qgis_process("plugins", "enable", "bare_earth", env=environment, check=True)
+    parameters = [f"{name}={value}" for name, value in everything(scene, out).items()]
+    done = run_qgis_process(
+        "--json", "run", ALGORITHM, "--", *parameters, "STOP_EDGE=", env=environment
+    )
+    assert done.returncode == 0, done.stderr
+    check(scene, json.loads(done.stdout[done.stdout.index("{") :])["results"])
+    parameters[0] = f"INPUT={tmp_path / 'missing.laz'}"
+    done = run_qgis_process("run", ALGORITHM, "--", *parameters, env=environment)
+    assert done.returncode != 0
+    assert "does not exist" in done.stdout + done.stderr
+    assert "Traceback" not in done.stdout + done.stderr
+
+
+def test_the_log_tells_the_same_command_line(algorithm, scene, out, context, log):
+    from bare_earth.algorithms.cli import main
+
+    parameters = {
+        **everything(scene, out), "MAX_BUILDING_SIZE": 30, "STOP_EDGE": None,
+        "FROM_CLASSES": "1, 2", "TO_CLASS": 8, "OTHERS": "unclassified",
+    }  # fmt: skip
+    results, done = algorithm.run(parameters, context, log)
+    assert done
+    with open(results["OUTPUT"], "rb") as file:
+        before = file.read()
+    command = next(shlex.split(line) for line in log.said if line.startswith("bare-earth "))
+    assert main(command[1:]) == 0
+    with open(results["OUTPUT"], "rb") as file:
+        assert file.read() == before
+
+
+def test_parameters_reach_the_classifier(algorithm, scene, out, context, log):
+    parameters = {**everything(scene, out), "MAX_BUILDING_SIZE": 2, "TO_CLASS": 9}
+    results, done = algorithm.run(parameters, context, log)
+    # A building much wider than the largest one stays.
+    assert done and results["GROUND_COUNT"] > scene.ground_count
+    assert set(np.unique(laspy.read(results["OUTPUT"]).classification)) <= {1, 9}
+
+
+@pytest.mark.parametrize("percent", [0, 12, 30, 60, 80, 90, 98])
+def test_cancel_leaves_nothing(algorithm, scene, out, context, percent):
+    log = Log(cancel_at=percent)
+    results, _ = algorithm.run(everything(scene, out), context, log)
+    assert results == {}
+    assert os.listdir(out) == []
+    assert not context.layersToLoadOnCompletion()
+    assert "Cancelled" in log.text
+
+
+BAD_INPUTS = {
+    "missing": (lambda path: None, "does not exist"),
+    "empty": (lambda path: path.write_bytes(b""), ""),
+    "text": (lambda path: path.write_text("not a point cloud"), ""),
+    "folder": (lambda path: path.mkdir(), "folder"),
+    "cut off": (lambda path: cut_off(path), "damaged"),
+    "geographic": (lambda path: write_scene(path, 4326, (9.0, 50.0)), "not in a projected CRS"),
+}
+
+
+def cut_off(path):
+    write_scene(path)
+    path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
+
+
+@pytest.mark.parametrize("kind", BAD_INPUTS)
+def test_a_bad_input_gives_one_line_and_leaves_nothing(kind, algorithm, tmp_path, out, scene):
+    import processing
+
+    make, word = BAD_INPUTS[kind]
+    path = tmp_path / "bad.laz"
+    make(path)
+    log = Log()
+    with pytest.raises(QgsProcessingException) as error:
+        processing.run(ALGORITHM, {**everything(scene, out), "INPUT": str(path)}, feedback=log)
+    text = str(error.value)
+    assert "bad.laz" in text and word in text
+    assert "Traceback" not in text + log.text
+    assert len(text.replace("There were errors executing the algorithm.", "").split("\n")) == 1
+    assert os.listdir(out) == []
+
+
+def test_the_input_is_not_overwritten(scene, out):
+    import processing
+
+    before = scene.path.read_bytes()
+    with pytest.raises(QgsProcessingException, match="same file"):
+        processing.run(ALGORITHM, {**everything(scene, out), "OUTPUT": str(scene.path)})
+    assert scene.path.read_bytes() == before
+
+
+def test_other_layers_are_refused(algorithm, scene, out, context, log):
+    import processing
+
+    dtm = processing.run(ALGORITHM, everything(scene, out))["DTM"]
+    layer = QgsRasterLayer(dtm, "terrain")
+    QgsProject.instance().addMapLayer(layer)
+    for value in (layer, layer.id(), "terrain"):
+        parameters = {**everything(scene, out), "INPUT": value}
+        possible, text = algorithm.checkParameterValues(parameters, context)
+        assert not possible and "terrain is not a point cloud" in text
+
+
+def test_values_out_of_range_are_refused(algorithm, scene, out, context):
+    parameters = {**everything(scene, out), "MAX_BUILDING_SIZE": -1}
+    possible, text = algorithm.checkParameterValues(parameters, context)
+    assert not possible and text == "Maximum building size must be at least 1 m, not -1.0."
+
+
+def test_real_surveys(algorithm, data, out, context):
+    if data is None:
+        pytest.skip("the labelled point clouds are not there (BARE_EARTH_DATA)")
+    path = data / "isprs" / "samp11.laz"
+    truth = np.asarray(laspy.read(path).classification) == 2
+    parameters = {"INPUT": str(path), "OUTPUT": str(out / "o.laz"), "DTM": str(out / "dtm.tif")}
+    results, done = algorithm.run(parameters, context, Log())
+    assert done and results["POINT_COUNT"] == len(truth)
+    found = np.asarray(laspy.read(results["OUTPUT"]).classification) == 2
+    assert np.mean(found != truth) < 0.25
+    assert os.path.getsize(results["DTM"])

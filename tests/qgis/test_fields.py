@@ -1,0 +1,115 @@
+"""Declared parameters as Processing parameters, and back."""
+
+from dataclasses import dataclass
+from typing import Optional
+
+import pytest
+from qgis.core import QgsProcessingContext, QgsProperty
+
+from bare_earth.algorithms.errors import BareEarthError
+from bare_earth.algorithms.parameters import ParameterSet, parameter
+from bare_earth.plugin.processing.base import BareEarthAlgorithm, command_line
+
+
+@dataclass(frozen=True)
+class Example(ParameterSet):
+    size: float = parameter(0.5, label="Size", unit="m", minimum=0.0005, maximum=9.0, help="S.")
+    rounds: int = parameter(3, label="Rounds", minimum=1, maximum=9, help="R.")
+    careful: bool = parameter(True, label="Careful", help="C.")
+    way: str = parameter("up", label="Way", choices={"up": "Upwards", "down": "Down"}, help="W.")
+    sizes: tuple = parameter((1.0, 2.5), label="Sizes", minimum=0.0, help="S.")
+    classes: Optional[tuple] = parameter(None, kind="integers", label="Classes", help="C.")
+    edge: Optional[float] = parameter(5.0, kind="number", optional=True, label="Edge", help="E.")
+    stop: Optional[float] = parameter(None, kind="number", label="Stop", minimum=0.0, help="S.")
+
+
+class ExampleAlgorithm(BareEarthAlgorithm):
+    def parameter_sets(self):
+        return (Example,)
+
+    def initAlgorithm(self, configuration=None):
+        self.add_declared()
+
+    def createInstance(self):
+        return ExampleAlgorithm()
+
+
+@pytest.fixture
+def example():
+    return ExampleAlgorithm().create()
+
+
+def chosen(example, values):
+    return example.chosen(values, QgsProcessingContext())[0]
+
+
+def test_without_values_the_defaults_are_taken(example):
+    assert chosen(example, {}) == Example()
+
+
+def test_the_defaults_of_the_dialog_are_those(example):
+    defaults = {each.name(): each.defaultValue() for each in example.parameterDefinitions()}
+    assert chosen(example, defaults) == Example()
+
+
+@pytest.mark.parametrize(
+    ("values", "expected"),
+    [
+        ({"SIZE": 2}, {"size": 2.0}),
+        ({"SIZE": "2.5"}, {"size": 2.5}),
+        ({"SIZE": QgsProperty.fromExpression("1 + 2")}, {"size": 3.0}),
+        ({"ROUNDS": 4}, {"rounds": 4}),
+        ({"CAREFUL": False}, {"careful": False}),
+        ({"CAREFUL": "false"}, {"careful": False}),
+        ({"WAY": "down"}, {"way": "down"}),
+        ({"SIZES": "3, 4.5"}, {"sizes": (3.0, 4.5)}),
+        ({"SIZES": [3, 4.5]}, {"sizes": (3.0, 4.5)}),
+        ({"CLASSES": "1; 2 3"}, {"classes": (1, 2, 3)}),
+        ({"CLASSES": ""}, {"classes": None}),
+        ({"EDGE": None}, {"edge": None}),
+        ({"EDGE": ""}, {"edge": None}),
+        ({"STOP": 0}, {"stop": 0.0}),
+    ],
+)
+def test_values_arrive(example, values, expected):
+    assert chosen(example, values) == Example(**expected)
+    assert example.checkParameterValues(values, QgsProcessingContext())[0]
+
+
+@pytest.mark.parametrize(
+    ("values", "word"),
+    [
+        ({"SIZE": 0}, "Size must be at least 0.0005 m"),
+        ({"SIZE": "large"}, "Size must be a number"),
+        ({"SIZE": None}, "Size must have a value"),
+        ({"ROUNDS": 2.5}, "Rounds must be a whole number"),
+        ({"ROUNDS": 10}, "Rounds must be at most 9"),
+        ({"WAY": "left"}, "Way must be one of up, down"),
+        ({"WAY": 1}, "Way must be one of up, down"),
+        ({"SIZES": "1, x"}, "Sizes must be a number"),
+        ({"CLASSES": "1.5"}, "Classes must be a whole number"),
+    ],
+)
+def test_wrong_values_are_refused_by_one_line(example, values, word):
+    with pytest.raises(BareEarthError, match=word):
+        chosen(example, values)
+    possible, text = example.checkParameterValues(values, QgsProcessingContext())
+    assert not possible and word in text and "\n" not in text
+
+
+def test_the_dialog_shows_as_many_decimals_as_are_needed(example):
+    metadata = example.parameterDefinition("SIZE").metadata()
+    assert metadata["widget_wrapper"]["decimals"] == 4
+
+
+def test_the_command_line_says_what_differs_from_the_defaults():
+    text = command_line(
+        "classify",
+        ["a b.las", "c.las"],
+        [Example(size=2, careful=False, sizes=(1, 2), edge=None)],
+        {"method": "example", "dtm": ""},
+    )
+    assert text == (
+        "bare-earth classify 'a b.las' c.las --method example --size 2.0 --no-careful --sizes 1 2"
+        " --edge none"
+    )

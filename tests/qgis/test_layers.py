@@ -1,0 +1,138 @@
+"""Outputs as layers of the project."""
+
+import time
+
+import pytest
+from qgis.core import (
+    Qgis,
+    QgsApplication,
+    QgsPointCloudClassifiedRenderer,
+    QgsPointCloudLayer,
+    QgsProcessingAlgRunnerTask,
+    QgsProcessingContext,
+    QgsProcessingOutputLayerDefinition,
+    QgsProject,
+    QgsProviderRegistry,
+)
+from support import ALGORITHM
+
+COPC = "copc" in QgsProviderRegistry.instance().providerList()
+needs_copc = pytest.mark.skipif(
+    not COPC, reason=f"QGIS {Qgis.QGIS_VERSION} of this build loads no point clouds"
+)
+
+
+@pytest.fixture
+def parameters(scene, tmp_path):
+    return {
+        "INPUT": str(scene.path),
+        "OUTPUT": str(tmp_path / "ground.laz"),
+        "DTM": str(tmp_path / "dtm.tif"),
+    }
+
+
+@pytest.fixture
+def load(context):
+    """Run the algorithm as the toolbox does, and return its layers by their kind."""
+    import processing
+
+    def load(parameters):
+        QgsProject.instance().clear()
+        results = processing.runAndLoadResults(ALGORITHM, dict(parameters))
+        layers = QgsProject.instance().mapLayers().values()
+        return results, {type(each).__name__: each for each in layers}
+
+    return load
+
+
+def wait_for(condition, seconds=20):
+    end = time.monotonic() + seconds
+    while not condition() and time.monotonic() < end:
+        QgsApplication.processEvents()
+        time.sleep(0.01)
+    return condition()
+
+
+def test_the_terrain_model_is_marked_as_elevation(load, parameters):
+    for _ in range(3):  # again, as what styles the layers must outlive the first time
+        _, layers = load(parameters)
+        properties = layers["QgsRasterLayer"].elevationProperties()
+        assert properties.isEnabled()
+        assert layers["QgsRasterLayer"].crs().authid() == "EPSG:25832"
+        if hasattr(Qgis, "RasterElevationMode"):
+            assert properties.mode() == Qgis.RasterElevationMode.RepresentsElevationSurface
+
+
+def test_what_cannot_load_is_written_all_the_same(load, parameters):
+    if "pdal" in QgsProviderRegistry.instance().providerList():
+        pytest.skip("this QGIS loads every .laz")
+    results, layers = load(parameters)
+    assert set(layers) == {"QgsRasterLayer"}
+    assert results["OUTPUT"] == parameters["OUTPUT"]
+
+
+def test_the_default_is_what_can_load_here(registry):
+    provider = registry.providerById("bareearth")
+    pdal = "pdal" in QgsProviderRegistry.instance().providerList()
+    expected = "copc.laz" if COPC and not pdal else "laz"
+    assert provider.defaultPointCloudFileExtension() == expected
+    assert set(provider.supportedOutputPointCloudLayerExtensions()) == {"las", "laz", "copc.laz"}
+
+
+@needs_copc
+def test_a_cloud_is_coloured_by_class_and_counted_right(load, parameters, scene):
+    parameters["OUTPUT"] = parameters["OUTPUT"].replace(".laz", ".copc.laz")
+    for _ in range(3):
+        _, layers = load(parameters)
+        cloud = layers["QgsPointCloudLayer"]
+        assert isinstance(cloud.renderer(), QgsPointCloudClassifiedRenderer)
+        assert cloud.renderer().attribute() == "Classification"
+        assert {1, 2} <= {each.value() for each in cloud.renderer().categories()}
+        assert cloud.pointCount() == scene.count
+        assert cloud.crs().authid() == "EPSG:25832"
+    counted = QgsPointCloudLayer.PointCloudStatisticsCalculationState.Calculated
+    assert wait_for(lambda: cloud.statisticsCalculationState() == counted)
+    classes = cloud.statistics().statisticsOf("Classification")
+    assert classes.singleClassCount(2) == scene.ground_count
+    assert classes.singleClassCount(1) == scene.count - scene.ground_count
+
+
+@needs_copc
+@pytest.mark.parametrize("how", ["layer", "id", "name"])
+def test_a_layer_of_the_project_is_an_input(load, parameters, scene, tmp_path, how):
+    parameters["OUTPUT"] = parameters["OUTPUT"].replace(".laz", ".copc.laz")
+    _, layers = load(parameters)
+    layer = layers["QgsPointCloudLayer"]
+    import processing
+
+    values = {"layer": layer, "id": layer.id(), "name": layer.name()}
+    again = {"INPUT": values[how], "OUTPUT": str(tmp_path / "again.laz")}
+    assert processing.run(ALGORITHM, again)["GROUND_COUNT"] == scene.ground_count
+
+
+@needs_copc
+def test_the_filter_of_a_layer_is_told_to_be_ignored(load, parameters, algorithm, context, log):
+    parameters["OUTPUT"] = parameters["OUTPUT"].replace(".laz", ".copc.laz")
+    _, layers = load(parameters)
+    layer = layers["QgsPointCloudLayer"]
+    assert layer.setSubsetString("Classification = 2")
+    values = {"INPUT": layer, "OUTPUT": parameters["INPUT"].replace("scene", "again")}
+    _, done = algorithm.run(values, context, log)
+    assert done and "filter is not applied" in log.text
+
+
+def test_in_a_thread_of_its_own(algorithm, parameters, scene, log):
+    # As from the dialog: layers are announced by the thread, and loaded by the window's.
+    context = QgsProcessingContext()
+    context.setProject(QgsProject.instance())
+    parameters["DTM"] = QgsProcessingOutputLayerDefinition(parameters["DTM"], QgsProject.instance())
+    done = []
+    task = QgsProcessingAlgRunnerTask(algorithm, parameters, context, log)
+    task.executed.connect(lambda *result: done.append(result))
+    QgsApplication.taskManager().addTask(task)
+    assert wait_for(lambda: done)
+    successful, results = done[0]
+    assert successful and results["GROUND_COUNT"] == scene.ground_count
+    details = context.layersToLoadOnCompletion()
+    assert set(details) == {results["DTM"]}
+    assert details[results["DTM"]].postProcessor() is not None

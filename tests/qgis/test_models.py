@@ -1,0 +1,102 @@
+"""The algorithm inside models, in batch mode and in its dialog."""
+
+import pytest
+from qgis.core import (
+    QgsProcessingModelAlgorithm,
+    QgsProcessingModelChildAlgorithm,
+    QgsProcessingModelChildParameterSource,
+    QgsProcessingModelOutput,
+    QgsProcessingModelParameter,
+    QgsProcessingParameterFile,
+    QgsProcessingParameterNumber,
+)
+from support import ALGORITHM
+
+VALUES = {"MAX_TERRAIN_ANGLE": 80.0, "OTHERS": "unclassified", "FROM_CLASSES": "1"}
+
+
+def make_model(path=None):
+    """Return a model round the algorithm; its input is a file, or stands in it."""
+    model = QgsProcessingModelAlgorithm("Terrain", "tests")
+    child = QgsProcessingModelChildAlgorithm(ALGORITHM)
+    child.setChildId("classify")
+    if path is None:
+        model.addModelParameter(
+            QgsProcessingParameterFile("cloud", "Cloud"), QgsProcessingModelParameter("cloud")
+        )
+        source = QgsProcessingModelChildParameterSource.fromModelParameter("cloud")
+    else:
+        source = QgsProcessingModelChildParameterSource.fromStaticValue(path)
+    child.addParameterSources("INPUT", [source])
+    model.addModelParameter(
+        QgsProcessingParameterNumber("size", "Size", defaultValue=30),
+        QgsProcessingModelParameter("size"),
+    )
+    size = QgsProcessingModelChildParameterSource.fromModelParameter("size")
+    child.addParameterSources("MAX_BUILDING_SIZE", [size])
+    for name, value in VALUES.items():
+        source = QgsProcessingModelChildParameterSource.fromStaticValue(value)
+        child.addParameterSources(name, [source])
+    outputs = {}
+    for name in ("OUTPUT", "DTM"):
+        output = QgsProcessingModelOutput(name, name)
+        output.setChildId("classify")
+        output.setChildOutputName(name)
+        outputs[name] = output
+    child.setModelOutputs(outputs)
+    model.addChildAlgorithm(child)
+    model.updateDestinationParameters()
+    return model
+
+
+@pytest.mark.parametrize("fixed", [False, True])
+def test_a_model_survives_saving_and_runs(fixed, scene, tmp_path, context, log):
+    file = str(tmp_path / "terrain.model3")
+    assert make_model(str(scene.path) if fixed else None).toFile(file)
+    model = QgsProcessingModelAlgorithm()
+    assert model.fromFile(file)
+    sources = model.childAlgorithm("classify").parameterSources()
+    for name, value in VALUES.items():
+        assert sources[name][0].staticValue() == value
+    assert model.validate()[0]
+    outputs = {
+        each.name(): str(tmp_path / f"{each.name()}{suffix}".replace(":", "_"))
+        for each, suffix in zip(model.destinationParameterDefinitions(), (".laz", ".tif"))
+    }
+    assert len(outputs) == 2
+    parameters = {"size": 36, **outputs}
+    if not fixed:
+        parameters["cloud"] = str(scene.path)
+    model = model.create()
+    results, done = model.run(parameters, context, log)
+    assert done, log.text
+    assert results["CHILD_RESULTS"]["classify"]["GROUND_COUNT"] == scene.ground_count
+
+
+def test_the_dialog_gives_back_what_is_chosen(algorithm, scene, plugin):
+    import processing
+
+    dialog = processing.createAlgorithmDialog(ALGORITHM, {"INPUT": str(scene.path), "TO_CLASS": 9})
+    try:
+        values = dialog.createProcessingParameters()
+    finally:
+        dialog.close()
+    assert values["INPUT"] == str(scene.path)
+    assert values["TO_CLASS"] == 9
+    assert "DTM" in values and values.get("HILLSHADE") is None
+
+
+def test_batch_mode_takes_files(algorithm, scene, tmp_path, plugin):
+    from processing.gui.BatchAlgorithmDialog import BatchAlgorithmDialog
+
+    dialog = BatchAlgorithmDialog(algorithm)
+    try:
+        panel = dialog.mainWidget()
+        assert panel.batchRowCount() == 1
+        columns = [each.name() for each in algorithm.parameterDefinitions()]
+        assert "INPUT" in columns
+        wrapper = panel.wrappers[0][panel.parameter_to_column["INPUT"]]
+        wrapper.setParameterValue(str(scene.path), panel.processing_context)
+        assert wrapper.parameterValue() == str(scene.path)
+    finally:
+        dialog.close()

@@ -1,0 +1,145 @@
+import importlib.util
+import os
+import re
+import subprocess
+import sys
+
+import pytest
+from qgis.core import (
+    Qgis,
+    QgsProcessingParameterDefinition,
+    QgsProcessingParameterEnum,
+    QgsProcessingParameterNumber,
+)
+from support import ALGORITHM, ROOT
+
+PARAMETERS = {
+    "bareearth:tindensification": [
+        "INPUT",
+        "MAX_BUILDING_SIZE", "MAX_TERRAIN_ANGLE", "ITERATION_ANGLE", "ITERATION_DISTANCE",
+        "REDUCE_ANGLE_EDGE", "STOP_EDGE", "SEED_SLOPE", "NOISE_DISTANCE", "GROUND_TOLERANCE",
+        "SLOPE_TOLERANCE",
+        "FROM_CLASSES", "TO_CLASS", "RETURNS", "OTHERS",
+        "DTM_CELL_SIZE", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
+        "OUTPUT", "DTM", "HILLSHADE",
+    ],
+}  # fmt: skip
+OUTPUTS = {
+    "bareearth:tindensification": [
+        "OUTPUT", "DTM", "HILLSHADE", "POINT_COUNT", "SELECTED_COUNT", "GROUND_COUNT",
+    ],
+}  # fmt: skip
+
+
+@pytest.fixture(params=sorted(PARAMETERS))
+def each(request, registry):
+    return registry.createAlgorithmById(request.param)
+
+
+def test_the_provider_is_there(registry):
+    provider = registry.providerById("bareearth")
+    assert provider.name() == "Bare Earth"
+    assert not provider.icon().isNull()
+    assert os.path.exists(provider.svgIconPath())
+
+
+def test_saved_models_depend_on_these_names(registry):
+    # Names may be added. One that goes or changes breaks the models and scripts of users.
+    algorithms = registry.providerById("bareearth").algorithms()
+    names = {each.id(): [p.name() for p in each.parameterDefinitions()] for each in algorithms}
+    assert names == PARAMETERS
+    assert {each.id(): [o.name() for o in each.outputDefinitions()] for each in algorithms} == (
+        OUTPUTS
+    )
+
+
+def test_an_algorithm_says_what_it_is(each):
+    assert re.fullmatch(r"[a-z0-9]+", each.name())
+    assert re.fullmatch(r"[a-z0-9]+", each.groupId())
+    assert each.displayName() and each.group() and each.tags()
+    assert each.shortDescription() and "\n" not in each.shortDescription()
+    page = each.helpUrl().rpartition("/docs/")[2]
+    assert (ROOT / "docs" / page).is_file()
+    assert not each.icon().isNull()
+    assert each.flags() & each.Flag.FlagCanCancel
+    assert each.flags() & each.Flag.FlagSupportsBatch
+    assert not each.flags() & each.Flag.FlagNoThreading
+
+
+def test_an_instance_is_of_the_same_kind(each):
+    assert type(each.create()) is type(each)
+
+
+def test_the_help_speaks_of_every_parameter(each):
+    for parameter in each.parameterDefinitions():
+        if not parameter.isDestination() and parameter.name() != "INPUT":
+            assert len(parameter.help()) > 20
+            assert f"<b>{parameter.description()}</b>" in each.shortHelpString()
+
+
+def test_numbers_have_ranges_and_names_are_upper_case(each):
+    for parameter in each.parameterDefinitions():
+        assert re.fullmatch(r"[A-Z][A-Z0-9_]*", parameter.name())
+        if isinstance(parameter, QgsProcessingParameterNumber):
+            assert parameter.minimum() > -1e6 and parameter.maximum() < 1e6, parameter.name()
+        if isinstance(parameter, QgsProcessingParameterEnum):
+            assert parameter.usesStaticStrings()
+
+
+def test_units_and_rare_parameters(algorithm):
+    size = algorithm.parameterDefinition("MAX_BUILDING_SIZE")
+    edge = algorithm.parameterDefinition("STOP_EDGE")
+    advanced = QgsProcessingParameterDefinition.Flag.FlagAdvanced
+    optional = QgsProcessingParameterDefinition.Flag.FlagOptional
+    assert size.description() == "Maximum building size [m]"
+    assert algorithm.parameterDefinition("ITERATION_ANGLE").description().endswith("[°]")
+    assert not size.flags() & advanced and edge.flags() & advanced
+    assert not size.flags() & optional and edge.flags() & optional
+
+
+def test_copies_of_the_input_take_files_too(algorithm, scene, context):
+    copy = algorithm.parameterDefinition("INPUT").clone()
+    assert copy.checkValueIsAcceptable(str(scene.path), context)
+    assert copy.clone().checkValueIsAcceptable(str(scene.path), context)
+    assert "*.laz" in copy.createFileFilter()
+    assert not copy.checkValueIsAcceptable(str(scene.path) + "x", context)
+    assert not copy.checkValueIsAcceptable(None, context)
+
+
+def test_all_packages_are_here(algorithm):
+    assert algorithm.canExecute() == (True, "")
+
+
+@pytest.mark.parametrize("package", ["laspy", "scipy"])
+def test_a_missing_package_is_told(algorithm, monkeypatch, package):
+    find = importlib.util.find_spec
+    monkeypatch.setattr(
+        importlib.util, "find_spec", lambda name, *_: None if name == package else find(name)
+    )
+    possible, text = algorithm.canExecute()
+    assert not possible and package in text
+    assert ("pip install" in text) == (package == "laspy")
+
+
+@pytest.mark.parametrize("package", ["laspy", "lazrs", "copclib", "scipy"])
+def test_the_plugin_loads_without(package):
+    # In a QGIS of its own, as in this one the package is imported already.
+    code = f"""
+import sys
+sys.modules[{package!r}] = None
+from qgis.core import QgsApplication
+app = QgsApplication([], False)
+app.initQgis()
+from bare_earth import classFactory
+plugin = classFactory(None)
+plugin.initProcessing()
+algorithm = app.processingRegistry().createAlgorithmById({ALGORITHM!r})
+print("loaded", algorithm.displayName(), "laspy" in sys.modules and {package!r} != "laspy")
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert "loaded Classify ground (TIN densification) False" in done.stdout, done.stderr
+
+
+def test_the_version_is_told(registry):
+    print(Qgis.QGIS_VERSION)
+    assert registry.providerById("bareearth").versionInfo()
