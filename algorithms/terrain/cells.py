@@ -1,0 +1,100 @@
+"""Square cells over points: which cell each point lies in, the lowest point of each, and back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy import ndimage
+
+from ..errors import BareEarthError
+from ..points import Points
+
+_MOST_CELLS = 200_000_000
+
+
+@dataclass(frozen=True)
+class Cells:
+    """A grid of square cells anchored at (0, 0) of the points' frame.
+
+    Attributes
+    ----------
+    size : float
+        Side of a cell in metres.
+    first_row, first_column : int
+        The row (from south) and column (from west) of the frame at which the grid begins.
+    rows, columns : int
+        Size of the grid.
+    index : numpy.ndarray of intp, shape (n,)
+        The cell of each point, in the flattened grid.
+    """
+
+    size: float
+    first_row: int
+    first_column: int
+    rows: int
+    columns: int
+    index: np.ndarray
+
+    @classmethod
+    def over(cls, points: Points, size: float) -> Cells:
+        """Return the cells that cover `points`.
+
+        Raises
+        ------
+        BareEarthError
+            If they would not fit into memory.
+        """
+        column, row = np.floor(points.x / size), np.floor(points.y / size)
+        first_row, first_column = int(row.min()), int(column.min())
+        rows, columns = int(row.max()) - first_row + 1, int(column.max()) - first_column + 1
+        if rows * columns > _MOST_CELLS:
+            raise BareEarthError(
+                f"The points spread over {columns * size:,.0f} x {rows * size:,.0f} m, too far for"
+                f" cells of {size:g} m. Remove points with stray coordinates, or cut the file."
+            )
+        index = (row - first_row) * columns + (column - first_column)
+        return cls(size, first_row, first_column, rows, columns, index.astype(np.intp))
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns."""
+        return self.rows, self.columns
+
+    def minimum(self, z: np.ndarray) -> np.ndarray:
+        """Return the lowest of `z` (n,) in each cell, shape (rows, columns); NaN where none is."""
+        lowest = np.full(self.rows * self.columns, np.inf)
+        np.minimum.at(lowest, self.index, z)
+        lowest[np.isinf(lowest)] = np.nan
+        return lowest.reshape(self.shape)
+
+    def lowest_points(self, points: Points) -> np.ndarray:
+        """Return the index of the lowest point of each occupied cell, in the order of the cells.
+
+        Of points equally low in one cell that with the smallest x, then y, is taken: the choice
+        must not depend on the order of the points.
+        """
+        lowest = self.minimum(points.z).ravel()
+        which = np.flatnonzero(points.z == lowest[self.index])
+        order = np.lexsort((points.y[which], points.x[which], self.index[which]))
+        which = which[order]
+        first = np.ones(len(which), dtype=bool)
+        first[1:] = np.diff(self.index[which]) != 0
+        return which[first]
+
+    @cached_property
+    def occupied(self) -> np.ndarray:
+        """Whether each cell has a point; boolean, shape (rows, columns)."""
+        counts = np.zeros(self.rows * self.columns, dtype=bool)
+        counts[self.index] = True
+        return counts.reshape(self.shape)
+
+    def at(self, grid: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Interpolate a grid (rows, columns) bilinearly between cell centres at places in metres.
+
+        Beyond the outermost centres the value of the border is taken.
+        """
+        row = y / self.size - (self.first_row + 0.5)
+        column = x / self.size - (self.first_column + 0.5)
+        return ndimage.map_coordinates(grid, (row, column), order=1, mode="nearest")

@@ -1,0 +1,92 @@
+"""Cells, filling of gaps, opening and low outliers."""
+
+import numpy as np
+import pytest
+from scipy import ndimage
+
+from bare_earth.algorithms.points import Points
+from bare_earth.algorithms.terrain.cells import Cells
+from bare_earth.algorithms.terrain.inpaint import inpaint
+from bare_earth.algorithms.terrain.morphology import erosion, opening
+from bare_earth.algorithms.terrain.outliers import low_outliers
+
+
+def _points(count=500, seed=0):
+    random = np.random.default_rng(seed)
+    return Points(*random.uniform(-20.0, 30.0, (2, count)), random.normal(size=count))
+
+
+def test_the_minimum_of_each_cell_and_its_point_agree_with_a_loop():
+    points = _points()
+    cells = Cells.over(points, 2.5)
+    expected = {}
+    for x, y, z in zip(*points):
+        cell = int(np.floor(y / 2.5)) - cells.first_row, int(np.floor(x / 2.5)) - cells.first_column
+        expected[cell] = min(expected.get(cell, np.inf), z)
+    minimum = cells.minimum(points.z)
+    assert {tuple(cell): minimum[tuple(cell)] for cell in np.argwhere(cells.occupied)} == expected
+    lowest = cells.lowest_points(points)
+    assert sorted(points.z[lowest]) == sorted(expected.values())
+
+
+def test_of_points_equally_low_the_choice_does_not_depend_on_their_order():
+    points = Points(np.array([0.7, 0.2, 0.5]), np.array([0.1, 0.9, 0.3]), np.zeros(3))
+    back = points.take(np.array([2, 1, 0]))
+    for each in (points, back):
+        chosen = Cells.over(each, 1.0).lowest_points(each)
+        assert each.x[chosen] == 0.2
+
+
+def test_a_grid_is_interpolated_exactly_where_it_is_a_plane():
+    points = _points()
+    cells = Cells.over(points, 1.0)
+    rows, columns = np.indices(cells.shape)
+    plane = 2.0 * (columns + cells.first_column + 0.5) - (rows + cells.first_row + 0.5)
+    x, y = np.array([0.3, 5.7]), np.array([1.9, -3.2])
+    assert np.allclose(cells.at(plane, x, y), 2.0 * x - y)
+
+
+@pytest.mark.parametrize("radius", [1, 1.5, 2, 3, 4.5, 7, 12])
+def test_the_opening_agrees_with_that_of_scipy(radius):
+    grid = np.random.default_rng(1).normal(size=(37, 52))
+    reach = np.arange(-int(radius), int(radius) + 1)
+    disc = reach[:, None] ** 2 + reach**2 <= radius**2
+    eroded = ndimage.grey_erosion(grid, footprint=disc, mode="nearest")
+    assert np.array_equal(erosion(grid, radius), eroded)
+    inside = (slice(int(radius), -int(radius)),) * 2
+    opened = ndimage.grey_opening(np.pad(grid, int(radius), mode="edge"), footprint=disc)
+    assert np.array_equal(opening(grid, radius)[inside], opened[inside][inside])
+
+
+def test_the_opening_leaves_a_slope_as_it_is_up_to_its_borders():
+    plane = np.tile(0.7 * np.arange(50), (40, 1))
+    assert np.allclose(opening(plane, 9), plane)
+
+
+def test_filled_gaps_lie_between_their_borders_and_follow_a_plane():
+    rows, columns = np.indices((60, 70))
+    plane = 0.3 * columns - 0.2 * rows
+    holed = plane.copy()
+    holed[20:40, 25:45] = np.nan
+    filled = inpaint(holed)
+    known = np.isfinite(holed)
+    assert np.array_equal(filled[known], plane[known])
+    assert np.abs(filled - plane).max() < 0.5
+    assert filled.min() >= plane.min()
+    assert filled.max() <= plane.max()
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (1, 7), (3, 2), (17, 33)])
+def test_a_single_known_cell_fills_any_grid(shape):
+    grid = np.full(shape, np.nan)
+    grid[0, -1] = 4.0
+    assert np.allclose(inpaint(grid), 4.0)
+    assert not inpaint(np.full(shape, np.nan)).any()
+
+
+def test_a_pit_is_an_outlier_and_a_ditch_is_not():
+    grid = np.zeros((30, 30))
+    grid[10, 10] = -8.0
+    grid[20] = -3.0
+    found = low_outliers(grid, 1.0, 5.0)
+    assert np.argwhere(found).tolist() == [[10, 10]]

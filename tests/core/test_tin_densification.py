@@ -1,0 +1,90 @@
+"""TIN densification on scenes with known truth, and on the labelled samples where they are."""
+
+import numpy as np
+import pytest
+from scenes import error, scatter, surveyed, village
+
+from bare_earth.algorithms.assessment import compare
+from bare_earth.algorithms.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.filters.tin_densification import TinDensification, classify
+from bare_earth.algorithms.points import Points
+from bare_earth.algorithms.progress import Progress
+from benchmarks import data
+
+
+def test_houses_trees_and_low_noise_are_told_from_the_slope_they_stand_on():
+    points, truth = village()
+    found = classify(points, TinDensification())
+    assert error(found, truth) < 1.5
+    assert not found[points.z > 112.0].any()
+    assert not found[points.z < 95.0].any()
+
+
+def test_the_order_and_the_place_of_the_points_do_not_matter():
+    points, _ = village()
+    mixed = np.random.default_rng(2).permutation(points.count)
+    found = classify(points, TinDensification())
+    assert np.array_equal(classify(points.take(mixed), TinDensification()), found[mixed])
+    moved = Points(points.x + 128.0, points.y - 64.0, points.z + 256.0)
+    assert np.mean(classify(moved, TinDensification()) != found) < 1e-4
+
+
+def test_a_plain_slope_is_all_ground():
+    x, y = scatter()
+    points = Points(x, y, surveyed(x, y, 0.7 * x))
+    assert classify(points, TinDensification()).mean() > 0.995
+
+
+def test_a_terrace_with_a_bank_too_steep_for_the_seeds_is_regained_by_densification():
+    x, y = scatter(density=6.0)
+    points = Points(x, y, surveyed(x, y, np.where(x > 40.0, 3.0, 0.0)))
+    assert error(classify(points, TinDensification()), np.ones(points.count, dtype=bool)) < 2.0
+
+
+def test_a_building_wider_than_the_maximum_building_size_is_taken_for_a_hill():
+    x, y = scatter(density=2.0)
+    roof = (np.abs(x - 40.0) < 12.0) & (np.abs(y - 40.0) < 12.0)
+    points = Points(x, y, surveyed(x, y, np.where(roof, 8.0, 0.0)))
+    assert not classify(points, TinDensification(max_building_size=40.0))[roof].any()
+    assert classify(points, TinDensification(max_building_size=10.0))[roof].mean() > 0.9
+
+
+def test_a_smaller_iteration_distance_never_adds_ground():
+    points, _ = village(slope=0.4)
+    near = classify(points, TinDensification(iteration_distance=0.2))
+    far = classify(points, TinDensification(iteration_distance=3.0, iteration_angle=30.0))
+    assert near.sum() <= far.sum()
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 10])
+def test_a_handful_of_points_is_classified_without_an_error(count):
+    line = np.arange(count, dtype=float)
+    points = Points(3.0 * line, 2.0 * line, 0.1 * line)
+    assert classify(points, TinDensification()).all()
+
+
+def test_stray_coordinates_are_refused_with_a_sentence():
+    points = Points(np.array([0.0, 1e9]), np.array([0.0, 1e9]), np.zeros(2))
+    with pytest.raises(BareEarthError, match="stray coordinates"):
+        classify(points, TinDensification())
+
+
+def test_a_cancel_ends_the_classification():
+    class Stop(Progress):
+        def report(self, fraction):
+            if fraction > 0.3:
+                raise Cancelled
+
+    with pytest.raises(Cancelled):
+        classify(village()[0], TinDensification(), Stop())
+
+
+@pytest.mark.skipif(not data.isprs(), reason="the ISPRS samples are not here")
+def test_the_isprs_samples_come_out_as_measured():
+    figures = []
+    for path in data.isprs():
+        cloud, reference = data.load(path)
+        points = cloud.points(np.arange(cloud.count))
+        figures.append(compare(classify(points, TinDensification()), reference))
+    assert np.mean([each.total_error for each in figures]) <= 4.5
+    assert np.mean([each.kappa for each in figures]) >= 85.0
