@@ -123,7 +123,11 @@ def _view(
 def _draw_relief(panel: pyplot.Axes, view: View) -> None:
     shade = np.ma.masked_equal(view.hillshade, 0)
     panel.imshow(shade, cmap="gray", extent=view.extent, vmin=0, vmax=255)
-    image = panel.imshow(view.dtm, cmap="gist_earth", extent=view.extent, alpha=0.35)
+    # A few odd heights must not take the colours of all the rest.
+    low, high = np.nanpercentile(view.dtm, (1, 99))
+    image = panel.imshow(
+        view.dtm, cmap="gist_earth", extent=view.extent, alpha=0.35, vmin=low, vmax=high
+    )
     panel.figure.colorbar(image, ax=panel, shrink=0.6, pad=0.01).solids.set_alpha(1)
     panel.set_title("Terrain model", loc="left")
 
