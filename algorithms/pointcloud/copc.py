@@ -128,8 +128,7 @@ def write_copc(
     point_format = _NEW_FORMATS[layout.point_format]
     _tell_of_format(layout, point_format, progress)
     records = _read(layout, point_format, classification, progress.part(0.0, 0.3))
-    octree = build_octree(records, layout.scale, layout.offset)
-    progress(0.4)
+    octree = build_octree(records, layout.scale, layout.offset, progress.part(0.3, 0.4))
     vlrs, evlrs = _vlrs(layout, point_format, progress), _evlrs(layout)
     with open(target, "w+b") as file:
         start = HEADER_SIZES[4] + sum(len(vlr.raw) for vlr in vlrs)
@@ -152,7 +151,10 @@ def write_copc(
 
 
 def build_octree(
-    records: np.ndarray, scale: tuple[float, float, float], offset: tuple[float, float, float]
+    records: np.ndarray,
+    scale: tuple[float, float, float],
+    offset: tuple[float, float, float],
+    progress: Progress = SILENT,
 ) -> Octree:
     """Sort points into the nodes of an octree.
 
@@ -165,6 +167,8 @@ def build_octree(
         The points.
     scale, offset : tuple of float
         What makes coordinates of their integers.
+    progress : Progress
+        Receives progress.
     """
     coordinates = [_integers(records, axis) for axis in range(3)]
     minimum, maximum = _extent(coordinates, scale, offset)
@@ -179,13 +183,16 @@ def build_octree(
         cells *= (1 << _CUBE_BITS) / side
         np.clip(cells, 0, (1 << _CUBE_BITS) - 1, out=cells)
         codes |= _spread(cells.astype(np.uint64)) << np.uint64(axis)
+        progress(0.1 * (axis + 1))
     # Sorted by these codes, the points of any cell of any depth lie side by side.
     order = np.argsort(codes, kind="stable")
-    keys, node = _sort_into_nodes(codes[order], order)
+    keys, node = _sort_into_nodes(codes[order], order, progress.part(0.6, 1.0))
     return Octree(corner, side, keys, node)
 
 
-def _sort_into_nodes(codes: np.ndarray, order: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _sort_into_nodes(
+    codes: np.ndarray, order: np.ndarray, progress: Progress
+) -> tuple[np.ndarray, np.ndarray]:
     """Return the keys of the nodes, and the node of each point in file order.
 
     Parameters
@@ -194,6 +201,8 @@ def _sort_into_nodes(codes: np.ndarray, order: np.ndarray) -> tuple[np.ndarray, 
         Codes of the points, ascending.
     order : numpy.ndarray of intp
         Place in the file of each of them.
+    progress : Progress
+        Receives progress.
     """
     node = np.zeros(len(codes), dtype=np.int64)
     keys: list[np.ndarray] = []
@@ -216,6 +225,7 @@ def _sort_into_nodes(codes: np.ndarray, order: np.ndarray) -> tuple[np.ndarray, 
         keys.append(_keys(depth, inside[starts]))
         count += len(starts)
         codes, order = codes[~stays], order[~stays]
+        progress(1 - len(codes) / len(node))
         if len(codes) == 0:
             break
     return np.concatenate(keys), node.astype(np.min_scalar_type(count))

@@ -108,7 +108,7 @@ class LazRecordWriter:
 
         try:
             return function(*arguments)
-        except lazrs.LazrsError as error:
+        except (lazrs.LazrsError, OSError) as error:
             if self._file.error is not None:
                 raise self._file.error from error
             raise
@@ -150,10 +150,21 @@ def laszip_vlr(point_format: int, extra_bytes: int, variable_chunks: bool = Fals
         Format of the points, and the bytes of each that it does not define.
     variable_chunks : bool
         Whether chunks may differ in their number of points.
+
+    Raises
+    ------
+    BareEarthError
+        If the lazrs at hand does not know the format: 0.5 does not know those with waveforms.
     """
     import lazrs
 
-    vlr = lazrs.LazVlr.new_for_compression(point_format, extra_bytes, variable_chunks)
+    try:
+        vlr = lazrs.LazVlr.new_for_compression(point_format, extra_bytes, variable_chunks)
+    except lazrs.LazrsError as error:
+        raise BareEarthError(
+            f"This version of lazrs cannot compress point format {point_format}. Install a newer"
+            " one, or name the output .las."
+        ) from error
     return new_vlr(LASZIP, bytes(vlr.record_data()), "by lazrs")
 
 

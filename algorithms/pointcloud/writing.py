@@ -30,6 +30,8 @@ from .sources import open_source
 
 _COPC_SUFFIX = ".copc.laz"
 _EXTERNAL_WAVEFORMS = 0x04
+_EXTENDED_WITH_WAVEFORMS = (9, 10)
+_CHANNEL_BITS = 0x30
 
 
 def check_writable(target: Path) -> None:
@@ -113,14 +115,30 @@ def _write(layout: LasLayout, target: Path, classification: np.ndarray, progress
     with open(target, "w+b") as file:
         file.write(layout.prefix(tuple(vlrs), compressed))
         writer = LazRecordWriter(file, laszip) if laszip else LasRecordWriter(file)
-        start = 0
+        start, channels = 0, set()
         for records in read_records(layout):
             set_classes(layout, records, classification[start : start + len(records)])
+            if laszip is not None and layout.point_format in _EXTENDED_WITH_WAVEFORMS:
+                channels |= set(np.unique(records[:, 15] & _CHANNEL_BITS).tolist())
+                _check_channels(layout, channels)
             writer.write(records)
             start += len(records)
             progress(start / layout.count)
         writer.finish()
         _copy_tail(layout, file)
+
+
+def _check_channels(layout: LasLayout, channels: set[int]) -> None:
+    """Refuse what lazrs compresses wrongly.
+
+    It mixes up the waveform packets of points of several scanner channels (seen with 0.6.0 and
+    0.8.2; laszip compresses and both decompress them rightly).
+    """
+    if len(channels) > 1:
+        raise BareEarthError(
+            f"The points of {layout.path} have waveforms and several scanner channels, which cannot"
+            " be compressed here without damage. Name the output .las."
+        )
 
 
 def _copy_tail(layout: LasLayout, file: BinaryIO) -> None:

@@ -1,0 +1,279 @@
+import struct
+
+import laspy
+import numpy as np
+import pytest
+from laspy import CopcReader
+
+from bare_earth.algorithms.errors import BareEarthError
+from bare_earth.algorithms.pointcloud import copc
+from bare_earth.algorithms.pointcloud.copc import build_octree
+from bare_earth.algorithms.pointcloud.reading import inspect, read_cloud
+from bare_earth.algorithms.pointcloud.writing import write_classified
+
+NEW_FORMAT = {0: 6, 1: 6, 2: 7, 3: 7, 4: 6, 5: 7, 6: 6, 7: 7, 8: 8, 9: 6, 10: 8}
+FOOT_CRS = 'PROJCS["feet",GEOGCS["g",UNIT["degree",0.0174]],UNIT["US survey foot",0.30480060960]]'
+COMMON = ("X", "Y", "Z", "intensity", "return_number", "number_of_returns", "scan_direction_flag",
+          "edge_of_flight_line", "user_data", "point_source_id", "synthetic", "key_point",
+          "withheld")  # fmt: skip
+
+
+def classes_of(count):
+    return (np.arange(count) * 7 % 256).astype(np.uint8)
+
+
+def order_of(points):
+    return np.lexsort((points["X"], points["Y"], points["Z"], points["intensity"]))
+
+
+def cloud_of(count, seed=3, spread=40_000):
+    """Records of format 6 on a slope with a few high points."""
+    noise = np.random.default_rng(seed)
+    records = np.zeros((count, 30), np.uint8)
+    xyz = np.empty((count, 3), "<i4")
+    xyz[:, :2] = noise.integers(-spread, spread, (count, 2))
+    xyz[:, 2] = xyz[:, 0] // 5 + noise.integers(0, 900, count) * (noise.random(count) < 0.2)
+    records[:, :12] = xyz.view(np.uint8).reshape(count, 12)
+    records[:, 12:14] = noise.integers(0, 256, (count, 2))
+    records[:, 14] = 0x11
+    return records
+
+
+@pytest.mark.parametrize("name", ["in.las", "in.laz"])
+@pytest.mark.parametrize("point_format", range(11))
+def test_every_point_is_kept_with_all_its_fields(las, point_format, name):
+    version = 4 if point_format > 5 else 3
+    extra_record = las.vlr(b"LASF_Spec", 4, extra_bytes_vlr(b"amount"))
+    source = las.make(
+        name, version=version, point_format=point_format, extra=2, vlrs=[extra_record], count=500
+    )
+    target = las.folder / "out.copc.laz"
+    write_classified(source, target, classes_of(500))
+    before, after = laspy.read(source), laspy.read(target)
+    assert after.header.point_format.id == NEW_FORMAT[point_format]
+    assert str(after.header.version) == "1.4"
+    np.testing.assert_array_equal(after.header.scales, las.SCALE)
+    np.testing.assert_array_equal(after.header.offsets, las.OFFSET)
+    one, other = order_of(before), order_of(after)
+    names = [*COMMON, "amount"]
+    both = set(before.point_format.dimension_names) & set(after.point_format.dimension_names)
+    names += sorted(
+        both & {"gps_time", "red", "green", "blue", "nir", "overlap", "scanner_channel"}
+    )
+    for each in names:
+        np.testing.assert_array_equal(after[each][other], before[each][one], err_msg=each)
+    np.testing.assert_array_equal(after.classification[other], classes_of(500)[one])
+    if point_format < 6:
+        degrees = np.asarray(before.scan_angle_rank)[one]
+        np.testing.assert_allclose(after.scan_angle[other] * 0.006, degrees, atol=0.003)
+        assert not np.asarray(after.overlap).any()
+    else:
+        np.testing.assert_array_equal(after.scan_angle[other], before.scan_angle[one])
+    if point_format in (0, 2):
+        assert not np.asarray(after.gps_time).any()
+
+
+def extra_bytes_vlr(name):
+    return struct.pack("<2sBB32s4s24s24s24s24s24s32s", b"", 3, 0, name, *[b""] * 7)
+
+
+def test_header_and_info_say_what_the_points_are(las):
+    source = las.make(version=4, point_format=7, count=400)
+    target = las.folder / "out.copc.laz"
+    write_classified(source, target, classes_of(400))
+    before = laspy.read(source)
+    with CopcReader.open(target) as reader:
+        header, info = reader.header, reader.copc_info
+        for axis in range(3):
+            values = np.asarray(before.xyz[:, axis])
+            assert header.mins[axis] == pytest.approx(values.min(), abs=1e-9)
+            assert header.maxs[axis] == pytest.approx(values.max(), abs=1e-9)
+        assert header.point_count == 400
+        numbers = np.bincount(before.return_number, minlength=16)[1:]
+        np.testing.assert_array_equal(header.number_of_points_by_return, numbers)
+        assert (info.gps_min, info.gps_max) == (before.gps_time.min(), before.gps_time.max())
+        assert (header.mins >= info.center - info.halfsize - 1e-6).all()
+        assert (header.maxs <= info.center + info.halfsize + 1e-6).all()
+        assert info.spacing == pytest.approx(2 * info.halfsize / 128)
+        assert header.system_identifier == "a system"
+        assert header.generating_software == "some software"
+        assert (header.creation_date.year, header.file_source_id) == (2021, 77)
+
+
+@pytest.fixture
+def small_leaves(monkeypatch):
+    monkeypatch.setattr(copc, "_LEAF_POINTS", 3000)
+    monkeypatch.setattr(copc, "_SMALL_NODE", 50)
+    monkeypatch.setattr(copc, "_BATCH", 5000)
+
+
+def test_levels_get_denser_and_a_query_of_a_box_is_complete(las, small_leaves):
+    records = cloud_of(60_000)
+    source = las.make(version=4, point_format=6, records=records)
+    target = las.folder / "out.copc.laz"
+    write_classified(source, target, classes_of(60_000))
+    before = laspy.read(source)
+    with CopcReader.open(target) as reader:
+        levels = [len(reader.query(level=level)) for level in range(6)]
+        assert len(levels) - levels.count(0) >= 3
+        assert sum(levels) == 60_000
+        box = laspy.copc.Bounds(mins=np.array([399_900.0, 4_999_950.0]),
+                                maxs=np.array([400_020.0, 5_000_100.0]))  # fmt: skip
+        found = reader.query(bounds=box)
+    x, y = np.asarray(before.x), np.asarray(before.y)
+    inside = (x >= 399_900) & (x <= 400_020) & (y >= 4_999_950) & (y <= 5_000_100)
+    assert inside.sum() > 1000
+    assert len(found) == inside.sum()
+
+
+def test_an_independent_library_finds_every_point_inside_its_node(las, small_leaves):
+    copclib = pytest.importorskip("copclib")
+    source = las.make(version=4, point_format=6, records=cloud_of(30_000))
+    target = las.folder / "out.copc.laz"
+    write_classified(source, target, classes_of(30_000))
+    reader = copclib.FileReader(str(target))
+    nodes = reader.GetAllNodes()
+    assert len(nodes) > 10
+    assert sum(node.point_count for node in nodes) == 30_000
+    assert reader.ValidateSpatialBounds()
+
+
+def test_no_two_points_of_a_node_above_others_share_a_cell(small_leaves):
+    monotone = cloud_of(20_000)
+    octree = build_octree(monotone, (0.01,) * 3, (0.0,) * 3)
+    xyz = monotone[:, :12].copy().view("<i4") * 0.01
+    cells = np.floor((xyz - octree.corner) / octree.side * 128).clip(0, 127).astype(int)
+    sizes = np.bincount(octree.node)
+    # The small children that stay with the node above come on top of one a cell.
+    top = np.flatnonzero(octree.node == 0)
+    distinct = len(np.unique(cells[top], axis=0))
+    assert distinct == len(np.unique(cells, axis=0))
+    assert sizes[0] - distinct < 8 * 50
+    assert (sizes > 0).all()
+
+
+def test_every_node_has_the_one_above_it(small_leaves):
+    octree = build_octree(cloud_of(20_000), (0.01,) * 3, (0.0,) * 3)
+    keys = {tuple(key) for key in octree.keys.tolist()}
+    assert len(keys) == len(octree.keys)
+    for depth, x, y, z in keys - {(0, 0, 0, 0)}:
+        assert (depth - 1, x // 2, y // 2, z // 2) in keys
+
+
+@pytest.mark.parametrize("count", [1, 2, 5000])
+def test_points_in_one_place_end_the_octree_all_the_same(las, small_leaves, count):
+    records = cloud_of(count, spread=1)
+    records[:, :12] = 1
+    source = las.make(version=4, point_format=6, records=records)
+    target = las.folder / "out.copc.laz"
+    write_classified(source, target, classes_of(count))
+    assert read_cloud(target).count == count
+
+
+def test_the_result_does_not_depend_on_chance(las, small_leaves):
+    source = las.make(version=4, point_format=6, records=cloud_of(10_000))
+    for name in ("a.copc.laz", "b.copc.laz"):
+        write_classified(source, las.folder / name, classes_of(10_000))
+    assert (las.folder / "a.copc.laz").read_bytes() == (las.folder / "b.copc.laz").read_bytes()
+
+
+@pytest.mark.parametrize("written", ["las", "laz"])
+def test_copc_becomes_plain_in_its_own_order(las, small_leaves, written):
+    source = las.folder / "in.copc.laz"
+    records = cloud_of(10_000)
+    behind = [las.evlr(b"behind", 9, b"the points")]
+    plain = las.make(version=4, point_format=6, records=records, evlrs=behind)
+    write_classified(plain, source, np.full(10_000, 5, np.uint8))
+    target, heard = las.folder / f"out.{written}", las.Heard()
+    write_classified(source, target, classes_of(10_000), heard)
+    before, after = laspy.read(source), laspy.read(target)
+    np.testing.assert_array_equal(after.xyz, before.xyz)
+    np.testing.assert_array_equal(after.intensity, before.intensity)
+    np.testing.assert_array_equal(after.classification, classes_of(10_000))
+    assert [vlr.user_id for vlr in after.vlrs if vlr.user_id == "copc"] == []
+    with laspy.open(target) as file:
+        assert [(each.user_id, each.record_data_bytes()) for each in file.evlrs] == [
+            ("behind", b"the points")
+        ]
+    assert any("order of the COPC file" in text for text in heard.infos)
+    assert inspect(target).encoding == {"las": "uncompressed", "laz": "LAZ"}[written]
+
+
+def test_copc_becomes_copc_again(las, small_leaves):
+    first, second = las.folder / "a.copc.laz", las.folder / "b.copc.laz"
+    plain = las.make(version=4, point_format=6, records=cloud_of(10_000))
+    write_classified(plain, first, np.full(10_000, 5, np.uint8))
+    write_classified(first, second, np.full(10_000, 2, np.uint8))
+    described = inspect(second)
+    assert described.classes == {2: 10_000} and described.encoding == "COPC"
+    assert sum("copc" in record for record in described.records) == 2
+
+
+def test_records_of_others_stay_and_the_crs_is_kept_word_for_word(las):
+    wkt = las.vlr(b"LASF_Projection", 2112, FOOT_CRS.encode() + b"\0")
+    other = las.vlr(b"somebody", 7, b"else's data")
+    source = las.make(version=4, point_format=6, encoding=0x11, vlrs=[other, wkt],
+                      evlrs=[las.evlr(b"behind", 9, b"the points")])  # fmt: skip
+    target = las.folder / "out.copc.laz"
+    write_classified(source, target, classes_of(60))
+    assert {other, wkt} <= set(las.split(target).vlrs)
+    assert target.read_bytes().endswith(las.evlr(b"behind", 9, b"the points"))
+    with laspy.open(target) as file:
+        assert [each.user_id for each in file.evlrs] == ["copc", "behind"]
+    assert las.split(target).field("H", 6) == 0x11
+
+
+def geokeys(*keys):
+    return struct.pack(f"<{4 + 4 * len(keys)}H", 1, 1, 0, len(keys), *sum(keys, ()))
+
+
+def test_geotiff_keys_become_text_with_the_unit_of_the_heights(las):
+    pytest.importorskip("pyproj")
+    keys = geokeys((1024, 0, 1, 1), (3072, 0, 1, 32632), (4099, 0, 1, 9003))
+    source = las.make(vlrs=[las.vlr(b"LASF_Projection", 34735, keys)])
+    target, heard = las.folder / "out.copc.laz", las.Heard()
+    write_classified(source, target, classes_of(60), heard)
+    before, after = read_cloud(source).crs, read_cloud(target).crs
+    assert (before.horizontal_unit, before.vertical_unit) == (1.0, 1200 / 3937)
+    assert after.epsg in (None, 32632) and after.horizontal_unit == 1.0
+    assert after.vertical_unit == pytest.approx(1200 / 3937, rel=1e-12)
+    assert any("well-known text" in text for text in heard.infos)
+    assert not any("34735" in record for record in inspect(target).records)
+
+
+def test_geotiff_keys_that_no_text_is_known_for_stay(las):
+    keys = geokeys((1024, 0, 1, 1), (3072, 0, 1, 32767), (3076, 0, 1, 9002))
+    source = las.make(vlrs=[las.vlr(b"LASF_Projection", 34735, keys)])
+    target, heard = las.folder / "out.copc.laz", las.Heard()
+    write_classified(source, target, classes_of(60), heard)
+    assert any("GeoTIFF keys" in text for text in heard.warnings)
+    assert read_cloud(target).crs.horizontal_unit == 0.3048
+
+
+@pytest.mark.parametrize("point_format", [4, 5, 9, 10])
+def test_waveforms_that_are_left_out_are_told(las, point_format):
+    version = 4 if point_format > 5 else 3
+    descriptor = las.vlr(b"LASF_Spec", 100, bytes(26))
+    source = las.make(version=version, point_format=point_format, vlrs=[descriptor], encoding=0x04)
+    target, heard = las.folder / "out.copc.laz", las.Heard()
+    write_classified(source, target, classes_of(60), heard)
+    assert sum("waveforms" in text for text in heard.warnings) == 1
+    assert not any(each[2:11] == b"LASF_Spec" for each in las.split(target).vlrs)
+    assert las.split(target).field("H", 6) & 0x06 == 0
+
+
+def test_a_changed_format_and_lost_header_bytes_are_told(las):
+    source, heard = las.make(point_format=3, user_bytes=b"our own"), las.Heard()
+    write_classified(source, las.folder / "out.copc.laz", classes_of(60), heard)
+    assert "Point format 3 becomes 7, as COPC wants it." in heard.infos
+    assert any("added to the header" in text for text in heard.warnings)
+
+
+def test_an_input_with_fewer_points_than_it_says_leaves_no_copc(las):
+    source = las.make("in.laz", count=500)
+    data = bytearray(source.read_bytes())
+    struct.pack_into("<I", data, 107, 700)
+    source.write_bytes(data)
+    with pytest.raises(BareEarthError, match="damaged or cut off"):
+        write_classified(source, las.folder / "out.copc.laz", classes_of(700))
+    assert list(las.folder.iterdir()) == [source]

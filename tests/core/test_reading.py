@@ -1,0 +1,98 @@
+import laspy
+import numpy as np
+import pytest
+
+from bare_earth.algorithms.errors import Cancelled
+from bare_earth.algorithms.pointcloud import reading
+from bare_earth.algorithms.pointcloud.crs import Crs
+from bare_earth.algorithms.pointcloud.reading import inspect, read_cloud
+
+VERSIONS = {0: (0, 1), 1: (0, 1), 2: range(4), 3: range(6), 4: range(11)}
+EVERY = [(version, each) for version, formats in VERSIONS.items() for each in formats]
+
+
+@pytest.mark.parametrize("name", ["in.las", "in.laz"])
+@pytest.mark.parametrize(("version", "point_format"), EVERY)
+def test_each_column_is_what_the_bytes_say(las, version, point_format, name):
+    records = las.records(point_format, extra=2)
+    cloud = read_cloud(las.make(name, version=version, point_format=point_format, records=records))
+    xyz = records[:, :12].copy().view("<i4")
+    for column, integers in zip((cloud.x, cloud.y, cloud.z), xyz.T):
+        np.testing.assert_array_equal(column, integers)
+    bits = records[:, 14]
+    if point_format < 6:
+        number, total = bits & 7, bits >> 3 & 7
+        classes, withheld = records[:, 15] & 31, records[:, 15] & 0x80 > 0
+    else:
+        number, total = bits & 15, bits >> 4
+        classes, withheld = records[:, 16], records[:, 15] & 4 > 0
+    np.testing.assert_array_equal(cloud.return_number, number)
+    np.testing.assert_array_equal(cloud.number_of_returns, total)
+    np.testing.assert_array_equal(cloud.classification, classes)
+    np.testing.assert_array_equal(cloud.withheld, withheld)
+    assert withheld.any() and not withheld.all()
+    assert (cloud.count, cloud.point_format) == (60, point_format)
+    assert (cloud.scale, cloud.offset) == (las.SCALE, las.OFFSET)
+
+
+def test_several_chunks_are_joined_in_order(las, monkeypatch):
+    monkeypatch.setattr(reading, "_CHUNK", 17)
+    records, heard = las.records(1), las.Heard()
+    cloud = read_cloud(las.make("in.laz", records=records), heard)
+    np.testing.assert_array_equal(cloud.x, records[:, :4].copy().view("<i4")[:, 0])
+    assert heard.fractions == pytest.approx([17 / 60, 34 / 60, 51 / 60, 1])
+
+
+def test_reading_can_be_cancelled(las):
+    class Impatient(las.Heard):
+        def report(self, fraction):
+            raise Cancelled
+
+    with pytest.raises(Cancelled):
+        read_cloud(las.make(), Impatient())
+
+
+def test_points_are_metres_from_the_corner_of_the_cloud(las):
+    cloud = read_cloud(las.make())
+    points = cloud.points(np.arange(cloud.count) % 2 == 0)
+    truth = laspy.read(cloud.path).xyz
+    origin = np.array([*cloud.frame.origin, 0.0])
+    np.testing.assert_allclose(
+        np.column_stack((points.x, points.y, points.z)) + origin, truth[::2], atol=1e-8
+    )
+    assert origin[:2] == pytest.approx(truth[:, :2].min(axis=0), abs=1e-9)
+
+
+def test_points_in_feet_become_metres_with_heights_in_their_own_unit(las):
+    cloud = read_cloud(las.make())
+    everything = np.ones(cloud.count, bool)
+    metres = cloud.points(everything)
+    cloud.crs = Crs(horizontal_unit=1200 / 3937, vertical_unit=0.3048)
+    feet = cloud.points(everything)
+    np.testing.assert_allclose(feet.x, metres.x * 1200 / 3937, rtol=1e-12)
+    np.testing.assert_allclose(feet.y, metres.y * 1200 / 3937, rtol=1e-12)
+    np.testing.assert_allclose(feet.z, metres.z * 0.3048, rtol=1e-12)
+
+
+@pytest.mark.parametrize("name", ["in.las", "in.laz"])
+def test_inspect_describes_the_file(las, name):
+    source = las.make(
+        name, version=4, point_format=7, vlrs=[las.vlr(b"somebody", 7, b"data")],
+        evlrs=[las.evlr(b"behind", 9, b"x")],
+    )  # fmt: skip
+    described, truth = inspect(source), laspy.read(source)
+    assert described.point_count == sum(described.classes.values()) == 60
+    assert described.returns == {
+        int(value): int(count)
+        for value, count in zip(*np.unique(truth.return_number, return_counts=True))
+    }
+    assert described.minimum == pytest.approx(tuple(truth.xyz.min(axis=0)))
+    assert described.maximum == pytest.approx(tuple(truth.xyz.max(axis=0)))
+    assert described.withheld == np.count_nonzero(truth.withheld)
+    area = np.prod(np.ptp(truth.xyz[:, :2], axis=0))
+    assert described.density == pytest.approx(60 / area)
+    assert "somebody 7 made by hand" in described.records
+    assert "behind 9 made by hand" in described.records
+    text = "\n".join(described.lines())
+    assert "LAS 1.4" in text and "point format 7" in text and str(source) in text
+    assert described.as_dict()["encoding"] == ("LAZ" if name.endswith("laz") else "uncompressed")

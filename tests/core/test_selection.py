@@ -1,0 +1,134 @@
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bare_earth.algorithms.errors import BareEarthError
+from bare_earth.algorithms.pointcloud.cloud import PointCloud
+from bare_earth.algorithms.pointcloud.crs import Crs
+from bare_earth.algorithms.pointcloud.selection import Selection
+from bare_earth.algorithms.progress import SILENT
+
+
+def cloud_of(classes, number=None, total=None, withheld=None, point_format=6, crs=None):
+    count = len(classes)
+    xyz = [np.arange(count, dtype=np.int32)] * 3
+    ones = np.ones(count, np.uint8)
+    return PointCloud(
+        Path("in.las"), *xyz, (0.01,) * 3, (0.0,) * 3, np.array(classes, np.uint8),
+        ones if number is None else np.array(number, np.uint8),
+        ones if total is None else np.array(total, np.uint8),
+        np.zeros(count, bool) if withheld is None else np.array(withheld, bool),
+        point_format, crs or Crs(),
+    )  # fmt: skip
+
+
+def test_every_class_but_noise_takes_part_unless_told_otherwise(las):
+    heard = las.Heard()
+    selected = Selection().select(cloud_of([0, 1, 2, 5, 6, 7, 18, 64]), heard)
+    assert selected.tolist() == [True] * 5 + [False, False, True]
+    assert "Noise is left out: 1 of class 7, 1 of class 18." in heard.infos
+    assert "6 of 8 points take part." in heard.infos
+
+
+def test_only_the_given_classes_take_part_noise_among_them_where_it_is_given():
+    cloud = cloud_of([0, 1, 2, 7, 18])
+    assert Selection(from_classes=(1, 7)).select(cloud, SILENT).tolist() == [0, 1, 0, 1, 0]
+
+
+def test_withheld_points_take_no_part_and_are_told(las):
+    heard = las.Heard()
+    selected = Selection().select(cloud_of([1, 1, 1], withheld=[0, 1, 0]), heard)
+    assert selected.tolist() == [True, False, True]
+    assert "1 withheld points are left out." in heard.infos
+
+
+def test_last_and_single_returns_take_part():
+    cloud = cloud_of([1] * 5, number=[1, 1, 2, 2, 3], total=[1, 2, 2, 3, 3])
+    assert Selection().select(cloud, SILENT).tolist() == [1, 0, 1, 0, 1]
+    assert Selection(returns="all").select(cloud, SILENT).all()
+
+
+def test_a_number_above_the_total_is_a_last_return():
+    cloud = cloud_of([1, 1], number=[3, 1], total=[2, 2])
+    assert Selection().select(cloud, SILENT).tolist() == [1, 0]
+
+
+def test_points_without_return_numbers_all_take_part_and_it_is_told(las):
+    heard = las.Heard()
+    cloud = cloud_of([1] * 3, number=[0, 0, 0], total=[0, 0, 0])
+    assert Selection().select(cloud, heard).all()
+    assert heard.warnings == ["The points have no return numbers: all of them are used."]
+
+
+def test_some_points_without_return_numbers_are_single_returns_and_it_is_told(las):
+    heard = las.Heard()
+    cloud = cloud_of([1] * 4, number=[0, 1, 1, 0], total=[0, 2, 1, 3])
+    assert Selection().select(cloud, heard).tolist() == [1, 0, 1, 1]
+    assert heard.warnings == ["2 points have no return number: they are taken as single returns."]
+
+
+def test_no_warning_of_return_numbers_where_all_returns_are_wanted(las):
+    heard = las.Heard()
+    Selection(returns="all").select(cloud_of([1], number=[0], total=[0]), heard)
+    assert not heard.warnings
+
+
+@pytest.mark.parametrize(
+    ("selection", "cloud", "text"),
+    [
+        (Selection(), cloud_of([7, 18]), r"classes 7, 18\. Choose among them"),
+        (Selection(from_classes=(2,)), cloud_of([1, 5]), r"has the classes 1, 5"),
+        (Selection(), cloud_of([1, 1], withheld=[1, 1]), "withheld. Clear that flag"),
+        (Selection(), cloud_of([1], number=[1], total=[2]), "Choose all returns instead"),
+        (Selection(), cloud_of([1], crs=Crs(is_geographic=True)), "not in a projected CRS"),
+        (Selection(to_class=32), cloud_of([1], point_format=3), "classes up to 31, not 32"),
+    ],
+)
+def test_a_selection_without_points_says_what_to_change(selection, cloud, text):
+    with pytest.raises(BareEarthError, match=text) as caught:
+        selection.select(cloud, SILENT)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_class_above_31_fits_into_the_new_formats():
+    assert Selection(to_class=64).select(cloud_of([1], point_format=6), SILENT).all()
+
+
+def new_classes(selection, cloud, ground):
+    selected = selection.select(cloud, SILENT)
+    before = cloud.classification.copy()
+    classes = selection.classes(cloud, selected, np.array(ground, bool))
+    np.testing.assert_array_equal(cloud.classification, before)
+    return classes.tolist()
+
+
+def test_others_keep_their_class_but_old_ground_and_class_0_do_not():
+    cloud = cloud_of([0, 1, 2, 2, 5, 6, 7, 18])
+    ground = [0, 0, 0, 1, 0, 1, 0, 0]
+    assert new_classes(Selection(), cloud, ground) == [1, 1, 1, 2, 5, 2, 7, 18]
+
+
+def test_others_become_unclassified_where_wanted_but_noise_and_withheld_stay():
+    cloud = cloud_of([0, 2, 5, 6, 7, 18, 9], withheld=[0, 0, 0, 0, 0, 0, 1])
+    ground = [0, 1, 0, 1, 0, 0, 0]
+    assert new_classes(Selection(others="unclassified"), cloud, ground) == [1, 2, 1, 2, 7, 18, 9]
+
+
+@pytest.mark.parametrize("others", ["keep", "unclassified"])
+def test_classes_that_were_not_to_be_classified_stay(others):
+    cloud = cloud_of([0, 1, 2, 5, 9])
+    selection = Selection(from_classes=(1, 5), others=others)
+    assert new_classes(selection, cloud, [0, 1, 0, 0, 0]) == [
+        0, 2, 2, 5 if others == "keep" else 1, 9,
+    ]  # fmt: skip
+
+
+def test_old_ground_of_earlier_returns_goes_too():
+    cloud = cloud_of([2, 2, 5], number=[1, 2, 1], total=[2, 2, 2])
+    assert new_classes(Selection(), cloud, [0, 1, 0]) == [1, 2, 5]
+
+
+def test_another_class_of_the_ground():
+    cloud = cloud_of([0, 2, 8, 8, 5])
+    assert new_classes(Selection(to_class=8), cloud, [1, 0, 1, 0, 0]) == [8, 1, 8, 1, 5]
