@@ -16,7 +16,7 @@ from bare_earth.algorithms.pointcloud.writing import check_writable, write_class
 VERSIONS = {0: (0, 1), 1: (0, 1), 2: range(4), 3: range(6), 4: range(11)}
 EVERY = [(version, each) for version, formats in VERSIONS.items() for each in formats]
 DATA = Path(os.environ.get("BARE_EARTH_DATA", Path(__file__).parents[3] / "shared" / "data"))
-REAL = ("mixed_conifer.laz", "forest_topography.laz", "ign_pf8.las", "oregon_conifer.laz")
+REAL = ("mixed_conifer.laz", "forest_topography.laz", "ign_pf8.las")
 
 
 def new_classes(count, largest=31):
