@@ -79,6 +79,8 @@ def class_categories(layer: QgsPointCloudLayer) -> list[QgsPointCloudCategory]:
 def mark_as_elevation(layer: QgsRasterLayer) -> None:
     """Tell 3D views and elevation profiles that the raster is a surface."""
     properties = layer.elevationProperties()
+    if properties is None:  # came with 3.26
+        return
     properties.setEnabled(True)
     if hasattr(properties, "setMode"):  # 3.38; before, being enabled says it
         properties.setMode(Qgis.RasterElevationMode.RepresentsElevationSurface)

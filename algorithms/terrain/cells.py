@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy import ndimage
 
 from ..errors import BareEarthError
 from ..points import Points
@@ -95,6 +94,9 @@ class Cells:
 
         Beyond the outermost centres the value of the border is taken.
         """
+        # Not at the start of QGIS, which loads this module, and where scipy may be missing.
+        from scipy import ndimage
+
         row = y / self.size - (self.first_row + 0.5)
         column = x / self.size - (self.first_column + 0.5)
         return ndimage.map_coordinates(grid, (row, column), order=1, mode="nearest")

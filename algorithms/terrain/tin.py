@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import Delaunay
 
 # Queries are walked this many at a time: the arrays of one step then stay in the processor's cache.
 _QUERIES_A_STEP = 200_000
@@ -185,6 +184,9 @@ def _strips(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def _triangulate(xy: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return triangles (t, 3), counterclockwise, and their neighbours (t, 3) of vertices (v, 2)."""
+    # Not at the start of QGIS, which loads this module, and where scipy may be missing.
+    from scipy.spatial import Delaunay
+
     nothing = np.empty((0, 3), dtype=np.int32), np.empty((0, 3), dtype=np.int32)
     if len(xy) < 3:
         return nothing

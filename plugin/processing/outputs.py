@@ -27,11 +27,11 @@ def point_cloud_formats() -> list[str]:
 
     The default is what this QGIS can load, if any, or else the smallest that can be written.
     """
-    formats = ["las"] if missing_packages(["lazrs"]) else ["laz", "las"]
-    if "laz" in formats and not missing_packages(WRITING_COPC):
-        loads_copc_only = compat.can_load("x.copc.laz") and not compat.can_load("x.laz")
-        formats.insert(0 if loads_copc_only else len(formats), "copc.laz")
-    return formats
+    if missing_packages(WRITING_COPC):
+        return ["las"]
+    if compat.can_load("x.copc.laz") and not compat.can_load("x.laz"):
+        return ["copc.laz", "laz", "las"]
+    return ["laz", "las", "copc.laz"]
 
 
 class ClassStyle(QgsProcessingLayerPostProcessorInterface):

@@ -16,11 +16,12 @@ class Log(QgsProcessingFeedback):
 
     def __init__(self, cancel_at=None):
         super().__init__(False)
-        self.said = []
+        self.said, self.moments = [], []
         self._cancel_at = cancel_at
 
     def setProgress(self, progress):
         super().setProgress(progress)
+        self.moments.append(progress)
         if self._cancel_at is not None and progress >= self._cancel_at:
             self.cancel()
 
