@@ -8,9 +8,6 @@ from qgis import core
 from qgis.core import (
     NULL,
     Qgis,
-    QgsPointCloudCategory,
-    QgsPointCloudClassifiedRenderer,
-    QgsPointCloudLayer,
     QgsProcessingAlgorithm,
     QgsProcessingContext,
     QgsProcessingParameterDefinition,
@@ -66,14 +63,6 @@ def point_cloud_output_path(
     if HAS_POINT_CLOUD_OUTPUTS:
         return algorithm.parameterAsOutputLayer(parameters, name, context)
     return algorithm.parameterAsFileOutput(parameters, name, context)
-
-
-def class_categories(layer: QgsPointCloudLayer) -> list[QgsPointCloudCategory]:
-    """Return the ASPRS classes with their usual colours; from 3.26 on only those in the layer."""
-    registry = core.QgsPointCloudRendererRegistry
-    if hasattr(registry, "classificationAttributeCategories"):
-        return registry.classificationAttributeCategories(layer)
-    return QgsPointCloudClassifiedRenderer.defaultCategories()
 
 
 def mark_as_elevation(layer: QgsRasterLayer) -> None:

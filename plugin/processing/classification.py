@@ -94,7 +94,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         )
         if not compat.can_load(output):
             progress.info(f"This QGIS cannot show such a file as a layer. It is at {output}.")
-        style(context, output, ClassStyle())
+        style(context, output, ClassStyle(summary.class_counts))
         style(context, dtm, ElevationStyle())
         paths = {"OUTPUT": output, "DTM": dtm, "HILLSHADE": hillshade}
         return {

@@ -6,6 +6,7 @@ from typing import Iterable
 
 from qgis.core import (
     QgsMapLayer,
+    QgsPointCloudCategory,
     QgsPointCloudClassifiedRenderer,
     QgsPointCloudLayer,
     QgsProcessingContext,
@@ -13,6 +14,7 @@ from qgis.core import (
     QgsProcessingLayerPostProcessorInterface,
     QgsRasterLayer,
 )
+from qgis.PyQt.QtGui import QColor
 
 from ...algorithms.pointcloud.backends import WRITING_COPC, missing_packages
 from .. import compat
@@ -35,16 +37,37 @@ def point_cloud_formats() -> list[str]:
 
 
 class ClassStyle(QgsProcessingLayerPostProcessorInterface):
-    """Colours a point cloud by class."""
+    """Colours a point cloud by class.
+
+    Parameters
+    ----------
+    classes : iterable of int
+        The classes to show: QGIS would list all that there could be, and hide those above 18.
+    """
+
+    def __init__(self, classes: Iterable[int]) -> None:
+        super().__init__()
+        self._classes = sorted(classes)
 
     def postProcessLayer(
         self, layer: QgsMapLayer, context: QgsProcessingContext, feedback: QgsProcessingFeedback
     ) -> None:
         """Set the renderer; QGIS calls it once the layer is loaded."""
         if isinstance(layer, QgsPointCloudLayer):
-            categories = compat.class_categories(layer)
-            layer.setRenderer(QgsPointCloudClassifiedRenderer("Classification", categories))
+            known = {
+                each.value(): each for each in QgsPointCloudClassifiedRenderer.defaultCategories()
+            }
+            categories = [known.get(each) or _category(each) for each in self._classes]
+            renderer = QgsPointCloudClassifiedRenderer()
+            renderer.setAttribute("Classification")
+            renderer.setCategories(categories)
+            layer.setRenderer(renderer)
             layer.triggerRepaint()
+
+
+def _category(value: int) -> QgsPointCloudCategory:
+    """Return how to show a class that has no usual colour: one that differs with its number."""
+    return QgsPointCloudCategory(value, QColor.fromHsv(47 * value % 360, 140, 200), f"{value}")
 
 
 class ElevationStyle(QgsProcessingLayerPostProcessorInterface):

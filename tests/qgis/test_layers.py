@@ -95,7 +95,8 @@ def test_a_cloud_is_coloured_by_class_and_counted_right(load, parameters, scene)
         cloud = layers["QgsPointCloudLayer"]
         assert isinstance(cloud.renderer(), QgsPointCloudClassifiedRenderer)
         assert cloud.renderer().attribute() == "Classification"
-        assert {1, 2} <= {each.value() for each in cloud.renderer().categories()}
+        categories = {each.value(): each.label() for each in cloud.renderer().categories()}
+        assert categories == {1: "Unclassified", 2: "Ground"}
         assert cloud.pointCount() == scene.count
         assert cloud.crs().authid() == "EPSG:25832"
     counted = QgsPointCloudLayer.PointCloudStatisticsCalculationState.Calculated

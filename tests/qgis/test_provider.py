@@ -143,3 +143,18 @@ print("loaded", algorithm.displayName(), "laspy" in sys.modules and {package!r} 
 def test_the_version_is_told(registry):
     print(Qgis.QGIS_VERSION)
     assert registry.providerById("bareearth").versionInfo()
+
+
+def test_its_page_holds_every_parameter_with_its_default(each):
+    page = (ROOT / "docs" / each.helpUrl().rpartition("/")[2]).read_text(encoding="utf-8")
+    for declared in each.parameter_sets():
+        for parameter in declared.declarations():
+            row = f"| **{parameter.label}** `{parameter.name.upper()}` | "
+            assert row in page
+            default = page.partition(row)[2].partition(" |")[0]
+            if isinstance(parameter.default, float):
+                unit = {"m": " m", "deg": "°", "": ""}[parameter.unit]
+                assert default == f"{parameter.default:g}{unit}"
+            elif parameter.default is not None:
+                assert default.strip("`") == str(parameter.default)
+    assert all(each.name() in page for each in each.outputDefinitions())
