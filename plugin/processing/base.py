@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import shlex
 from html import escape
 from typing import Any, Iterator
@@ -232,6 +233,9 @@ def command_line(
             value = getattr(parameters, each.name)
             if value != each.default:
                 words += _option(each.name.replace("_", "-"), value)
+    if os.name == "nt":
+        # Windows knows double quotes only, and file names there hold none.
+        return " ".join(f'"{word}"' if " " in word else word for word in words)
     return shlex.join(words)
 
 

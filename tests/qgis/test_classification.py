@@ -1,3 +1,4 @@
+import importlib.util
 import json
 import os
 import shlex
@@ -138,7 +139,8 @@ def test_cancel_leaves_nothing(registry, scene, out, context):
         os.remove(out / name)
     moments = sorted({each for each in whole.moments if each < 100})
     assert len(moments) > 10
-    for percent in moments:
+    # The first, the last, and some between.
+    for percent in {*moments[:: len(moments) // 6], moments[-1]}:
         log = Log(cancel_at=percent)
         assert run(log) == {}, percent
         assert os.listdir(out) == []
@@ -176,6 +178,18 @@ def test_a_bad_input_gives_one_line_and_leaves_nothing(kind, algorithm, tmp_path
     assert "Traceback" not in text + log.text
     # QGIS itself puts a line before what fails the check of the values.
     assert "\n" not in text.replace("Unable to execute algorithm\n", "")
+    assert os.listdir(out) == []
+
+
+def test_a_missing_decompressor_is_told(algorithm, scene, out, context, log, monkeypatch):
+    find = importlib.util.find_spec
+    monkeypatch.setattr(
+        importlib.util, "find_spec", lambda name, *_: None if name == "lazrs" else find(name)
+    )
+    assert algorithm.provider().supportedOutputPointCloudLayerExtensions() == ["las"]
+    _, done = algorithm.run(everything(scene, out, ".las"), context, log)
+    assert not done
+    assert "needs lazrs" in log.text and "pip install" in log.text
     assert os.listdir(out) == []
 
 
