@@ -1,0 +1,272 @@
+"""Rule-based minimum-Z grid filter.
+
+References
+----------
+Prabhath, Perera and Arachchige: a rule-based minimum-Z grid filter. Only its abstract is public;
+what it leaves open is ours, see docs/grid-minimum.md.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import ndimage
+
+from ..parameters import ParameterSet, parameter
+from ..points import Points
+from ..progress import SILENT, Progress
+from ..terrain.cells import Cells
+from ..terrain.inpaint import inpaint
+from ..terrain.objects import Relief, covered, raised_objects
+from ..terrain.outliers import low_outliers
+
+# Points that a cell should hold on average: with fewer, gaps break the rims.
+_POINTS_PER_CELL = 1.0
+# Points in the blocks that the density is counted in.
+_POINTS_PER_BLOCK = 50.0
+_FINAL_PASSES = 2
+# How many times the unevenness of the terrain is added where rims are taken out for good.
+_RIM_ROUGHNESS = 2.0
+_OUTLIER_SLOPE = 5.0
+# Low noise: narrower than this, and this far below the lowest points of the neighbourhood.
+_NOISE_WIDTH = 10.0
+_NOISE_DEPTH = 2.0
+_STEEPEST = 5.0
+_RELAXATIONS = 2
+_CHUNK = 1 << 18
+
+
+@dataclass(frozen=True)
+class GridMinimum(ParameterSet):
+    """Parameters of the minimum-Z grid filter."""
+
+    cell_size: float = parameter(
+        0.5,
+        label="Cell size",
+        unit="m",
+        minimum=0.01,
+        maximum=100.0,
+        help="Side of the square cells whose lowest points are compared. 0.5 m suits 4 points/m2"
+        " and more; for fewer it is enlarged until a cell holds one point on average.",
+    )
+    height_thresholds: tuple[float, ...] = parameter(
+        (5.0, 4.5, 2.0),
+        label="Height thresholds",
+        unit="m",
+        minimum=0.05,
+        maximum=1000.0,
+        help="One pass for each, the tallest objects first: of two neighbouring cells that differ"
+        " by more, the higher is the rim of an object.",
+    )
+    final_height: float = parameter(
+        0.3,
+        label="Final height",
+        unit="m",
+        minimum=0.01,
+        maximum=100.0,
+        help="In the last pass whatever stands this far above the ground beside it is removed:"
+        " bushes, cars, walls. Larger spares rough ground.",
+    )
+    max_object_size: float = parameter(
+        40.0,
+        label="Maximum object size",
+        unit="m",
+        minimum=0.1,
+        maximum=1000.0,
+        help="Shorter side of the largest building. What is wider is terrain.",
+    )
+    ground_tolerance: float = parameter(
+        0.4,
+        label="Ground tolerance",
+        unit="m",
+        minimum=0.0,
+        maximum=10.0,
+        advanced=True,
+        help="Points within this height of the ground's surface are ground, in level terrain.",
+    )
+    slope_tolerance: float = parameter(
+        0.6,
+        label="Ground tolerance on slopes",
+        minimum=0.0,
+        maximum=10.0,
+        advanced=True,
+        help="Share of the ground's rise over one cell that is added to the ground tolerance.",
+    )
+
+
+def classify(points: Points, parameters: GridMinimum, progress: Progress = SILENT) -> np.ndarray:
+    """Tell ground from other points.
+
+    Objects are cut out of the grid of lowest points, the tall first, then what is left of rims;
+    cells that are level with the ground beside them grow back; last, every point close to the
+    surface through the remaining cells is ground.
+
+    Parameters
+    ----------
+    points : Points
+        All points that take part.
+    parameters : GridMinimum
+        Distances in metres.
+    progress : Progress
+        Receives progress and messages.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (n,)
+        True for ground.
+
+    Raises
+    ------
+    BareEarthError
+        If the points spread too far for a grid.
+    Cancelled
+        If the user asked to stop.
+    """
+    cells = _cells(points, parameters.cell_size, progress)
+    progress(0.1)
+    heights = cells.minimum(points.z)
+    pits = low_outliers(heights, cells.size, _OUTLIER_SLOPE)
+    heights[pits & _below_neighbourhood(heights, cells.size)] = np.nan
+    progress(0.2)
+    ground = heights.copy()
+    objects = raised_objects(
+        heights,
+        cells.size,
+        parameters.height_thresholds,
+        parameters.max_object_size,
+        progress.part(0.2, 0.5),
+    )
+    ground[objects] = np.nan
+    _cut_low_objects(ground, heights, cells.size, parameters, progress.part(0.5, 0.8))
+    return _near_surface(points, cells, inpaint(ground, _RELAXATIONS), parameters, progress)
+
+
+def _cells(points: Points, size: float, progress: Progress) -> Cells:
+    """Return cells of the wanted size, or of a multiple of it where points are too few."""
+    density = _density(points, size)
+    multiple = max(round(math.sqrt(_POINTS_PER_CELL / density) / size), 1)
+    if multiple > 1:
+        progress.info(
+            f"{density:.2g} points/m2 are too few for cells of {size:g} m: the rims of objects"
+            f" would have gaps. Cells of {multiple * size:g} m are used instead."
+        )
+    return Cells.over(points, multiple * size)
+
+
+def _density(points: Points, size: float) -> float:
+    """Return the median number of points per square metre, of blocks within the survey."""
+    extent = max(np.ptp(points.x), np.ptp(points.y), size)
+    blocks = Cells.over(points, max(extent * math.sqrt(_POINTS_PER_BLOCK / points.count), size))
+    counts = np.bincount(blocks.index, minlength=blocks.rows * blocks.columns)
+    counts = counts.reshape(blocks.shape)
+    within = ndimage.binary_erosion(counts > 0, np.ones((3, 3)))
+    usual = counts[within] if within.any() else counts[counts > 0]
+    return float(np.median(usual)) / blocks.size**2
+
+
+def _below_neighbourhood(heights: np.ndarray, size: float) -> np.ndarray:
+    """Return the cells far below the usual lowest points of the blocks round them.
+
+    A gap in the canopy, a yard or a street between roofs is a pit too, but has others as low
+    beside it; noise has not.
+    """
+    block = max(math.ceil(_NOISE_WIDTH / size), 1)
+    rows, columns = (-(-side // block) for side in heights.shape)
+    filled = np.full((rows * block, columns * block), np.inf)
+    filled[: heights.shape[0], : heights.shape[1]] = np.where(np.isnan(heights), np.inf, heights)
+    lowest = filled.reshape(rows, block, columns, block).min(axis=(1, 3))
+    lowest[np.isinf(lowest)] = np.nan
+    usual = ndimage.median_filter(inpaint(lowest), 5, mode="nearest")
+    usual = np.repeat(np.repeat(usual, block, axis=0), block, axis=1)
+    return heights < usual[: heights.shape[0], : heights.shape[1]] - _NOISE_DEPTH
+
+
+def _cut_low_objects(
+    ground: np.ndarray,
+    heights: np.ndarray,
+    size: float,
+    parameters: GridMinimum,
+    progress: Progress,
+) -> None:
+    """Set the cells of `ground` to NaN that are no ground.
+
+    Noise first, then what stands out by the final height, with the rims that are left of larger
+    objects; of these cells those that are level with the rest grow back from `heights`.
+    """
+    inside = covered(np.isfinite(heights))
+    for done in range(_FINAL_PASSES):
+        relief = Relief(ground, size, inside)
+        if not done and parameters.height_thresholds:
+            sunken = relief.regions(min(parameters.height_thresholds)).sunken(_NOISE_WIDTH)
+            noise = sunken & _below_neighbourhood(ground, size)
+            ground[noise] = heights[noise] = np.nan
+        low = relief.regions(parameters.final_height).raised(parameters.max_object_size)
+        ground[low | relief.rims(parameters.final_height, _RIM_ROUGHNESS)] = np.nan
+        progress((done + 1) / (_FINAL_PASSES + 1))
+    relief = Relief(ground, size, inside)
+    kept = relief.regrown(np.isfinite(ground), heights, parameters.final_height)
+    np.copyto(ground, np.where(kept, heights, np.nan))
+    progress(1.0)
+
+
+def _near_surface(
+    points: Points,
+    cells: Cells,
+    surface: np.ndarray,
+    parameters: GridMinimum,
+    progress: Progress,
+) -> np.ndarray:
+    """Return which points lie close to the ground's surface.
+
+    Most are decided by the least and the greatest of surface and tolerance in their cell; only
+    the others need them interpolated.
+    """
+    slope = _slope(surface, cells.size)
+    tolerance = parameters.ground_tolerance + parameters.slope_tolerance * cells.size * slope
+    bounds = _bounds(surface, tolerance)
+    ground = np.empty(points.count, dtype=bool)
+    for start in range(0, points.count, _CHUNK):
+        part = slice(start, start + _CHUNK)
+        z = points.z[part].astype(np.float32)
+        lower, sure_lower, sure_upper, upper = bounds[cells.index[part]].T
+        near = (z >= sure_lower) & (z <= sure_upper)
+        open_ = np.flatnonzero(~near & (z >= lower) & (z <= upper))
+        x, y = points.x[part][open_], points.y[part][open_]
+        height = points.z[part][open_] - cells.at(surface, x, y)
+        near[open_] = np.abs(height) <= cells.at(tolerance, x, y)
+        ground[part] = near
+        progress(0.85 + 0.15 * min(start + _CHUNK, points.count) / points.count)
+    return ground
+
+
+def _bounds(surface: np.ndarray, tolerance: np.ndarray) -> np.ndarray:
+    """Return what bounds the surface without and with its tolerance, in each cell.
+
+    Returns
+    -------
+    numpy.ndarray of float32, shape (cells, 4)
+        In ascending order, wherever the cell's surface is even enough: no ground below the first,
+        all ground between the second and the third, none above the fourth.
+    """
+    highest = ndimage.maximum_filter
+    lowest = ndimage.minimum_filter
+    bounds = np.empty((surface.size, 4), dtype=np.float32)
+    for column, extreme, values in (
+        (0, lowest, surface - tolerance),
+        (1, highest, surface - tolerance),
+        (2, lowest, surface + tolerance),
+        (3, highest, surface + tolerance),
+    ):
+        bounds[:, column] = extreme(values.astype(np.float32), 3, mode="nearest").ravel()
+    return bounds
+
+
+def _slope(surface: np.ndarray, size: float) -> np.ndarray:
+    """Return rise over run of a surface, no more than that of the steepest ground."""
+    slopes = [
+        np.gradient(surface, size, axis=axis) if surface.shape[axis] > 1 else np.zeros(())
+        for axis in (0, 1)
+    ]
+    return np.minimum(np.hypot(*slopes), _STEEPEST) + np.zeros(surface.shape)

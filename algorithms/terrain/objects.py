@@ -1,0 +1,426 @@
+"""Objects that stand on the ground, found in a grid of lowest points by the rims round them.
+
+A roof, a tree or a car ends in a drop on all sides; a hill, a terrace or a bank does not. A *rim*
+is where the drop is: of two neighbouring cells that differ by more than a threshold, the higher.
+Rims cut the grid into *regions*, and a region whose border is mostly a drop is a raised object.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple, Sequence
+
+import numpy as np
+from scipy import ndimage
+
+from ..progress import SILENT, Progress
+from .inpaint import inpaint
+
+# East, north and the two diagonals: with their opposites, the eight neighbours of a cell.
+_DIRECTIONS = ((0, 1), (1, 0), (1, 1), (1, -1))
+# Side in metres of the blocks whose median slope is the trend of the terrain.
+_TREND_BLOCK = 15.0
+# Differences of a block that suffice for its median, along each axis.
+_TREND_SAMPLES = 15
+# Passes in which rim cells join the region that they are level with.
+_JOINING_PASSES = 2
+# Passes in which cells that are level with the ground grow back.
+_GROWING_PASSES = 4
+# Share of a region's border, as far as it is known, that must be a drop; or a rise, of a pit.
+_OBJECT_SHARE = 0.65
+_PIT_SHARE = 0.9
+# Share of the whole border that must be a drop, what is unknown beyond the survey included.
+_LEAST_SHARE = 0.3
+# Mean height of the drop over the width of the region: what is lower and wider is terrain.
+_LEAST_STEEPNESS = 0.15
+# Rounds in which what an object hid, a roof within a roof, is looked at again.
+_ROUNDS = 3
+# Relaxations of the surface across gaps; what bounds objects is their rim, not the filling.
+_RELAXATIONS = 2
+
+
+def raised_objects(
+    heights: np.ndarray,
+    size: float,
+    thresholds: Sequence[float],
+    max_size: float,
+    progress: Progress = SILENT,
+) -> np.ndarray:
+    """Return which cells of a minimum grid belong to objects that stand out all round.
+
+    Parameters
+    ----------
+    heights : numpy.ndarray of float, shape (rows, columns)
+        Lowest height of each cell in metres; NaN where there is none.
+    size : float
+        Side of a cell in metres.
+    thresholds : sequence of float
+        Least height in metres of a drop that bounds an object, one for each pass. What one pass
+        finds is cut out before the next: the tall first.
+    max_size : float
+        Largest width (shorter side) of an object in metres.
+    progress : Progress
+        Receives progress.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (rows, columns)
+    """
+    known = np.isfinite(heights)
+    inside = covered(known)
+    rest = heights.copy()
+    for done, threshold in enumerate(thresholds):
+        rest[Relief(rest, size, inside).regions(threshold).raised(max_size)] = np.nan
+        progress((done + 1) / len(thresholds))
+    return known & np.isnan(rest)
+
+
+def covered(known: np.ndarray, reach: int = 4) -> np.ndarray:
+    """Return which cells belong to the surveyed area: the known ones and the small gaps in them.
+
+    Parameters
+    ----------
+    known : numpy.ndarray of bool, shape (rows, columns)
+        Cells with a height.
+    reach : int
+        Gaps up to twice as many cells wide are closed.
+    """
+    closed = np.pad(known, reach).astype(np.uint8)
+    for extreme in (ndimage.maximum_filter1d, ndimage.minimum_filter1d):
+        for axis in (0, 1):
+            closed = extreme(closed, 2 * reach + 1, axis=axis, mode="nearest")
+    return closed[reach : reach + known.shape[0], reach : reach + known.shape[1]].astype(bool)
+
+
+class Relief:
+    """The steps of a height grid, as against what the trend of the terrain explains.
+
+    Parameters
+    ----------
+    heights : numpy.ndarray of float, shape (rows, columns)
+        Lowest height of each cell in metres; NaN where there is none.
+    size : float
+        Side of a cell in metres.
+    inside : numpy.ndarray of bool, shape (rows, columns)
+        Cells that were surveyed (see `covered`); nothing is known of the others.
+    """
+
+    def __init__(self, heights: np.ndarray, size: float, inside: np.ndarray) -> None:
+        surface = inpaint(heights, _RELAXATIONS).astype(np.float32)
+        north, east, roughness = _trend(surface, size)
+        self._size = size
+        # A frame without height ends each row, so that neighbours are an offset apart.
+        self._inside = np.pad(inside, 1)
+        self._heights = np.pad(surface, 1, constant_values=np.nan).ravel()
+        self._north, self._east, self._slope, self._roughness = (
+            np.pad(np.float32(size) * each, 1).ravel()
+            for each in (north, east, np.hypot(north, east), roughness)
+        )
+
+    def rims(self, threshold: float, roughness_factor: float = 1.0) -> np.ndarray:
+        """Return which cells are higher than one of their eight neighbours by too much.
+
+        Parameters
+        ----------
+        threshold : float
+            Height in metres that is too much on level and even ground; the rise of the terrain
+            between the two cells is added.
+        roughness_factor : float
+            How many times the usual unevenness of the terrain is added as well.
+
+        Returns
+        -------
+        numpy.ndarray of bool, shape (rows, columns)
+        """
+        return self._rims(self._steps(threshold, roughness_factor))[1:-1, 1:-1]
+
+    def regions(self, threshold: float) -> Regions:
+        """Return the regions between the rims of a threshold in metres (see `rims`).
+
+        Rim cells belong to the region that they are level with, like the edge of a roof; those
+        that are level with none, like a thin tree, form regions of their own.
+        """
+        steps = self._steps(threshold)
+        rim = self._rims(steps)
+        regions, count = ndimage.label(self._inside & ~rim)
+        flat = regions.ravel()
+        cells = np.flatnonzero(rim)
+        for _ in range(_JOINING_PASSES):
+            self._join(flat, cells, steps)
+            cells = cells[flat[cells] == 0]
+        rest = np.zeros(flat.size, dtype=bool)
+        rest[cells] = True
+        own, more = ndimage.label(rest.reshape(rim.shape), np.ones((3, 3)))
+        flat[cells] = own.ravel()[cells] + count
+        count += more + 1
+        return Regions(regions[1:-1, 1:-1], count, self._size, self._border(flat, count, steps))
+
+    def regrown(self, kept: np.ndarray, heights: np.ndarray, threshold: float) -> np.ndarray:
+        """Return `kept` and the cells next to it that are level with it, step by step.
+
+        Parameters
+        ----------
+        kept : numpy.ndarray of bool, shape (rows, columns)
+            Cells of the ground.
+        heights : numpy.ndarray of float, shape (rows, columns)
+            Lowest heights, those of cells that may grow back included; NaN where there is none.
+        threshold : float
+            As for `rims`; a cell is compared with the mean of its kept neighbours.
+
+        Returns
+        -------
+        numpy.ndarray of bool, shape (rows, columns)
+        """
+        kept, grid = np.pad(kept, 1).ravel(), np.pad(heights, 1, constant_values=np.nan)
+        grid = grid.astype(np.float32).ravel()
+        cells = np.flatnonzero(np.isfinite(grid) & ~kept)
+        for _ in range(_GROWING_PASSES):
+            rises, count = np.zeros(len(cells), np.float32), np.zeros(len(cells), np.float32)
+            for row, column in _DIRECTIONS:
+                offset = row * self._inside.shape[1] + column
+                trend = row * self._north[cells] + column * self._east[cells]
+                for neighbour, expected in ((cells + offset, trend), (cells - offset, -trend)):
+                    rise = grid[neighbour] - grid[cells] - expected
+                    rises += np.where(kept[neighbour], rise, 0)
+                    count += kept[neighbour]
+            allowed = threshold + self._slope[cells] + self._roughness[cells]
+            level = (count > 0) & (np.abs(rises) <= allowed * count)
+            kept[cells[level]] = True
+            cells = cells[~level]
+        return kept.reshape(self._inside.shape)[1:-1, 1:-1]
+
+    def _steps(self, threshold: float, roughness_factor: float = 1.0) -> list[_Steps]:
+        """Return the steps to the neighbours in four directions."""
+        allowance = self._slope + np.float32(roughness_factor) * self._roughness
+        steps = []
+        for row, column in _DIRECTIONS:
+            offset, length = row * self._inside.shape[1] + column, np.float32(np.hypot(row, column))
+            rise = self._heights[offset:] - self._heights[:-offset]
+            if row:
+                rise -= self._north[:-offset]
+            if column > 0:
+                rise -= self._east[:-offset]
+            elif column < 0:
+                rise += self._east[:-offset]
+            allowed = length * allowance[:-offset] + np.float32(threshold)
+            sign = (rise > allowed).view(np.int8) - (rise < -allowed).view(np.int8)
+            steps.append(_Steps(row, column, offset, sign))
+        return steps
+
+    def _rise(self, cells: np.ndarray, step: _Steps, backward: bool = False) -> np.ndarray:
+        """Return the rise from some cells to their neighbours in one direction, or its opposite."""
+        first = cells - step.offset if backward else cells
+        rise = self._heights[first + step.offset] - self._heights[first]
+        rise -= step.row * self._north[first] + step.column * self._east[first]
+        return -rise if backward else rise
+
+    def _rims(self, steps: list[_Steps]) -> np.ndarray:
+        rim = np.zeros(self._inside.size, dtype=bool)
+        for each in steps:
+            rim[: -each.offset] |= each.sign < 0
+            rim[each.offset :] |= each.sign > 0
+        return rim.reshape(self._inside.shape) & self._inside
+
+    def _join(self, regions: np.ndarray, cells: np.ndarray, steps: list[_Steps]) -> None:
+        """Let cells without a region join that of the neighbour they are most level with."""
+        least = np.full(len(cells), np.inf, dtype=np.float32)
+        joined = np.zeros(len(cells), dtype=regions.dtype)
+        for each in steps:
+            for backward in (False, True):
+                neighbour = cells - each.offset if backward else cells + each.offset
+                level = each.sign[neighbour if backward else cells] == 0
+                which = np.flatnonzero(level & (regions[neighbour] > 0))
+                rise = np.abs(self._rise(cells[which], each, backward))
+                better = rise < least[which]
+                which = which[better]
+                least[which] = rise[better]
+                joined[which] = regions[neighbour[which]]
+        regions[cells] = joined
+
+    def _border(self, regions: np.ndarray, count: int, steps: list[_Steps]) -> _Border:
+        parts = []
+        for each in steps:
+            cells = np.flatnonzero(regions[: -each.offset] != regions[each.offset :])
+            rise = self._rise(cells, each)
+            parts.append((regions[cells], regions[cells + each.offset], each.sign[cells], rise))
+        return _Border(count, *(np.concatenate(each) for each in zip(*parts)))
+
+
+class Regions:
+    """The regions between rims.
+
+    Attributes
+    ----------
+    number : numpy.ndarray of int32, shape (rows, columns)
+        The region of each cell; 0 where nothing is known.
+    width : numpy.ndarray of float, shape (count,)
+        Width (shorter side) of each region in metres.
+    """
+
+    def __init__(self, number: np.ndarray, count: int, size: float, border: _Border) -> None:
+        self.number = number
+        self._border = border
+        self.width = border.width(np.bincount(number.ravel(), minlength=count)) * size
+
+    def raised(self, max_size: float) -> np.ndarray:
+        """Return the cells of the regions whose border is mostly a drop.
+
+        Parameters
+        ----------
+        max_size : float
+            Largest width in metres.
+
+        Returns
+        -------
+        numpy.ndarray of bool, shape (rows, columns)
+        """
+        fits = self.width <= max_size
+        fits[0] = False
+        removed = np.zeros(len(fits), dtype=bool)
+        for _ in range(_ROUNDS):
+            drops, known, pairs, height = self._border.drops(removed)
+            new = fits & ~removed & (drops > 0) & (height >= _LEAST_STEEPNESS * self.width)
+            new &= (drops >= _OBJECT_SHARE * known) & (drops > _LEAST_SHARE * pairs)
+            if not new.any():
+                break
+            removed |= new
+        return removed[self.number]
+
+    def sunken(self, max_size: float) -> np.ndarray:
+        """Return the cells of the regions whose border is a rise nearly all round: of pits."""
+        rises, known, pairs, _ = self._border.drops(np.zeros(len(self.width), bool), sign=-1)
+        pits = (rises > 0) & (rises >= _PIT_SHARE * known) & (rises > _LEAST_SHARE * pairs)
+        pits &= self.width <= max_size
+        pits[0] = False
+        return pits[self.number]
+
+
+class _Steps(NamedTuple):
+    """The differences between neighbouring cells, in one direction.
+
+    Attributes
+    ----------
+    row, column : int
+        The direction.
+    offset : int
+        From a cell to its neighbour, in the flattened grid.
+    sign : numpy.ndarray of int8
+        1 where the neighbour is higher by more than is allowed, -1 where it is lower, else 0.
+    """
+
+    row: int
+    column: int
+    offset: int
+    sign: np.ndarray
+
+
+class _Border(NamedTuple):
+    """The pairs of neighbouring cells that lie in different regions.
+
+    Attributes
+    ----------
+    count : int
+        One more than the largest number of a region.
+    first, second : numpy.ndarray of int32, shape (pairs,)
+        Region of either cell; 0 is the unknown.
+    sign : numpy.ndarray of int8, shape (pairs,)
+        As in `_Steps`, from the first to the second.
+    rise : numpy.ndarray of float32, shape (pairs,)
+        Height of the second above the first in metres, beyond the trend.
+    """
+
+    count: int
+    first: np.ndarray
+    second: np.ndarray
+    sign: np.ndarray
+    rise: np.ndarray
+
+    def width(self, area: np.ndarray) -> np.ndarray:
+        """Return the shorter side, in cells, of the rectangle with each region's area and border.
+
+        The square's where the region is rounder than any rectangle.
+        """
+        # Each cell of a straight border has three neighbours beyond it.
+        quarter = self._total(np.ones(len(self.sign), bool), np.ones(len(self.sign), bool)) / 12.0
+        rest = quarter**2 - area
+        return np.where(rest < 0, np.sqrt(area), quarter - np.sqrt(np.maximum(rest, 0.0)))
+
+    def drops(
+        self, removed: np.ndarray, sign: int = 1
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Sum up where each region drops to its neighbours.
+
+        Parameters
+        ----------
+        removed : numpy.ndarray of bool, shape (count,)
+            Regions that are objects already: the ground below them is not known.
+        sign : int
+            -1 to sum up where it rises instead.
+
+        Returns
+        -------
+        drops, known, pairs : numpy.ndarray of int, shape (count,)
+            Pairs of cells where the region drops; where the neighbour is known; and all.
+        height : numpy.ndarray of float, shape (count,)
+            Mean height of the drops in metres.
+        """
+        gone_first, gone_second = removed[self.first], removed[self.second]
+        known = (self.first > 0) & (self.second > 0) & ~gone_first & ~gone_second
+        pairs = ~(gone_first & gone_second)
+        down, up = known & (self.sign == -sign), known & (self.sign == sign)
+        drops = self._total(down, up)
+        height = self._total(down, up, np.abs(self.rise)) / np.maximum(drops, 1)
+        return drops, self._total(known, known), self._total(pairs, pairs), height
+
+    def _total(
+        self, first: np.ndarray, second: np.ndarray, weights: np.ndarray | None = None
+    ) -> np.ndarray:
+        """Count, or add up the weights of, some pairs for the region of either cell."""
+        return sum(
+            np.bincount(region[which], weights if weights is None else weights[which], self.count)
+            for region, which in ((self.first, first), (self.second, second))
+        )
+
+
+def _trend(heights: np.ndarray, size: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the terrain's slope towards north and east and its unevenness, at each cell.
+
+    Within blocks of some metres the slope is the median of that between neighbours, which walls
+    and trees do not move, and the unevenness the median of what departs from it; all three are
+    rise over run.
+    """
+    block = max(round(_TREND_BLOCK / size), 3)
+    slopes, roughness = [], np.zeros(heights.shape, dtype=heights.dtype)
+    for axis in (0, 1):
+        if heights.shape[axis] == 1:
+            slopes.append(np.zeros_like(heights))
+            continue
+        blocks = _sampled_blocks(np.diff(heights, axis=axis) / heights.dtype.type(size), block)
+        slope = np.median(blocks, axis=2)
+        departure = np.median(np.abs(blocks - slope[..., None]), axis=2)
+        slopes.append(_cells_of(slope, block, heights.shape))
+        roughness += _cells_of(departure, block, heights.shape) / 2
+    return slopes[0], slopes[1], roughness
+
+
+def _sampled_blocks(grid: np.ndarray, block: int) -> np.ndarray:
+    """Return some cells of each block of a grid, shape (rows, columns, samples) of blocks."""
+    rows, columns = (-(-side // block) for side in grid.shape)
+    missing = rows * block - grid.shape[0], columns * block - grid.shape[1]
+    padded = np.pad(grid, [(0, each) for each in missing], mode="symmetric")
+    step = max(block // _TREND_SAMPLES, 1)
+    blocks = padded.reshape(rows, block, columns, block)[:, ::step, :, ::step]
+    return blocks.transpose(0, 2, 1, 3).reshape(rows, columns, -1)
+
+
+def _cells_of(blocks: np.ndarray, block: int, shape: tuple[int, int]) -> np.ndarray:
+    """Interpolate values of blocks to cells, after a median of 3 x 3 blocks."""
+    blocks = ndimage.median_filter(blocks, 3, mode="nearest")
+    return _between(_between(blocks, block, shape[0]).T, block, shape[1]).T
+
+
+def _between(values: np.ndarray, block: int, count: int) -> np.ndarray:
+    """Interpolate values at the middles of blocks linearly to `count` cells on the first axis."""
+    place = np.clip((np.arange(count) + 0.5) / block - 0.5, 0.0, len(values) - 1.0)
+    first = np.minimum(place.astype(int), max(len(values) - 2, 0))
+    weight = (place - first).astype(values.dtype)[:, None]
+    return values[first] * (1 - weight) + values[np.minimum(first + 1, len(values) - 1)] * weight
