@@ -64,7 +64,7 @@ class Neighbourhood:
         if self._inner >= 0.0:
             inner = erosion(table.lowest.reshape(self._shape), self._inner).ravel()
         best = np.minimum(table.values, inner[self._cell[table.order]])
-        for first, cells in self._bands(progress):
+        for cells in self._bands(progress):
             for offset in self._rim:
                 lower = cells[table.lowest[cells + offset] < inner[cells]]
                 if len(lower):
@@ -143,7 +143,7 @@ class Neighbourhood:
         for first in range(0, len(self._x), _POINTS_A_STEP):
             progress(first / len(self._x))
             edges = np.searchsorted(done, (first, first + _POINTS_A_STEP))
-            yield first, self._occupied[edges[0] : edges[1]]
+            yield self._occupied[edges[0] : edges[1]]
 
     def _lower(
         self, table: _Table, cells: np.ndarray, others: np.ndarray, best: np.ndarray

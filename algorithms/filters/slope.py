@@ -1,0 +1,306 @@
+"""Slope filter, exact on one scale or on many.
+
+References
+----------
+Vosselman, G. (2000): Slope based filtering of laser altimetry data. International Archives of
+Photogrammetry and Remote Sensing 33 (B3), 935-942.
+Lindsay, J. (2025): WhiteboxTools, LidarGroundPointFilter. https://www.whiteboxgeo.com/manual/
+Pingel, T., Clarke, K., McBride, W. (2013): An improved simple morphological filter for the terrain
+classification of airborne LIDAR data. ISPRS Journal 77, 21-30.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import ndimage
+
+from ..errors import BareEarthError
+from ..parameters import ParameterSet, parameter
+from ..points import Points
+from ..progress import SILENT, Progress
+from ..terrain.cells import Cells
+from ..terrain.inpaint import inpaint
+from ..terrain.low_clusters import low_clusters
+from ..terrain.morphology import erosion
+from ..terrain.neighbourhood import Neighbourhood
+from ..terrain.outliers import low_outliers
+
+# Radii grow by this factor from scale to scale: the area of the disc doubles.
+_SCALE_STEP = math.sqrt(2.0)
+# Rise over run of the sides of a pit that holds low outliers, one cell wide or a few metres.
+_OUTLIER_SLOPE = 5.0
+_CLUSTER_SLOPE = 2.0
+_CLUSTER_WIDTH = 6.0
+# They must lie below the terrain within this many search radii: the ground seen through a hole in
+# a large roof is a pit as well, but there is ground as low beyond the roof.
+_SURROUNDINGS = 3.0
+_POINTS_A_STEP = 200_000
+
+
+@dataclass(frozen=True)
+class SlopeFilter(ParameterSet):
+    """Parameters of the slope filter, named as in Whitebox's *LidarGroundPointFilter*.
+
+    Those left empty are taken from the preset; `resolve` says which.
+    """
+
+    preset: str = parameter(
+        "automatic",
+        label="Preset",
+        choices={
+            "automatic": "Automatic (many scales, follows the terrain)",
+            "whitebox": "Whitebox (one scale, 2 m, 45 deg, 1 m)",
+        },
+        help="Automatic finds buildings as well as shrubs. Whitebox is the classic filter with the"
+        " values of WhiteboxTools: its radius of 2 m cannot see a building.",
+    )
+    search_radius: float | None = parameter(
+        None,
+        label="Search radius",
+        unit="m",
+        minimum=0.1,
+        maximum=500.0,
+        kind="number",
+        help="How far a point is compared with its neighbours, the largest distance in the"
+        " automatic preset: at least half the shorter side of the largest building. Empty: 18 m"
+        " (more if points are sparse), or 2 m in the preset Whitebox.",
+    )
+    min_neighbours: int = parameter(
+        0,
+        label="Minimum number of neighbours",
+        unit="points",
+        minimum=0,
+        maximum=10_000,
+        help="A point with fewer neighbours within the search radius is compared with this many"
+        " nearest ones. For the preset Whitebox only.",
+    )
+    slope_threshold: float | None = parameter(
+        None,
+        label="Slope threshold",
+        unit="deg",
+        minimum=0.0,
+        maximum=88.0,
+        kind="number",
+        help="A point is not ground if it stands above a neighbour at a steeper slope than this;"
+        " in the automatic preset, steeper by this than the terrain round it. Empty: 15 deg, or"
+        " 45 deg in the preset Whitebox.",
+    )
+    height_threshold: float | None = parameter(
+        None,
+        label="Height threshold",
+        unit="m",
+        minimum=0.0,
+        maximum=100.0,
+        kind="number",
+        help="Only points that stand above a neighbour by at least this much are not ground."
+        " Empty: 0.5 m, or 1 m in the preset Whitebox.",
+    )
+    slope_norm: bool = parameter(
+        True,
+        label="Slope normalisation",
+        help="Compare heights above a surface that follows the terrain (white top-hat) instead of"
+        " heights, so that sloping ground is not lost.",
+    )
+    cell_size: float | None = parameter(
+        None,
+        label="Cell size",
+        unit="m",
+        minimum=0.05,
+        maximum=50.0,
+        kind="number",
+        advanced=True,
+        help="Side of the cells whose lowest points are compared in the automatic preset. Empty:"
+        " 1 m, more if points are sparse.",
+    )
+    slope_tolerance: float = parameter(
+        1.2,
+        label="Height tolerance on slopes",
+        unit="m",
+        minimum=0.0,
+        maximum=10.0,
+        advanced=True,
+        help="What a slope of 45 degrees adds to the height threshold when, in the automatic"
+        " preset, points are compared with the ground that was found. Less in proportion on"
+        " gentler slopes.",
+    )
+
+    def resolve(self, points: Points) -> SlopeFilter:
+        """Return the parameters with a value for each that was left empty.
+
+        Parameters
+        ----------
+        points : Points
+            The whole survey: its blocks must all be classified with the same values.
+
+        Returns
+        -------
+        SlopeFilter
+            Equal to this one if nothing was empty.
+        """
+        if self.preset == "whitebox":
+            chosen = {"search_radius": 2.0, "slope_threshold": 45.0, "height_threshold": 1.0}
+        else:
+            chosen = {"slope_threshold": 15.0, "height_threshold": 0.5}
+            if self.search_radius is None or self.cell_size is None:
+                spacing = _spacing(points)
+                chosen["search_radius"] = max(18.0, round(4.0 * spacing, 1))
+                chosen["cell_size"] = max(1.0, round(0.4 * spacing, 1))
+        empty = {name: value for name, value in chosen.items() if getattr(self, name) is None}
+        return dataclasses.replace(self, **empty)
+
+
+def classify(points: Points, parameters: SlopeFilter, progress: Progress = SILENT) -> np.ndarray:
+    """Tell ground from other points.
+
+    A point is not ground if it stands above a neighbour by at least the height threshold and at a
+    slope above the slope threshold (Vosselman 2000, section 2).
+
+    Parameters
+    ----------
+    points : Points
+        All points that take part.
+    parameters : SlopeFilter
+        Distances in metres, angles in degrees.
+    progress : Progress
+        Receives progress and messages.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (n,)
+        True for ground.
+
+    Raises
+    ------
+    BareEarthError
+        If the points spread too far for a grid, or no ground is found.
+    Cancelled
+        If the user asked to stop.
+    """
+    resolved = parameters.resolve(points)
+    if resolved != parameters:
+        progress.info(_in_words(resolved))
+    if resolved.preset == "whitebox":
+        return _on_one_scale(points, resolved, progress)
+    if resolved.min_neighbours:
+        progress.warning("The minimum number of neighbours is for the preset Whitebox only.")
+    return _on_many_scales(points, resolved, progress)
+
+
+def _in_words(parameters: SlopeFilter) -> str:
+    cell = f", cell size {parameters.cell_size:g} m" if parameters.cell_size else ""
+    return (
+        f"Slope filter: preset {parameters.preset}, search radius {parameters.search_radius:g} m,"
+        f" slope threshold {parameters.slope_threshold:g} deg, height threshold"
+        f" {parameters.height_threshold:g} m{cell}."
+    )
+
+
+def _spacing(points: Points) -> float:
+    """Return the mean distance between points in metres, gaps in the survey left out."""
+    cells = Cells.over(points, 10.0)
+    return math.sqrt(np.count_nonzero(cells.occupied) * cells.size**2 / points.count)
+
+
+def _on_one_scale(points: Points, parameters: SlopeFilter, progress: Progress) -> np.ndarray:
+    """Return the ground mask of the classic filter: every point against all its neighbours."""
+    neighbourhood = Neighbourhood(points, parameters.search_radius, parameters.min_neighbours)
+    heights = points.z
+    if parameters.slope_norm:
+        eroded = neighbourhood.minimum(points.z, progress.part(0.0, 0.4))
+        opened = neighbourhood.maximum(eroded, progress.part(0.4, 0.8))
+        # Where a neighbourhood grew it may not contain the point itself from the other's view.
+        heights = points.z - np.minimum(opened, points.z)
+    slope = math.tan(math.radians(parameters.slope_threshold))
+    above = neighbourhood.stands_above(
+        heights, parameters.height_threshold, slope, progress.part(0.8, 1.0)
+    )
+    progress(1.0)
+    return ~above
+
+
+def _on_many_scales(points: Points, parameters: SlopeFilter, progress: Progress) -> np.ndarray:
+    """Return the ground mask of the filter on the lowest points of cells, scale by scale."""
+    cells = Cells.over(points, parameters.cell_size)
+    lowest = cells.minimum(points.z)
+    progress(0.2)
+    # One after the other: a deep outlier would hide a shallow one beside it.
+    lowest[low_outliers(lowest, cells.size, _OUTLIER_SLOPE)] = np.nan
+    around = _SURROUNDINGS * parameters.search_radius
+    lowest[low_clusters(lowest, cells.size, _CLUSTER_SLOPE, _CLUSTER_WIDTH, around)] = np.nan
+    objects = _objects(lowest, cells.size, parameters, progress.part(0.3, 0.6))
+    lowest[objects] = np.nan
+    if not np.isfinite(lowest).any():
+        raise BareEarthError(
+            "No point can be taken for ground with certainty. Check the thresholds and the"
+            " selection of points."
+        )
+    return _near_surface(points, cells, inpaint(lowest), parameters, progress.part(0.6, 1.0))
+
+
+def _objects(
+    lowest: np.ndarray, size: float, parameters: SlopeFilter, progress: Progress
+) -> np.ndarray:
+    """Return which cells stand above another, on any scale, by more than the terrain allows.
+
+    The allowance at a distance is that of the disc's radius: a staircase under Vosselman's line.
+    """
+    known = np.isfinite(lowest)
+    reach = max(parameters.search_radius / size, 1.0)
+    heights = np.where(known, lowest, np.inf)
+    eroded = erosion(heights, reach)
+    slope = math.tan(math.radians(parameters.slope_threshold)) + _slope(eroded, size, reach)
+    if parameters.slope_norm:
+        opened = -erosion(np.where(np.isfinite(eroded), -eroded, np.inf), reach)
+        heights[known] -= opened[known]
+    objects = np.zeros(lowest.shape, dtype=bool)
+    radii = [reach / _SCALE_STEP**scale for scale in range(int(2 * math.log2(reach)) + 1)]
+    for done, radius in enumerate(reversed(radii), start=1):
+        allowed = np.maximum(slope * radius * size, parameters.height_threshold)
+        objects |= known & (heights > erosion(heights, radius) + allowed)
+        progress(done / len(radii))
+    return objects
+
+
+def _slope(eroded: np.ndarray, size: float, reach: float) -> np.ndarray:
+    """Return the slope of the terrain, rise over run, averaged over about the search radius.
+
+    The eroded surface has no objects. Its gradient is averaged, not its height, which a border
+    would flatten.
+    """
+    surface = inpaint(np.where(np.isfinite(eroded), eroded, np.nan))
+    window = 2 * max(round(reach / 2), 1) + 1
+    gradient = _gradient(surface, size)
+    for _ in range(2):
+        gradient = [ndimage.uniform_filter(each, window, mode="nearest") for each in gradient]
+    return np.hypot(*gradient)
+
+
+def _gradient(surface: np.ndarray, size: float) -> list[np.ndarray]:
+    """Return the two components of the gradient; 0 along a side of a single cell."""
+    return [
+        np.gradient(surface, size, axis=axis)
+        if surface.shape[axis] > 1
+        else np.zeros(surface.shape)
+        for axis in (0, 1)
+    ]
+
+
+def _near_surface(
+    points: Points, cells: Cells, surface: np.ndarray, parameters: SlopeFilter, progress: Progress
+) -> np.ndarray:
+    """Return which points lie close to a surface given at the centres of the cells."""
+    slope = np.hypot(*_gradient(surface, cells.size))
+    tolerance = parameters.height_threshold + parameters.slope_tolerance * slope
+    below, above = surface - tolerance, surface + tolerance
+    ground = np.empty(points.count, dtype=bool)
+    for first in range(0, points.count, _POINTS_A_STEP):
+        part = slice(first, first + _POINTS_A_STEP)
+        x, y, z = points.x[part], points.y[part], points.z[part]
+        ground[part] = (z >= cells.at(below, x, y)) & (z <= cells.at(above, x, y))
+        progress(first / points.count)
+    progress(1.0)
+    return ground
