@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from scipy import ndimage
@@ -19,17 +20,17 @@ from ..points import Points
 from ..progress import SILENT, Progress
 from ..terrain.cells import Cells
 from ..terrain.inpaint import inpaint
-from ..terrain.objects import Relief, covered, raised_objects
-from ..terrain.outliers import low_outliers
+from ..terrain.objects import Relief, between_blocks, covered, raised_objects
 
 # Points that a cell should hold on average: with fewer, gaps break the rims.
 _POINTS_PER_CELL = 1.0
 # Points in the blocks that the density is counted in.
 _POINTS_PER_BLOCK = 50.0
+# Side in metres of the blocks of cells, two at least, that tall objects are looked for in.
+_BLOCK = 1.0
 _FINAL_PASSES = 2
 # How many times the unevenness of the terrain is added where rims are taken out for good.
 _RIM_ROUGHNESS = 2.0
-_OUTLIER_SLOPE = 5.0
 # Low noise: narrower than this, and this far below the lowest points of the neighbourhood.
 _NOISE_WIDTH = 10.0
 _NOISE_DEPTH = 2.0
@@ -127,20 +128,64 @@ def classify(points: Points, parameters: GridMinimum, progress: Progress = SILEN
     cells = _cells(points, parameters.cell_size, progress)
     progress(0.1)
     heights = cells.minimum(points.z)
-    pits = low_outliers(heights, cells.size, _OUTLIER_SLOPE)
-    heights[pits & _below_neighbourhood(heights, cells.size)] = np.nan
+    blocks = _Blocks.over(cells, _BLOCK)
+    heights[_noise(heights, cells, blocks)] = np.nan
     progress(0.2)
     ground = heights.copy()
-    objects = raised_objects(
-        heights,
-        cells.size,
-        parameters.height_thresholds,
-        parameters.max_object_size,
-        progress.part(0.2, 0.5),
+    ground[_tall_objects(heights, blocks, parameters, progress.part(0.2, 0.5))] = np.nan
+    ground = _without_low_objects(
+        ground, heights, cells.size, parameters, progress.part(0.5, 0.8)
     )
-    ground[objects] = np.nan
-    _cut_low_objects(ground, heights, cells.size, parameters, progress.part(0.5, 0.8))
-    return _near_surface(points, cells, inpaint(ground, _RELAXATIONS), parameters, progress)
+    surface = inpaint(ground, _RELAXATIONS)
+    return _near_surface(points, cells, surface, parameters, progress.part(0.8, 1.0))
+
+
+class _Blocks(NamedTuple):
+    """Square blocks of cells, anchored at (0, 0) of the points' frame.
+
+    Attributes
+    ----------
+    size : float
+        Side of a block in metres.
+    side : int
+        Side of a block in cells.
+    first : tuple of int
+        Row and column of the first cell within its block.
+    """
+
+    size: float
+    side: int
+    first: tuple[int, int]
+
+    @classmethod
+    def over(cls, cells: Cells, size: float, least: int = 2) -> _Blocks:
+        """Return blocks of about a size in metres, at least some cells wide."""
+        side = max(round(size / cells.size), least)
+        return cls(side * cells.size, side, (cells.first_row % side, cells.first_column % side))
+
+    def lowest(self, heights: np.ndarray) -> np.ndarray:
+        """Return the lowest height in each block; NaN where there is none."""
+        rows, columns = (
+            -(-(first + count) // self.side) for first, count in zip(self.first, heights.shape)
+        )
+        padded = np.full((rows * self.side, columns * self.side), np.inf)
+        padded[self._cells(heights.shape)] = np.where(np.isnan(heights), np.inf, heights)
+        lowest = padded.reshape(rows, self.side, columns, self.side).min(axis=(1, 3))
+        lowest[np.isinf(lowest)] = np.nan
+        return lowest
+
+    def repeated(self, values: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
+        """Return the value of its block for each cell of a grid of some shape."""
+        repeated = np.repeat(np.repeat(values, self.side, axis=0), self.side, axis=1)
+        return repeated[self._cells(shape)]
+
+    def interpolated(self, values: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
+        """Return values of blocks, interpolated to each cell of a grid of some shape."""
+        reach = tuple(first + count for first, count in zip(self.first, shape))
+        return between_blocks(values, self.side, reach)[self._cells(shape)]
+
+    def _cells(self, shape: tuple[int, int]) -> tuple[slice, ...]:
+        return tuple(slice(first, first + count) for first, count in zip(self.first, shape))
 
 
 def _cells(points: Points, size: float, progress: Progress) -> Cells:
@@ -166,49 +211,60 @@ def _density(points: Points, size: float) -> float:
     return float(np.median(usual)) / blocks.size**2
 
 
-def _below_neighbourhood(heights: np.ndarray, size: float) -> np.ndarray:
-    """Return the cells far below the usual lowest points of the blocks round them.
+def _noise(heights: np.ndarray, cells: Cells, blocks: _Blocks) -> np.ndarray:
+    """Return the cells of narrow pits that lie far below the usual lowest points around.
 
-    A gap in the canopy, a yard or a street between roofs is a pit too, but has others as low
-    beside it; noise has not.
+    A gap in the canopy, a yard or a street between roofs is a pit too, but others as low are
+    near; noise stands alone.
     """
-    block = max(math.ceil(_NOISE_WIDTH / size), 1)
-    rows, columns = (-(-side // block) for side in heights.shape)
-    filled = np.full((rows * block, columns * block), np.inf)
-    filled[: heights.shape[0], : heights.shape[1]] = np.where(np.isnan(heights), np.inf, heights)
-    lowest = filled.reshape(rows, block, columns, block).min(axis=(1, 3))
-    lowest[np.isinf(lowest)] = np.nan
-    usual = ndimage.median_filter(inpaint(lowest), 5, mode="nearest")
-    usual = np.repeat(np.repeat(usual, block, axis=0), block, axis=1)
-    return heights < usual[: heights.shape[0], : heights.shape[1]] - _NOISE_DEPTH
+    lowest = blocks.lowest(heights)
+    pits = Relief(lowest, blocks.size, covered(np.isfinite(lowest)))
+    pits = pits.regions(_NOISE_DEPTH).sunken(_NOISE_WIDTH)
+    around = _Blocks.over(cells, _NOISE_WIDTH)
+    usual = ndimage.median_filter(inpaint(around.lowest(heights)), 5, mode="nearest")
+    below = heights < around.interpolated(usual, heights.shape) - _NOISE_DEPTH
+    return below & blocks.repeated(pits, heights.shape)
 
 
-def _cut_low_objects(
+def _tall_objects(
+    heights: np.ndarray, blocks: _Blocks, parameters: GridMinimum, progress: Progress
+) -> np.ndarray:
+    """Return the cells of what the passes of the height thresholds find.
+
+    They look at the lowest points of blocks, so that the gaps of a tree's crown and points
+    half-way down a wall hide no rim; single cells far above the ground of their block go as well.
+    """
+    lowest = blocks.lowest(heights)
+    thresholds, size = parameters.height_thresholds, blocks.size
+    objects = raised_objects(lowest, size, thresholds, parameters.max_object_size, progress)
+    surface = inpaint(np.where(objects, np.nan, lowest), _RELAXATIONS)
+    highest = surface + min(thresholds) + size * _slope(surface, size)
+    above = heights > blocks.interpolated(highest, heights.shape)
+    return above | blocks.repeated(objects, heights.shape)
+
+
+def _without_low_objects(
     ground: np.ndarray,
     heights: np.ndarray,
     size: float,
     parameters: GridMinimum,
     progress: Progress,
-) -> None:
-    """Set the cells of `ground` to NaN that are no ground.
+) -> np.ndarray:
+    """Return the heights of the ground, NaN elsewhere.
 
-    Noise first, then what stands out by the final height, with the rims that are left of larger
-    objects; of these cells those that are level with the rest grow back from `heights`.
+    What stands out by the final height is cut out, with the rims that are left of larger objects;
+    of these cells those that are level with the rest grow back.
     """
     inside = covered(np.isfinite(heights))
     for done in range(_FINAL_PASSES):
         relief = Relief(ground, size, inside)
-        if not done and parameters.height_thresholds:
-            sunken = relief.regions(min(parameters.height_thresholds)).sunken(_NOISE_WIDTH)
-            noise = sunken & _below_neighbourhood(ground, size)
-            ground[noise] = heights[noise] = np.nan
         low = relief.regions(parameters.final_height).raised(parameters.max_object_size)
         ground[low | relief.rims(parameters.final_height, _RIM_ROUGHNESS)] = np.nan
         progress((done + 1) / (_FINAL_PASSES + 1))
     relief = Relief(ground, size, inside)
     kept = relief.regrown(np.isfinite(ground), heights, parameters.final_height)
-    np.copyto(ground, np.where(kept, heights, np.nan))
     progress(1.0)
+    return np.where(kept, heights, np.nan)
 
 
 def _near_surface(

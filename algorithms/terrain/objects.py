@@ -17,6 +17,9 @@ from .inpaint import inpaint
 
 # East, north and the two diagonals: with their opposites, the eight neighbours of a cell.
 _DIRECTIONS = ((0, 1), (1, 0), (1, 1), (1, -1))
+# Distance in metres at which heights are compared, unless cells are larger: over less a wall hit
+# half-way up, or a gap filled between roof and ground, makes a staircase of low steps.
+_STEP = 1.0
 # Side in metres of the blocks whose median slope is the trend of the terrain.
 _TREND_BLOCK = 15.0
 # Differences of a block that suffice for its median, along each axis.
@@ -91,6 +94,31 @@ def covered(known: np.ndarray, reach: int = 4) -> np.ndarray:
     return closed[reach : reach + known.shape[0], reach : reach + known.shape[1]].astype(bool)
 
 
+def between_blocks(values: np.ndarray, block: int, shape: tuple[int, int]) -> np.ndarray:
+    """Interpolate values at the middles of blocks bilinearly to cells.
+
+    Parameters
+    ----------
+    values : numpy.ndarray of float, shape (block rows, block columns)
+        A value of each block.
+    block : int
+        Cells along the side of a block.
+    shape : tuple of int
+        Rows and columns of cells, from the first cell of the first block on.
+
+    Returns
+    -------
+    numpy.ndarray of float, shape `shape`
+    """
+    for count in shape:
+        place = np.clip((np.arange(count) + 0.5) / block - 0.5, 0.0, len(values) - 1.0)
+        first = np.minimum(place.astype(int), max(len(values) - 2, 0))
+        weight = (place - first).astype(values.dtype)[:, None]
+        second = np.minimum(first + 1, len(values) - 1)
+        values = (values[first] * (1 - weight) + values[second] * weight).T
+    return values
+
+
 class Relief:
     """The steps of a height grid, as against what the trend of the terrain explains.
 
@@ -107,12 +135,12 @@ class Relief:
     def __init__(self, heights: np.ndarray, size: float, inside: np.ndarray) -> None:
         surface = inpaint(heights, _RELAXATIONS).astype(np.float32)
         north, east, roughness = _trend(surface, size)
-        self._size = size
+        self._size, self._step = size, max(round(_STEP / size), 1)
         # A frame without height ends each row, so that neighbours are an offset apart.
-        self._inside = np.pad(inside, 1)
-        self._heights = np.pad(surface, 1, constant_values=np.nan).ravel()
+        self._inside = np.pad(inside, self._step)
+        self._heights = np.pad(surface, self._step, constant_values=np.nan).ravel()
         self._north, self._east, self._slope, self._roughness = (
-            np.pad(np.float32(size) * each, 1).ravel()
+            np.pad(np.float32(size) * each, self._step).ravel()
             for each in (north, east, np.hypot(north, east), roughness)
         )
 
@@ -131,7 +159,7 @@ class Relief:
         -------
         numpy.ndarray of bool, shape (rows, columns)
         """
-        return self._rims(self._steps(threshold, roughness_factor))[1:-1, 1:-1]
+        return self._unframed(self._rims(self._steps(threshold, roughness_factor)))
 
     def regions(self, threshold: float) -> Regions:
         """Return the regions between the rims of a threshold in metres (see `rims`).
@@ -152,7 +180,8 @@ class Relief:
         own, more = ndimage.label(rest.reshape(rim.shape), np.ones((3, 3)))
         flat[cells] = own.ravel()[cells] + count
         count += more + 1
-        return Regions(regions[1:-1, 1:-1], count, self._size, self._border(flat, count, steps))
+        border = self._border(flat, count, steps)
+        return Regions(self._unframed(regions), border, self._size, self._step)
 
     def regrown(self, kept: np.ndarray, heights: np.ndarray, threshold: float) -> np.ndarray:
         """Return `kept` and the cells next to it that are level with it, step by step.
@@ -170,8 +199,8 @@ class Relief:
         -------
         numpy.ndarray of bool, shape (rows, columns)
         """
-        kept, grid = np.pad(kept, 1).ravel(), np.pad(heights, 1, constant_values=np.nan)
-        grid = grid.astype(np.float32).ravel()
+        kept = np.pad(kept, self._step).ravel()
+        grid = np.pad(heights.astype(np.float32), self._step, constant_values=np.nan).ravel()
         cells = np.flatnonzero(np.isfinite(grid) & ~kept)
         for _ in range(_GROWING_PASSES):
             rises, count = np.zeros(len(cells), np.float32), np.zeros(len(cells), np.float32)
@@ -186,21 +215,23 @@ class Relief:
             level = (count > 0) & (np.abs(rises) <= allowed * count)
             kept[cells[level]] = True
             cells = cells[~level]
-        return kept.reshape(self._inside.shape)[1:-1, 1:-1]
+        return self._unframed(kept.reshape(self._inside.shape))
+
+    def _unframed(self, grid: np.ndarray) -> np.ndarray:
+        return grid[self._step : -self._step, self._step : -self._step]
 
     def _steps(self, threshold: float, roughness_factor: float = 1.0) -> list[_Steps]:
         """Return the steps to the neighbours in four directions."""
         allowance = self._slope + np.float32(roughness_factor) * self._roughness
         steps = []
         for row, column in _DIRECTIONS:
+            row, column = row * self._step, column * self._step
             offset, length = row * self._inside.shape[1] + column, np.float32(np.hypot(row, column))
             rise = self._heights[offset:] - self._heights[:-offset]
             if row:
-                rise -= self._north[:-offset]
-            if column > 0:
-                rise -= self._east[:-offset]
-            elif column < 0:
-                rise += self._east[:-offset]
+                rise -= np.float32(row) * self._north[:-offset]
+            if column:
+                rise -= np.float32(column) * self._east[:-offset]
             allowed = length * allowance[:-offset] + np.float32(threshold)
             sign = (rise > allowed).view(np.int8) - (rise < -allowed).view(np.int8)
             steps.append(_Steps(row, column, offset, sign))
@@ -256,10 +287,11 @@ class Regions:
         Width (shorter side) of each region in metres.
     """
 
-    def __init__(self, number: np.ndarray, count: int, size: float, border: _Border) -> None:
+    def __init__(self, number: np.ndarray, border: _Border, size: float, step: int) -> None:
         self.number = number
         self._border = border
-        self.width = border.width(np.bincount(number.ravel(), minlength=count)) * size
+        area = np.bincount(number.ravel(), minlength=border.count)
+        self.width = _shorter_side(area, border.length() / step) * size
 
     def raised(self, max_size: float) -> np.ndarray:
         """Return the cells of the regions whose border is mostly a drop.
@@ -334,15 +366,11 @@ class _Border(NamedTuple):
     sign: np.ndarray
     rise: np.ndarray
 
-    def width(self, area: np.ndarray) -> np.ndarray:
-        """Return the shorter side, in cells, of the rectangle with each region's area and border.
-
-        The square's where the region is rounder than any rectangle.
-        """
+    def length(self) -> np.ndarray:
+        """Return the length of each region's border in cells, if neighbours are one apart."""
+        all_ = np.ones(len(self.sign), dtype=bool)
         # Each cell of a straight border has three neighbours beyond it.
-        quarter = self._total(np.ones(len(self.sign), bool), np.ones(len(self.sign), bool)) / 12.0
-        rest = quarter**2 - area
-        return np.where(rest < 0, np.sqrt(area), quarter - np.sqrt(np.maximum(rest, 0.0)))
+        return self._total(all_, all_) / 3.0
 
     def drops(
         self, removed: np.ndarray, sign: int = 1
@@ -381,6 +409,13 @@ class _Border(NamedTuple):
         )
 
 
+def _shorter_side(area: np.ndarray, perimeter: np.ndarray) -> np.ndarray:
+    """Return the shorter side of rectangles; the square's for what is rounder than any."""
+    quarter = perimeter / 4.0
+    rest = quarter**2 - area
+    return np.where(rest < 0, np.sqrt(area), quarter - np.sqrt(np.maximum(rest, 0.0)))
+
+
 def _trend(heights: np.ndarray, size: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return the terrain's slope towards north and east and its unevenness, at each cell.
 
@@ -397,8 +432,10 @@ def _trend(heights: np.ndarray, size: float) -> tuple[np.ndarray, np.ndarray, np
         blocks = _sampled_blocks(np.diff(heights, axis=axis) / heights.dtype.type(size), block)
         slope = np.median(blocks, axis=2)
         departure = np.median(np.abs(blocks - slope[..., None]), axis=2)
-        slopes.append(_cells_of(slope, block, heights.shape))
-        roughness += _cells_of(departure, block, heights.shape) / 2
+        for each in (slope, departure):
+            ndimage.median_filter(each, 3, mode="nearest", output=each)
+        slopes.append(between_blocks(slope, block, heights.shape))
+        roughness += between_blocks(departure, block, heights.shape) / 2
     return slopes[0], slopes[1], roughness
 
 
@@ -410,17 +447,3 @@ def _sampled_blocks(grid: np.ndarray, block: int) -> np.ndarray:
     step = max(block // _TREND_SAMPLES, 1)
     blocks = padded.reshape(rows, block, columns, block)[:, ::step, :, ::step]
     return blocks.transpose(0, 2, 1, 3).reshape(rows, columns, -1)
-
-
-def _cells_of(blocks: np.ndarray, block: int, shape: tuple[int, int]) -> np.ndarray:
-    """Interpolate values of blocks to cells, after a median of 3 x 3 blocks."""
-    blocks = ndimage.median_filter(blocks, 3, mode="nearest")
-    return _between(_between(blocks, block, shape[0]).T, block, shape[1]).T
-
-
-def _between(values: np.ndarray, block: int, count: int) -> np.ndarray:
-    """Interpolate values at the middles of blocks linearly to `count` cells on the first axis."""
-    place = np.clip((np.arange(count) + 0.5) / block - 0.5, 0.0, len(values) - 1.0)
-    first = np.minimum(place.astype(int), max(len(values) - 2, 0))
-    weight = (place - first).astype(values.dtype)[:, None]
-    return values[first] * (1 - weight) + values[np.minimum(first + 1, len(values) - 1)] * weight
