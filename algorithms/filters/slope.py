@@ -29,6 +29,9 @@ from ..terrain.morphology import erosion
 from ..terrain.neighbourhood import Neighbourhood
 from ..terrain.outliers import low_outliers
 
+# Radius and cells of the automatic preset in metres; they grow with the distance between points
+# where that is greater than this.
+_RADIUS, _CELL, _SPARSE = 18.0, 1.0, 2.5
 # Radii grow by this factor from scale to scale: the area of the disc doubles.
 _SCALE_STEP = math.sqrt(2.0)
 # Rise over run of the sides of a pit that holds low outliers, one cell wide or a few metres.
@@ -147,8 +150,8 @@ class SlopeFilter(ParameterSet):
             chosen = {"slope_threshold": 15.0, "height_threshold": 0.5}
             if self.search_radius is None or self.cell_size is None:
                 spacing = _spacing(points)
-                chosen["search_radius"] = max(18.0, round(4.0 * spacing, 1))
-                chosen["cell_size"] = max(1.0, round(0.4 * spacing, 1))
+                chosen["search_radius"] = max(_RADIUS, round(_RADIUS * spacing / _SPARSE, 1))
+                chosen["cell_size"] = max(_CELL, round(_CELL * spacing / _SPARSE, 1))
         empty = {name: value for name, value in chosen.items() if getattr(self, name) is None}
         return dataclasses.replace(self, **empty)
 
@@ -201,6 +204,9 @@ def _in_words(parameters: SlopeFilter) -> str:
 
 def _spacing(points: Points) -> float:
     """Return the mean distance between points in metres, gaps in the survey left out."""
+    area = float(np.ptp(points.x)) * float(np.ptp(points.y))
+    if area <= _SPARSE**2 * points.count:
+        return math.sqrt(area / points.count)  # gaps could only make it smaller
     cells = Cells.over(points, 10.0)
     return math.sqrt(np.count_nonzero(cells.occupied) * cells.size**2 / points.count)
 
@@ -295,12 +301,30 @@ def _near_surface(
     """Return which points lie close to a surface given at the centres of the cells."""
     slope = np.hypot(*_gradient(surface, cells.size))
     tolerance = parameters.height_threshold + parameters.slope_tolerance * slope
-    below, above = surface - tolerance, surface + tolerance
+    below, above = (
+        np.pad(grid, 1, mode="edge").ravel() for grid in (surface - tolerance, surface + tolerance)
+    )
+    width = cells.columns + 2
     ground = np.empty(points.count, dtype=bool)
     for first in range(0, points.count, _POINTS_A_STEP):
         part = slice(first, first + _POINTS_A_STEP)
-        x, y, z = points.x[part], points.y[part], points.z[part]
-        ground[part] = (z >= cells.at(below, x, y)) & (z <= cells.at(above, x, y))
+        row = points.y[part] / cells.size - (cells.first_row - 0.5)
+        column = points.x[part] / cells.size - (cells.first_column - 0.5)
+        corner = row.astype(np.intp) * width + column.astype(np.intp)
+        north, east = row % 1.0, column % 1.0
+        z = points.z[part]
+        ground[part] = z >= _bilinear(below, corner, width, north, east)
+        ground[part] &= z <= _bilinear(above, corner, width, north, east)
         progress(first / points.count)
     progress(1.0)
     return ground
+
+
+def _bilinear(
+    grid: np.ndarray, corner: np.ndarray, width: int, north: np.ndarray, east: np.ndarray
+) -> np.ndarray:
+    """Interpolate between four cells of a flattened grid, `corner` being the southwestern one."""
+    south_side = grid[corner] * (1.0 - east) + grid[corner + 1] * east
+    corner = corner + width
+    north_side = grid[corner] * (1.0 - east) + grid[corner + 1] * east
+    return south_side * (1.0 - north) + north_side * north
