@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy import ndimage
 
+from ..errors import BareEarthError
 from ..parameters import ParameterSet, parameter
 from ..points import Points
 from ..progress import SILENT, Progress
@@ -24,8 +25,8 @@ from ..terrain.objects import Relief, between_blocks, covered, raised_objects
 
 # Points that a cell should hold on average: with fewer, gaps break the rims.
 _POINTS_PER_CELL = 1.0
-# Points in the blocks that the density is counted in.
-_POINTS_PER_BLOCK = 50.0
+# Least side in metres of the blocks that the density is counted in.
+_DENSITY_BLOCK = 10.0
 # Side in metres of the blocks of cells, two at least, that tall objects are looked for in.
 _BLOCK = 1.0
 _FINAL_PASSES = 2
@@ -49,8 +50,8 @@ class GridMinimum(ParameterSet):
         unit="m",
         minimum=0.01,
         maximum=100.0,
-        help="Side of the square cells whose lowest points are compared. 0.5 m suits 4 points/m2"
-        " and more; for fewer it is enlarged until a cell holds one point on average.",
+        help="Side of the square cells whose lowest points are compared. 0.5 m suits 7 to 9"
+        " points/m2. Where a cell would hold less than a point, a multiple is taken instead.",
     )
     height_thresholds: tuple[float, ...] = parameter(
         (5.0, 4.5, 2.0),
@@ -58,8 +59,8 @@ class GridMinimum(ParameterSet):
         unit="m",
         minimum=0.05,
         maximum=1000.0,
-        help="One pass for each, the tallest objects first: of two neighbouring cells that differ"
-        " by more, the higher is the rim of an object.",
+        help="One pass for each, from the largest: of two neighbouring cells that differ by more,"
+        " the higher is the rim of an object.",
     )
     final_height: float = parameter(
         0.3,
@@ -96,20 +97,29 @@ class GridMinimum(ParameterSet):
         help="Share of the ground's rise over one cell that is added to the ground tolerance.",
     )
 
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        heights = self.height_thresholds
+        if not heights or any(low > high for high, low in zip(heights, heights[1:])):
+            given = ", ".join(f"{each:g}" for each in heights) or "nothing"
+            raise BareEarthError(
+                f"Height thresholds must be a list from the largest to the smallest, not {given}."
+            )
+
 
 def classify(points: Points, parameters: GridMinimum, progress: Progress = SILENT) -> np.ndarray:
     """Tell ground from other points.
 
-    Objects are cut out of the grid of lowest points, the tall first, then what is left of rims;
-    cells that are level with the ground beside them grow back; last, every point close to the
-    surface through the remaining cells is ground.
+    Noise is taken out of the grid of lowest points, then objects, the tall ones first and last
+    what is left of rims; cells that are level with the ground beside them grow back. Every point
+    close to the surface through the remaining cells is ground.
 
     Parameters
     ----------
     points : Points
         All points that take part.
     parameters : GridMinimum
-        Distances in metres.
+        Lengths in metres.
     progress : Progress
         Receives progress and messages.
 
@@ -133,9 +143,7 @@ def classify(points: Points, parameters: GridMinimum, progress: Progress = SILEN
     progress(0.2)
     ground = heights.copy()
     ground[_tall_objects(heights, blocks, parameters, progress.part(0.2, 0.5))] = np.nan
-    ground = _without_low_objects(
-        ground, heights, cells.size, parameters, progress.part(0.5, 0.8)
-    )
+    ground = _without_low_objects(ground, heights, cells.size, parameters, progress.part(0.5, 0.8))
     surface = inpaint(ground, _RELAXATIONS)
     return _near_surface(points, cells, surface, parameters, progress.part(0.8, 1.0))
 
@@ -202,8 +210,7 @@ def _cells(points: Points, size: float, progress: Progress) -> Cells:
 
 def _density(points: Points, size: float) -> float:
     """Return the median number of points per square metre, of blocks within the survey."""
-    extent = max(np.ptp(points.x), np.ptp(points.y), size)
-    blocks = Cells.over(points, max(extent * math.sqrt(_POINTS_PER_BLOCK / points.count), size))
+    blocks = Cells.over(points, max(_DENSITY_BLOCK, 4.0 * size))
     counts = np.bincount(blocks.index, minlength=blocks.rows * blocks.columns)
     counts = counts.reshape(blocks.shape)
     within = ndimage.binary_erosion(counts > 0, np.ones((3, 3)))
@@ -286,7 +293,7 @@ def _near_surface(
     for start in range(0, points.count, _CHUNK):
         part = slice(start, start + _CHUNK)
         z = points.z[part].astype(np.float32)
-        lower, sure_lower, sure_upper, upper = bounds[cells.index[part]].T
+        lower, sure_lower, sure_upper, upper = np.take(bounds, cells.index[part], axis=0).T
         near = (z >= sure_lower) & (z <= sure_upper)
         open_ = np.flatnonzero(~near & (z >= lower) & (z <= upper))
         x, y = points.x[part][open_], points.y[part][open_]

@@ -28,14 +28,15 @@ _TREND_SAMPLES = 15
 _JOINING_PASSES = 2
 # Passes in which cells that are level with the ground grow back.
 _GROWING_PASSES = 4
-# Share of a region's border, as far as it is known, that must be a drop; or a rise, of a pit.
-_OBJECT_SHARE = 0.65
+# Share of a pit's border that must be a rise.
 _PIT_SHARE = 0.9
-# Share of the whole border that must be a drop, what is unknown beyond the survey included.
-_LEAST_SHARE = 0.3
+# Share of an object's border that must be a drop: as far as it is known, and of the whole with
+# what lies beyond the survey.
+_OBJECT_SHARE = 0.65
+_LEAST_SHARE = 0.4
 # Mean height of the drop over the width of the region: what is lower and wider is terrain.
 _LEAST_STEEPNESS = 0.15
-# Rounds in which what an object hid, a roof within a roof, is looked at again.
+# Rounds in which what others hid is looked at again.
 _ROUNDS = 3
 # Relaxations of the surface across gaps; what bounds objects is their rim, not the filling.
 _RELAXATIONS = 2
@@ -305,25 +306,46 @@ class Regions:
         -------
         numpy.ndarray of bool, shape (rows, columns)
         """
-        fits = self.width <= max_size
-        fits[0] = False
-        removed = np.zeros(len(fits), dtype=bool)
-        for _ in range(_ROUNDS):
-            drops, known, pairs, height = self._border.drops(removed)
-            new = fits & ~removed & (drops > 0) & (height >= _LEAST_STEEPNESS * self.width)
-            new &= (drops >= _OBJECT_SHARE * known) & (drops > _LEAST_SHARE * pairs)
-            if not new.any():
-                break
-            removed |= new
-        return removed[self.number]
+        return self._bounded(max_size, 1, _OBJECT_SHARE, _LEAST_SHARE, _LEAST_STEEPNESS)
 
     def sunken(self, max_size: float) -> np.ndarray:
-        """Return the cells of the regions whose border is a rise nearly all round: of pits."""
-        rises, known, pairs, _ = self._border.drops(np.zeros(len(self.width), bool), sign=-1)
-        pits = (rises > 0) & (rises >= _PIT_SHARE * known) & (rises > _LEAST_SHARE * pairs)
-        pits &= self.width <= max_size
-        pits[0] = False
-        return pits[self.number]
+        """Return the cells of the regions whose border is a rise nearly all round: of pits.
+
+        Parameters
+        ----------
+        max_size : float
+            Largest width in metres.
+
+        Returns
+        -------
+        numpy.ndarray of bool, shape (rows, columns)
+        """
+        return self._bounded(max_size, -1, _PIT_SHARE, _PIT_SHARE, 0.0)
+
+    def _bounded(
+        self,
+        max_size: float,
+        sign: int,
+        share: float,
+        least_share: float,
+        least_steepness: float,
+    ) -> np.ndarray:
+        """Return the cells of regions bounded by drops (1) or rises (-1).
+
+        What one round finds is the unknown to the next, which sees what it hid: a roof below a
+        tower, a pit within a pit.
+        """
+        fits = self.width <= max_size
+        fits[0] = False
+        found = np.zeros(len(fits), dtype=bool)
+        for _ in range(_ROUNDS):
+            drops, known, pairs, height = self._border.drops(found, sign)
+            new = fits & ~found & (drops > 0) & (height >= least_steepness * self.width)
+            new &= (drops >= share * known) & (drops > least_share * pairs)
+            if not new.any():
+                break
+            found |= new
+        return found[self.number]
 
 
 class _Steps(NamedTuple):
@@ -380,20 +402,20 @@ class _Border(NamedTuple):
         Parameters
         ----------
         removed : numpy.ndarray of bool, shape (count,)
-            Regions that are objects already: the ground below them is not known.
+            Regions that do not count as neighbours.
         sign : int
             -1 to sum up where it rises instead.
 
         Returns
         -------
         drops, known, pairs : numpy.ndarray of int, shape (count,)
-            Pairs of cells where the region drops; where the neighbour is known; and all.
+            Pairs of cells where the region drops; of these and others, where the neighbour is
+            known; and all.
         height : numpy.ndarray of float, shape (count,)
             Mean height of the drops in metres.
         """
-        gone_first, gone_second = removed[self.first], removed[self.second]
-        known = (self.first > 0) & (self.second > 0) & ~gone_first & ~gone_second
-        pairs = ~(gone_first & gone_second)
+        pairs = ~(removed[self.first] | removed[self.second])
+        known = pairs & (self.first > 0) & (self.second > 0)
         down, up = known & (self.sign == -sign), known & (self.sign == sign)
         drops = self._total(down, up)
         height = self._total(down, up, np.abs(self.rise)) / np.maximum(drops, 1)
