@@ -219,17 +219,20 @@ def _density(points: Points, size: float) -> float:
 
 
 def _noise(heights: np.ndarray, cells: Cells, blocks: _Blocks) -> np.ndarray:
-    """Return the cells of narrow pits that lie far below the usual lowest points around.
+    """Return the cells of narrow pits far below the usual lowest points around.
 
-    A gap in the canopy, a yard or a street between roofs is a pit too, but others as low are
-    near; noise stands alone.
+    A gap in the canopy, a yard or a street between roofs is a pit too, but has others as low near
+    it; noise stands alone.
     """
-    lowest = blocks.lowest(heights)
-    pits = Relief(lowest, blocks.size, covered(np.isfinite(lowest)))
-    pits = pits.regions(_NOISE_DEPTH).sunken(_NOISE_WIDTH)
     around = _Blocks.over(cells, _NOISE_WIDTH)
     usual = ndimage.median_filter(inpaint(around.lowest(heights)), 5, mode="nearest")
     below = heights < around.interpolated(usual, heights.shape) - _NOISE_DEPTH
+    if not below.any():
+        return below
+    lowest = blocks.lowest(heights)
+    candidates = np.isfinite(blocks.lowest(np.where(below, heights, np.nan)))
+    relief = Relief(lowest, blocks.size, covered(np.isfinite(lowest)))
+    pits = relief.pits(candidates, _NOISE_DEPTH, _NOISE_WIDTH)
     return below & blocks.repeated(pits, heights.shape)
 
 

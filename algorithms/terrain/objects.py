@@ -184,6 +184,28 @@ class Relief:
         border = self._border(flat, count, steps)
         return Regions(self._unframed(regions), border, self._size, self._step)
 
+    def pits(self, candidates: np.ndarray, threshold: float, max_size: float) -> np.ndarray:
+        """Return the cells of patches that lie below what is round them on all sides.
+
+        Parameters
+        ----------
+        candidates : numpy.ndarray of bool, shape (rows, columns)
+            Cells that may be a pit; those that touch are one patch, however uneven.
+        threshold : float
+            Least height in metres of the rise round it (see `rims`).
+        max_size : float
+            Largest width (shorter side) of a pit, in metres.
+
+        Returns
+        -------
+        numpy.ndarray of bool, shape (rows, columns)
+        """
+        patches, count = ndimage.label(np.pad(candidates, self._step), np.ones((3, 3)))
+        patches[(patches == 0) & self._inside] = count + 1
+        border = self._border(patches.ravel(), count + 2, self._steps(threshold))
+        patches = Regions(self._unframed(patches), border, self._size, self._step)
+        return patches.sunken(max_size) & candidates
+
     def regrown(self, kept: np.ndarray, heights: np.ndarray, threshold: float) -> np.ndarray:
         """Return `kept` and the cells next to it that are level with it, step by step.
 

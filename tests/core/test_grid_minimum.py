@@ -1,0 +1,175 @@
+"""The minimum-Z grid filter on scenes with known truth, and on the labelled samples."""
+
+import numpy as np
+import pytest
+from scenes import error, scatter, surveyed, village
+
+from bare_earth.algorithms.assessment import compare
+from bare_earth.algorithms.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.filters.grid_minimum import GridMinimum, classify
+from bare_earth.algorithms.points import Points
+from bare_earth.algorithms.progress import Progress
+from benchmarks import data
+
+
+class Log(Progress):
+    def __init__(self):
+        self.texts = []
+
+    def info(self, text):
+        self.texts.append(text)
+
+
+def flat(density: float = 8.0, size: float = 80.0) -> Points:
+    x, y = scatter(size, density)
+    return Points(x, y, surveyed(x, y, np.full(len(x), 20.0)))
+
+
+@pytest.mark.parametrize("density", [1.0, 4.0, 8.0, 20.0])
+@pytest.mark.parametrize("slope", [0.0, 0.3])
+def test_houses_trees_and_low_noise_are_told_from_the_slope_they_stand_on(density, slope):
+    points, truth = village(slope, density=density)
+    found = classify(points, GridMinimum())
+    assert error(found, truth) < 3.0
+    assert not found[points.z > 112.0 + 80.0 * slope].any()
+    assert not found[points.z < 95.0].any()
+
+
+@pytest.mark.parametrize("width", [4.0, 12.0, 30.0])
+def test_a_roof_goes_with_the_rim_that_bounds_it(width):
+    points = flat()
+    roof = (np.abs(points.x - 40.0) < width / 2) & (np.abs(points.y - 40.0) < width / 2)
+    points.z[roof] += 7.0
+    found = classify(points, GridMinimum())
+    assert not found[roof].any()
+    assert found[~roof].mean() > 0.99
+
+
+def test_hills_and_plain_slopes_are_all_ground():
+    x, y = scatter(density=8.0)
+    hill = 12.0 * np.exp(-((x - 40.0) ** 2 + (y - 40.0) ** 2) / 300.0)
+    assert classify(Points(x, y, surveyed(x, y, hill)), GridMinimum()).mean() > 0.99
+    assert classify(Points(x, y, surveyed(x, y, 0.7 * x)), GridMinimum()).mean() > 0.99
+
+
+def test_a_terrace_above_a_wall_is_ground():
+    x, y = scatter(density=8.0)
+    points = Points(x, y, surveyed(x, y, np.where(x > 40.0, 3.0, 0.0)))
+    assert classify(points, GridMinimum()).mean() > 0.97
+
+
+def test_bushes_above_the_final_height_are_removed():
+    points = flat()
+    bushes = np.zeros(points.count, dtype=bool)
+    for east, north in ((20.0, 20.0), (50.0, 30.0), (30.0, 60.0)):
+        bushes |= np.hypot(points.x - east, points.y - north) < 2.0
+    points.z[bushes] += 0.9
+    assert not classify(points, GridMinimum())[bushes].any()
+    kept = classify(points, GridMinimum(final_height=2.0, ground_tolerance=1.0))
+    assert kept[bushes].mean() > 0.9
+
+
+def test_a_smaller_final_height_never_adds_ground():
+    points, _ = village(slope=0.2)
+    least = classify(points, GridMinimum(final_height=0.2))
+    most = classify(points, GridMinimum(final_height=1.0))
+    assert least.sum() <= most.sum()
+
+
+@pytest.mark.parametrize("radius", [0.6, 2.0, 3.5])
+def test_a_cluster_of_low_noise_does_not_pull_the_ground_down(radius):
+    points = flat()
+    near = np.hypot(points.x - 40.0, points.y - 40.0) < radius
+    low = near & (np.random.default_rng(6).random(points.count) < 0.5)
+    points.z[low] -= np.random.default_rng(7).uniform(5.0, 20.0, int(low.sum()))
+    found = classify(points, GridMinimum())
+    assert not found[low].any()
+    assert found[~low].mean() > 0.99
+
+
+def test_gaps_in_the_canopy_are_ground_and_not_noise():
+    points = flat(density=12.0)
+    random = np.random.default_rng(8)
+    crown = random.random(points.count) < 0.85
+    points.z[crown] += random.uniform(3.0, 20.0, int(crown.sum()))
+    found = classify(points, GridMinimum())
+    assert not found[crown].any()
+    assert found[~crown].mean() > 0.97
+
+
+@pytest.mark.parametrize("density, cell", [(0.2, "2 m"), (1.0, "1 m")])
+def test_cells_grow_with_the_distance_of_the_points_and_the_log_tells(density, cell):
+    size = 80.0 if density == 1.0 else 250.0
+    points = flat(density, size)
+    roof = (np.abs(points.x - 40.0) < 15.0) & (np.abs(points.y - 40.0) < 15.0)
+    points.z[roof] += 7.0
+    log = Log()
+    found = classify(points, GridMinimum(), log)
+    assert len(log.texts) == 1
+    assert f"Cells of {cell} are used" in log.texts[0]
+    assert error(found, ~roof) < 1.0
+
+
+def test_cells_stay_as_wanted_where_points_are_dense_enough_even_in_part_of_the_rectangle():
+    points = flat(7.0)
+    log = Log()
+    classify(points.take(np.abs(points.x - points.y) < 15.0), GridMinimum(), log)
+    assert not log.texts
+
+
+def test_the_order_and_the_place_of_the_points_do_not_matter():
+    points, _ = village()
+    mixed = np.random.default_rng(2).permutation(points.count)
+    found = classify(points, GridMinimum())
+    assert np.array_equal(classify(points.take(mixed), GridMinimum()), found[mixed])
+    moved = Points(points.x + 128.0, points.y - 64.0, points.z + 256.0)
+    assert np.mean(classify(moved, GridMinimum()) != found) < 1e-3
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 10])
+def test_a_handful_of_points_is_classified_without_an_error(count):
+    line = np.arange(count, dtype=float)
+    points = Points(3.0 * line, 2.0 * line, 0.1 * line)
+    assert classify(points, GridMinimum()).all()
+    together = Points(np.ones(count), np.ones(count), np.ones(count))
+    assert classify(together, GridMinimum()).all()
+
+
+@pytest.mark.parametrize("heights", [(), (2.0, 5.0), (5.0, -1.0), ("five",), 5.0])
+def test_height_thresholds_must_be_a_descending_list_of_heights(heights):
+    with pytest.raises(BareEarthError, match="Height thresholds must be"):
+        GridMinimum(height_thresholds=heights)
+
+
+def test_one_height_threshold_is_a_list_too():
+    points, truth = village()
+    assert GridMinimum(height_thresholds=[3]).height_thresholds == (3.0,)
+    assert error(classify(points, GridMinimum(height_thresholds=[3])), truth) < 4.0
+
+
+def test_stray_coordinates_are_refused_with_a_sentence():
+    points = Points(np.array([0.0, 1e9]), np.array([0.0, 1.0]), np.zeros(2))
+    many = Points(*(np.concatenate((each, np.zeros(50000))) for each in points))
+    with pytest.raises(BareEarthError, match="stray coordinates"):
+        classify(many, GridMinimum(cell_size=0.01))
+
+
+def test_a_cancel_ends_the_classification():
+    class Stop(Progress):
+        def report(self, fraction):
+            if fraction > 0.3:
+                raise Cancelled
+
+    with pytest.raises(Cancelled):
+        classify(village()[0], GridMinimum(), Stop())
+
+
+@pytest.mark.skipif(not data.isprs(), reason="the ISPRS samples are not here")
+def test_the_isprs_samples_come_out_as_measured():
+    figures = []
+    for path in data.isprs():
+        cloud, reference = data.load(path)
+        points = cloud.points(np.arange(cloud.count))
+        figures.append(compare(classify(points, GridMinimum()), reference))
+    assert np.mean([each.total_error for each in figures]) <= 4.6
+    assert np.mean([each.kappa for each in figures]) >= 85.0

@@ -1,0 +1,143 @@
+"""Raised objects and their rims on grids with known truth."""
+
+import numpy as np
+import pytest
+
+from bare_earth.algorithms.terrain.objects import (
+    Relief,
+    between_blocks,
+    covered,
+    raised_objects,
+)
+
+
+def plain(side: int = 60, slope: float = 0.0) -> np.ndarray:
+    """Return a grid of 1 m cells that rises towards the east, with a little unevenness."""
+    noise = np.random.default_rng(3).normal(0.0, 0.02, (side, side))
+    return 100.0 + slope * np.arange(side) + noise
+
+
+def relief(heights: np.ndarray) -> Relief:
+    return Relief(heights, 1.0, covered(np.isfinite(heights)))
+
+
+@pytest.mark.parametrize("slope", [0.0, 0.5])
+def test_a_roof_inside_its_walls_is_an_object_and_nothing_else_is(slope):
+    heights = plain(slope=slope)
+    roof = np.zeros(heights.shape, dtype=bool)
+    roof[20:32, 25:45] = True
+    heights[roof] = heights[roof].mean() + 8.0
+    assert np.array_equal(raised_objects(heights, 1.0, (5.0, 4.5, 2.0), 40.0), roof)
+
+
+def test_a_house_with_a_tower_goes_as_a_whole():
+    heights = plain()
+    heights[20:32, 25:45] += 6.0
+    heights[24:28, 30:34] += 9.0
+    objects = raised_objects(heights, 1.0, (5.0, 2.0), 40.0)
+    assert objects.sum() == 12 * 20
+
+
+def test_a_hill_without_a_rim_is_kept():
+    east, north = np.meshgrid(np.arange(60) - 30.0, np.arange(60) - 30.0)
+    heights = plain() + 15.0 * np.exp(-(east**2 + north**2) / 200.0)
+    assert not raised_objects(heights, 1.0, (5.0, 2.0), 60.0).any()
+
+
+def test_a_terrace_is_kept_because_it_drops_on_one_side_only():
+    heights = plain()
+    heights[:, 30:] += 6.0
+    assert not raised_objects(heights, 1.0, (5.0, 2.0), 60.0).any()
+
+
+def test_what_is_wider_than_the_largest_size_is_terrain():
+    heights = plain()
+    heights[15:45, 15:45] += 8.0
+    assert raised_objects(heights, 1.0, (5.0,), 40.0).sum() == 900
+    assert not raised_objects(heights, 1.0, (5.0,), 20.0).any()
+
+
+def test_what_lies_beyond_the_survey_is_no_drop():
+    heights = plain()
+    heights[20:40, :10] += 8.0
+    heights[:, :2] = np.nan
+    objects = raised_objects(heights, 1.0, (5.0,), 40.0)
+    assert np.array_equal(np.argwhere(objects).min(axis=0), (20, 2))
+    assert objects.sum() == 20 * 8
+
+
+def test_gaps_in_the_grid_do_not_break_a_rim():
+    heights = plain()
+    roof = np.zeros(heights.shape, dtype=bool)
+    roof[20:32, 25:45] = True
+    heights[roof] += 8.0
+    heights[np.random.default_rng(4).random(heights.shape) < 0.2] = np.nan
+    objects = raised_objects(heights, 1.0, (5.0, 2.0), 40.0)
+    assert not objects[~roof].any()
+    assert objects[roof & np.isfinite(heights)].mean() > 0.95
+
+
+def test_a_pit_is_sunken_and_a_channel_that_leads_out_is_not():
+    heights = plain()
+    heights[10:14, 10:14] -= 9.0
+    heights[30:34, :40] -= 9.0
+    heights[30:34, 40:] -= np.linspace(9.0, 0.0, 20)
+    pits = relief(heights).regions(2.0).sunken(10.0)
+    assert pits[10:14, 10:14].all()
+    assert pits.sum() == 16
+
+
+def test_touching_candidates_are_one_pit_however_uneven():
+    heights = plain()
+    depths = np.random.default_rng(5).uniform(5.0, 20.0, (4, 4))
+    heights[10:14, 10:14] -= depths
+    heights[40:, 40:] -= 9.0
+    pits = relief(heights).pits(heights < 97.0, 2.0, 10.0)
+    assert pits[10:14, 10:14].all()
+    assert pits.sum() == 16
+
+
+def test_a_rim_is_the_higher_of_two_cells_that_differ_by_more_than_slope_and_threshold():
+    heights = plain(slope=0.5)
+    heights[:, 30:] += 2.0
+    rims = relief(heights).rims(1.0)
+    assert np.array_equal(np.flatnonzero(rims.all(axis=0)), [30])
+    assert rims.sum() == 60
+    assert not relief(heights).rims(3.0).any()
+
+
+def test_cells_level_with_the_ground_grow_back_and_others_do_not():
+    heights = plain()
+    heights[20:24, 20:24] += 1.5
+    kept = np.ones(heights.shape, dtype=bool)
+    kept[18:26, 18:26] = False
+    grown = relief(np.where(kept, heights, np.nan)).regrown(kept, heights, 0.3)
+    assert np.array_equal(np.argwhere(~grown), np.argwhere(heights > 101.0))
+
+
+def test_cells_finer_than_a_metre_find_the_same_object():
+    heights = plain(120)
+    heights[40:64, 50:90] += 8.0
+    heights[39, 50:90] += 4.0  # hits half-way up a wall
+    objects = raised_objects(heights, 0.5, (5.0, 2.0), 40.0)
+    assert objects[40:64, 50:90].all()
+    assert objects.sum() <= 25 * 40
+
+
+def test_only_small_gaps_count_as_covered():
+    known = np.zeros((40, 40), dtype=bool)
+    known[5:35, 5:35] = True
+    known[18:21, 18:21] = False
+    assert covered(known)[18:21, 18:21].all()
+    assert covered(known).sum() == 900
+
+
+def test_values_of_blocks_are_interpolated_between_their_middles():
+    cells = between_blocks(np.array([[0.0, 10.0], [0.0, 10.0]]), 5, (10, 10))
+    assert cells[0, 2] == 0.0 and cells[9, 7] == 10.0
+    assert np.allclose(cells[:, 4], 4.0)
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (1, 7), (7, 1), (2, 2)])
+def test_the_smallest_grids_have_no_objects(shape):
+    assert not raised_objects(np.zeros(shape), 1.0, (5.0,), 40.0).any()
