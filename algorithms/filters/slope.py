@@ -29,9 +29,8 @@ from ..terrain.morphology import erosion
 from ..terrain.neighbourhood import Neighbourhood
 from ..terrain.outliers import low_outliers
 
-# Radius and cells of the automatic preset in metres; they grow with the distance between points
-# where that is greater than this.
-_RADIUS, _CELL, _SPARSE = 18.0, 1.0, 2.5
+# Metres between points up to which the automatic radius and cells are the least.
+_DENSE = 2.5
 # Radii grow by this factor from scale to scale: the area of the disc doubles.
 _SCALE_STEP = math.sqrt(2.0)
 # Rise over run of the sides of a pit that holds low outliers, one cell wide or a few metres.
@@ -150,8 +149,8 @@ class SlopeFilter(ParameterSet):
             chosen = {"slope_threshold": 15.0, "height_threshold": 0.5}
             if self.search_radius is None or self.cell_size is None:
                 spacing = _spacing(points)
-                chosen["search_radius"] = max(_RADIUS, round(_RADIUS * spacing / _SPARSE, 1))
-                chosen["cell_size"] = max(_CELL, round(_CELL * spacing / _SPARSE, 1))
+                chosen["search_radius"] = max(18.0, round(4.0 * spacing, 1))
+                chosen["cell_size"] = max(1.0, round(0.4 * spacing, 1))
         empty = {name: value for name, value in chosen.items() if getattr(self, name) is None}
         return dataclasses.replace(self, **empty)
 
@@ -205,7 +204,7 @@ def _in_words(parameters: SlopeFilter) -> str:
 def _spacing(points: Points) -> float:
     """Return the mean distance between points in metres, gaps in the survey left out."""
     area = float(np.ptp(points.x)) * float(np.ptp(points.y))
-    if area <= _SPARSE**2 * points.count:
+    if area <= _DENSE**2 * points.count:
         return math.sqrt(area / points.count)  # gaps could only make it smaller
     cells = Cells.over(points, 10.0)
     return math.sqrt(np.count_nonzero(cells.occupied) * cells.size**2 / points.count)
@@ -255,7 +254,7 @@ def _objects(
     The allowance at a distance is that of the disc's radius: a staircase under Vosselman's line.
     """
     known = np.isfinite(lowest)
-    reach = max(parameters.search_radius / size, 1.0)
+    reach = max(round(parameters.search_radius / size, 6), 1.0)
     heights = np.where(known, lowest, np.inf)
     eroded = erosion(heights, reach)
     slope = math.tan(math.radians(parameters.slope_threshold)) + _slope(eroded, size, reach)
@@ -263,7 +262,9 @@ def _objects(
         opened = -erosion(np.where(np.isfinite(eroded), -eroded, np.inf), reach)
         heights[known] -= opened[known]
     objects = np.zeros(lowest.shape, dtype=bool)
-    radii = [reach / _SCALE_STEP**scale for scale in range(int(2 * math.log2(reach)) + 1)]
+    # Rounded, as a radius that falls short of whole cells by rounding alone would be another disc.
+    scales = range(int(2.0 * math.log2(reach)) + 1)
+    radii = [round(reach / _SCALE_STEP**scale, 6) for scale in scales]
     for done, radius in enumerate(reversed(radii), start=1):
         allowed = np.maximum(slope * radius * size, parameters.height_threshold)
         objects |= known & (heights > erosion(heights, radius) + allowed)

@@ -45,7 +45,7 @@ def low_clusters(
     if not depth.any():
         return depth > 0.0
     others = inpaint(np.where(depth > 0.0, np.nan, grid))
-    below = filled < opening(others, around / size) - depth
+    below = filled < opening(others, round(around / size, 6)) - depth
     return (depth > 0.0) & below & np.isfinite(grid)
 
 

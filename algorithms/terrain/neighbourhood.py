@@ -18,9 +18,9 @@ from .cells import Cells
 from .morphology import erosion
 
 # Few enough to look through, many enough that a disc does not have many more cells than points.
-_POINTS_A_CELL = 3.0
+_POINTS_A_CELL = 2.0
 _MOST_CELLS_A_RADIUS = 16
-_MOST_CELLS = 50_000_000
+_MOST_CELLS_A_POINT = 4
 # Work on this many points at a time: their arrays fit into the processor's cache.
 _POINTS_A_STEP = 200_000
 _PAIRS_A_STEP = 2_000_000
@@ -132,7 +132,7 @@ class Neighbourhood:
         touched = touched[np.lexsort((np.hypot(row, column)[touched], nearest[touched]))]
         offset = row * self._shape[1] + column
         # Two cells whose centres are closer than this are within the radius from end to end.
-        self._inner = radius - math.sqrt(2.0) - _ROUNDING
+        self._inner = math.floor((radius - math.sqrt(2.0)) / _ROUNDING - 1.0) * _ROUNDING
         rim = touched[np.hypot(row, column)[touched] >= self._inner - _ROUNDING]
         self._offsets, self._nearest = offset[touched], nearest[touched] * size
         self._rim = offset[rim]
@@ -256,9 +256,9 @@ def _ranges(start: np.ndarray, count: np.ndarray) -> np.ndarray:
 
 def _cell_size(points: Points, radius: float) -> float:
     """Return a size of cells that hold a few points each, neither too many nor too few a disc."""
-    area = max(float(np.ptp(points.x)), 1.0) * max(float(np.ptp(points.y)), 1.0)
-    least = math.sqrt(area / _MOST_CELLS)
-    coarse = Cells.over(points, max(radius, least))
+    coarse = Cells.over(points, max(radius, 1.0))
     density = points.count / (np.count_nonzero(coarse.occupied) * coarse.size**2)
-    size = math.sqrt(_POINTS_A_CELL / density)
-    return max(min(size, radius), radius / _MOST_CELLS_A_RADIUS, least)
+    wanted = min(math.sqrt(_POINTS_A_CELL / density), radius)
+    most = max(_MOST_CELLS_A_POINT * points.count, 1_000_000)
+    least = math.sqrt(coarse.rows * coarse.columns / most) * coarse.size
+    return max(wanted, radius / _MOST_CELLS_A_RADIUS, least)

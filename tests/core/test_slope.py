@@ -1,0 +1,245 @@
+"""The slope filter: against brute force, on scenes with known truth, and on labelled samples."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from scenes import error, scatter, surveyed, village
+
+from bare_earth.algorithms.assessment import compare
+from bare_earth.algorithms.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.filters.slope import SlopeFilter, classify
+from bare_earth.algorithms.points import Points
+from bare_earth.algorithms.progress import Progress
+from bare_earth.algorithms.terrain.low_clusters import low_clusters
+from bare_earth.algorithms.terrain.neighbourhood import Neighbourhood
+from benchmarks import data
+
+CLASSIC = SlopeFilter(preset="whitebox")
+
+
+def by_brute_force(points, parameters):
+    """Return the ground mask of the documented rule: every point against every other."""
+    x, y, z = points
+    distance = np.sqrt((x[:, None] - x) ** 2 + (y[:, None] - y) ** 2)
+    radius = np.full(len(x), parameters.search_radius)
+    fewest = min(parameters.min_neighbours, len(x) - 1)
+    if fewest:
+        radius = np.maximum(radius, np.sort(distance, axis=1)[:, fewest])
+    neighbours = distance <= radius[:, None]
+    heights = z
+    if parameters.slope_norm:
+        eroded = np.where(neighbours, z, np.inf).min(axis=1)
+        opened = np.where(neighbours, eroded, -np.inf).max(axis=1)
+        heights = z - np.minimum(opened, z)
+    rise = heights[:, None] - heights
+    slope = np.tan(np.radians(parameters.slope_threshold))
+    above = neighbours & (rise >= parameters.height_threshold) & (rise > slope * distance)
+    np.fill_diagonal(above, False)
+    return ~above.any(axis=1)
+
+
+def cloud(kind, random):
+    """Return a cloud of up to 700 points whose neighbourhoods are awkward in some way."""
+    count, size = int(random.integers(1, 700)), float(random.choice([3.0, 10.0, 40.0]))
+    x, y = random.uniform(-size, size, (2, count))
+    if kind == "grid":
+        x, y = np.round(x), np.round(y)  # distances equal to the radius, places shared
+    elif kind == "duplicates":
+        x[: count // 2], y[: count // 2] = x[count - count // 2 :], y[count - count // 2 :]
+    elif kind == "clumps":
+        x, y = np.sign(x) * x**4 / size**3, np.sign(y) * y**4 / size**3
+    slope = random.choice([0.0, 0.5, 1.5])
+    z = np.round(random.normal(0.0, 1.0, count) + slope * x, int(random.integers(0, 3)))
+    return Points(x, y, z)
+
+
+@pytest.mark.parametrize("slope_norm", [True, False])
+@pytest.mark.parametrize("kind", ["random", "grid", "duplicates", "clumps"])
+def test_brute_force_agrees_on_every_point(kind, slope_norm):
+    random = np.random.default_rng(7)
+    for _ in range(25):
+        points = cloud(kind, random)
+        parameters = SlopeFilter(
+            preset="whitebox",
+            search_radius=random.choice([0.5, 1.0, 2.0, 5.0, 12.0]),
+            min_neighbours=random.choice([0, 0, 3, 10, 50]),
+            slope_threshold=random.choice([0.0, 15.0, 45.0, 70.0]),
+            height_threshold=random.choice([0.0, 0.5, 1.0, 2.0]),
+            slope_norm=slope_norm,
+        )
+        assert np.array_equal(classify(points, parameters), by_brute_force(points, parameters))
+
+
+def test_brute_force_agrees_on_houses_trees_and_noise():
+    points, _ = village(size=30.0)
+    for radius in (2.0, 10.0):
+        parameters = CLASSIC.resolve(points)
+        parameters = dataclasses.replace(parameters, search_radius=radius)
+        assert np.array_equal(classify(points, parameters), by_brute_force(points, parameters))
+
+
+def test_the_height_and_the_slope_must_both_be_exceeded():
+    """A point 1 m off: exactly the height threshold counts, exactly the slope does not."""
+    points = Points(np.array([0.0, 1.0]), np.zeros(2), np.array([0.0, 1.0]))
+    plain = {"preset": "whitebox", "slope_norm": False, "height_threshold": 1.0}
+    assert classify(points, SlopeFilter(**plain, slope_threshold=44.0)).tolist() == [True, False]
+    assert classify(points, SlopeFilter(**plain, slope_threshold=46.0)).all()
+    plain["height_threshold"] = 1.01
+    assert classify(points, SlopeFilter(**plain, slope_threshold=44.0)).all()
+
+
+def test_the_higher_of_two_points_at_one_place_is_not_ground():
+    points = Points(np.zeros(2), np.zeros(2), np.array([5.0, 2.0]))
+    assert classify(points, dataclasses.replace(CLASSIC, slope_norm=False)).tolist() == [
+        False,
+        True,
+    ]
+
+
+def test_a_neighbourhood_with_too_few_points_grows_until_it_has_them():
+    x = np.array([0.0, 5.0, 9.0, 30.0])
+    neighbourhood = Neighbourhood(Points(x, 0.0 * x, 0.0 * x), 2.0, at_least=2)
+    assert neighbourhood.minimum(x).tolist() == [0.0, 0.0, 0.0, 5.0]
+    assert neighbourhood.maximum(x).tolist() == [9.0, 9.0, 9.0, 30.0]
+
+
+def test_the_preset_whitebox_stands_for_the_values_of_the_tool():
+    points = Points(*np.zeros((3, 1)))
+    values = SlopeFilter(
+        preset="whitebox", search_radius=2.0, slope_threshold=45.0, height_threshold=1.0
+    )
+    assert CLASSIC.resolve(points) == values
+    assert values.min_neighbours == 0 and values.slope_norm
+
+
+def test_what_is_chosen_from_the_data_is_said_and_gives_the_same_when_given_by_hand():
+    class Heard(Progress):
+        def __init__(self):
+            self.texts = []
+
+        def info(self, text):
+            self.texts.append(text)
+
+    points, _ = village(density=0.02)
+    heard = Heard()
+    found = classify(points, SlopeFilter(), heard)
+    chosen = SlopeFilter().resolve(points)
+    assert chosen.cell_size > 2.0 and chosen.search_radius > 25.0
+    assert f"search radius {chosen.search_radius:g} m" in heard.texts[0]
+    assert f"cell size {chosen.cell_size:g} m" in heard.texts[0]
+    by_hand = SlopeFilter(
+        search_radius=round(chosen.search_radius, 1),
+        slope_threshold=15.0,
+        height_threshold=0.5,
+        cell_size=round(chosen.cell_size, 1),
+    )
+    assert by_hand == chosen == chosen.resolve(points)
+    assert np.array_equal(classify(points, by_hand, heard), found)
+    assert len(heard.texts) == 1
+
+
+def test_houses_trees_and_low_noise_are_told_from_the_slope_they_stand_on():
+    points, truth = village()
+    found = classify(points, SlopeFilter())
+    assert error(found, truth) < 1.5
+    assert not found[points.z > 112.0].any()
+    assert not found[points.z < 95.0].any()
+
+
+@pytest.mark.parametrize("slope", [0.3, 0.7, 1.0, 1.5])
+@pytest.mark.parametrize("aspect", [0.0, 0.8, 3.0])
+def test_a_plain_slope_is_all_ground_up_to_its_borders(slope, aspect):
+    x, y = scatter()
+    z = surveyed(x, y, slope * (x * np.cos(aspect) + y * np.sin(aspect)))
+    assert classify(Points(x, y, z), SlopeFilter()).mean() > 0.995
+
+
+def test_a_building_wider_than_twice_the_search_radius_is_taken_for_a_hill():
+    x, y = scatter(density=2.0)
+    roof = (np.abs(x - 40.0) < 12.0) & (np.abs(y - 40.0) < 12.0)
+    points = Points(x, y, surveyed(x, y, np.where(roof, 8.0, 0.0)))
+    assert not classify(points, SlopeFilter())[roof].any()
+    assert classify(points, SlopeFilter(search_radius=5.0))[roof].mean() > 0.9
+
+
+@pytest.mark.parametrize("width", [0.5, 1.5, 3.0, 5.0])
+@pytest.mark.parametrize("slope", [0.0, 0.4])
+def test_low_outliers_alone_or_in_clusters_do_not_pull_the_ground_down(width, slope):
+    x, y = scatter()
+    low = (np.abs(x - 40.0) <= width / 2) & (np.abs(y - 40.0) <= width / 2)
+    points = Points(x, y, surveyed(x, y, slope * x - np.where(low, 12.0, 0.0)))
+    found = classify(points, SlopeFilter())
+    assert not found[low].any()
+    assert found[~low].mean() > 0.99
+
+
+def test_a_ditch_and_a_courtyard_are_not_taken_for_low_outliers():
+    grid = np.zeros((100, 100))
+    grid[:, 40:43] = -4.0
+    assert not low_clusters(grid, 1.0, 2.0, 6.0, 54.0).any()
+    grid = np.zeros((100, 100))
+    grid[40:60, 40:60] = 9.0
+    grid[49:52, 49:52] = 0.0
+    assert not low_clusters(grid, 1.0, 2.0, 6.0, 54.0).any()
+    grid[49:52, 49:52] = -9.0
+    assert low_clusters(grid, 1.0, 2.0, 6.0, 54.0).sum() == 9
+
+
+@pytest.mark.parametrize("parameters", [SlopeFilter(), CLASSIC])
+def test_the_order_and_the_place_of_the_points_do_not_matter(parameters):
+    points, _ = village()
+    mixed = np.random.default_rng(2).permutation(points.count)
+    found = classify(points, parameters)
+    assert np.array_equal(classify(points.take(mixed), parameters), found[mixed])
+    moved = Points(points.x + 128.0, points.y - 64.0, points.z + 256.0)
+    assert np.mean(classify(moved, parameters) != found) < 1e-4
+
+
+@pytest.mark.parametrize("parameters", [SlopeFilter(), CLASSIC, SlopeFilter(slope_norm=False)])
+@pytest.mark.parametrize("count", [1, 2, 3, 10])
+def test_a_handful_of_points_is_classified_without_an_error(parameters, count):
+    line = np.arange(count, dtype=float)
+    assert classify(Points(3.0 * line, 2.0 * line, 0.1 * line), parameters).all()
+
+
+@pytest.mark.parametrize("parameters", [SlopeFilter(), CLASSIC])
+def test_points_at_one_place_are_classified_without_an_error(parameters):
+    points = Points(np.ones(5), np.ones(5), np.zeros(5))
+    assert classify(points, parameters).all()
+
+
+@pytest.mark.parametrize("parameters", [SlopeFilter(), CLASSIC])
+def test_stray_coordinates_are_refused_with_a_sentence(parameters):
+    points = Points(np.array([0.0, 1e9]), np.array([0.0, 1e9]), np.zeros(2))
+    with pytest.raises(BareEarthError, match="stray coordinates"):
+        classify(points, parameters)
+
+
+def test_one_stray_point_does_not_stop_the_classic_filter():
+    points, _ = village(size=20.0)
+    points = Points(*(np.append(each, value) for each, value in zip(points, (5e3, 5e3, 0.0))))
+    parameters = CLASSIC.resolve(points)
+    assert np.array_equal(classify(points, parameters), by_brute_force(points, parameters))
+
+
+@pytest.mark.parametrize("parameters", [SlopeFilter(), CLASSIC])
+def test_a_cancel_ends_the_classification(parameters):
+    class Stop(Progress):
+        def report(self, fraction):
+            if fraction > 0.3:
+                raise Cancelled
+
+    with pytest.raises(Cancelled):
+        classify(village()[0], parameters, Stop())
+
+
+@pytest.mark.skipif(not data.isprs(), reason="the ISPRS samples are not here")
+def test_the_isprs_samples_come_out_as_measured():
+    figures = []
+    for path in data.isprs():
+        cloud, reference = data.load(path)
+        points = cloud.points(np.arange(cloud.count))
+        figures.append(compare(classify(points, SlopeFilter()), reference))
+    assert np.mean([each.total_error for each in figures]) <= 4.5
+    assert np.mean([each.kappa for each in figures]) >= 85.0
