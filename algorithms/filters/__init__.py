@@ -9,7 +9,7 @@ import numpy as np
 from ..parameters import ParameterSet
 from ..points import Points
 from ..progress import Progress
-from . import tin_densification
+from . import grid_minimum, tin_densification
 
 
 class Method(NamedTuple):
@@ -42,6 +42,7 @@ METHODS = {
             tin_densification.TinDensification,
             tin_densification.classify,
         ),
+        Method("grid-minimum", "Grid minimum", grid_minimum.GridMinimum, grid_minimum.classify),
     )
 }
 
