@@ -255,11 +255,12 @@ def _objects(
     """
     known = np.isfinite(lowest)
     reach = max(round(parameters.search_radius / size, 6), 1.0)
-    heights = np.where(known, lowest, np.inf)
+    # Single precision (better than a millimetre) halves the time that the discs take.
+    heights = np.where(known, lowest, np.inf).astype(np.float32)
     eroded = erosion(heights, reach)
     slope = math.tan(math.radians(parameters.slope_threshold)) + _slope(eroded, size, reach)
     if parameters.slope_norm:
-        opened = -erosion(np.where(np.isfinite(eroded), -eroded, np.inf), reach)
+        opened = -erosion(np.where(np.isfinite(eroded), -eroded, np.float32(np.inf)), reach)
         heights[known] -= opened[known]
     objects = np.zeros(lowest.shape, dtype=bool)
     # Rounded, as a radius that falls short of whole cells by rounding alone would be another disc.
@@ -309,10 +310,10 @@ def _near_surface(
     ground = np.empty(points.count, dtype=bool)
     for first in range(0, points.count, _POINTS_A_STEP):
         part = slice(first, first + _POINTS_A_STEP)
-        row = points.y[part] / cells.size - (cells.first_row - 0.5)
-        column = points.x[part] / cells.size - (cells.first_column - 0.5)
-        corner = row.astype(np.intp) * width + column.astype(np.intp)
-        north, east = row % 1.0, column % 1.0
+        north = points.y[part] / cells.size - (cells.first_row - 0.5)
+        east = points.x[part] / cells.size - (cells.first_column - 0.5)
+        row, column = north.astype(np.intp), east.astype(np.intp)
+        north, east, corner = north - row, east - column, row * width + column
         z = points.z[part]
         ground[part] = z >= _bilinear(below, corner, width, north, east)
         ground[part] &= z <= _bilinear(above, corner, width, north, east)
@@ -325,7 +326,9 @@ def _bilinear(
     grid: np.ndarray, corner: np.ndarray, width: int, north: np.ndarray, east: np.ndarray
 ) -> np.ndarray:
     """Interpolate between four cells of a flattened grid, `corner` being the southwestern one."""
-    south_side = grid[corner] * (1.0 - east) + grid[corner + 1] * east
+    west = grid[corner]
+    south_side = west + (grid[corner + 1] - west) * east
     corner = corner + width
-    north_side = grid[corner] * (1.0 - east) + grid[corner + 1] * east
-    return south_side * (1.0 - north) + north_side * north
+    west = grid[corner]
+    north_side = west + (grid[corner + 1] - west) * east
+    return south_side + (north_side - south_side) * north

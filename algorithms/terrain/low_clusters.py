@@ -36,7 +36,8 @@ def low_clusters(
     -------
     numpy.ndarray of bool, shape (rows, columns)
     """
-    filled = inpaint(grid)
+    # Single precision halves the time that the discs take.
+    filled = inpaint(grid).astype(np.float32)
     depth = np.zeros(grid.shape)
     for radius in range(1, max(round(widest / size / 2), 1) + 1):
         deep = slope * radius * size
@@ -44,7 +45,7 @@ def low_clusters(
         depth[pits] = np.maximum(depth[pits], deep)
     if not depth.any():
         return depth > 0.0
-    others = inpaint(np.where(depth > 0.0, np.nan, grid))
+    others = inpaint(np.where(depth > 0.0, np.nan, grid)).astype(np.float32)
     below = filled < opening(others, round(around / size, 6)) - depth
     return (depth > 0.0) & below & np.isfinite(grid)
 
