@@ -9,7 +9,7 @@ import numpy as np
 from ..parameters import ParameterSet
 from ..points import Points
 from ..progress import Progress
-from . import grid_minimum, tin_densification
+from . import grid_minimum, slope, tin_densification
 
 
 class Method(NamedTuple):
@@ -43,6 +43,7 @@ METHODS = {
             tin_densification.classify,
         ),
         Method("grid-minimum", "Grid minimum", grid_minimum.GridMinimum, grid_minimum.classify),
+        Method("slope", "Slope filter", slope.SlopeFilter, slope.classify),
     )
 }
 
