@@ -271,7 +271,6 @@ def _without_low_objects(
         low = relief.regions(parameters.final_height).raised(parameters.max_object_size)
         ground[low | relief.rims(parameters.final_height, _RIM_ROUGHNESS)] = np.nan
         progress((done + 1) / (_FINAL_PASSES + 1))
-    relief = Relief(ground, size, inside)
     kept = relief.regrown(np.isfinite(ground), heights, parameters.final_height)
     progress(1.0)
     return np.where(kept, heights, np.nan)
@@ -316,17 +315,28 @@ def _bounds(surface: np.ndarray, tolerance: np.ndarray) -> np.ndarray:
         In ascending order, wherever the cell's surface is even enough: no ground below the first,
         all ground between the second and the third, none above the fourth.
     """
-    highest = ndimage.maximum_filter
-    lowest = ndimage.minimum_filter
     bounds = np.empty((surface.size, 4), dtype=np.float32)
-    for column, extreme, values in (
-        (0, lowest, surface - tolerance),
-        (1, highest, surface - tolerance),
-        (2, lowest, surface + tolerance),
-        (3, highest, surface + tolerance),
-    ):
-        bounds[:, column] = extreme(values.astype(np.float32), 3, mode="nearest").ravel()
+    lower, upper = (
+        (surface - tolerance).astype(np.float32),
+        (surface + tolerance).astype(np.float32),
+    )
+    bounds[:, 0] = _extreme(np.minimum, lower).ravel()
+    bounds[:, 1] = _extreme(np.maximum, lower).ravel()
+    bounds[:, 2] = _extreme(np.minimum, upper).ravel()
+    bounds[:, 3] = _extreme(np.maximum, upper).ravel()
     return bounds
+
+
+def _extreme(which: np.ufunc, grid: np.ndarray) -> np.ndarray:
+    """Return the minimum or the maximum of the 3 x 3 cells round each cell."""
+    result = grid
+    for axis in (0, 1):
+        inner = np.swapaxes(result, 0, axis)
+        spread = inner.copy()
+        which(spread[1:], inner[:-1], out=spread[1:])
+        which(spread[:-1], inner[1:], out=spread[:-1])
+        result = np.swapaxes(spread, 0, axis)
+    return result
 
 
 def _slope(surface: np.ndarray, size: float) -> np.ndarray:
