@@ -187,17 +187,18 @@ def classify(points: Points, parameters: SlopeFilter, progress: Progress = SILEN
         progress.info(_in_words(resolved))
     if resolved.preset == "whitebox":
         return _on_one_scale(points, resolved, progress)
-    if resolved.min_neighbours:
-        progress.warning("The minimum number of neighbours is for the preset Whitebox only.")
     return _on_many_scales(points, resolved, progress)
 
 
 def _in_words(parameters: SlopeFilter) -> str:
-    cell = f", cell size {parameters.cell_size:g} m" if parameters.cell_size else ""
+    if parameters.preset == "whitebox":
+        last = f"minimum number of neighbours {parameters.min_neighbours}"
+    else:
+        last = f"cell size {parameters.cell_size:g} m"
     return (
         f"Slope filter: preset {parameters.preset}, search radius {parameters.search_radius:g} m,"
         f" slope threshold {parameters.slope_threshold:g} deg, height threshold"
-        f" {parameters.height_threshold:g} m{cell}."
+        f" {parameters.height_threshold:g} m, {last}."
     )
 
 
@@ -251,7 +252,7 @@ def _objects(
 ) -> np.ndarray:
     """Return which cells stand above another, on any scale, by more than the terrain allows.
 
-    The allowance at a distance is that of the disc's radius: a staircase under Vosselman's line.
+    The allowance at a distance is that of the disc's radius: a staircase on Vosselman's line.
     """
     known = np.isfinite(lowest)
     reach = max(round(parameters.search_radius / size, 6), 1.0)

@@ -8,6 +8,7 @@ on the rim only those are opened that could still change the answer.
 from __future__ import annotations
 
 import math
+from typing import Iterator
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -24,6 +25,7 @@ _MOST_CELLS_A_POINT = 4
 # Work on this many points at a time: their arrays fit into the processor's cache.
 _POINTS_A_STEP = 200_000
 _PAIRS_A_STEP = 2_000_000
+_GROWN_A_STEP = 20_000
 # Bounds of cells are widened by this much, so that rounding never skips a point; points themselves
 # are compared without it.
 _ROUNDING = 1e-6
@@ -137,7 +139,7 @@ class Neighbourhood:
         self._offsets, self._nearest = offset[touched], nearest[touched] * size
         self._rim = offset[rim]
 
-    def _bands(self, progress: Progress) -> object:
+    def _bands(self, progress: Progress) -> Iterator[np.ndarray]:
         """Yield the occupied cells in parts that hold about as many points as a step."""
         done = self._start[self._occupied]
         for first in range(0, len(self._x), _POINTS_A_STEP):
@@ -208,13 +210,12 @@ class Neighbourhood:
         grown = radius > self._radius
         return doubtful[grown], radius[grown]
 
-    def _grown_pairs(self) -> object:
+    def _grown_pairs(self) -> Iterator[tuple[np.ndarray, np.ndarray]]:
         """Yield the points whose radius grew and their neighbours, as pairs of index arrays."""
         if not len(self._grown):
             return
-        step = 20_000
-        for first in range(0, len(self._grown), step):
-            part = slice(first, first + step)
+        for first in range(0, len(self._grown), _GROWN_A_STEP):
+            part = slice(first, first + _GROWN_A_STEP)
             point, radius = self._grown[part], self._grown_radius[part]
             neighbours = self._tree.query_ball_point(
                 np.column_stack((self._x[point], self._y[point])), radius * (1.0 + _ROUNDING)
