@@ -19,9 +19,10 @@ from ..errors import BareEarthError
 from ..parameters import ParameterSet, parameter
 from ..points import Points
 from ..progress import SILENT, Progress
-from ..terrain.cells import Cells
+from ..terrain.cells import Cells, spacing
+from ..terrain.ground_cells import Allowance, ground_cells
 from ..terrain.inpaint import inpaint
-from ..terrain.morphology import opening
+from ..terrain.objects import raised_objects
 from ..terrain.outliers import low_outliers
 from ..terrain.tin import Tin
 
@@ -31,6 +32,11 @@ _OUTLIER_SLOPE = 5.0
 _MOST_ROUNDS = 20
 # Metres between the virtual points round the survey.
 _RING_SPACING = 5.0
+# Heights in metres of the drops that bound an object, the tall ones first.
+_OBJECT_HEIGHTS = (5.0, 4.5, 2.0)
+# Metres over which the final surface is smoothed to take its slope.
+_FACET_SMOOTHING = 0.7
+_POINTS_A_STEP = 1_000_000
 # Rounds that add less than this share of the vertices are not worth a triangulation.
 _LEAST_SHARE = 0.001
 
@@ -43,7 +49,7 @@ class TinDensification(ParameterSet):
     """
 
     max_building_size: float = parameter(
-        36.0,
+        48.0,
         label="Maximum building size",
         unit="m",
         minimum=1.0,
@@ -61,7 +67,7 @@ class TinDensification(ParameterSet):
         " image beyond the nearest vertex.",
     )
     iteration_angle: float = parameter(
-        8.0,
+        15.0,
         label="Iteration angle",
         unit="deg",
         minimum=0.1,
@@ -71,7 +77,7 @@ class TinDensification(ParameterSet):
         " 10 and more in steep terrain.",
     )
     iteration_distance: float = parameter(
-        1.4,
+        1.0,
         label="Iteration distance",
         unit="m",
         minimum=0.01,
@@ -177,40 +183,40 @@ def classify(
     heights = np.full(cells.rows * cells.columns, np.nan)
     heights[cells.index[lowest]] = points.z[lowest]
     heights = heights.reshape(cells.shape)
-    outliers = low_outliers(heights, cells.size, _OUTLIER_SLOPE)
-    heights[outliers] = np.nan
+    heights[low_outliers(heights, cells.size, _OUTLIER_SLOPE)] = np.nan
     progress(0.1)
-    objects = _objects(heights, cells.size, parameters, progress.part(0.1, 0.4))
-    usable = ~outliers.ravel()[cells.index[lowest]]
-    is_seed = usable & ~objects.ravel()[cells.index[lowest]]
-    if not is_seed.any():
+    objects = _objects(points, cells, parameters, progress.part(0.1, 0.2))
+    largest = parameters.max_building_size / 2.0
+    ground = ground_cells(
+        heights, cells.size, objects, largest, Allowance(), progress.part(0.2, 0.5)
+    )
+    if not ground.any():
         raise BareEarthError(
             "No point can be taken for ground with certainty. Check the maximum building size and"
             " the selection of points."
         )
-    seeds = points.take(lowest[is_seed])
-    tin = _densified(
-        _with_margin(seeds, cells, np.where(objects, np.nan, heights)),
-        points.take(lowest[usable & ~is_seed]),
-        parameters,
-        progress.part(0.4, 0.8),
-    )
-    return _near_surface(points, tin, parameters, progress.part(0.8, 1.0))
+    is_seed = ground.ravel()[cells.index[lowest]]
+    is_candidate = (np.isfinite(heights) & ~ground & ~objects).ravel()[cells.index[lowest]]
+    seeds = _with_margin(points.take(lowest[is_seed]), cells, np.where(ground, heights, np.nan))
+    candidates = points.take(lowest[is_candidate])
+    tin = _densified(seeds, candidates, parameters, progress.part(0.5, 0.8))
+    return _near_surface(points, tin, cells, parameters, progress.part(0.8, 1.0))
 
 
 def _objects(
-    heights: np.ndarray, size: float, parameters: TinDensification, progress: Progress
+    points: Points, cells: Cells, parameters: TinDensification, progress: Progress
 ) -> np.ndarray:
-    """Return which cells a progressive opening cuts off (Zhang et al. 2003; Pingel et al. 2013)."""
-    last = inpaint(heights)
-    objects = np.zeros(heights.shape, dtype=bool)
-    largest = max(round(parameters.max_building_size / 2 / size), 1)
-    for radius in range(1, largest + 1):
-        opened = opening(last, radius)
-        objects |= last - opened > parameters.seed_slope * radius * size
-        last = opened
-        progress(radius / largest)
-    return objects
+    """Return which cells belong to tall objects bounded by drops all round.
+
+    Where points are sparse they are looked for among wider cells, since gaps would break the rims.
+    """
+    wide = Cells.over(points, max(cells.size, spacing(points)))
+    heights = wide.minimum(points.z)
+    heights[low_outliers(heights, wide.size, _OUTLIER_SLOPE)] = np.nan
+    found = raised_objects(
+        heights, wide.size, _OBJECT_HEIGHTS, parameters.max_building_size, progress
+    )
+    return wide.resampled(found, cells)
 
 
 def _with_margin(seeds: Points, cells: Cells, heights: np.ndarray) -> Points:
@@ -313,15 +319,26 @@ def _facets(
 
 
 def _near_surface(
-    points: Points, tin: Tin, parameters: TinDensification, progress: Progress
+    points: Points, tin: Tin, cells: Cells, parameters: TinDensification, progress: Progress
 ) -> np.ndarray:
-    """Return which points lie close to the TIN."""
-    triangle = tin.locate(points.x, points.y)
-    progress(0.6)
-    surface = tin.interpolate(points.x, points.y, triangle)
-    corners = tin.triangles[np.maximum(triangle, 0)]
-    (east, north), _ = _facets(tin.x[corners], tin.y[corners], tin.z[corners])
-    tolerance = parameters.ground_tolerance + parameters.slope_tolerance * np.hypot(east, north)
-    ground = np.abs(points.z - surface) <= tolerance
-    progress(1.0)
+    """Return which points lie close to the TIN, sampled once in each cell.
+
+    The slope is that of the smoothed surface: single facets between lowest points are too uneven.
+    """
+    from scipy import ndimage
+
+    surface = inpaint(tin.interpolate(*cells.centres()).reshape(cells.shape))
+    progress(0.4)
+    smooth = ndimage.gaussian_filter(surface, _FACET_SMOOTHING / cells.size, mode="nearest")
+    # A grid one cell wide has no slope across.
+    slopes = [np.gradient(smooth, cells.size, axis=k) for k in (0, 1) if cells.shape[k] > 1]
+    slope = np.sqrt(sum((each**2 for each in slopes), np.zeros(cells.shape)))
+    tolerance = parameters.ground_tolerance + parameters.slope_tolerance * slope
+    ground = np.empty(points.count, dtype=bool)
+    for first in range(0, points.count, _POINTS_A_STEP):
+        part = slice(first, first + _POINTS_A_STEP)
+        place = points.x[part], points.y[part]
+        distance = np.abs(points.z[part] - cells.at(surface, *place))
+        ground[part] = distance <= cells.at(tolerance, *place)
+        progress(0.4 + 0.6 * min((first + _POINTS_A_STEP) / points.count, 1.0))
     return ground

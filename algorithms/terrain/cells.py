@@ -11,6 +11,9 @@ from ..errors import BareEarthError
 from ..points import Points
 
 _MOST_CELLS = 200_000_000
+# Metres between points below which gaps in the survey do not matter for their spacing, and the
+# side in metres of the blocks that are such a gap where they have no point.
+_DENSE, _BLOCK = 1.0, 10.0
 
 
 @dataclass(frozen=True)
@@ -100,3 +103,31 @@ class Cells:
         row = y / self.size - (self.first_row + 0.5)
         column = x / self.size - (self.first_column + 0.5)
         return ndimage.map_coordinates(grid, (row, column), order=1, mode="nearest")
+
+    def centres(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return x and y of the centre of each cell, in the order of the flattened grid."""
+        x = (self.first_column + np.arange(self.columns) + 0.5) * self.size
+        y = (self.first_row + np.arange(self.rows) + 0.5) * self.size
+        return np.tile(x, self.rows), np.repeat(y, self.columns)
+
+    def resampled(self, grid: np.ndarray, other: Cells) -> np.ndarray:
+        """Return for each cell of `other` the value of the cell here in which its centre lies.
+
+        Beyond this grid the value of the border is taken.
+        """
+        row = np.floor((other.first_row + np.arange(other.rows) + 0.5) * other.size / self.size)
+        column = np.floor(
+            (other.first_column + np.arange(other.columns) + 0.5) * other.size / self.size
+        )
+        row = np.clip(row.astype(int) - self.first_row, 0, self.rows - 1)
+        column = np.clip(column.astype(int) - self.first_column, 0, self.columns - 1)
+        return grid[np.ix_(row, column)]
+
+
+def spacing(points: Points) -> float:
+    """Return the mean distance between points in metres, large gaps in the survey left out."""
+    area = float(np.ptp(points.x)) * float(np.ptp(points.y))
+    if area <= _DENSE**2 * points.count:
+        return float(np.sqrt(area / points.count))  # gaps could only make it smaller
+    blocks = Cells.over(points, _BLOCK)
+    return float(np.sqrt(np.count_nonzero(blocks.occupied) * _BLOCK**2 / points.count))

@@ -21,7 +21,7 @@ def opening(grid: np.ndarray, radius: float) -> np.ndarray:
         Nowhere higher than `grid`, which is continued by its border cells: far enough for a disc
         to stand outside, or the upper border of a plain slope would be cut off.
     """
-    reach = int(radius)
+    reach = int(round(radius, 6))
     padded = np.pad(grid, reach, mode="edge")
     opened = -erosion(-erosion(padded, radius), radius)
     return opened[reach : reach + grid.shape[0], reach : reach + grid.shape[1]]
@@ -33,6 +33,7 @@ def erosion(grid: np.ndarray, radius: float) -> np.ndarray:
     A disc is a stack of rows: the minimum along rows of each needed length is found once by
     doubling, so that the cost grows with the radius and not with its square.
     """
+    radius = round(radius, 6)  # one that is whole but for rounding is whole
     reach = int(radius)
     rows, columns = grid.shape
     padded = np.pad(grid, reach, mode="edge")

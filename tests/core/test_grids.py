@@ -58,6 +58,11 @@ def test_the_opening_agrees_with_that_of_scipy(radius):
     assert np.array_equal(opening(grid, radius)[inside], opened[inside][inside])
 
 
+def test_a_radius_whole_but_for_rounding_is_whole():
+    grid = np.random.default_rng(1).normal(size=(30, 30))
+    assert np.array_equal(erosion(grid, 9.0 - 1e-12), erosion(grid, 9))
+
+
 def test_the_opening_leaves_a_slope_as_it_is_up_to_its_borders():
     plane = np.tile(0.7 * np.arange(50), (40, 1))
     assert np.allclose(opening(plane, 9), plane)

@@ -1,0 +1,50 @@
+"""Which cells of a grid of lowest points are taken for ground."""
+
+import numpy as np
+
+from bare_earth.algorithms.terrain.ground_cells import Allowance, ground_cells
+
+
+def _ground(heights, objects=None, window=20.0, **allowance):
+    objects = np.zeros(heights.shape, dtype=bool) if objects is None else objects
+    return ground_cells(heights, 1.0, objects, window, Allowance(**allowance))
+
+
+def test_a_slope_is_ground_and_a_house_on_it_is_not():
+    heights = np.tile(0.5 * np.arange(100.0), (90, 1))
+    heights[40:52, 45:60] = heights[46, 45] + 9.0
+    ground = _ground(heights)
+    assert not ground[40:52, 45:60].any()
+    assert ground[:, 70:].all()
+    assert ground[60:].all()
+
+
+def test_a_platform_with_walls_on_three_sides_and_a_ramp_on_the_fourth_is_ground():
+    rows, columns = np.indices((120, 120))
+    ramp = 2.4 * np.clip((74 - rows) / 14.0, 0.0, 1.0)
+    heights = np.where((rows >= 50) & (np.abs(columns - 60) < 15), ramp, 0.0)
+    assert _ground(heights).all()
+    assert not _ground(heights, gentle_share=1.1).all()
+
+
+def test_known_objects_and_empty_cells_are_never_ground():
+    heights = np.zeros((40, 40))
+    heights[3, 4] = np.nan
+    objects = np.zeros((40, 40), dtype=bool)
+    objects[10:12, 10:12] = True
+    heights[objects] = 6.0
+    ground = _ground(heights, objects)
+    assert not ground[3, 4]
+    assert not ground[objects].any()
+
+
+def test_low_bumps_are_ground_on_a_slope_and_not_in_the_plain():
+    bumps = np.zeros((60, 60))
+    bumps[20:24, 20:24] = bumps[40:43, 30:34] = 0.45
+    slope = np.tile(0.6 * np.arange(60.0), (60, 1))
+    assert not _ground(bumps)[bumps > 0].any()
+    assert _ground(slope + bumps)[bumps > 0].mean() > 0.5
+
+
+def test_a_grid_of_one_row_is_classified():
+    assert _ground(np.zeros((1, 30))).all()
