@@ -1,5 +1,11 @@
 """The Processing algorithms, each a thin wrapper of the classifier."""
 
+from .grid_minimum import GridMinimumAlgorithm
+from .slope_filter import SlopeFilterAlgorithm
 from .tin_densification import TinDensificationAlgorithm
 
-ALGORITHMS = (TinDensificationAlgorithm,)
+ALGORITHMS = (
+    TinDensificationAlgorithm,
+    GridMinimumAlgorithm,
+    SlopeFilterAlgorithm,
+)

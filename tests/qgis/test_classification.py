@@ -56,6 +56,39 @@ def test_run(algorithm, any_scene, out, context, log):
     assert "points are ground" in log.text
 
 
+@pytest.mark.parametrize("name", ["gridminimum", "slopefilter"])
+def test_run_of_the_other_methods(name, registry, scene, out, context, log):
+    from bare_earth.algorithms.cli import main
+
+    algorithm = registry.createAlgorithmById(f"bareearth:{name}")
+    results, done = algorithm.run(everything(scene, out), context, log)
+    assert done, log.text
+    # Of the points at the foot of the walls some may be missed.
+    assert abs(results["GROUND_COUNT"] - scene.ground_count) < 0.01 * scene.count
+    cloud = laspy.read(results["OUTPUT"])
+    assert np.mean((np.asarray(cloud.classification) == 2) != scene.ground) < 0.01
+    assert os.path.getsize(results["DTM"]) and os.path.getsize(results["HILLSHADE"])
+    with open(results["OUTPUT"], "rb") as file:
+        before = file.read()
+    command = next(shlex.split(line) for line in log.said if line.startswith("bare-earth "))
+    assert main(command[1:]) == 0
+    with open(results["OUTPUT"], "rb") as file:
+        assert file.read() == before
+
+
+@pytest.mark.parametrize("name", ["gridminimum", "slopefilter"])
+def test_lists_and_empty_fields_of_the_other_methods(name, registry, scene, out, context, log):
+    algorithm = registry.createAlgorithmById(f"bareearth:{name}")
+    parameters = {**everything(scene, out), "HEIGHT_THRESHOLDS": "6, 2", "SEARCH_RADIUS": None}
+    results, done = algorithm.run(parameters, context, log)
+    assert done and results["GROUND_COUNT"] > 0
+    told = "--height-thresholds 6 2" in log.text
+    assert told == (name == "gridminimum")
+    parameters["HEIGHT_THRESHOLDS"], parameters["SEARCH_RADIUS"] = "2, 6", -1
+    possible, text = algorithm.checkParameterValues(parameters, context)
+    assert not possible and ("largest" in text or "at least" in text)
+
+
 def test_processing_run(scene, out):
     import processing
 

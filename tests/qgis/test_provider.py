@@ -13,22 +13,42 @@ from qgis.core import (
 )
 from support import ALGORITHM, ROOT
 
+from bare_earth.algorithms.pointcloud.selection import Selection
+from bare_earth.algorithms.terrain.model import TerrainModel
+from bare_earth.plugin.processing.classification import ClassificationAlgorithm
+
+SHARED_PARAMETERS = [
+    "FROM_CLASSES", "TO_CLASS", "RETURNS", "OTHERS",
+    "DTM_CELL_SIZE", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
+    "OUTPUT", "DTM", "HILLSHADE",
+]  # fmt: skip
+SHARED_OUTPUTS = ["OUTPUT", "DTM", "HILLSHADE", "POINT_COUNT", "SELECTED_COUNT", "GROUND_COUNT"]
 PARAMETERS = {
     "bareearth:tindensification": [
         "INPUT",
         "MAX_BUILDING_SIZE", "MAX_TERRAIN_ANGLE", "ITERATION_ANGLE", "ITERATION_DISTANCE",
         "REDUCE_ANGLE_EDGE", "STOP_EDGE", "SEED_SLOPE", "NOISE_DISTANCE", "GROUND_TOLERANCE",
         "SLOPE_TOLERANCE",
-        "FROM_CLASSES", "TO_CLASS", "RETURNS", "OTHERS",
-        "DTM_CELL_SIZE", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
-        "OUTPUT", "DTM", "HILLSHADE",
+        *SHARED_PARAMETERS,
+    ],
+    "bareearth:gridminimum": [
+        "INPUT",
+        "CELL_SIZE", "HEIGHT_THRESHOLDS", "FINAL_HEIGHT", "MAX_OBJECT_SIZE", "GROUND_TOLERANCE",
+        "SLOPE_TOLERANCE",
+        *SHARED_PARAMETERS,
+    ],
+    "bareearth:slopefilter": [
+        "INPUT",
+        "PRESET", "SEARCH_RADIUS", "MIN_NEIGHBOURS", "SLOPE_THRESHOLD", "HEIGHT_THRESHOLD",
+        "SLOPE_NORM", "CELL_SIZE", "SLOPE_TOLERANCE",
+        *SHARED_PARAMETERS,
     ],
 }  # fmt: skip
 OUTPUTS = {
-    "bareearth:tindensification": [
-        "OUTPUT", "DTM", "HILLSHADE", "POINT_COUNT", "SELECTED_COUNT", "GROUND_COUNT",
-    ],
-}  # fmt: skip
+    "bareearth:tindensification": SHARED_OUTPUTS,
+    "bareearth:gridminimum": SHARED_OUTPUTS,
+    "bareearth:slopefilter": SHARED_OUTPUTS,
+}
 
 
 @pytest.fixture(params=sorted(PARAMETERS))
@@ -145,16 +165,33 @@ def test_the_version_is_told(registry):
     assert registry.providerById("bareearth").versionInfo()
 
 
-def test_its_page_holds_every_parameter_with_its_default(each):
-    page = (ROOT / "docs" / each.helpUrl().rpartition("/")[2]).read_text(encoding="utf-8")
+def page_of(algorithm):
+    return (ROOT / "docs" / algorithm.helpUrl().rpartition("/")[2]).read_text(encoding="utf-8")
+
+
+def test_its_page_holds_every_parameter_with_its_default(each, registry):
+    page = page_of(each)
+    # What all ground classifications share stands on the page of one of them.
+    shared = page_of(registry.createAlgorithmById(ALGORITHM))
     for declared in each.parameter_sets():
+        holds = shared if declared in (Selection, TerrainModel) else page
         for parameter in declared.declarations():
             row = f"| **{parameter.label}** `{parameter.name.upper()}` | "
-            assert row in page
-            default = page.partition(row)[2].partition(" |")[0]
-            if isinstance(parameter.default, float):
-                unit = {"m": " m", "deg": "°", "": ""}[parameter.unit]
-                assert default == f"{parameter.default:g}{unit}"
+            assert row in holds
+            cells = holds.partition(row)[2].partition("\n")[0].split(" | ")[:-1]
+            unit = {"m": " m", "deg": "°"}.get(parameter.unit, "")
+            if isinstance(parameter.default, bool):
+                shown = "on" if parameter.default else "off"
+            elif isinstance(parameter.default, float):
+                shown = f"{parameter.default:g}{unit}"
+            elif isinstance(parameter.default, tuple):
+                shown = str(parameter.default).strip("(,)") + unit
             elif parameter.default is not None:
-                assert default.strip("`") == str(parameter.default)
-    assert all(each.name() in page for each in each.outputDefinitions())
+                shown = str(parameter.default)
+            else:
+                continue
+            assert shown in [cell.strip("`") for cell in cells]
+    outputs = [each.name() for each in each.outputDefinitions()]
+    if issubclass(type(each), ClassificationAlgorithm):
+        page += shared
+    assert all(f"`{name}`" in page for name in outputs)
