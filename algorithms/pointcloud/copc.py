@@ -19,6 +19,7 @@ from typing import BinaryIO, Iterator, NamedTuple
 import numpy as np
 
 from ..progress import SILENT, Progress
+from .changes import Rewriting
 from .crs import GEOKEY_RECORDS, WKT_RECORD, compound_wkt, read_crs, wkt_text
 from .lasbytes import (
     COPC_HIERARCHY,
@@ -97,22 +98,18 @@ class _Statistics(NamedTuple):
     gps_time: tuple[float, float]
 
 
-def write_copc(
-    layout: LasLayout, target: Path, classification: np.ndarray, progress: Progress = SILENT
-) -> None:
-    """Write a file as COPC, with other classes.
+def write_copc(rewriting: Rewriting, target: Path, progress: Progress = SILENT) -> None:
+    """Write a file as COPC, with other values of its points.
 
     All points are in memory at once, as their bytes. The order of the points changes; scale,
-    offset, integers, extra bytes and the records stay.
+    offset, integers, extra bytes and the records stay, but for what is to change.
 
     Parameters
     ----------
-    layout : LasLayout
-        The input.
+    rewriting : Rewriting
+        The input, and what changes in it.
     target : Path
         The file to make.
-    classification : numpy.ndarray of uint8, shape (n,)
-        The class of every point, in the order of the input.
     progress : Progress
         Told what COPC cannot hold.
 
@@ -125,9 +122,10 @@ def write_copc(
     Cancelled
         If the user asked to stop; a half written file is left to the caller.
     """
+    layout = rewriting.target
     point_format = _NEW_FORMATS[layout.point_format]
     _tell_of_format(layout, point_format, progress)
-    records = _read(layout, point_format, classification, progress.part(0.0, 0.3))
+    records = _read(rewriting, point_format, progress.part(0.0, 0.3))
     octree = build_octree(records, layout.scale, layout.offset, progress.part(0.3, 0.4))
     vlrs, evlrs = _vlrs(layout, point_format, progress), _evlrs(layout)
     with open(target, "w+b") as file:
@@ -296,23 +294,23 @@ def _extent(
     )
 
 
-def _read(
-    layout: LasLayout, point_format: int, classification: np.ndarray, progress: Progress
-) -> np.ndarray:
-    """Return the bytes of all points in a format that COPC takes, with their new classes."""
+def _read(rewriting: Rewriting, point_format: int, progress: Progress) -> np.ndarray:
+    """Return the bytes of all points as they are to be, in a format that COPC takes."""
+    layout = rewriting.target
     length = RECORD_LENGTHS[point_format]
     records = np.zeros((layout.count, length + layout.extra_bytes), dtype=np.uint8)
     start = 0
-    for old in read_records(layout):
-        new = records[start : start + len(old)]
+    for raw in read_records(rewriting.source):
+        new = records[start : start + len(raw)]
+        old = rewriting.apply(raw, start)
         if layout.point_format >= 6:
             # 9 and 10 are 6 and 8 with waveforms behind.
             new[:, :length] = old[:, :length]
         else:
             _modernise(old, new, layout.point_format)
         new[:, length:] = old[:, RECORD_LENGTHS[layout.point_format] :]
-        new[:, 16] = classification[start : start + len(old)]
-        start += len(old)
+        new[:, 16] = rewriting.classes(old, start)
+        start += len(raw)
         progress(start / layout.count)
     return records
 

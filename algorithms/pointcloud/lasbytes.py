@@ -8,7 +8,7 @@ of the LAS 1.0 to 1.4 specifications.
 from __future__ import annotations
 
 import struct
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import BinaryIO
@@ -32,6 +32,7 @@ _LARGEST_KEPT = 1 << 20
 _ENCODING, _VERSION, _SYSTEM, _SOFTWARE, _HEADER_SIZE = 6, 24, 26, 58, 94
 _POINTS_START, _VLR_COUNT, _FORMAT, _RECORD_LENGTH, _LEGACY_COUNT = 96, 100, 104, 105, 107
 _SCALE, _OFFSET, _WAVEFORM_START, _EVLR_START, _COUNT = 131, 155, 227, 235, 247
+_Z_RANGE = 211
 
 
 @dataclass(frozen=True)
@@ -205,11 +206,11 @@ class LasLayout:
         prefix[_FORMAT] = self.point_format | (0x80 if compressed else 0)
         return prefix
 
-    def kept_tail(self, dropped: tuple[str, int]) -> list[tuple[int, int]]:
-        """Return the ranges of bytes after the points, without the EVLRs that have the key."""
+    def kept_tail(self, *dropped: tuple[str, int]) -> list[tuple[int, int]]:
+        """Return the ranges of bytes after the points, without the EVLRs that have such a key."""
         ranges, start = [], self.tail_start
         for evlr in self.evlrs:
-            if evlr.key == dropped and evlr.start >= start:
+            if evlr.key in dropped and evlr.start >= start:
                 ranges.append((start, evlr.start))
                 start = evlr.start + evlr.length
         return [*ranges, (start, self.size)]
@@ -244,6 +245,21 @@ def new_vlr(key: tuple[str, int], data: bytes, description: str) -> Vlr:
     user, number = key
     head = struct.pack("<H16sHH32s", 0, user.encode(), number, len(data), description.encode())
     return Vlr(head + data)
+
+
+def with_record_length(layout: LasLayout, length: int) -> LasLayout:
+    """Return the layout with another number of bytes for each point."""
+    header = bytearray(layout.header)
+    struct.pack_into("<H", header, _RECORD_LENGTH, length)
+    return replace(layout, header=bytes(header))
+
+
+def with_z_range(layout: LasLayout, lowest: int, highest: int) -> LasLayout:
+    """Return the layout with another extent of the heights, which are given as integers."""
+    header, scale, offset = bytearray(layout.header), layout.scale[2], layout.offset[2]
+    extent = highest * scale + offset, lowest * scale + offset
+    struct.pack_into("<2d", header, _Z_RANGE, *extent)
+    return replace(layout, header=bytes(header))
 
 
 def read_layout(path: Path) -> LasLayout:

@@ -12,7 +12,7 @@ from .sources import damage_told, damaged, open_source
 
 CHUNK = 1_000_000
 _BLOCK = 1 << 24
-_FIRST_EXTENDED_FORMAT = 6
+FIRST_EXTENDED_FORMAT = 6
 
 
 def read_records(layout: LasLayout, chunk: int = CHUNK) -> Iterator[np.ndarray]:
@@ -54,7 +54,7 @@ def set_classes(layout: LasLayout, records: np.ndarray, classes: np.ndarray) -> 
     classes : numpy.ndarray of uint8, shape (n,)
         Up to 31 in point formats 0 to 5, whose byte has three flags above the class.
     """
-    if layout.point_format >= _FIRST_EXTENDED_FORMAT:
+    if layout.point_format >= FIRST_EXTENDED_FORMAT:
         records[:, 16] = classes
     else:
         records[:, 15] = (records[:, 15] & 0xE0) | classes

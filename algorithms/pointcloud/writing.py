@@ -1,4 +1,4 @@
-"""Writing a classified cloud: the file as it was, with other classes.
+"""Writing a cloud anew: the file as it was, with other classes, heights or extra bytes.
 
 laspy is not used here: it writes headers and records anew, and what it does not know gets lost. The
 bytes of the input are copied instead, and only those changed that have to.
@@ -16,6 +16,7 @@ from ..errors import BareEarthError
 from ..files import replacing
 from ..progress import SILENT, Progress
 from .backends import require
+from .changes import Changes, Rewriting
 from .copc import write_copc
 from .lasbytes import COPC_HIERARCHY, COPC_INFO, EVLR_COUNT, LASZIP, LasLayout, read_layout
 from .records import (
@@ -54,16 +55,31 @@ def write_classified(
 ) -> None:
     """Write `source` anew with other classes.
 
-    Points, their order, integers and extra bytes, the header and all records stay as they are,
-    but for what compressing or decompressing needs. Writing .copc.laz changes the order of the
-    points, and the point formats 0 to 5 to 6 to 8, as its specification wants.
+    Parameters
+    ----------
+    classification : numpy.ndarray of uint8, shape (n,)
+        The class of every point, in the order of `source`.
+    source, target, progress
+        As for `write_changed`.
+    """
+    write_changed(source, target, Changes(classification=classification), progress)
+
+
+def write_changed(
+    source: Path, target: Path, changes: Changes, progress: Progress = SILENT
+) -> None:
+    """Write `source` anew with other values of its points.
+
+    All that is not to change stays: points, their order, integers and extra bytes, the header and
+    all records, but for what compressing or decompressing needs. Writing .copc.laz changes the
+    order of the points, and the point formats 0 to 5 to 6 to 8, as its specification wants.
 
     Parameters
     ----------
     source, target : Path
         The input, and the output: .las, .laz or .copc.laz.
-    classification : numpy.ndarray of uint8, shape (n,)
-        The class of every point, in the order of `source`.
+    changes : Changes
+        What changes.
     progress : Progress
         Told what an output cannot hold.
 
@@ -77,15 +93,14 @@ def write_classified(
     source, target = Path(source), Path(target)
     check_writable(target)
     layout = read_layout(source)
-    if len(classification) != layout.count:
-        raise BareEarthError(f"{source} has changed while it was classified. Classify it again.")
+    rewriting = Rewriting(layout, changes)
     if layout.is_compressed:
         require("lazrs")
     with replacing(target) as temporary:
         if _is_copc(target):
-            write_copc(layout, temporary, classification, progress)
+            write_copc(rewriting, temporary, progress)
         else:
-            _write(layout, temporary, classification, progress)
+            _write(rewriting, temporary, progress)
     if not _is_copc(target):
         _tell_of_waveforms(layout, target, progress)
 
@@ -94,12 +109,9 @@ def _is_copc(target: Path) -> bool:
     return target.name.lower().endswith(_COPC_SUFFIX)
 
 
-def _write(layout: LasLayout, target: Path, classification: np.ndarray, progress: Progress) -> None:
-    if layout.point_format <= 5 and classification.max() > 31:
-        raise BareEarthError(
-            f"Point format {layout.point_format} holds classes up to 31, not"
-            f" {classification.max()}. Choose another class for the ground."
-        )
+def _write(rewriting: Rewriting, target: Path, progress: Progress) -> None:
+    rewriting.check_classes()
+    layout = rewriting.target
     if layout.is_copc:
         progress.info(
             "The points stay in the order of the COPC file, but its index is left out: choose an"
@@ -116,8 +128,9 @@ def _write(layout: LasLayout, target: Path, classification: np.ndarray, progress
         file.write(layout.prefix(tuple(vlrs), compressed))
         writer = LazRecordWriter(file, laszip) if laszip else LasRecordWriter(file)
         start, channels = 0, set()
-        for records in read_records(layout):
-            set_classes(layout, records, classification[start : start + len(records)])
+        for old in read_records(rewriting.source):
+            records = rewriting.apply(old, start)
+            set_classes(layout, records, rewriting.classes(old, start))
             if laszip is not None and layout.point_format in _EXTENDED_WITH_WAVEFORMS:
                 channels |= set(np.unique(records[:, 15] & _CHANNEL_BITS).tolist())
                 _check_channels(layout, channels)
@@ -125,7 +138,7 @@ def _write(layout: LasLayout, target: Path, classification: np.ndarray, progress
             start += len(records)
             progress(start / layout.count)
         writer.finish()
-        _copy_tail(layout, file)
+        _copy_tail(rewriting, file)
 
 
 def _check_channels(layout: LasLayout, channels: set[int]) -> None:
@@ -141,9 +154,11 @@ def _check_channels(layout: LasLayout, channels: set[int]) -> None:
         )
 
 
-def _copy_tail(layout: LasLayout, file: BinaryIO) -> None:
+def _copy_tail(rewriting: Rewriting, file: BinaryIO) -> None:
     """Copy what follows the points, and let the header point to where it is now."""
-    tail = layout.kept_tail(COPC_HIERARCHY)
+    layout = rewriting.source
+    kept = {evlr.key for evlr in rewriting.target.evlrs}
+    tail = layout.kept_tail(COPC_HIERARCHY, *(e.key for e in layout.evlrs if e.key not in kept))
     pointers = layout.pointers(tail, file.seek(0, 2))
     with open_source(layout.path) as source:
         for start, end in tail:

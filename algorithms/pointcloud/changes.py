@@ -1,0 +1,130 @@
+"""What is to become other in the points of a file, and how that changes their bytes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import BareEarthError
+from .extrabytes import ExtraDimension, place_dimension
+from .lasbytes import LasLayout, with_z_range
+from .records import FIRST_EXTENDED_FORMAT
+
+_LARGEST_LEGACY_CLASS = 31
+_Z = slice(8, 12)
+# The key-point flag: in the byte of the class up to point format 5, in that of the flags from 6 on.
+_LEGACY_KEY_POINT, _KEY_POINT, _FLAGS = 0x40, 0x02, 15
+
+
+@dataclass(frozen=True)
+class Changes:
+    """New values of points, each of shape (n,) in the order of the file; None where all stay.
+
+    Attributes
+    ----------
+    classification : numpy.ndarray of uint8 or None
+        Classes.
+    key_points : numpy.ndarray of int8 or None
+        1 sets the flag for model key points, 0 clears it, -1 leaves it as it is.
+    z : numpy.ndarray of int32 or None
+        Heights as integers, of the scale and offset that the file has.
+    extra : ExtraDimension or None
+        A dimension in extra bytes.
+    """
+
+    classification: np.ndarray | None = None
+    key_points: np.ndarray | None = None
+    z: np.ndarray | None = None
+    extra: ExtraDimension | None = None
+
+    def columns(self) -> list[np.ndarray]:
+        """Return what is given."""
+        extra = None if self.extra is None else self.extra.values
+        columns = self.classification, self.key_points, self.z, extra
+        return [each for each in columns if each is not None]
+
+
+class Rewriting:
+    """A file and what becomes of it.
+
+    Parameters
+    ----------
+    source : LasLayout
+        The file as it is.
+    changes : Changes
+        What changes in its points.
+
+    Attributes
+    ----------
+    source, target : LasLayout
+        The file as it is, and its header and records as they are to be.
+
+    Raises
+    ------
+    BareEarthError
+        If the file is not the one that the changes are for, or cannot hold them.
+    """
+
+    def __init__(self, source: LasLayout, changes: Changes) -> None:
+        if any(len(column) != source.count for column in changes.columns()):
+            raise BareEarthError(f"{source.path} has changed while it was worked on. Run it again.")
+        self.source = self.target = source
+        self._changes, self._place = changes, None
+        if changes.extra is not None:
+            self.target, self._place = place_dimension(source, changes.extra)
+        if changes.z is not None:
+            self.target = with_z_range(self.target, int(changes.z.min()), int(changes.z.max()))
+
+    def check_classes(self) -> None:
+        """Refuse classes that the point format of the file has no room for."""
+        classes = self._changes.classification
+        legacy = self.source.point_format < FIRST_EXTENDED_FORMAT
+        if legacy and classes is not None and classes.max() > _LARGEST_LEGACY_CLASS:
+            raise BareEarthError(
+                f"Point format {self.source.point_format} holds classes up to"
+                f" {_LARGEST_LEGACY_CLASS}, not {classes.max()}. Choose another class for the"
+                " ground."
+            )
+
+    def classes(self, records: np.ndarray, start: int) -> np.ndarray:
+        """Return the classes that records, which begin with the point `start`, are to have."""
+        if self._changes.classification is not None:
+            return self._changes.classification[start : start + len(records)]
+        if self.source.point_format < FIRST_EXTENDED_FORMAT:
+            return records[:, 15] & 0x1F
+        return records[:, 16]
+
+    def apply(self, records: np.ndarray, start: int) -> np.ndarray:
+        """Return records as they are to be, but for their classes.
+
+        Parameters
+        ----------
+        records : numpy.ndarray of uint8, shape (k, record length)
+            Records of the source; may be changed in place.
+        start : int
+            Number of the first of them in the file.
+
+        Returns
+        -------
+        numpy.ndarray of uint8, shape (k, record length of the target)
+        """
+        part = slice(start, start + len(records))
+        if self.target.record_length > records.shape[1]:
+            longer = np.empty((len(records), self.target.record_length), dtype=np.uint8)
+            longer[:, : records.shape[1]] = records
+            records = longer
+        if self._changes.z is not None:
+            _put(records, _Z.start, np.dtype("<i4"), self._changes.z[part])
+        if self._place is not None:
+            _put(records, self._place.start, self._place.kind, self._changes.extra.values[part])
+        if self._changes.key_points is not None:
+            legacy = self.source.point_format < FIRST_EXTENDED_FORMAT
+            bit, flags = _LEGACY_KEY_POINT if legacy else _KEY_POINT, self._changes.key_points[part]
+            records[flags == 0, _FLAGS] &= 0xFF ^ bit
+            records[flags == 1, _FLAGS] |= bit
+        return records
+
+
+def _put(records: np.ndarray, start: int, kind: np.dtype, values: np.ndarray) -> None:
+    records[:, start : start + kind.itemsize].view(kind)[:, 0] = values
