@@ -47,9 +47,11 @@ class Declaration:
     choices : mapping of str to str
         For a choice: each value with its label.
     optional : bool
-        Whether None (not used) is a value.
+        Whether None is a value.
     advanced : bool
         Whether the dialog folds it away.
+    empty : str
+        What None means: ``not used``, ``automatic`` where the value is then chosen, or in words.
     """
 
     name: str
@@ -63,6 +65,7 @@ class Declaration:
     choices: Mapping[str, str] = dataclasses.field(default_factory=dict)
     optional: bool = False
     advanced: bool = False
+    empty: str = "not used"
 
     def check(self, value: Any) -> Any:
         """Return `value` as this parameter's type.
@@ -125,6 +128,7 @@ def parameter(
     kind: str | None = None,
     optional: bool = False,
     advanced: bool = False,
+    empty: str = "not used",
 ) -> Any:
     """Declare one field of a `ParameterSet`; see `Declaration` for the words.
 
@@ -134,7 +138,7 @@ def parameter(
         kind = "choice" if choices else _kind_of(default)
     declaration = Declaration(
         "", kind, default, label, help, unit, minimum, maximum, dict(choices or {}),
-        optional or default is None, advanced,
+        optional or default is None, advanced, empty,
     )  # fmt: skip
     return dataclasses.field(default=default, metadata={_KEY: declaration})
 

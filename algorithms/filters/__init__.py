@@ -7,8 +7,6 @@ from typing import Callable, NamedTuple
 import numpy as np
 
 from ..parameters import ParameterSet
-from ..points import Points
-from ..progress import Progress
 from . import grid_minimum, slope, tin_densification
 
 
@@ -25,12 +23,16 @@ class Method(NamedTuple):
         Its `ParameterSet`.
     classify : callable
         ``classify(points, parameters, progress)``, a pure function that returns the ground mask.
+    takes_known_ground : bool
+        Whether `classify` takes the keyword ``known_ground``, a mask of points that are surely
+        ground, and starts from them.
     """
 
     name: str
     label: str
     parameters: type[ParameterSet]
-    classify: Callable[[Points, ParameterSet, Progress], np.ndarray]
+    classify: Callable[..., np.ndarray]
+    takes_known_ground: bool = False
 
 
 METHODS = {

@@ -67,6 +67,7 @@ class SlopeFilter(ParameterSet):
         minimum=0.1,
         maximum=500.0,
         kind="number",
+        empty="automatic",
         help="How far a point is compared with its neighbours, the largest distance in the"
         " automatic preset: at least half the shorter side of the largest building. Empty: 18 m"
         " (more if points are sparse), or 2 m in the preset Whitebox.",
@@ -87,6 +88,7 @@ class SlopeFilter(ParameterSet):
         minimum=0.0,
         maximum=88.0,
         kind="number",
+        empty="automatic",
         help="A point is not ground if it stands above a neighbour at a steeper slope than this;"
         " in the automatic preset, steeper by this than the terrain round it. Empty: 15 deg, or"
         " 45 deg in the preset Whitebox.",
@@ -98,6 +100,7 @@ class SlopeFilter(ParameterSet):
         minimum=0.0,
         maximum=100.0,
         kind="number",
+        empty="automatic",
         help="Only points that stand above a neighbour by at least this much are not ground."
         " Empty: 0.5 m, or 1 m in the preset Whitebox.",
     )
@@ -114,6 +117,7 @@ class SlopeFilter(ParameterSet):
         minimum=0.05,
         maximum=50.0,
         kind="number",
+        empty="automatic",
         advanced=True,
         help="Side of the cells whose lowest points are compared in the automatic preset. Empty:"
         " 1 m, more if points are sparse.",
