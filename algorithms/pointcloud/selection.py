@@ -12,7 +12,8 @@ from ..progress import Progress
 from .cloud import PointCloud
 
 NEVER_CLASSIFIED, UNCLASSIFIED, GROUND = 0, 1, 2
-NOISE = (7, 18)
+LOW_NOISE = 7
+NOISE = (LOW_NOISE, 18)
 _LAST_LEGACY_FORMAT, _LARGEST_LEGACY_CLASS = 5, 31
 
 
@@ -26,8 +27,20 @@ class Selection(ParameterSet):
         label="Classes to classify anew",
         minimum=0,
         maximum=255,
+        empty="all but noise",
         help="Only points of these classes take part and may change their class; every class but"
         " low and high noise (7 and 18) when none is given.",
+    )
+    seed_classes: tuple[int, ...] | None = parameter(
+        None,
+        kind="integers",
+        label="Classes of known ground",
+        minimum=0,
+        maximum=255,
+        empty="none",
+        help="Points of these classes are ground for certain, whatever their return: they are not"
+        " judged, and the TIN densification starts from them. They get the class of the ground,"
+        " too, unless theirs is not among those to classify anew.",
     )
     to_class: int = parameter(
         GROUND,
@@ -58,8 +71,27 @@ class Selection(ParameterSet):
         " become 1 in either case; noise, withheld points and other classes than those to classify"
         " anew stay as they are.",
     )
+    low_noise_class: bool = parameter(
+        False,
+        label="Put low outliers into class 7",
+        help="Points that took part and lie far below the ground that was found (multipath, faults"
+        " of the sensor) become low noise, class 7, instead of what becomes of other points.",
+    )
+    low_noise_depth: float = parameter(
+        1.0,
+        label="Depth of low outliers",
+        unit="m",
+        minimum=0.05,
+        maximum=1000.0,
+        advanced=True,
+        help="How far below the ground a point must lie to become low noise, in level terrain; on"
+        " slopes the rise of the ground over 1 m is added. Only where low outliers are put into"
+        " class 7.",
+    )
 
-    def select(self, cloud: PointCloud, progress: Progress) -> np.ndarray:
+    def select(
+        self, cloud: PointCloud, progress: Progress, within: np.ndarray | None = None
+    ) -> np.ndarray:
         """Return which points take part.
 
         Parameters
@@ -68,6 +100,8 @@ class Selection(ParameterSet):
             All points, with their present classes.
         progress : Progress
             Told how many points are left out, and why.
+        within : numpy.ndarray of bool, shape (n,), optional
+            Points outside take no part; all are within where it is not given.
 
         Returns
         -------
@@ -87,38 +121,64 @@ class Selection(ParameterSet):
         withheld = int(np.count_nonzero(cloud.withheld))
         if withheld:
             progress.info(f"{withheld:,} withheld points are left out.")
-        eligible = self._eligible(cloud)
+        eligible = self._eligible(cloud, within)
         selected = eligible & self._returns(cloud, progress)
         if not selected.any():
-            raise BareEarthError(self._why_empty(cloud, eligible))
+            raise BareEarthError(self._why_empty(cloud, eligible, within))
+        if self.seed_classes:
+            known = self.known_ground(cloud, within)
+            classes = ", ".join(map(str, self.seed_classes))
+            if known.any():
+                progress.info(
+                    f"{np.count_nonzero(known):,} points of class {classes} are known ground."
+                )
+            else:
+                progress.warning(f"There are no points of known ground (class {classes}).")
+            selected |= known
         count = int(np.count_nonzero(selected))
         progress.info(f"{count:,} of {cloud.count:,} points take part.")
         return selected
 
-    def classes(self, cloud: PointCloud, selected: np.ndarray, ground: np.ndarray) -> np.ndarray:
+    def known_ground(self, cloud: PointCloud, within: np.ndarray | None = None) -> np.ndarray:
+        """Return which points, of those within, are ground for certain."""
+        known = _is_one_of(cloud.classification, self.seed_classes or ()) & ~cloud.withheld
+        return known if within is None else known & within
+
+    def classes(
+        self,
+        cloud: PointCloud,
+        ground: np.ndarray,
+        low: np.ndarray | None = None,
+        inside: np.ndarray | None = None,
+    ) -> np.ndarray:
         """Return the new class of every point.
 
         Parameters
         ----------
         cloud : PointCloud
             All points, with their present classes.
-        selected, ground : numpy.ndarray of bool, shape (n,)
-            Which points took part, and which of those are ground.
+        ground : numpy.ndarray of bool, shape (n,)
+            Which points, of those that took part, are ground.
+        low : numpy.ndarray of bool, shape (n,), optional
+            Which of the others are low outliers.
+        inside : numpy.ndarray of bool, shape (n,), optional
+            Points outside keep their class; all are inside where it is not given.
 
         Returns
         -------
         numpy.ndarray of uint8, shape (n,)
         """
         old = cloud.classification
-        eligible = self._eligible(cloud)
-        if self.others == "unclassified":
-            changes = eligible | selected
-        else:
+        eligible = self._eligible(cloud, inside)
+        changes = eligible
+        if self.others == "keep":
             # Old ground of returns that did not take part goes too: it was not confirmed either.
             changes = eligible & _is_one_of(old, (NEVER_CLASSIFIED, GROUND, self.to_class))
         classes = old.copy()
         classes[changes] = UNCLASSIFIED
-        classes[ground] = self.to_class
+        classes[eligible & ground] = self.to_class
+        if low is not None:
+            classes[eligible & low] = LOW_NOISE
         return classes
 
     def _check_class(self, cloud: PointCloud) -> None:
@@ -138,13 +198,14 @@ class Selection(ParameterSet):
         }
         return {value: count for value, count in counts.items() if count}
 
-    def _eligible(self, cloud: PointCloud) -> np.ndarray:
-        """Return which points may change their class, whatever their return."""
+    def _eligible(self, cloud: PointCloud, within: np.ndarray | None) -> np.ndarray:
+        """Return which points, of those within, may change their class, whatever their return."""
         if self.from_classes:
             eligible = _is_one_of(cloud.classification, self.from_classes)
         else:
             eligible = ~_is_one_of(cloud.classification, NOISE)
-        return eligible & ~cloud.withheld
+        eligible &= ~cloud.withheld
+        return eligible if within is None else eligible & within
 
     def _returns(self, cloud: PointCloud, progress: Progress) -> np.ndarray:
         """Return which points are of the wanted returns."""
@@ -162,18 +223,18 @@ class Selection(ParameterSet):
         # A number above the total is wrong, but a last return whatever the total should be.
         return (number >= total) | unnumbered
 
-    def _why_empty(self, cloud: PointCloud, eligible: np.ndarray) -> str:
+    def _why_empty(self, cloud: PointCloud, eligible: np.ndarray, within: np.ndarray | None) -> str:
         """Return the sentence for a selection without points: what to change."""
+        which = np.ones(cloud.count, dtype=bool) if within is None else within
+        place = f"{cloud.path}" if within is None else f"{cloud.path} in the area"
         if eligible.any():
-            return (
-                f"No point of {cloud.path} is a last or single return. Choose all returns instead."
-            )
-        if cloud.withheld.all():
-            return f"All points of {cloud.path} are withheld. Clear that flag first."
-        present = ", ".join(str(value) for value in np.unique(cloud.classification))
+            return f"No point of {place} is a last or single return. Choose all returns instead."
+        if cloud.withheld[which].all():
+            return f"All points of {place} are withheld. Clear that flag first."
+        present = ", ".join(str(value) for value in np.unique(cloud.classification[which]))
         return (
-            f"No point of {cloud.path} is left to classify: it has the classes {present}. Choose"
-            " among them the classes to classify anew."
+            f"No point of {place} is left to classify: it has the classes {present}. Choose among"
+            " them the classes to classify anew."
         )
 
 

@@ -96,9 +96,8 @@ def test_a_class_above_31_fits_into_the_new_formats():
 
 
 def new_classes(selection, cloud, ground):
-    selected = selection.select(cloud, SILENT)
     before = cloud.classification.copy()
-    classes = selection.classes(cloud, selected, np.array(ground, bool))
+    classes = selection.classes(cloud, np.array(ground, bool))
     np.testing.assert_array_equal(cloud.classification, before)
     return classes.tolist()
 
@@ -132,3 +131,57 @@ def test_old_ground_of_earlier_returns_goes_too():
 def test_another_class_of_the_ground():
     cloud = cloud_of([0, 2, 8, 8, 5])
     assert new_classes(Selection(to_class=8), cloud, [1, 0, 1, 0, 0]) == [8, 1, 8, 1, 5]
+
+
+def test_only_points_within_take_part(las):
+    heard, within = las.Heard(), np.array([0, 1, 1, 0], bool)
+    assert Selection().select(cloud_of([1, 1, 7, 1]), heard, within).tolist() == [0, 1, 0, 0]
+    assert "1 of 4 points take part." in heard.infos
+
+
+@pytest.mark.parametrize(
+    ("selection", "cloud", "text"),
+    [
+        (Selection(), cloud_of([1, 7, 18]), r"in the area is left .* has the classes 7, 18\."),
+        (Selection(), cloud_of([1, 1, 1], withheld=[0, 1, 1]), "in the area are withheld"),
+        (Selection(), cloud_of([1] * 3, [1] * 3, [1, 2, 2]), "in the area is a last or single"),
+    ],
+)
+def test_where_nothing_within_is_left_the_area_is_named(selection, cloud, text):
+    with pytest.raises(BareEarthError, match=text):
+        selection.select(cloud, SILENT, np.array([0, 1, 1], bool))
+
+
+def test_known_ground_takes_part_whatever_its_return_and_class_but_not_withheld(las):
+    cloud = cloud_of(
+        [1, 2, 2, 8, 5, 2], number=[1, 1, 1, 1, 1, 1], total=[1, 1, 2, 2, 1, 1],
+        withheld=[0, 0, 0, 0, 0, 1],
+    )  # fmt: skip
+    selection, heard = Selection(from_classes=(1,), seed_classes=(2, 8)), las.Heard()
+    assert selection.select(cloud, heard).tolist() == [1, 1, 1, 1, 0, 0]
+    assert selection.known_ground(cloud).tolist() == [0, 1, 1, 1, 0, 0]
+    assert "3 points of class 2, 8 are known ground." in heard.infos
+    within = np.array([1, 1, 0, 0, 1, 1], bool)
+    assert selection.known_ground(cloud, within).tolist() == [0, 1, 0, 0, 0, 0]
+    assert not Selection().known_ground(cloud).any()
+
+
+def test_known_ground_alone_is_nothing_to_classify():
+    with pytest.raises(BareEarthError, match="left to classify"):
+        Selection(from_classes=(1,), seed_classes=(2,)).select(cloud_of([2, 2]), SILENT)
+
+
+def test_known_ground_gets_the_class_of_the_ground_only_where_it_may_change():
+    cloud = cloud_of([1, 8, 8])
+    assert new_classes(Selection(seed_classes=(8,)), cloud, [0, 1, 1]) == [1, 2, 2]
+    selection = Selection(seed_classes=(8,), from_classes=(1,))
+    assert new_classes(selection, cloud, [0, 1, 1]) == [1, 8, 8]
+
+
+@pytest.mark.parametrize("others", ["keep", "unclassified"])
+def test_low_outliers_become_class_7_and_outside_nothing_changes(others):
+    cloud = cloud_of([1, 5, 2, 1, 5, 0, 9])
+    low, inside = np.array([0, 1, 1, 1, 0, 0, 0], bool), np.array([1, 1, 1, 0, 0, 0, 1], bool)
+    ground = np.array([1, 0, 0, 0, 1, 0, 0], bool)
+    classes = Selection(others=others).classes(cloud, ground, low, inside)
+    assert classes.tolist() == [2, 7, 7, 1, 5, 0, 9 if others == "keep" else 1]

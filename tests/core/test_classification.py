@@ -1,0 +1,289 @@
+import dataclasses
+from pathlib import Path
+
+import laspy
+import numpy as np
+import pytest
+from scenes import village
+
+from bare_earth.algorithms import classification
+from bare_earth.algorithms.classification import classify, classify_file
+from bare_earth.algorithms.errors import BareEarthError
+from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.filters.grid_minimum import GridMinimum
+from bare_earth.algorithms.filters.slope import SlopeFilter
+from bare_earth.algorithms.filters.tin_densification import TinDensification
+from bare_earth.algorithms.pointcloud.area import Area
+from bare_earth.algorithms.pointcloud.cloud import PointCloud
+from bare_earth.algorithms.pointcloud.crs import Crs
+from bare_earth.algorithms.pointcloud.selection import Selection
+from bare_earth.algorithms.points import Points
+from bare_earth.algorithms.progress import SILENT
+from bare_earth.algorithms.terrain.below_ground import below_ground
+
+EAST, NORTH = 500_000.0, 5_700_000.0
+FOOT = 0.3048
+PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
+
+
+def cloud_of(points, classes=1, crs=None, unit=1.0):
+    """Return a cloud of points that are given in metres, in a CRS of some unit."""
+    x, y, z = (np.round(each / unit * 1000).astype(np.int32) for each in points)
+    ones = np.ones(points.count, np.uint8)
+    return PointCloud(
+        Path("in.las"), x, y, z, (0.001,) * 3, (EAST, NORTH, 0.0), classes * ones, ones, ones,
+        np.zeros(points.count, bool), 6, crs or Crs(horizontal_unit=unit, vertical_unit=unit),
+    )  # fmt: skip
+
+
+def box(west, south, east, north, unit=1.0):
+    return Area(tuple(np.array([west, south, east, north]) / unit + [EAST, NORTH, EAST, NORTH]))
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return village()
+
+
+@pytest.fixture(scope="module")
+def long_scene():
+    """Return a strip of 480 x 40 m with houses: most of it is no context of its middle."""
+    random = np.random.default_rng(8)
+    x, y = random.uniform(0, 480, 40_000), random.uniform(0, 40, 40_000)
+    z = 50 + 0.05 * x + 2 * np.sin(x / 20) + random.normal(0, 0.03, len(x))
+    roof = (x % 40 < 14) & (np.abs(y - 20) < 6)
+    return Points(x, y, np.where(roof, z + 6, z))
+
+
+@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
+def test_in_an_area_the_result_is_that_of_the_whole_survey(parameters, long_scene):
+    cloud = cloud_of(long_scene, classes=6)
+    whole, _ = classify(cloud, parameters)
+    area = box(220, 5, 260, 35)
+    found, selected = classify(cloud, parameters, area=area)
+    inside = area.of(cloud)
+    assert 1000 < inside.sum() < 5000 and 0.2 < (whole[inside] == 2).mean() < 0.95
+    assert np.array_equal(found[inside], whole[inside])
+    assert (found[~inside] == 6).all() and np.array_equal(selected, inside)
+
+
+def watched(monkeypatch, result=None, takes_known_ground=False):
+    """Replace a method; return what it is given."""
+    given = {}
+
+    def watch(points, parameters, progress, **known):
+        given.update(points=points, **known)
+        return np.zeros(points.count, bool) if result is None else result(points)
+
+    method = METHODS["slope"]._replace(classify=watch, takes_known_ground=takes_known_ground)
+    monkeypatch.setattr(classification, "method_of", lambda parameters: method)
+    return given
+
+
+@pytest.mark.parametrize("unit", [1.0, FOOT])
+def test_the_method_sees_what_lies_near_the_area_and_no_more(unit, long_scene, monkeypatch):
+    given, cloud = watched(monkeypatch), cloud_of(long_scene, unit=unit)
+    classify(cloud, SlopeFilter(), area=box(220, 5, 260, 35, unit))
+    assert np.ptp(given["points"].x) == pytest.approx(240, abs=0.5)
+    assert given["points"].x.min() == pytest.approx(120, abs=0.5)
+    # More where a parameter is larger.
+    classify(cloud, SlopeFilter(search_radius=40.0), area=box(220, 5, 260, 35, unit))
+    assert np.ptp(given["points"].x) == pytest.approx(280, abs=0.5)
+
+
+def test_outside_an_area_even_old_ground_and_class_0_stay(scene):
+    points, _ = scene
+    classes = np.arange(points.count, dtype=np.uint8) % 3
+    cloud, area = cloud_of(points, classes), box(20, 20, 50, 60)
+    for others in ("keep", "unclassified"):
+        found, _ = classify(cloud, SlopeFilter(), Selection(others=others), area=area)
+        inside = area.of(cloud)
+        assert np.array_equal(found[~inside], classes[~inside])
+        assert set(np.unique(found[inside])) == {1, 2}
+
+
+def test_a_polygon_limits_too(scene):
+    points, _ = scene
+    cloud = cloud_of(points, 5)
+    corners = np.array([(EAST, NORTH), (EAST + 60, NORTH), (EAST, NORTH + 60)])
+    found, _ = classify(cloud, SlopeFilter(), area=Area(polygons=((corners,),)))
+    changed = found != 5
+    assert changed.any() and (points.x + points.y)[changed].max() <= 60.01
+
+
+def test_an_area_without_points_is_told_with_both_extents(scene):
+    with pytest.raises(BareEarthError) as caught:
+        classify(cloud_of(scene[0]), SlopeFilter(), area=Area((9.0, 50.0, 9.1, 50.1)))
+    text = str(caught.value)
+    assert "\n" not in text and "in.las lies in the area (x 9 to 9.1, y 50 to 50.1)" in text
+    assert "the points have x 500000" in text and "CRS of the points" in text
+
+
+def test_an_area_where_nothing_takes_part_is_told(scene):
+    points, _ = scene
+    classes = np.where(points.x < 40, 9, 1).astype(np.uint8)
+    with pytest.raises(BareEarthError, match=r"None of the [\d,]+ points in the area takes part"):
+        classify(
+            cloud_of(points, classes), SlopeFilter(), Selection(from_classes=(1,)),
+            area=box(0, 0, 30, 80),
+        )  # fmt: skip
+
+
+def test_geographic_coordinates_are_told_before_an_area_without_points(scene):
+    cloud = cloud_of(scene[0], crs=Crs(is_geographic=True))
+    with pytest.raises(BareEarthError, match="not in a projected CRS"):
+        classify(cloud, SlopeFilter(), area=Area((0, 0, 1, 1)))
+
+
+# Known ground
+
+
+def test_known_ground_stays_ground_whatever_the_method_finds(scene, monkeypatch, las):
+    given, heard = watched(monkeypatch), las.Heard()
+    classes = np.ones(scene[0].count, np.uint8)
+    classes[::7], classes[::9] = 8, 5
+    cloud, selection = cloud_of(scene[0], classes), Selection(seed_classes=(8,))
+    found, _ = classify(cloud, SlopeFilter(), selection, heard)
+    assert np.array_equal(found == 2, classes == 8)
+    assert (found[classes == 5] == 5).all()
+    assert "known_ground" not in given
+    count = np.count_nonzero(classes == 8)
+    assert f"{count:,} points of class 8 are known ground." in heard.infos
+    assert any("does not start from known ground" in each for each in heard.infos)
+
+
+def test_a_method_that_takes_known_ground_gets_it(scene, monkeypatch, las):
+    given, heard = watched(monkeypatch, takes_known_ground=True), las.Heard()
+    classes = np.ones(scene[0].count, np.uint8)
+    classes[::7], classes[::9] = 2, 9
+    cloud = cloud_of(scene[0], classes)
+    # Of class 9, which takes no part, nothing is given.
+    found, selected = classify(
+        cloud, SlopeFilter(), Selection(from_classes=(1,), seed_classes=(2,)), heard
+    )
+    assert np.array_equal(given["known_ground"], classes[selected] == 2)
+    assert given["points"].count == np.count_nonzero(selected) == np.count_nonzero(classes < 9)
+    assert np.array_equal(found, np.where(classes == 1, 1, classes))
+    assert not any("does not start" in each for each in heard.infos)
+    classify(cloud, SlopeFilter(), Selection(from_classes=(1,)))
+    assert given["points"].count == np.count_nonzero(classes == 1)
+
+
+def test_known_ground_is_context_outside_the_area_and_counts_there_only(scene, monkeypatch):
+    given = watched(monkeypatch, takes_known_ground=True)
+    classes = np.where(scene[0].x < 40, 2, 1).astype(np.uint8)
+    cloud = cloud_of(scene[0], classes)
+    found, _ = classify(cloud, SlopeFilter(), Selection(seed_classes=(2,)), area=box(50, 0, 80, 80))
+    assert np.count_nonzero(given["known_ground"]) == np.count_nonzero(classes == 2)
+    assert np.array_equal(found, classes)
+
+
+def test_without_known_ground_there_is_a_warning(scene, las):
+    heard = las.Heard()
+    classify(cloud_of(scene[0]), SlopeFilter(), Selection(seed_classes=(2, 8)), heard)
+    assert heard.warnings == ["There are no points of known ground (class 2, 8)."]
+
+
+@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
+def test_every_method_keeps_known_ground(parameters, scene):
+    points, truth = scene
+    # Of the roofs, too, though no method would take them.
+    classes = np.where(np.random.default_rng(1).random(points.count) < 0.02, 2, 1).astype(np.uint8)
+    assert (~truth)[classes == 2].sum() > 20
+    found, _ = classify(cloud_of(points, classes), parameters, Selection(seed_classes=(2,)))
+    assert (found[classes == 2] == 2).all()
+
+
+# Low outliers
+
+
+def is_low(points):
+    return points.z < 100 + 0.1 * points.x + 0.8 * np.sin(points.y / 15) - 4
+
+
+@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
+def test_low_outliers_go_to_class_7_where_wanted(parameters, scene, las):
+    points, truth = scene
+    low = is_low(points)
+    assert low.sum() == 6 and not truth[low].any()
+    cloud, heard = cloud_of(points), las.Heard()
+    plain, _ = classify(cloud, parameters)
+    assert (plain[low] == 1).all()
+    found, _ = classify(cloud, parameters, Selection(low_noise_class=True), heard)
+    assert (found[low] == 7).all() and (found == 7).sum() <= 8
+    assert np.array_equal(found == 2, plain == 2)
+    assert any("lie more than 1 m below the ground" in each for each in heard.infos)
+    deep, _ = classify(cloud, parameters, Selection(low_noise_class=True, low_noise_depth=100))
+    assert np.array_equal(deep, plain)
+
+
+def test_low_outliers_outside_the_area_or_of_other_classes_stay(scene):
+    points, _ = scene
+    low = is_low(points)
+    classes = np.ones(points.count, np.uint8)
+    classes[np.flatnonzero(low)[:2]] = 9
+    selection = Selection(low_noise_class=True, from_classes=(1,))
+    cloud, area = cloud_of(points, classes), box(0, 0, 80, 45)
+    found, _ = classify(cloud, SlopeFilter(), selection, area=area)
+    expected = low & (classes == 1) & area.of(cloud)
+    assert np.array_equal(found == 7, expected) and 0 < expected.sum() < 4
+
+
+def test_points_below_the_ground_on_a_slope_and_beside_a_cliff():
+    random = np.random.default_rng(4)
+    x, y = random.uniform(0, 60, (2, 15_000))
+    z = np.where(x < 30, x, x + 15.0)
+    ground = random.random(len(x)) < 0.5
+    assert not below_ground(Points(x, y, z), ground, 0.5).any()
+    deep = random.random(len(x)) < 0.01
+    ground &= ~deep
+    steps = np.abs(x - 30) < 2
+    found = below_ground(Points(x, y, np.where(deep, z - 3, z)), ground, 0.5)
+    assert np.array_equal(found[~steps], deep[~steps])
+    assert not found[ground].any()
+
+
+def test_below_no_ground_lies_nothing_and_few_points_suffice():
+    one = Points(np.zeros(2), np.zeros(2), np.array([5.0, 1.0]))
+    assert not below_ground(one, np.zeros(2, bool), 1.0).any()
+    assert below_ground(one, np.array([True, False]), 1.0).tolist() == [False, True]
+
+
+# Files
+
+
+@pytest.fixture
+def file(scene, tmp_path):
+    points, _ = scene
+    header = laspy.LasHeader(point_format=6, version="1.4")
+    header.scales, header.offsets = (0.001,) * 3, (EAST, NORTH, 0.0)
+    las = laspy.LasData(header)
+    las.x, las.y, las.z = points.x + EAST, points.y + NORTH, points.z
+    las.classification[:] = np.where(points.x < 40, 2, 1)
+    las.return_number[:] = las.number_of_returns[:] = 1
+    las.write(str(tmp_path / "in.las"))
+    return tmp_path / "in.las"
+
+
+def test_the_counts_are_those_of_the_file_and_of_the_area(file, scene):
+    target = file.with_name("out.las")
+    area = box(30, 0, 80, 80)
+    summary = classify_file(file, target, SlopeFilter(), progress=SILENT, area=area)
+    found = np.asarray(laspy.read(target).classification)
+    before = laspy.read(file)
+    inside = area.contains(np.asarray(before.x), np.asarray(before.y))
+    assert np.array_equal(found[~inside], np.asarray(before.classification)[~inside])
+    assert dataclasses.asdict(summary) == {
+        "point_count": scene[0].count,
+        "area_count": inside.sum(),
+        "selected_count": inside.sum(),
+        "ground_count": (found == 2).sum(),
+        "area_ground_count": (found[inside] == 2).sum(),
+        "class_counts": {1: (found == 1).sum(), 2: (found == 2).sum()},
+    }
+
+
+def test_without_an_area_it_is_all(file, scene):
+    summary = classify_file(file, file.with_name("out.las"), SlopeFilter())
+    assert summary.area_count == summary.selected_count == summary.point_count == scene[0].count
+    assert summary.area_ground_count == summary.ground_count
