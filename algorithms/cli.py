@@ -146,6 +146,15 @@ def _add_classify(commands: Any, common: argparse.ArgumentParser, arguments: Seq
     parser.add_argument("--dtm", metavar="FILE", type=Path, help="write the terrain model (.tif)")
     parser.add_argument("--hillshade", metavar="FILE", type=Path, help="write its hillshade (.tif)")
     parser.add_argument(
+        "--extent", nargs=4, type=float, metavar=("XMIN", "YMIN", "XMAX", "YMAX"),
+        help="classify only points in this rectangle, in the CRS of the points",
+    )  # fmt: skip
+    parser.add_argument(
+        "--boundary", metavar="FILE", type=Path,
+        help="classify only points in these polygons (.geojson, .json, .wkt), in the CRS of the"
+        " points",
+    )  # fmt: skip
+    parser.add_argument(
         "--method", choices=list(METHODS), default=_DEFAULT_METHOD,
         help="the ground filter (default: %(default)s)",
     )  # fmt: skip
@@ -170,6 +179,7 @@ def _classify(options: argparse.Namespace) -> int:
     from .classification import classify_file
 
     chosen = {name: from_options(declared, options) for name, declared in options.groups.items()}
+    area = _area_of(options)
     with _Terminal(options.verbose) as progress:
         summary = classify_file(
             options.input,
@@ -180,6 +190,7 @@ def _classify(options: argparse.Namespace) -> int:
             dtm=options.dtm,
             hillshade=options.hillshade,
             progress=progress,
+            area=area,
         )
     if options.json:
         print(json.dumps(dataclasses.asdict(summary)))
@@ -190,6 +201,19 @@ def _classify(options: argparse.Namespace) -> int:
             f"ground ({share:.1f} %)"
         )
     return _DONE
+
+
+def _area_of(options: argparse.Namespace) -> Any:
+    """Return the `Area` of the options, or None if they name none."""
+    from .pointcloud.area import Area, read_boundary
+
+    if options.extent is None and options.boundary is None:
+        return None
+    try:
+        box = None if options.extent is None else Area(tuple(options.extent)).box
+    except BareEarthError as error:
+        raise _UsageError(str(error)) from error
+    return Area(box, () if options.boundary is None else read_boundary(options.boundary))
 
 
 def _add_info(commands: Any, common: argparse.ArgumentParser) -> None:
@@ -264,7 +288,7 @@ def _help_of(each: Declaration) -> str:
     if isinstance(default, tuple):
         default = " ".join(f"{value:g}" for value in default) or "none"
     unit = f" {each.unit}" if each.unit and default is not None else ""
-    words = [each.help, f"(default: {'not used' if default is None else default}{unit})"]
+    words = [each.help, f"(default: {each.empty if default is None else default}{unit})"]
     words[1:1] = [f"{value}: {label}." for value, label in each.choices.items()]
     return " ".join(words).replace("%", "%%")
 
