@@ -4,22 +4,25 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from .errors import BareEarthError
+from .files import check_output
 from .parameters import ParameterSet, parameter
 from .pointcloud.cloud import PointCloud
 from .pointcloud.reading import read_cloud
+from .points import Frame, Points
 from .progress import SILENT, Progress
+from .terrain.raster import NODATA, RasterGrid, check_raster_output, write_geotiff
 
 GROUND = 2
 
 
 @dataclass(frozen=True)
 class AssessmentOptions(ParameterSet):
-    """Which classes count as ground, and which do not count at all."""
+    """Which classes count as ground, which do not count at all, and how errors are mapped."""
 
     ground_classes: tuple[int, ...] = parameter(
         (GROUND,),
@@ -28,14 +31,49 @@ class AssessmentOptions(ParameterSet):
         maximum=255,
         help="Classes of the reference that are ground; add 9 where water counts as ground.",
     )
-    ignored_classes: tuple[int, ...] = parameter(
-        (),
+    ignored_classes: tuple[int, ...] | None = parameter(
+        None,
         kind="integers",
         label="Ignored classes of the reference",
         minimum=0,
         maximum=255,
         help="Points of these classes of the reference are left out, noise (7, 18) for example.",
     )
+    map_cell_size: float = parameter(
+        1.0,
+        label="Cell size of the error map",
+        unit="m",
+        minimum=0.01,
+        maximum=1000.0,
+        advanced=True,
+        help="Side of a cell of the raster that tells the share of wrong points. The map in the"
+        " report chooses its own.",
+    )
+
+
+class Comparison(NamedTuple):
+    """What became of each point.
+
+    Attributes
+    ----------
+    counted : numpy.ndarray of bool, shape (n,)
+        Points that are not left out.
+    rejected, accepted : numpy.ndarray of bool, shape (n,)
+        The wrong ones of these: ground taken for other (type I), other taken for ground (type II).
+    """
+
+    counted: np.ndarray
+    rejected: np.ndarray
+    accepted: np.ndarray
+
+    @classmethod
+    def of(
+        cls, ground: np.ndarray, reference: np.ndarray, options: AssessmentOptions
+    ) -> Comparison:
+        """Compare a ground mask with reference classes of the same points; see `compare`."""
+        counted = ~np.isin(reference, options.ignored_classes or ())
+        truth = np.isin(reference, options.ground_classes)
+        return cls(counted, counted & truth & ~ground, counted & ~truth & ground)
 
 
 @dataclass(frozen=True)
@@ -114,13 +152,12 @@ def compare(
     >>> compare(np.array([True, False]), np.array([2, 1])).total_error
     0.0
     """
-    counted = ~np.isin(reference, options.ignored_classes)
-    ground, reference = ground[counted], reference[counted]
+    counted, rejected, accepted = Comparison.of(ground, reference, options)
     truth = np.isin(reference, options.ground_classes)
-    a = int(np.count_nonzero(truth & ground))
-    b = int(np.count_nonzero(truth & ~ground))
-    c = int(np.count_nonzero(~truth & ground))
-    d = int(np.count_nonzero(~truth & ~ground))
+    b, c = int(np.count_nonzero(rejected)), int(np.count_nonzero(accepted))
+    a = int(np.count_nonzero(counted & truth)) - b
+    d = int(np.count_nonzero(counted & ~truth)) - c
+    ground, reference = ground[counted], reference[counted]
     classes = {
         int(value): {
             "points": int(np.count_nonzero(reference == value)),
@@ -150,6 +187,8 @@ def assess_files(
     classified: Path,
     reference: Path,
     options: AssessmentOptions = AssessmentOptions(),
+    report: Path | None = None,
+    error_map: Path | None = None,
     progress: Progress = SILENT,
 ) -> Assessment:
     """Compare two files that hold the same points, in the same order or not.
@@ -160,18 +199,71 @@ def assess_files(
         The classified cloud, of which class 2 counts as ground, and the reference.
     options : AssessmentOptions
         Which reference classes are ground, and which are left out.
+    report : Path, optional
+        HTML file to write the figures and a map of the errors to.
+    error_map : Path, optional
+        GeoTIFF file to write the share of wrong points in each cell to, 0 to 1.
+    progress : Progress
+        Receives progress and messages.
 
     Raises
     ------
     BareEarthError
-        If a file cannot be read, or the two do not hold the same points.
+        If a file cannot be read or written, the two do not hold the same points, or a map is wanted
+        and the CRS is geographic.
+    Cancelled
+        If the user asked to stop.
     """
-    result = read_cloud(classified, progress.part(0.0, 0.45))
-    truth = read_cloud(reference, progress.part(0.45, 0.9))
+    if report is not None:
+        check_output(report, (classified, reference))
+        if report.suffix.lower() not in (".html", ".htm"):
+            raise BareEarthError(f"Cannot write {report}: the report is HTML, name it .html.")
+    if error_map is not None:
+        check_raster_output(error_map, (classified, reference))
+    result = read_cloud(classified, progress.part(0.0, 0.35))
+    truth = read_cloud(reference, progress.part(0.35, 0.7))
     order_result, order_truth = _matching_orders(result, truth)
-    return compare(
-        result.classification[order_result] == GROUND, truth.classification[order_truth], options
-    )
+    progress(0.75)
+    ground = result.classification[order_result] == GROUND
+    classes = truth.classification[order_truth]
+    assessment = compare(ground, classes, options)
+    if assessment.point_count == 0:
+        raise BareEarthError("All points are of ignored classes: there is nothing to assess.")
+    progress(0.8)
+    if report is not None or error_map is not None:
+        points, comparison = result.points(order_result), Comparison.of(ground, classes, options)
+        if error_map is not None:
+            _write_error_map(error_map, points, comparison, result.frame, options, progress)
+        progress(0.9)
+        if report is not None:
+            # It knows this module, too.
+            from .report import write_report
+
+            files = (classified, reference)
+            write_report(report, assessment, comparison, points, options, files)
+    progress(1.0)
+    return assessment
+
+
+def _write_error_map(
+    target: Path,
+    points: Points,
+    comparison: Comparison,
+    frame: Frame,
+    options: AssessmentOptions,
+    progress: Progress,
+) -> None:
+    points, wrong = points.take(comparison.counted), comparison.rejected | comparison.accepted
+    grid = RasterGrid.over(points, frame, options.map_cell_size)
+    # From the centres of the first cells; a point on the last edge belongs to the last cell.
+    column = np.rint((points.x - grid.x[0]) / grid.cell_metres).astype(np.int64)
+    row = np.rint((grid.y[0] - points.y) / grid.cell_metres).astype(np.int64)
+    place = np.clip(row, 0, grid.rows - 1) * grid.columns + np.clip(column, 0, grid.columns - 1)
+    cells = grid.rows * grid.columns
+    count = np.bincount(place, minlength=cells)
+    errors = np.bincount(place[wrong[comparison.counted]], minlength=cells)
+    share = np.where(count > 0, errors / np.maximum(count, 1), NODATA).astype(np.float32)
+    write_geotiff(target, share.reshape(grid.rows, grid.columns), grid, NODATA, progress)
 
 
 def _matching_orders(one: PointCloud, other: PointCloud) -> tuple[np.ndarray | slice, ...]:

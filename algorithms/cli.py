@@ -254,6 +254,11 @@ def _add_assess(commands: Any, common: argparse.ArgumentParser) -> None:
     parser.add_argument("classified", metavar="CLASSIFIED", type=Path, help="the classified file")
     parser.add_argument("reference", metavar="REFERENCE", type=Path, help="the reference")
     parser.add_argument("--json", action="store_true", help="print as JSON")
+    parser.add_argument("--report", metavar="FILE", type=Path, help="write a report (.html)")
+    parser.add_argument(
+        "--error-map", metavar="FILE", type=Path,
+        help="write the share of wrong points in each cell, 0 to 1 (.tif)",
+    )  # fmt: skip
     add_options(parser, AssessmentOptions)
     parser.set_defaults(run=_assess)
 
@@ -263,7 +268,14 @@ def _assess(options: argparse.Namespace) -> int:
 
     chosen = from_options(AssessmentOptions, options)
     with _Terminal(options.verbose) as progress:
-        assessment = assess_files(options.classified, options.reference, chosen, progress)
+        assessment = assess_files(
+            options.classified,
+            options.reference,
+            chosen,
+            report=options.report,
+            error_map=options.error_map,
+            progress=progress,
+        )
     print(json.dumps(assessment.as_dict()) if options.json else "\n".join(assessment.lines()))
     return _DONE
 

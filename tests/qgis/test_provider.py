@@ -43,11 +43,19 @@ PARAMETERS = {
         "SLOPE_NORM", "CELL_SIZE", "SLOPE_TOLERANCE",
         *SHARED_PARAMETERS,
     ],
+    "bareearth:assess": [
+        "CLASSIFIED", "REFERENCE", "GROUND_CLASSES", "IGNORED_CLASSES", "MAP_CELL_SIZE",
+        "REPORT", "ERROR_MAP",
+    ],
 }  # fmt: skip
 OUTPUTS = {
     "bareearth:tindensification": SHARED_OUTPUTS,
     "bareearth:gridminimum": SHARED_OUTPUTS,
     "bareearth:slopefilter": SHARED_OUTPUTS,
+    "bareearth:assess": [
+        "REPORT", "ERROR_MAP",
+        "POINT_COUNT", "TYPE_1_ERROR", "KAPPA", "TYPE_2_ERROR", "TOTAL_ERROR",
+    ],
 }
 
 

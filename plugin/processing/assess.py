@@ -1,0 +1,79 @@
+"""Comparison of a classification with a reference, in the toolbox."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from qgis.core import QgsProcessingOutputNumber as Number
+from qgis.core import QgsProcessingParameterFileDestination as File
+from qgis.core import QgsProcessingParameterRasterDestination as Raster
+
+from ...algorithms.assessment import AssessmentOptions, assess_files
+from .base import BareEarthAlgorithm, command_line
+from .inputs import PointCloudInput, source_path
+
+_INPUTS = {
+    "CLASSIFIED": ("Classified point cloud", "Its class 2 counts as ground, all others do not."),
+    "REFERENCE": ("Reference", "The same points with their true classes, in any order."),
+}
+_NUMBERS = {
+    "POINT_COUNT": "Points", "TYPE_1_ERROR": "Type I error [%]", "KAPPA": "Kappa [%]",
+    "TYPE_2_ERROR": "Type II error [%]", "TOTAL_ERROR": "Total error [%]",
+}  # fmt: skip
+
+
+class AssessAlgorithm(BareEarthAlgorithm):
+    """Assess a ground classification."""
+
+    identifier, page, section = "assess", "assess", "Quality"
+    title = "Assess a ground classification"
+    summary = "Compares a classified point cloud with a reference: type I and II error, kappa."
+    about = (
+        "Compares the ground of a classified point cloud with a reference that holds the same"
+        " points. Type I error: the share of the reference's ground that was rejected; type II: of"
+        " all other points, the share that was accepted. The report is a web page with a map.\n"
+    ) + "\n".join(f"<b>{label}</b>: {text}" for label, text in _INPUTS.values())
+    keywords = ("lidar", "las", "laz", "accuracy", "quality", "error", "confusion", "validation")
+
+    def parameter_sets(self):
+        """Return the options."""
+        return (AssessmentOptions,)
+
+    def initAlgorithm(self, configuration=None):
+        """Declare the fields of the dialog and the results."""
+        for name, (label, text) in _INPUTS.items():
+            self.addParameter(PointCloudInput(name, label))
+            self.parameterDefinition(name).setHelp(text)
+        self.add_declared()
+        self.addParameter(File("REPORT", "Report", "HTML files (*.html)", None, True, True))
+        self.addParameter(Raster("ERROR_MAP", "Error map", None, True, False))
+        for name, label in _NUMBERS.items():
+            self.addOutput(Number(name, label))
+
+    def check(self, parameters, context):
+        """Refuse values that are not allowed, and files that are not there."""
+        super().check(parameters, context)
+        self.prepare(parameters, context, None)
+
+    def prepare(self, parameters, context, progress):
+        """Find the files."""
+        self._files = [source_path(self, parameters, name, context) for name in _INPUTS]
+
+    def compute(self, parameters, context, progress):
+        """Compare them."""
+        (options,) = self.chosen(parameters, context)
+        paths = {
+            "REPORT": self.parameterAsFileOutput(parameters, "REPORT", context),
+            "ERROR_MAP": self.parameterAsOutputLayer(parameters, "ERROR_MAP", context),
+        }
+        flags = dict(zip(("report", "error-map"), paths.values()))
+        progress.command(command_line("assess", [*map(str, self._files)], [options], flags))
+        outputs = (Path(path) if path else None for path in paths.values())
+        assessment = assess_files(*self._files, options, *outputs, progress)
+        progress.info("\n".join(assessment.lines()))
+        numbers = {name: assessment.as_dict()[name.lower()] for name in _NUMBERS}
+        return {name: it for name, it in {**paths, **numbers}.items() if it not in (None, "")}
+
+    def createInstance(self):
+        """Return another instance."""
+        return AssessAlgorithm()
