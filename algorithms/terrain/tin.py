@@ -38,7 +38,7 @@ class Tin:
 
     def __init__(self, x: np.ndarray, y: np.ndarray, z: np.ndarray) -> None:
         x, y, z = (np.asarray(values, dtype=np.float64) for values in (x, y, z))
-        kept = _lowest_of_duplicates(x, y, z)
+        kept = lowest_of_duplicates(x, y, z)
         strip, self._strip_edges = _strips(x[kept])
         order = np.lexsort((x[kept], y[kept], strip))
         self.source = kept[order]
@@ -158,7 +158,7 @@ class Tin:
         return bx * cy - by * cx, cx * ay - cy * ax, ax * by - ay * bx
 
 
-def _lowest_of_duplicates(x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndarray:
+def lowest_of_duplicates(x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndarray:
     """Return the indices (v,) of the lowest point at each place."""
     order = np.lexsort((z, y, x))
     first = np.ones(len(order), dtype=bool)
@@ -188,11 +188,8 @@ def _triangulate(xy: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     from scipy.spatial import Delaunay
 
     nothing = np.empty((0, 3), dtype=np.int32), np.empty((0, 3), dtype=np.int32)
-    if len(xy) < 3:
+    if is_one_line(xy):
         return nothing
-    spread = np.linalg.eigvalsh(np.cov(xy.T))
-    if spread[0] <= 1e-12 * max(spread[1], 1e-12):
-        return nothing  # one line: Qhull would raise
     mesh = Delaunay(xy)
     triangles = mesh.simplices.astype(np.int32)
     neighbours = mesh.neighbors.astype(np.int32)
@@ -201,6 +198,14 @@ def _triangulate(xy: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     for each in (triangles, neighbours):
         each[clockwise] = each[clockwise][:, [0, 2, 1]]
     return triangles, neighbours
+
+
+def is_one_line(xy: np.ndarray) -> bool:
+    """Return whether points (n, 2) span no triangle, so that Qhull would raise."""
+    if len(xy) < 3:
+        return True
+    spread = np.linalg.eigvalsh(np.cov(xy.T))
+    return bool(spread[0] <= 1e-12 * max(spread[1], 1e-12))
 
 
 def _triangle_of_vertex(triangles: np.ndarray, count: int) -> np.ndarray:

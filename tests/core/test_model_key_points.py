@@ -1,0 +1,94 @@
+"""Model key points: every ground point within the tolerance of their TIN, with few of them."""
+
+import numpy as np
+import pytest
+from scenes import scatter
+
+from bare_earth.algorithms.errors import BareEarthError
+from bare_earth.algorithms.points import Points
+from bare_earth.algorithms.terrain.model_key_points import ModelKeyPoints, model_key_points
+from bare_earth.algorithms.terrain.tin import Tin
+
+
+def _hills(size=150.0, density=2.0, noise=0.02):
+    x, y = scatter(size, density, seed=3)
+    random = np.random.default_rng(1)
+    z = 5 * np.sin(x / 20) + 3 * np.cos(y / 13) + np.where(x > 90, 4.0, 0.0)
+    return Points(x, y, z + random.normal(0.0, noise, len(x)))
+
+
+def _residuals(points, keys):
+    return points.z - Tin(*points.take(keys)).interpolate(points.x, points.y)
+
+
+@pytest.mark.parametrize("above, below", [(0.15, 0.15), (0.5, 0.05), (0.05, 1.0), (0.0, 0.0)])
+def test_every_ground_point_is_within_the_tolerance(above, below):
+    points = _hills()
+    keys = model_key_points(points, ModelKeyPoints(tolerance_above=above, tolerance_below=below))
+    residuals = _residuals(points, keys)
+    assert not np.isnan(residuals).any()
+    assert residuals.max() <= above + 1e-6 and residuals.min() >= -below - 1e-6
+    if above and below:
+        assert np.count_nonzero(keys) < 0.6 * points.count
+
+
+def test_a_plane_needs_no_more_than_the_grid_and_the_hull():
+    x, y = scatter(100.0, 4.0)
+    points = Points(x, y, 50.0 + 0.1 * x - 0.2 * y)
+    keys = model_key_points(points, ModelKeyPoints(grid_size=20.0))
+    assert 25 <= np.count_nonzero(keys) < 25 + 60
+    sparse = model_key_points(points, ModelKeyPoints(grid_size=200.0))
+    assert np.count_nonzero(sparse) < 60
+
+
+def test_every_cell_of_the_grid_keeps_a_point():
+    points = _hills()
+    loose = ModelKeyPoints(tolerance_above=50.0, tolerance_below=50.0, grid_size=10.0)
+    kept = points.take(model_key_points(points, loose))
+    assert len(np.unique(np.floor(kept.x / 10) * 1000 + np.floor(kept.y / 10))) == 15 * 15
+
+
+def test_a_looser_tolerance_keeps_fewer():
+    points = _hills()
+    counts = [
+        np.count_nonzero(
+            model_key_points(points, ModelKeyPoints(tolerance_above=each, tolerance_below=each))
+        )
+        for each in (0.05, 0.1, 0.2, 0.5, 1.0)
+    ]
+    assert counts == sorted(counts, reverse=True) and counts[0] > 4 * counts[-1]
+
+
+def test_the_order_of_the_points_does_not_matter():
+    points = _hills(80.0)
+    mixed = np.random.default_rng(2).permutation(points.count)
+    keys = model_key_points(points)
+    assert np.array_equal(model_key_points(points.take(mixed)), keys[mixed])
+
+
+def test_points_on_a_regular_grid_with_straight_borders():
+    x, y = (each.ravel() for each in np.meshgrid(np.arange(0.0, 60.0), np.arange(0.0, 40.0)))
+    points = Points(x + 0.1, y + 0.3, np.sin(x / 5) + np.where(y == 0, 0.4, 0.0))
+    keys = model_key_points(points)
+    assert np.abs(_residuals(points, keys)).max() <= 0.15 + 1e-6
+    assert np.count_nonzero(keys) < points.count / 2
+
+
+def test_of_points_at_one_place_the_lowest_counts():
+    points = _hills(40.0)
+    points = Points(*(np.append(each, each[:50]) for each in points))
+    points.z[-50:] += 3.0
+    keys = model_key_points(points)
+    assert not keys[-50:].any()
+    assert np.abs(_residuals(points, keys)[:-50]).max() <= 0.15 + 1e-6
+
+
+@pytest.mark.parametrize("count", [0, 1, 2, 3, 40])
+def test_points_on_one_line_are_all_kept(count):
+    line = np.arange(count, dtype=float)
+    assert model_key_points(Points(line, 2 * line, line)).all()
+
+
+def test_a_negative_tolerance_is_refused():
+    with pytest.raises(BareEarthError, match="Tolerance above must be at least 0 m"):
+        ModelKeyPoints(tolerance_above=-0.1)

@@ -1,0 +1,86 @@
+"""The surface in blocks is that of one triangulation."""
+
+import numpy as np
+import pytest
+
+from bare_earth.algorithms.points import Points
+from bare_earth.algorithms.terrain import surface as module
+from bare_earth.algorithms.terrain.surface import Surface
+from bare_earth.algorithms.terrain.tin import Tin
+
+
+def _scatter(count=6000, seed=1, size=100.0):
+    random = np.random.default_rng(seed)
+    x, y = random.uniform(0.0, size, (2, count))
+    return Points(x, y, random.normal(0.0, 1.0, count))
+
+
+def _with_lake(points):
+    return points.take(np.hypot(points.x - 45, points.y - 50) > 30)
+
+
+def _rotated(points):
+    return Points(points.x - points.y, points.x + points.y, points.z)
+
+
+CLOUDS = {
+    "even": _scatter(),
+    "lake": _with_lake(_scatter()),
+    "rotated": _rotated(_scatter()),
+    "stray": Points(*(np.append(each, 5e3) for each in _scatter())),
+    "uneven": Points(_scatter().x ** 3 / 1e4, _scatter().y, _scatter().z),
+}
+
+
+@pytest.fixture
+def small_blocks(monkeypatch):
+    monkeypatch.setattr(module, "_VERTICES_A_BLOCK", 400)
+
+
+@pytest.mark.parametrize("name", CLOUDS)
+@pytest.mark.parametrize("max_edge", [None, 8.0])
+def test_blocks_give_the_heights_of_one_triangulation(small_blocks, name, max_edge):
+    points = CLOUDS[name]
+    random = np.random.default_rng(7)
+    x, y = random.uniform(-120.0, 120.0, 4000), random.uniform(-20.0, 220.0, 4000)
+    if max_edge is None:  # at a vertex, one triangle may be a gap and the next none
+        x, y = np.append(x, points.x[::5]), np.append(y, points.y[::5])
+    tin = Tin(*points)
+    expected = tin.interpolate(x, y, module._without_long(tin, tin.locate(x, y), max_edge))
+    found = Surface(points).heights(x, y, max_edge)
+    assert np.array_equal(np.isnan(found), np.isnan(expected))
+    # Among triangles kilometres long the two may round differently.
+    wrong = np.abs(found - expected) > 1e-9
+    assert np.count_nonzero(wrong) <= (5 if name == "stray" else 0)
+    assert np.isnan(found).any() and not np.isnan(found).all()
+
+
+def test_a_plane_on_a_regular_grid_is_exact_to_its_border(small_blocks):
+    x, y = (each.ravel() for each in np.meshgrid(np.arange(60.0), np.arange(50.0)))
+    surface = Surface(Points(x, y, 3.0 + 0.2 * x - 0.1 * y))
+    at_x, at_y = np.random.default_rng(1).uniform(0.0, 49.0, (2, 3000))
+    at_x, at_y = np.append(at_x, x), np.append(at_y, y)
+    assert np.allclose(surface.heights(at_x, at_y), 3.0 + 0.2 * at_x - 0.1 * at_y, atol=1e-9)
+
+
+def test_the_order_of_the_points_does_not_matter(small_blocks):
+    points = CLOUDS["lake"]
+    mixed = points.take(np.random.default_rng(3).permutation(points.count))
+    x, y = np.random.default_rng(4).uniform(0.0, 100.0, (2, 500))
+    one, other = Surface(points), Surface(mixed)
+    assert np.array_equal(one.heights(x, y), other.heights(x, y), equal_nan=True)
+    assert np.array_equal(one.nearest(x, y), other.nearest(x, y))
+
+
+@pytest.mark.parametrize("count", [1, 2, 50])
+def test_points_on_one_line_have_no_heights_but_a_nearest_point(count):
+    line = np.arange(count, dtype=float)
+    surface = Surface(Points(line, line, line))
+    assert np.isnan(surface.heights(line, line + 0.5)).all()
+    assert np.array_equal(surface.nearest(line, line), line)
+
+
+def test_many_points_on_one_line_have_no_heights(small_blocks):
+    line = np.arange(1000, dtype=float)
+    surface = Surface(Points(line, 2 * line, line))
+    assert np.isnan(surface.heights(line, line)).all()
