@@ -195,10 +195,11 @@ def _classify(options: argparse.Namespace) -> int:
     if options.json:
         print(json.dumps(dataclasses.asdict(summary)))
     elif options.verbose or sys.stdout.isatty():
-        share = 100 * summary.ground_count / summary.point_count
+        ground, count = summary.area_ground_count, summary.area_count
+        place = "" if area is None else " in the area"
         print(
-            f"{options.output}: {summary.ground_count:,} of {summary.point_count:,} points are "
-            f"ground ({share:.1f} %)"
+            f"{options.output}: {ground:,} of {count:,} points{place} are ground"
+            f" ({100 * ground / count:.1f} %)"
         )
     return _DONE
 
