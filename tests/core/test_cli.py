@@ -1,0 +1,365 @@
+import json
+import os
+import subprocess
+import sys
+
+import laspy
+import numpy as np
+import pytest
+from scenes import village
+
+from bare_earth.algorithms import classification, cli
+from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.parameters import ParameterSet
+from bare_earth.algorithms.pointcloud.selection import Selection
+from bare_earth.algorithms.terrain.model import TerrainModel
+
+EAST, NORTH = 500_000.0, 5_700_000.0
+# Another value than the default for each kind of parameter, and how it is written.
+OTHER_VALUES = {
+    "boolean": lambda each: (not each.default, None),
+    "choice": lambda each: next((key, key) for key in each.choices if key != each.default),
+    "integer": lambda each: (each.default + 3, str(each.default + 3)),
+    "number": lambda each: ((each.default or 1.0) * 0.75, str((each.default or 1.0) * 0.75)),
+    "integers": lambda each: ((1, 5), "1 5"),
+    "numbers": lambda each: ((4.0, 1.5), "4 1.5"),
+}
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return village(size=60.0)
+
+
+@pytest.fixture
+def file(scene, tmp_path):
+    points, _ = scene
+    header = laspy.LasHeader(point_format=6, version="1.4")
+    header.scales, header.offsets = (0.001,) * 3, (EAST, NORTH, 0.0)
+    las = laspy.LasData(header)
+    las.x, las.y, las.z = points.x + EAST, points.y + NORTH, points.z
+    las.classification[:] = 1
+    las.return_number[:] = las.number_of_returns[:] = 1
+    las.write(str(tmp_path / "in.las"))
+    return tmp_path / "in.las"
+
+
+@pytest.fixture
+def out(file):
+    return file.with_name("out.las")
+
+
+def run(*words):
+    return main([str(word) for word in words])
+
+
+def classes_of(path):
+    return np.asarray(laspy.read(path).classification)
+
+
+class FakeTerminal:
+    """Standard error that says it is a terminal."""
+
+    def __init__(self, stream):
+        self._stream = stream
+
+    def isatty(self):
+        return True
+
+    def __getattr__(self, name):
+        return getattr(self._stream, name)
+
+
+# How it ends
+
+
+def test_done_is_0_and_quiet_where_no_terminal_listens(file, out, capsys):
+    assert run("classify", file, out) == 0
+    assert set(np.unique(classes_of(out))) == {1, 2}
+    heard = capsys.readouterr()
+    assert heard.out == ""
+    # The CRS is not stated: a warning is told all the same, and nothing else.
+    assert heard.err.count("\n") == 1 and heard.err.startswith("Warning: in.las does not say")
+
+
+def test_verbose_tells_what_is_done(file, out, capsys):
+    assert run("classify", file, out, "--verbose") == 0
+    heard = capsys.readouterr()
+    assert "points take part." in heard.err and "points are ground" in heard.out
+
+
+def test_a_terminal_gets_a_bar_and_messages(file, out, capsys, monkeypatch):
+    pytest.importorskip("tqdm")
+    monkeypatch.setattr(sys, "stderr", FakeTerminal(sys.stderr))
+    assert run("classify", file, out) == 0
+    heard = capsys.readouterr()
+    assert "%" in heard.err and "points take part." in heard.err
+
+
+@pytest.mark.parametrize(
+    ("words", "text"),
+    [
+        (["classify", "missing.las", "out.las"], "missing.las"),
+        (["classify", "{in}", "{in}"], "same file"),
+        (["classify", "{in}", "out.txt"], "out.txt"),
+        (["classify", "{in}", "nowhere/out.las"], "does not exist"),
+        (["classify", "{in}", "out.las", "--from-classes", "6"], "has the classes 1."),
+        (["classify", "{in}", "out.las", "--extent", "0", "0", "9", "9"], "lies in the area"),
+        (["classify", "{in}", "out.las", "--boundary", "missing.wkt"], "missing.wkt"),
+        (["classify", "{in}", "out.las", "--boundary", "{in}"], "GeoJSON"),
+        (["info", "missing.las"], "missing.las"),
+        (["assess", "{in}", "missing.las"], "missing.las"),
+    ],
+)
+def test_what_fails_is_1_and_one_line(words, text, file, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert run(*(word.replace("{in}", str(file)) for word in words)) == 1
+    heard = capsys.readouterr()
+    lines = [line for line in heard.err.splitlines() if not line.startswith("Warning: ")]
+    assert len(lines) == 1 and lines[0].startswith("bare-earth: ") and text in lines[0]
+    assert lines[0].endswith(".") and heard.out == ""
+    assert os.listdir(tmp_path) == ["in.las"]
+
+
+@pytest.mark.parametrize(
+    ("words", "text"),
+    [
+        ([], "COMMAND"),
+        (["clasify"], "invalid choice"),
+        (["classify", "in.las"], "OUTPUT"),
+        (["classify", "in.las", "out.las", "--method", "magic"], "invalid choice: 'magic'"),
+        (["classify", "in.las", "out.las", "--no-such-option"], "--no-such-option"),
+        (["classify", "in.las", "out.las", "--to-class", "300"], "must be at most 255, not 300."),
+        (["classify", "in.las", "out.las", "--to-class", "2.5"], "must be a whole number"),
+        (["classify", "in.las", "out.las", "--max-building-size", "x"], "must be a number"),
+        (["classify", "in.las", "out.las", "--from-classes", "x"], "must be a number, not 'x'."),
+        (["classify", "in.las", "out.las", "--returns", "first"], "invalid choice: 'first'"),
+        (["classify", "in.las", "out.las", "--extent", "1", "2", "3"], "expected 4 arguments"),
+        (["classify", "in.las", "out.las", "--extent", "9", "0", "1", "5"], "XMIN below XMAX"),
+        (["classify", "in.las", "out.las", "--search-radius", "9"], "--search-radius"),
+    ],
+)
+def test_wrong_usage_is_2(words, text, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert run(*words) == 2
+    heard = capsys.readouterr()
+    assert text in heard.err and "Traceback" not in heard.err
+    assert not os.listdir(tmp_path)
+
+
+def failing(monkeypatch, error):
+    def fail(*_, **__):
+        raise error
+
+    monkeypatch.setattr(classification, "classify_file", fail)
+
+
+@pytest.mark.parametrize(
+    ("error", "text"),
+    [
+        (BareEarthError("The disk is full."), "The disk is full."),
+        (MemoryError(), "There is not enough memory for this file."),
+        (Cancelled(), "Cancelled; nothing was written."),
+        (KeyboardInterrupt(), "Cancelled; nothing was written."),
+        (KeyError("x"), "Unexpected KeyError: 'x'. Run with --verbose and report it."),
+    ],
+)
+def test_any_error_is_1_and_one_line(error, text, file, out, capsys, monkeypatch):
+    failing(monkeypatch, error)
+    assert run("classify", file, out) == 1
+    assert capsys.readouterr().err == f"bare-earth: {text}\n"
+
+
+@pytest.mark.parametrize("error", [BareEarthError("The disk is full."), KeyError("x")])
+def test_verbose_tells_where_an_error_arose(error, file, out, capsys, monkeypatch):
+    failing(monkeypatch, error)
+    assert run("classify", file, out, "--verbose") == 1
+    heard = capsys.readouterr().err
+    assert "Traceback" in heard and "in fail" in heard
+    assert heard.splitlines()[-1].startswith("bare-earth: ")
+
+
+@pytest.mark.parametrize(
+    ("words", "code"), [(["--version"], 0), (["--help"], 0), (["classify"], 2), (["info", "x"], 1)]
+)
+def test_as_a_command(words, code):
+    command = [sys.executable, "-m", "bare_earth.algorithms", *words]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == code and "Traceback" not in done.stderr
+    assert done.stdout.startswith(("bare-earth", "usage")) == (code == 0)
+
+
+# What it says
+
+
+def test_json_is_the_counts_and_nothing_else(file, out, scene, capsys):
+    assert run("classify", file, out, "--json") == 0
+    counts = json.loads(capsys.readouterr().out)
+    found = classes_of(out)
+    assert counts == {
+        "point_count": scene[0].count,
+        "area_count": scene[0].count,
+        "selected_count": scene[0].count,
+        "ground_count": int((found == 2).sum()),
+        "area_ground_count": int((found == 2).sum()),
+        "class_counts": {"1": int((found == 1).sum()), "2": int((found == 2).sum())},
+    }
+
+
+def test_info_and_assess_speak_text_and_json(file, out, capsys):
+    assert run("classify", file, out) == 0
+    capsys.readouterr()
+    for words in (["info", out], ["assess", out, out]):
+        assert run(*words) == 0
+        assert len(capsys.readouterr().out.splitlines()) > 3
+        assert run(*words, "--json") == 0
+        assert isinstance(json.loads(capsys.readouterr().out), dict)
+
+
+def help_of(capsys, *words):
+    assert run("classify", *words, "--help") == 0
+    return " ".join(capsys.readouterr().out.split())
+
+
+@pytest.mark.parametrize("method", METHODS.values(), ids=METHODS)
+def test_the_help_names_each_option_with_its_default(method, capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "1000")
+    text = help_of(capsys, "--method", method.name)
+    for declared in (method.parameters, Selection, TerrainModel):
+        for each in declared.declarations():
+            assert f"--{each.name.replace('_', '-')} " in text
+            assert " ".join(each.help.split()) in text
+
+
+def test_an_empty_parameter_is_not_used_or_automatic_as_its_help_says(capsys):
+    for method in METHODS.values():
+        for each in method.parameters.declarations():
+            if each.default is None:
+                never = "Empty: never" in each.help
+                assert each.empty == ("not used" if never else "automatic"), each.name
+    assert "Empty: 1 m, more if points are sparse. (default: automatic)" in help_of(
+        capsys, "--method", "slope"
+    )
+    text = help_of(capsys)
+    assert "(default: all but noise)" in text and "(default: none)" in text
+    assert "(default: 1.0 m)" in text
+
+
+# What reaches the classifier
+
+
+def heard_by_classify(monkeypatch):
+    calls = []
+
+    def classify_file(*values, **named):
+        calls.append((values, named))
+        return classification.Summary(1, 1, 1, 1, 1, {2: 1})
+
+    monkeypatch.setattr(classification, "classify_file", classify_file)
+    return calls
+
+
+def options():
+    for method in METHODS.values():
+        for each in method.parameters.declarations():
+            yield pytest.param(method, method.parameters, each, id=f"{method.name}-{each.name}")
+    for place, declared in enumerate((Selection, TerrainModel)):
+        for each in declared.declarations():
+            yield pytest.param(METHODS["slope"], declared, each, id=f"{place}-{each.name}")
+
+
+@pytest.mark.parametrize(("method", "declared", "each"), options())
+def test_each_parameter_reaches_the_classifier(method, declared, each, monkeypatch):
+    calls = heard_by_classify(monkeypatch)
+    value, text = OTHER_VALUES[each.kind](each)
+    flag = each.name.replace("_", "-")
+    words = [f"--{flag}", *text.split()] if text else [f"--{flag}" if value else f"--no-{flag}"]
+    assert run("classify", "in.las", "out.las", "--method", method.name, *words) == 0
+    expected = [
+        kind(**{each.name: value}) if kind is declared else kind()
+        for kind in (method.parameters, Selection, TerrainModel)
+    ]
+    (_, _, *chosen), _ = calls[0]
+    assert chosen == expected
+    assert all(isinstance(one, ParameterSet) for one in chosen)
+
+
+@pytest.mark.parametrize("word", ["none", "automatic", "None"])
+def test_a_parameter_can_be_left_empty(word, monkeypatch):
+    calls = heard_by_classify(monkeypatch)
+    assert run("classify", "in.las", "out.las", "--stop-edge", word) == 0
+    assert calls[0][0][2].stop_edge is None
+
+
+def test_rasters_and_area_reach_the_classifier(monkeypatch, tmp_path):
+    calls = heard_by_classify(monkeypatch)
+    boundary = tmp_path / "a.wkt"
+    boundary.write_text("POLYGON ((0 0, 5 0, 5 5))")
+    words = "classify in.las out.las --dtm a.tif --hillshade b.tif --extent -1.5 -2 3 4e0"
+    assert run(*words.split(), "--boundary", boundary) == 0
+    named = calls[0][1]
+    assert str(named["dtm"]) == "a.tif" and str(named["hillshade"]) == "b.tif"
+    assert named["area"].box == (-1.5, -2.0, 3.0, 4.0) and len(named["area"].polygons) == 1
+    assert run("classify", "in.las", "out.las") == 0
+    assert calls[1][1]["area"] is None
+
+
+# What comes out
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_every_method_classifies(method, file, out, scene, capsys):
+    assert run("classify", file, out, "--method", method) == 0
+    assert np.mean((classes_of(out) == 2) != scene[1]) < 0.04
+
+
+def test_methods_and_parameters_make_a_difference(file, capsys):
+    found = {}
+    for name, words in {
+        "grid": ["--method", "grid-minimum"],
+        "small": ["--method", "grid-minimum", "--max-object-size", "4"],
+        "slope": ["--method", "slope"],
+        "whitebox": ["--method", "slope", "--preset", "whitebox"],
+        "low": ["--method", "slope", "--low-noise-class"],
+        "class 8": ["--method", "slope", "--to-class", "8"],
+    }.items():
+        target = file.with_name(f"{len(found)}.las")
+        assert run("classify", file, target, *words) == 0
+        found[name] = classes_of(target)
+    assert (found["small"] == 2).sum() > (found["grid"] == 2).sum()
+    assert (found["whitebox"] == 2).sum() > (found["slope"] == 2).sum()
+    assert np.array_equal(found["class 8"] == 8, found["slope"] == 2)
+    assert 0 < (found["low"] == 7).sum() < 10
+
+
+def test_an_area_limits_what_changes(file, out, scene, capsys):
+    x, y = scene[0].x, scene[0].y
+    boundary = file.with_name("a.geojson")
+    corners = [[EAST + a, NORTH + b] for a, b in ((5, 5), (55, 5), (5, 55), (5, 5))]
+    boundary.write_text(json.dumps({"type": "Polygon", "coordinates": [corners]}))
+    extent = [EAST, NORTH, EAST + 30, NORTH + 60]
+    words = ["--method", "slope", "--to-class", "9", "--boundary", boundary, "--extent", *extent]
+    assert run("classify", file, out, *words, "--verbose") == 0
+    changed = classes_of(out) != 1
+    assert changed.any()
+    assert ((x >= 5) & (y >= 5) & (x + y <= 60.01) & (x <= 30))[changed].all()
+    heard = capsys.readouterr()
+    assert "points in the area are ground" in heard.out and "points lie in the area." in heard.err
+
+
+def test_known_ground_is_kept(file, out, scene, capsys):
+    las = laspy.read(file)
+    las.classification[:] = np.where(np.arange(len(las.x)) % 50 == 0, 2, 1)
+    las.write(str(file))
+    assert run("classify", file, out, "--method", "slope", "--seed-classes", "2", "--verbose") == 0
+    assert (classes_of(out)[::50] == 2).all()
+    assert "does not start from known ground" in capsys.readouterr().err
+
+
+def test_all_subcommands_are_documented(capsys):
+    assert run("--help") == 0
+    text = capsys.readouterr().out
+    assert all(f"    {name} " in text for name in ("classify", "info", "assess"))
+    assert cli.__doc__
