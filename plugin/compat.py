@@ -8,6 +8,7 @@ from qgis import core
 from qgis.core import (
     NULL,
     Qgis,
+    QgsProcessing,
     QgsProcessingAlgorithm,
     QgsProcessingContext,
     QgsProcessingParameterDefinition,
@@ -22,10 +23,12 @@ if hasattr(Qgis, "ProcessingParameterFlag"):
     ADVANCED = Qgis.ProcessingParameterFlag.Advanced
     NUMBER = Qgis.ProcessingNumberParameterType.Double
     INTEGER = Qgis.ProcessingNumberParameterType.Integer
+    POLYGONS = Qgis.ProcessingSourceType.VectorPolygon
 else:
     ADVANCED = QgsProcessingParameterDefinition.Flag.FlagAdvanced
     NUMBER = QgsProcessingParameterNumber.Type.Double
     INTEGER = QgsProcessingParameterNumber.Type.Integer
+    POLYGONS = QgsProcessing.SourceType.TypeVectorPolygon
 
 # Came with 3.26.
 HAS_POINT_CLOUD_OUTPUTS = hasattr(core, "QgsProcessingParameterPointCloudDestination")

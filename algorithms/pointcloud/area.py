@@ -50,7 +50,9 @@ class Area:
                 f" {values}."
             )
         if not all(np.isfinite(ring).all() for polygon in self.polygons for ring in polygon):
-            raise BareEarthError("A corner of the boundary is not a finite number. Correct it.")
+            raise BareEarthError(
+                "A corner of the boundary is not a finite number. Check the boundary and its CRS."
+            )
 
     def _is_proper_box(self) -> bool:
         west, south, east, north = self.box

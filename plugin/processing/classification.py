@@ -18,7 +18,7 @@ from ...algorithms.terrain.model import TerrainModel
 from .. import compat
 from .base import BareEarthAlgorithm, command_line
 from .feedback import FeedbackProgress
-from .inputs import PointCloudInput, ignored_filter, source_path
+from .inputs import AREA_FIELDS, PointCloudInput, add_area, area_of, ignored_filter, source_path
 from .outputs import ClassStyle, ElevationStyle, point_cloud_formats, style
 
 
@@ -42,6 +42,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         """Declare the fields of the dialog and the results."""
         self.addParameter(PointCloudInput("INPUT", "Point cloud"))
         self.add_declared()
+        add_area(self)
         self.addParameter(
             compat.point_cloud_output("OUTPUT", "Classified point cloud", point_cloud_formats())
         )
@@ -51,8 +52,14 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
                 QgsProcessingParameterRasterDestination(name, label, None, True, by_default)
             )
         self.addOutput(QgsProcessingOutputNumber("POINT_COUNT", "Points"))
+        self.addOutput(QgsProcessingOutputNumber("AREA_COUNT", "Points in the area"))
         self.addOutput(QgsProcessingOutputNumber("SELECTED_COUNT", "Points that took part"))
         self.addOutput(QgsProcessingOutputNumber("GROUND_COUNT", "Ground points"))
+
+    def shortHelpString(self) -> str:
+        """Return the help, the fields of the area in it."""
+        area = [f"<b>{label}</b>: {text}" for label, text in AREA_FIELDS.values()]
+        return "\n".join([super().shortHelpString(), *area])
 
     def check(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
         """Refuse values that are not allowed, and an input that is not there."""
@@ -65,10 +72,11 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> None:
-        """Find the input's file."""
+        """Find the input's file, and read the area."""
         self._source = source_path(self, parameters, "INPUT", context)
         if ignored_filter(self, parameters, "INPUT", context):
             progress.warning("The layer's filter is not applied: all points are read.")
+        self._area = area_of(self, parameters, context, self._source)
 
     def compute(
         self,
@@ -85,13 +93,13 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         dtm = self.parameterAsOutputLayer(parameters, "DTM", context)
         hillshade = self.parameterAsOutputLayer(parameters, "HILLSHADE", context)
         options = {"method": self.method, "dtm": dtm, "hillshade": hillshade}
-        progress.command(command_line("classify", [str(self._source), output], chosen, options))
+        command = command_line("classify", [str(self._source), output], chosen, options)
+        progress.command(" ".join([command, *self._area_options(progress)]))
         rasters = [Path(each) if each else None for each in (dtm, hillshade)]
-        summary = classify_file(self._source, Path(output), *chosen, *rasters, progress)
-        progress.info(
-            f"{summary.ground_count:,} of {summary.point_count:,} points are ground"
-            f" ({summary.ground_count / summary.point_count:.1%})."
-        )
+        summary = classify_file(self._source, Path(output), *chosen, *rasters, progress, self._area)
+        ground, count = summary.area_ground_count, summary.area_count
+        place = " in the area" if self._area else ""
+        progress.info(f"{ground:,} of {count:,} points{place} are ground ({ground / count:.1%}).")
         if not compat.can_load(output):
             progress.info(f"This QGIS cannot show such a file as a layer. It is at {output}.")
         style(context, output, ClassStyle(summary.class_counts))
@@ -100,6 +108,18 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         return {
             **{name: path for name, path in paths.items() if path},
             "POINT_COUNT": summary.point_count,
+            "AREA_COUNT": summary.area_count,
             "SELECTED_COUNT": summary.selected_count,
             "GROUND_COUNT": summary.ground_count,
         }
+
+    def _area_options(self, progress: FeedbackProgress) -> list[str]:
+        """Return the options of the command line that name the area, as far as it can."""
+        if self._area is None:
+            return []
+        if self._area.polygons:
+            progress.info(
+                "In the command line the boundary is missing: save it in the CRS of the points as"
+                " boundary.geojson, and add --boundary boundary.geojson."
+            )
+        return ["--extent", *map(repr, self._area.box)] if self._area.box else []

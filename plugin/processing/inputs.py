@@ -1,15 +1,21 @@
-"""Point clouds as input: a layer of the project, or a file that QGIS need not be able to load."""
+"""Point clouds as input, files among them that QGIS cannot load, and areas to limit the work to."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import Any, Iterator
 
+import numpy as np
 from qgis.core import (
+    QgsCoordinateReferenceSystem,
+    QgsFeatureRequest,
+    QgsGeometry,
     QgsMapLayer,
     QgsPointCloudLayer,
     QgsProcessingAlgorithm,
     QgsProcessingContext,
+    QgsProcessingParameterExtent,
+    QgsProcessingParameterFeatureSource,
     QgsProcessingParameterPointCloudLayer,
     QgsProcessingUtils,
     QgsProviderRegistry,
@@ -17,6 +23,24 @@ from qgis.core import (
 from qgis.PyQt.QtCore import QUrl
 
 from ...algorithms.errors import BareEarthError
+from ...algorithms.pointcloud.area import Area, Polygon
+from ...algorithms.pointcloud.crs import read_crs
+from ...algorithms.pointcloud.lasbytes import read_layout
+from .. import compat
+
+# Name, label and help of the fields of an area.
+AREA_FIELDS = {
+    "EXTENT": (
+        "Extent",
+        "Only points in this rectangle are classified. The others keep their class, but those near"
+        " it help to judge. Empty: all points.",
+    ),
+    "BOUNDARY": (
+        "Boundary",
+        "Only points in these polygons are classified, of an extent too if there is one. The others"
+        " keep their class, but those near them help to judge. Empty: all points.",
+    ),
+}
 
 
 class PointCloudInput(QgsProcessingParameterPointCloudLayer):
@@ -85,6 +109,72 @@ def ignored_filter(
         layer = QgsProcessingUtils.mapLayerFromString(text, context, False)
     # Point cloud layers have filters from 3.26 on.
     return layer.subsetString() if hasattr(layer, "subsetString") else ""
+
+
+def add_area(algorithm: QgsProcessingAlgorithm) -> None:
+    """Add the fields of an area to a dialog."""
+    extent, boundary = (label for label, _ in AREA_FIELDS.values())
+    fields = (
+        QgsProcessingParameterExtent("EXTENT", extent, None, True),
+        QgsProcessingParameterFeatureSource("BOUNDARY", boundary, [compat.POLYGONS], None, True),
+    )
+    for field in fields:
+        field.setHelp(AREA_FIELDS[field.name()][1])
+        algorithm.addParameter(field)
+
+
+def area_of(
+    algorithm: QgsProcessingAlgorithm,
+    parameters: dict[str, Any],
+    context: QgsProcessingContext,
+    cloud: Path,
+) -> Area | None:
+    """Return what the fields of `add_area` hold, in the CRS of a cloud if it states one.
+
+    Raises
+    ------
+    BareEarthError
+        If they hold no area, or the cloud cannot be read.
+    """
+    given = [name for name in AREA_FIELDS if not _is_empty(parameters.get(name))]
+    if not given:
+        return None
+    crs = _crs_of(cloud)
+    box, polygons = None, ()
+    if "EXTENT" in given:
+        extent = algorithm.parameterAsExtent(parameters, "EXTENT", context, crs)
+        box = extent.xMinimum(), extent.yMinimum(), extent.xMaximum(), extent.yMaximum()
+    if "BOUNDARY" in given:
+        source = algorithm.parameterAsSource(parameters, "BOUNDARY", context)
+        if source is None:
+            raise BareEarthError("The boundary cannot be read. Choose a layer of polygons.")
+        request = QgsFeatureRequest().setSubsetOfAttributes([])
+        request.setDestinationCrs(crs, context.transformContext())
+        geometries = (feature.geometry() for feature in source.getFeatures(request))
+        polygons = tuple(each for geometry in geometries for each in _polygons(geometry))
+        if not polygons:
+            raise BareEarthError("The boundary holds no polygon. Choose one that does.")
+    return Area(box, polygons)
+
+
+def _is_empty(value: Any) -> bool:
+    return compat.is_null(value) or value == ""
+
+
+def _crs_of(cloud: Path) -> QgsCoordinateReferenceSystem:
+    """Return the CRS that a file states; invalid, so that nothing is transformed, if none."""
+    crs = read_crs(read_layout(cloud))
+    if crs.epsg:
+        return QgsCoordinateReferenceSystem.fromEpsgId(crs.epsg)
+    return QgsCoordinateReferenceSystem.fromWkt(crs.wkt or "")
+
+
+def _polygons(geometry: QgsGeometry) -> Iterator[Polygon]:
+    # A copy, with arcs as lines.
+    geometry = QgsGeometry(geometry.constGet().segmentize()) if geometry.constGet() else geometry
+    if geometry.convertToMultiType():
+        for rings in geometry.asMultiPolygon():
+            yield tuple(np.array([(corner.x(), corner.y()) for corner in ring]) for ring in rings)
 
 
 def _path_of(layer: QgsMapLayer) -> Path:

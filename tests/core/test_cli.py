@@ -270,7 +270,7 @@ def options():
             yield pytest.param(METHODS["slope"], declared, each, id=f"{place}-{each.name}")
 
 
-@pytest.mark.parametrize(("method", "declared", "each"), options())
+@pytest.mark.parametrize(("method", "declared", "each"), list(options()))
 def test_each_parameter_reaches_the_classifier(method, declared, each, monkeypatch):
     calls = heard_by_classify(monkeypatch)
     value, text = OTHER_VALUES[each.kind](each)

@@ -18,11 +18,15 @@ from bare_earth.algorithms.terrain.model import TerrainModel
 from bare_earth.plugin.processing.classification import ClassificationAlgorithm
 
 SHARED_PARAMETERS = [
-    "FROM_CLASSES", "TO_CLASS", "RETURNS", "OTHERS",
+    "FROM_CLASSES", "SEED_CLASSES", "TO_CLASS", "RETURNS", "OTHERS",
+    "LOW_NOISE_CLASS", "LOW_NOISE_DEPTH",
     "DTM_CELL_SIZE", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
+    "EXTENT", "BOUNDARY",
     "OUTPUT", "DTM", "HILLSHADE",
 ]  # fmt: skip
-SHARED_OUTPUTS = ["OUTPUT", "DTM", "HILLSHADE", "POINT_COUNT", "SELECTED_COUNT", "GROUND_COUNT"]
+SHARED_OUTPUTS = [
+    "OUTPUT", "DTM", "HILLSHADE", "POINT_COUNT", "AREA_COUNT", "SELECTED_COUNT", "GROUND_COUNT",
+]  # fmt: skip
 PARAMETERS = {
     "bareearth:tindensification": [
         "INPUT",
@@ -53,8 +57,13 @@ OUTPUTS = {
     "bareearth:gridminimum": SHARED_OUTPUTS,
     "bareearth:slopefilter": SHARED_OUTPUTS,
     "bareearth:assess": [
-        "REPORT", "ERROR_MAP",
-        "POINT_COUNT", "TYPE_1_ERROR", "KAPPA", "TYPE_2_ERROR", "TOTAL_ERROR",
+        "REPORT",
+        "ERROR_MAP",
+        "POINT_COUNT",
+        "TYPE_1_ERROR",
+        "KAPPA",
+        "TYPE_2_ERROR",
+        "TOTAL_ERROR",
     ],
 }
 
