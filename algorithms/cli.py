@@ -126,6 +126,9 @@ def _parser(arguments: Sequence[str]) -> argparse.ArgumentParser:
     _add_classify(commands, common, arguments)
     _add_info(commands, common)
     _add_assess(commands, common)
+    _add_height(commands, common)
+    _add_key_points(commands, common)
+    _add_terrain(commands, common)
     return parser
 
 
@@ -278,6 +281,114 @@ def _assess(options: argparse.Namespace) -> int:
             progress=progress,
         )
     print(json.dumps(assessment.as_dict()) if options.json else "\n".join(assessment.lines()))
+    return _DONE
+
+
+def _add_height(commands: Any, common: argparse.ArgumentParser) -> None:
+    from .products import GroundClasses, HeightOutput
+
+    parser = commands.add_parser(
+        "height",
+        parents=[common],
+        help="add the height above ground of every point",
+        description="Writes a classified file anew with the height of every point above the TIN of"
+        " its ground points, in the vertical unit of the CRS.",
+    )
+    _add_cloud_arguments(parser, {"ground": GroundClasses, "output": HeightOutput}, _height)
+
+
+def _height(options: argparse.Namespace) -> int:
+    from .products import write_height_above_ground
+
+    with _Terminal(options.verbose) as progress:
+        summary = write_height_above_ground(
+            options.input, options.output, *_chosen(options), progress
+        )
+    text = f"heights above ground are {summary.minimum:.2f} to {summary.maximum:.2f} {summary.unit}"
+    return _tell(options, summary, f"{options.output}: {text}")
+
+
+def _add_key_points(commands: Any, common: argparse.ArgumentParser) -> None:
+    from .products import GroundClasses, KeyPointMark
+    from .terrain.model_key_points import ModelKeyPoints
+
+    parser = commands.add_parser(
+        "key-points",
+        parents=[common],
+        help="mark the ground points that a terrain model needs",
+        description="Writes a classified file anew with its model key points marked: the few ground"
+        " points from whose TIN no other ground point lies farther than the tolerance.",
+    )
+    groups = {"parameters": ModelKeyPoints, "ground": GroundClasses, "mark": KeyPointMark}
+    _add_cloud_arguments(parser, groups, _key_points)
+
+
+def _key_points(options: argparse.Namespace) -> int:
+    from .products import write_key_points
+
+    with _Terminal(options.verbose) as progress:
+        summary = write_key_points(options.input, options.output, *_chosen(options), progress)
+    text = f"{summary.key_point_count:,} of {summary.ground_count:,} ground points are key points"
+    return _tell(options, summary, f"{options.output}: {text}")
+
+
+def _add_terrain(commands: Any, common: argparse.ArgumentParser) -> None:
+    from .products import GroundClasses
+    from .terrain.model import TerrainModel
+    from .terrain.surface_model import SurfaceModel
+
+    parser = commands.add_parser(
+        "terrain",
+        parents=[common],
+        help="make rasters of the terrain and of what stands on it",
+        description="Makes rasters (GeoTIFF) of a classified file. Name at least one.",
+    )
+    parser.add_argument("input", metavar="INPUT", type=Path, help="a .las, .laz or .copc.laz file")
+    for name, what in (
+        ("dtm", "terrain model"),
+        ("dsm", "surface model, the top of all that stands on the terrain"),
+        ("chm", "canopy height, the surface above the terrain"),
+        ("hillshade", "hillshade of the terrain model"),
+    ):
+        parser.add_argument(f"--{name}", metavar="FILE", type=Path, help=f"the {what} (.tif)")
+    _add_groups(
+        parser, {"ground": GroundClasses, "model": TerrainModel, "surface": SurfaceModel}, _terrain
+    )
+
+
+def _terrain(options: argparse.Namespace) -> int:
+    from .products import TerrainFiles, write_terrain_models
+
+    files = TerrainFiles(options.dtm, options.dsm, options.chm, options.hillshade)
+    with _Terminal(options.verbose) as progress:
+        summary = write_terrain_models(options.input, files, *_chosen(options), progress)
+    text = f"{summary.columns:,} x {summary.rows:,} cells of {summary.ground_count:,} ground points"
+    return _tell(options, summary, f"{options.input}: {text}")
+
+
+def _add_cloud_arguments(parser: Any, groups: dict[str, type[ParameterSet]], run: Any) -> None:
+    parser.add_argument("input", metavar="INPUT", type=Path, help="a .las, .laz or .copc.laz file")
+    parser.add_argument("output", metavar="OUTPUT", type=Path, help=".las, .laz or .copc.laz")
+    _add_groups(parser, groups, run)
+
+
+def _add_groups(parser: Any, groups: dict[str, type[ParameterSet]], run: Any) -> None:
+    parser.add_argument("--json", action="store_true", help="print what was done as JSON")
+    for declared in groups.values():
+        add_options(parser, declared)
+    parser.set_defaults(run=run, groups=groups)
+
+
+def _chosen(options: argparse.Namespace) -> list[ParameterSet]:
+    return [from_options(declared, options) for declared in options.groups.values()]
+
+
+def _tell(options: argparse.Namespace, summary: Any, text: str) -> int:
+    """Print what was done, as JSON if so asked; a sentence only to who looks on."""
+    if options.json:
+        print(json.dumps(dataclasses.asdict(summary)))
+    elif options.verbose or sys.stdout.isatty():
+        print(text)
     return _DONE
 
 

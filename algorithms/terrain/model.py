@@ -12,10 +12,10 @@ from ..points import Frame, Points
 from ..progress import SILENT, Progress
 from .hillshade import hillshade
 from .raster import NODATA, RasterGrid, write_geotiff
-from .tin import Tin
+from .surface import Surface
 
-# Rows are interpolated a strip at a time: enough work for one numpy call, soon enough to cancel.
-_CELLS_A_STRIP = 500_000
+# Rows are interpolated a strip at a time, so that the places of the cells take little memory.
+_CELLS_A_STRIP = 4_000_000
 # More vertices than this many along the side of a cell do not change the cell, but cost time.
 _VERTICES_A_SIDE = 2
 
@@ -53,7 +53,12 @@ class TerrainModel(ParameterSet):
     )
 
 
-def interpolate(points: Points, grid: RasterGrid, progress: Progress = SILENT) -> np.ndarray:
+def interpolate(
+    points: Points,
+    grid: RasterGrid,
+    progress: Progress = SILENT,
+    max_edge: float | None = None,
+) -> np.ndarray:
     """Interpolate heights linearly on the TIN of `points`, at the centres of the grid's cells.
 
     Parameters
@@ -65,24 +70,26 @@ def interpolate(points: Points, grid: RasterGrid, progress: Progress = SILENT) -
         Where heights are wanted.
     progress : Progress
         Receives progress.
+    max_edge : float, optional
+        Triangles with a longer edge, in metres, have no data.
 
     Returns
     -------
     numpy.ndarray of float64, shape (rows, columns)
-        Heights in metres; NaN outside the convex hull.
+        Heights in metres; NaN outside the convex hull, and in gaps.
     """
-    vertices = points.take(_nearest_to_centre(points, grid.cell_metres / _VERTICES_A_SIDE))
+    surface = Surface(points.take(_nearest_to_centre(points, grid.cell_metres / _VERTICES_A_SIDE)))
     progress(0.1)
-    tin = Tin(vertices.x, vertices.y, vertices.z)
-    progress(0.6)
     heights = np.empty((grid.rows, grid.columns))
     x, y = grid.x, grid.y
     step = max(_CELLS_A_STRIP // grid.columns, 1)
     for start in range(0, grid.rows, step):
         rows = slice(start, min(start + step, grid.rows))
         at_x, at_y = np.meshgrid(x, y[rows])
-        heights[rows] = tin.interpolate(at_x.ravel(), at_y.ravel()).reshape(at_x.shape)
-        progress(0.6 + 0.4 * rows.stop / grid.rows)
+        part = progress.part(0.1 + 0.9 * start / grid.rows, 0.1 + 0.9 * rows.stop / grid.rows)
+        strip = surface.heights(at_x.ravel(), at_y.ravel(), max_edge, part)
+        heights[rows] = strip.reshape(at_x.shape)
+    progress(1.0)
     return heights
 
 
@@ -117,15 +124,31 @@ def write_terrain_model(
     grid = RasterGrid.over(ground, frame, model.dtm_cell_size)
     heights = interpolate(ground, grid, progress.part(0.0, 0.8))
     if dtm is not None:
-        values = np.where(np.isnan(heights), NODATA, heights / frame.vertical_unit)
-        write_geotiff(dtm, values.astype(np.float32), grid, NODATA, progress)
+        write_heights(dtm, heights, grid, progress)
     progress(0.9)
     if hillshade_file is not None:
-        light = model.hillshade_azimuth, model.hillshade_altitude
-        write_geotiff(
-            hillshade_file, hillshade(heights, grid.cell_metres, *light), grid, 0, progress
-        )
+        write_hillshade(hillshade_file, heights, grid, model, progress)
     progress(1.0)
+
+
+def write_heights(
+    target: Path, heights: np.ndarray, grid: RasterGrid, progress: Progress = SILENT
+) -> None:
+    """Write heights (rows, columns) in metres as a GeoTIFF in the vertical unit of the CRS."""
+    values = np.where(np.isnan(heights), NODATA, heights / grid.frame.vertical_unit)
+    write_geotiff(target, values.astype(np.float32), grid, NODATA, progress)
+
+
+def write_hillshade(
+    target: Path,
+    heights: np.ndarray,
+    grid: RasterGrid,
+    model: TerrainModel,
+    progress: Progress = SILENT,
+) -> None:
+    """Write the hillshade of heights (rows, columns) in metres as a GeoTIFF."""
+    light = model.hillshade_azimuth, model.hillshade_altitude
+    write_geotiff(target, hillshade(heights, grid.cell_metres, *light), grid, 0, progress)
 
 
 def _nearest_to_centre(points: Points, cell: float) -> np.ndarray:
