@@ -3,138 +3,128 @@
 Every class is set to 0 first and noise is left in; every filter runs with its defaults. On the
 labelled samples each point counts. On tiles whose reference ground is thinned the terrain models
 are compared: both TINs on the same 1 m grid, inside the convex hull of the reference.
+
+Without options everything is measured, for our filters and the peers that are installed, printed,
+and written to docs/accuracy.md. Answers of peers are remembered in ~/.cache/bare-earth/benchmarks
+(or $BARE_EARTH_CACHE); the data are sought in $BARE_EARTH_DATA.
 """
 
 from __future__ import annotations
 
 import argparse
-import time
+import sys
+from pathlib import Path
+from typing import Sequence
 
-import numpy as np
-
-from bare_earth.algorithms.assessment import Assessment, AssessmentOptions, compare
-from bare_earth.algorithms.classification import classify
+from bare_earth.algorithms.assessment import AssessmentOptions
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.parameters import ParameterSet
-from bare_earth.algorithms.pointcloud.cloud import PointCloud
-from bare_earth.algorithms.terrain.model import interpolate
-from bare_earth.algorithms.terrain.raster import RasterGrid
 
-from . import data
+from . import data, peers, report, tables
+from .measure import (
+    Filter,
+    GroundFilter,
+    Scores,
+    Sensitivity,
+    best,
+    score,
+    score_tile,
+    sensitivity,
+)
 
-
-class Filter:
-    """A filter of ours as the benchmark runs it; peers look the same from outside."""
-
-    def __init__(self, method: str, **values: object) -> None:
-        self.name = method
-        self.parameters: ParameterSet = METHODS[method].parameters(**values)
-
-    def ground(self, cloud: PointCloud) -> np.ndarray:
-        """Return the ground mask of a cloud."""
-        return classify(cloud, self.parameters)[0] == 2
+# The dense tile that sensitivity is measured on besides the samples.
+DENSE_TILE = "ahn3_urban"
 
 
-def score(filters: list, samples: list) -> dict[str, dict[str, Assessment]]:
-    """Return the assessment of every filter on every ISPRS sample."""
-    results: dict[str, dict[str, Assessment]] = {each.name: {} for each in filters}
-    for path in samples:
-        cloud, reference = data.load(path)
-        for each in filters:
-            results[each.name][path.stem] = compare(each.ground(cloud), reference)
+def show(*blocks: Sequence[str]) -> None:
+    """Print tables, each after an empty line."""
+    for lines in blocks:
+        print("", *lines, sep="\n", flush=True)
+
+
+def measure_isprs(filters: Sequence[GroundFilter], samples: Sequence[Path]) -> Scores:
+    """Measure the filters on the samples and print the figures."""
+    results = score(filters, samples)
+    show(*(tables.isprs(results, title) for title in tables.FIGURES), tables.quoted())
+    if any(name in METHODS for name in results):
+        show(tables.goals(results))
     return results
 
 
-def mean(assessments: dict[str, Assessment], figure: str) -> float:
-    """Return the mean of one figure over the samples."""
-    return float(np.mean([getattr(each, figure) for each in assessments.values()]))
-
-
-def dtm_difference(cloud: PointCloud, ground: np.ndarray, reference: np.ndarray) -> np.ndarray:
-    """Return the differences of the two terrain models on a 1 m grid, where both have a height."""
-    grid = RasterGrid.over(cloud.points(reference), cloud.frame, 1.0)
-    difference = interpolate(cloud.points(ground), grid) - interpolate(
-        cloud.points(reference), grid
-    )
-    return difference[np.isfinite(difference)]
-
-
-def print_isprs(results: dict[str, dict[str, Assessment]]) -> None:
-    """Print total error and kappa, and type I and II errors, per sample and mean."""
-    for name, assessments in results.items():
-        print(f"\n{name}\n{'sample':10}{'type I':>8}{'type II':>9}{'total':>8}{'kappa':>8}")
-        for sample, one in assessments.items():
-            print(
-                f"{sample:10}{one.type_1_error:8.2f}{one.type_2_error:9.2f}"
-                f"{one.total_error:8.2f}{one.kappa:8.2f}"
-            )
-        figures = ("type_1_error", "type_2_error", "total_error", "kappa")
-        values = [mean(assessments, figure) for figure in figures]
-        print(f"{'mean':10}{values[0]:8.2f}{values[1]:9.2f}{values[2]:8.2f}{values[3]:8.2f}")
-
-
-def print_real(filters: list) -> None:
-    """Print the total error where labels are trusted, and the terrain model's error everywhere."""
-    print(f"\n{'tile':22}{'filter':20}{'total %':>8}{'RMSE m':>8}{'median':>8}{'95 %':>8}{'s':>7}")
+def measure_real(filters: Sequence[GroundFilter]) -> tables.TileScores:
+    """Measure the filters on the real tiles that are here and print the figures."""
+    results: tables.TileScores = {}
     for tile in data.REAL:
         path = data.real(tile.name)
-        if not path.exists():
-            continue
-        cloud, reference = data.load(path)
-        for each in filters:
-            start = time.perf_counter()
-            ground = each.ground(cloud)
-            seconds = time.perf_counter() - start
-            total = float("nan")
-            if tile.ground:
-                options = AssessmentOptions(ground_classes=tile.ground)
-                total = compare(ground, reference, options).total_error
-            difference = np.abs(dtm_difference(cloud, ground, reference == 2))
-            rmse = float(np.sqrt(np.mean(difference**2)))
-            middle, most = np.percentile(difference, (50, 95))
-            print(
-                f"{tile.name:22}{each.name:20}{total:8.2f}{rmse:8.3f}{middle:8.3f}{most:8.3f}"
-                f"{seconds:7.1f}",
-                flush=True,
-            )
+        if path.exists():
+            print(f"{tile.name} ...", file=sys.stderr, flush=True)
+            results[tile.title] = score_tile(filters, tile, *data.load(path))
+    if results:
+        show(tables.labels(results), tables.doubtful(results))
+        show(*(tables.dtm(results, *each) for each in tables.DTM_FIGURES))
+        show(tables.seconds(results), tables.problems(results))
+    return results
 
 
-def sensitivity(method: str, samples: list) -> None:
-    """Print how the mean total error moves when each default is halved and doubled."""
-    declared = METHODS[method].parameters
-    print(f"\n{method}: mean total error when a default is halved and doubled")
-    for each in declared.declarations():
-        if each.kind not in ("number", "integer") or not each.default:
-            continue
-        row = f"{each.name:28}{each.default:>8g}"
-        for factor in (0.5, 2.0):
-            value = min(max(each.default * factor, each.minimum), each.maximum)
-            value = int(value) if each.kind == "integer" else value
-            results = score([Filter(method, **{each.name: value})], samples)
-            row += f"{mean(results[method], 'total_error'):8.2f}"
-        print(row, flush=True)
+def measure_sensitivity(
+    methods: Sequence[str], samples: Sequence[Path]
+) -> dict[str, dict[str, list[Sensitivity]]]:
+    """Halve and double each default, on the samples and on a dense tile; print the figures."""
+    clouds = {"ISPRS samples": [(*data.load(path), AssessmentOptions()) for path in samples]}
+    for tile in data.REAL:
+        if tile.title == DENSE_TILE and data.real(tile.name).exists():
+            options = AssessmentOptions(ignored_classes=tile.left_out)
+            clouds[DENSE_TILE] = [(*data.load(data.real(tile.name)), options)]
+    results: dict[str, dict[str, list[Sensitivity]]] = {}
+    for method in methods:
+        results[method] = {}
+        for where, labelled in clouds.items():
+            print(f"{method} on {where}, halved and doubled ...", file=sys.stderr, flush=True)
+            results[method][where] = sensitivity(method, labelled)
+            show([f"{method}, {where}"], tables.sensitivity(results[method][where]))
+    return results
 
 
-def main() -> None:
+def main(arguments: Sequence[str] | None = None) -> None:
     """Run the benchmark that the command line asks for."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.accuracy", description=__doc__)
-    parser.add_argument("--method", nargs="*", choices=list(METHODS), default=list(METHODS))
-    parser.add_argument("--isprs", action="store_true", help="the ISPRS samples only")
-    parser.add_argument("--real", action="store_true", help="the real tiles only")
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks.accuracy",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "--method", nargs="+", choices=list(METHODS), default=list(METHODS), help="some of ours"
+    )
+    parser.add_argument("--isprs", action="store_true", help="the ISPRS samples")
+    parser.add_argument("--real", action="store_true", help="the real tiles")
     parser.add_argument("--sensitivity", action="store_true", help="halve and double each default")
-    options = parser.parse_args()
+    parser.add_argument("--peers", action="store_true", help="the peers as well")
+    parser.add_argument(
+        "--write", action="store_true", help="measure everything and write docs/accuracy.md"
+    )
+    options = parser.parse_args(arguments)
     samples = data.isprs()
     if not samples:
         parser.exit(1, f"There is no labelled data in {data.FOLDER.resolve()}.\n")
-    filters = [Filter(name) for name in options.method]
-    everything = not (options.isprs or options.real or options.sensitivity)
-    if options.isprs or everything:
-        print_isprs(score(filters, samples))
-    if options.real or everything:
-        print_real(filters)
-    if options.sensitivity:
-        for name in options.method:
-            sensitivity(name, samples)
+    parts = options.isprs, options.real, options.sensitivity
+    everything = options.write or not (any(parts) or options.peers)
+    if everything and options.method != list(METHODS):
+        parser.error("docs/accuracy.md is about all methods: leave --method out, or choose a part.")
+    filters: list[GroundFilter] = [Filter(name) for name in options.method]
+    if options.peers or everything:
+        filters += peers.installed()
+        for package in peers.missing():
+            print(f"Not installed: pip install {package}")
+    isprs = real = moved = {}
+    if options.isprs or everything or not any(parts):
+        isprs = measure_isprs(filters, samples)
+    if options.real or everything or not any(parts):
+        real = measure_real(filters)
+    if options.sensitivity or everything:
+        moved = measure_sensitivity(options.method, samples)
+    if everything:
+        chosen = Filter(best({name: isprs[name] for name in METHODS}))
+        report.write(isprs, real, moved, report.draw(chosen, isprs[chosen.name]), report.PAGE)
+        print(f"\nWritten: {report.PAGE}")
 
 
 if __name__ == "__main__":

@@ -21,25 +21,35 @@ class RealTile(NamedTuple):
 
     Attributes
     ----------
-    ground : tuple of int or None
-        The reference classes that count as ground for the total error; None where the labels are
-        thinned and only a terrain model made from them is a fair reference.
+    name : str
+        File name.
+    is_trusted : bool
+        Whether every label counts. Elsewhere the ground is thinned, and only a terrain model made
+        from it is a fair reference.
+    left_out : tuple of int
+        Classes of the reference of which it is open whether they are ground.
     """
 
     name: str
-    ground: tuple[int, ...] | None
+    is_trusted: bool = False
+    left_out: tuple[int, ...] = ()
+
+    @property
+    def title(self) -> str:
+        """The name without the file's ending."""
+        return self.name.split(".")[0]
 
 
 REAL = (
-    RealTile("ahn3_urban.laz", (2,)),
-    RealTile("ign_sparse_urban.laz", (2,)),
-    RealTile("nrw_rural.laz", (2,)),
-    RealTile("forest_topography.laz", None),
-    RealTile("mixed_conifer.laz", None),
-    RealTile("oregon_conifer.laz", None),
-    RealTile("ign_pf8.las", None),
-    RealTile("hawaii_forest.laz", None),
-    RealTile("wires_single_return.laz", None),
+    RealTile("ahn3_urban.laz", True),
+    RealTile("ign_sparse_urban.laz", True),
+    RealTile("nrw_rural.laz", True, (17, 26)),
+    RealTile("forest_topography.laz"),
+    RealTile("mixed_conifer.laz"),
+    RealTile("oregon_conifer.laz"),
+    RealTile("ign_pf8.las"),
+    RealTile("hawaii_forest.laz"),
+    RealTile("wires_single_return.laz"),
 )
 
 

@@ -1,0 +1,96 @@
+"""Pictures for docs/accuracy.md: where a filter errs, and terrain models in relief."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from bare_earth.algorithms.assessment import Assessment
+from bare_earth.algorithms.pointcloud.cloud import PointCloud
+from bare_earth.algorithms.points import Points
+from bare_earth.algorithms.terrain.cells import Cells, spacing
+from bare_earth.algorithms.terrain.hillshade import hillshade
+from bare_earth.algorithms.terrain.inpaint import inpaint
+
+from .measure import GROUND, ReferenceModel
+
+TYPE_1, TYPE_2 = "#1565d8", "#e02020"
+_INCHES, _DOTS_PER_INCH = 7.0, 110
+# Dots of wrong points are about as wide as the distance between points, but never a mere speck.
+_SMALLEST_DOT = 1.2
+# Cells of the model that are a longer way off are skipped in the picture of a large tile.
+_MOST_CELLS = 900
+
+
+def error_map(
+    cloud: PointCloud,
+    ground: np.ndarray,
+    reference: np.ndarray,
+    assessment: Assessment,
+    title: str,
+    target: Path,
+) -> None:
+    """Draw the wrong points over the relief of the lowest points."""
+    points = cloud.points(np.ones(cloud.count, dtype=bool))
+    truth = reference == GROUND
+    cells = Cells.over(points, max(1.0, float(np.ceil(spacing(points)))))
+    relief = hillshade(inpaint(cells.minimum(points.z))[::-1], cells.size).astype(float)
+    west, south = cells.first_column * cells.size, cells.first_row * cells.size
+    extent = (west, west + cells.columns * cells.size, south, south + cells.rows * cells.size)
+    figure, axes = _figure(1, cells.rows / cells.columns)
+    axes = axes[0]
+    axes.imshow(relief, cmap="gray", extent=extent, vmin=-120, vmax=255, interpolation="nearest")
+    width = max(72.0 * _INCHES * cells.size / (extent[1] - extent[0]), _SMALLEST_DOT)
+    for wrong, colour, label in (
+        (truth & ~ground, TYPE_1, f"type I: ground missed, {assessment.type_1_error:.1f} %"),
+        (~truth & ground, TYPE_2, f"type II: other kept, {assessment.type_2_error:.1f} %"),
+    ):
+        where: Points = points.take(wrong)
+        axes.scatter(where.x, where.y, s=width**2, c=colour, marker="s", linewidths=0, label=label)
+    axes.set_xlim(extent[:2])
+    axes.set_ylim(extent[2:])
+    axes.set_title(f"{title}: total error {assessment.total_error:.1f} %", fontsize=10, loc="left")
+    axes.legend(
+        loc="upper center", bbox_to_anchor=(0.5, -0.01), ncol=2, frameon=False, fontsize=9,
+        markerscale=max(6.0 / width, 1.0),
+    )  # fmt: skip
+    _save(figure, target)
+
+
+def relief_pair(
+    model: ReferenceModel, ground: np.ndarray, titles: tuple[str, str], target: Path
+) -> None:
+    """Draw the terrain model of a ground mask and that of the reference, side by side."""
+    heights = model.heights
+    step = max(-(-max(heights.shape) // _MOST_CELLS), 1)
+    own = np.where(np.isfinite(heights), model.of(ground), np.nan)
+    figure, axes = _figure(2, heights.shape[0] / heights.shape[1])
+    for each, values, title in zip(axes, (own, heights), titles):
+        values = values[::step, ::step]
+        shade = np.ma.masked_equal(hillshade(values, model.cell_size * step), 0)
+        each.imshow(shade, cmap="gray", vmin=1, vmax=255, interpolation="nearest")
+        each.set_title(title, fontsize=10, loc="left")
+    _save(figure, target)
+
+
+def _figure(columns: int, ratio: float):
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    width = _INCHES if columns == 1 else 1.4 * _INCHES
+    figure = Figure(figsize=(width, width / columns * ratio + 0.7), layout="constrained")
+    FigureCanvasAgg(figure)
+    axes = figure.subplots(1, columns, squeeze=False)[0]
+    for each in axes:
+        each.set_axis_off()
+        each.set_aspect("equal")
+    return figure, axes
+
+
+def _save(figure, target: Path) -> None:
+    target.parent.mkdir(parents=True, exist_ok=True)
+    # Without the software's name: the same picture whatever version drew it.
+    figure.savefig(
+        target, dpi=_DOTS_PER_INCH, metadata={"Software": None}, pil_kwargs={"optimize": True}
+    )

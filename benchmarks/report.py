@@ -1,0 +1,161 @@
+"""Writes docs/accuracy.md: the figures, with pictures and what they leave out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from string import Template
+from typing import Iterable, NamedTuple, Sequence
+
+from bare_earth.algorithms.assessment import Assessment
+from bare_earth.algorithms.filters import METHODS
+
+from . import data, maps, peers, tables
+from .measure import GroundFilter, ReferenceModel, Scores, Sensitivity
+
+PAGE = Path(__file__).parents[1] / "docs" / "accuracy.md"
+IMAGES = PAGE.parent / "images"
+TEMPLATE = Path(__file__).parent / "accuracy.md"
+WORST_NAME, RELIEF_NAME = "accuracy-worst-", "accuracy-relief-"
+WORST = 3
+RELIEF_TILES = ("hawaii_forest", "ahn3_urban")
+
+_SITES = {
+    "samp11": "a steep slope with houses and low vegetation",
+    "samp21": "a bridge, and narrow strips of ground",
+    "samp24": "ramps",
+    "samp31": "dense buildings",
+    "samp42": "a railway station with very long roofs",
+    "samp52": "a steep slope and terraces, 0.18 points/m²",
+    "samp54": "a dense village, 0.18 points/m²",
+    "samp61": "road embankments and large gaps, 0.18 points/m²",
+}
+_TILES = {
+    "ahn3_urban": "dense Dutch town, AHN3, 14.6 points/m²",
+    "ign_sparse_urban": "coast and town, IGN LiDAR HD thinned to 0.26 points/m²",
+    "nrw_rural": "farmland with ditches and dikes, NRW, 3.6 points/m²",
+    "forest_topography": "forested hill with a lake, 0.9 points/m²",
+    "mixed_conifer": "conifer plot, 4.7 points/m²",
+    "oregon_conifer": "conifer stand, 5.4 points/m²",
+    "ign_pf8": "IGN LiDAR HD, 11.5 points/m²",
+    "hawaii_forest": "forest on a crater and lava, steep, 19.2 points/m²",
+    "wires_single_return": "power lines and forest, 2.1 points/m²",
+}
+
+
+# Method, then place, then one for each parameter.
+Moved = dict[str, dict[str, list[Sensitivity]]]
+
+
+class Picture(NamedTuple):
+    """A file below docs/images, and what stands below it."""
+
+    name: str
+    caption: str
+
+
+def worst(assessments: dict[str, Assessment], count: int = WORST) -> list[str]:
+    """Return the names of the samples with the largest total error, the worst first."""
+    return sorted(assessments, key=lambda name: -assessments[name].total_error)[:count]
+
+
+def draw(chosen: GroundFilter, assessments: dict[str, Assessment]) -> list[Picture]:
+    """Draw the error maps of the worst samples and the relief of the real tiles."""
+    pictures, title = [], METHODS[chosen.name].label
+    paths = {path.stem: path for path in data.isprs()}
+    for rank, sample in enumerate(worst(assessments), 1):
+        cloud, reference = data.load(paths[sample])
+        name, one = f"{WORST_NAME}{rank}.png", assessments[sample]
+        ground = chosen.ground(cloud)
+        target = IMAGES / name
+        maps.error_map(cloud, ground, reference, one, f"{title}, {sample}", target)
+        pictures.append(Picture(name, f"{sample}: {_SITES.get(sample, '')}"))
+    for tile in data.REAL:
+        if tile.title not in RELIEF_TILES or not data.real(tile.name).exists():
+            continue
+        cloud, reference = data.load(data.real(tile.name))
+        name = f"{RELIEF_NAME}{tile.title.replace('_', '-')}.png"
+        model = ReferenceModel(cloud, reference)
+        titles = title, "reference"
+        maps.relief_pair(model, chosen.ground(cloud), titles, IMAGES / name)
+        pictures.append(Picture(name, f"{tile.title}: {_TILES.get(tile.title, '')}"))
+    return pictures
+
+
+def write(
+    isprs: Scores,
+    real: tables.TileScores,
+    moved: Moved,
+    pictures: Sequence[Picture],
+    target: Path,
+) -> None:
+    """Fill the template and write the page."""
+    parts = {
+        "peers": _peers(),
+        "goals": tables.goals(isprs),
+        "isprs": _blocks(
+            [*(tables.isprs(isprs, title) for title in tables.FIGURES), tables.quoted()]
+        ),
+        "worst": _pictures(pictures, WORST_NAME),
+        "tiles": [f"- **{tile}**: {_TILES.get(tile, '')}." for tile in real],
+        "labels": tables.labels(real),
+        "doubtful": tables.doubtful(real),
+        "dtm": _blocks(tables.dtm(real, *each) for each in tables.DTM_FIGURES),
+        "relief": _pictures(pictures, RELIEF_NAME),
+        "sensitivity": _moved(moved),
+        "problems": [f"- **What failed**: {each}." for each in tables.problems(real)],
+    }
+    template = Template(TEMPLATE.read_text(encoding="utf-8"))
+    text = template.substitute({name: "\n".join(lines) for name, lines in parts.items()})
+    target.write_text(text.rstrip() + "\n", encoding="utf-8")
+
+
+def _peers() -> list[str]:
+    lines = [
+        f"- {peer.name} ({peer.package.split('==')[0]} {peer.version}): {peer.note}."
+        for peer in peers.installed()
+    ]
+    missing = [f"`pip install {package}`" for package in peers.missing()]
+    if missing:
+        lines.append(f"- Not installed when this page was made: {', '.join(missing)}.")
+    return lines
+
+
+def _moved(moved: Moved) -> list[str]:
+    lines: list[str] = []
+    for method, places in moved.items():
+        lines += [f"### {METHODS[method].label}", ""]
+        for where, rows in places.items():
+            lines += [f"On {where}. {_spread(rows)}", "", *tables.sensitivity(rows), ""]
+    return lines[:-1]
+
+
+def _spread(rows: Sequence[Sensitivity]) -> str:
+    """Return the sentence on the largest move."""
+    moves = [
+        (change.total_error, row.declaration.label, way)
+        for row in rows
+        for change, way in zip(row.changes, ("halved", "doubled"))
+        if not change.problem
+    ]
+    if not moves:
+        return "Every change is refused."
+    most, label, way = max(moves)
+    return (
+        f"Total error stays between {min(moves)[0]:.2f} and {most:.2f} %; what costs most is"
+        f" *{label}* {way}:"
+    )
+
+
+def _pictures(pictures: Sequence[Picture], start: str) -> list[str]:
+    lines = []
+    for each in pictures:
+        if each.name.startswith(start):
+            lines += [f"![{each.caption}](images/{each.name})", "", f"*{each.caption}*", ""]
+    return lines[:-1]
+
+
+def _blocks(blocks: Iterable[Sequence[str]]) -> list[str]:
+    """Return tables one after the other, an empty line between two."""
+    return [
+        line for at, block in enumerate(blocks) for line in (("",) if at else ()) + tuple(block)
+    ]

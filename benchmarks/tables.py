@@ -1,0 +1,202 @@
+"""The figures as Markdown tables, for the terminal and for docs/accuracy.md alike."""
+
+from __future__ import annotations
+
+import math
+from typing import Sequence
+
+from bare_earth.algorithms.filters import METHODS
+
+from . import data
+from .measure import Change, Scores, Sensitivity, TileScore, best, mean
+from .peers import QUOTED, QUOTED_RMSE
+
+# What stands where there is no figure.
+NONE = "-"
+FIGURES = {
+    "Total error, %": "total_error",
+    "Kappa, %": "kappa",
+    "Type I error, %": "type_1_error",
+    "Type II error, %": "type_2_error",
+}
+# What is wanted of the mean over the samples: total error at most, kappa at least.
+GOALS = {
+    "": (2.9, 90.0),
+    "slope": (5.0, 82.0),
+    "grid-minimum": (6.0, 80.0),
+}
+# Title of a table on terrain models, its figure and digits.
+DTM_FIGURES = (
+    ("RMSE, m", "rmse", 3),
+    ("Median, m", "median", 3),
+    ("95th percentile, m", "percentile_95", 3),
+    ("Cells without height, %", "bare", 2),
+)
+# Name of the tile, then of the filter.
+TileScores = dict[str, dict[str, TileScore]]
+
+
+def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
+    """Return the lines of a table; the first column is text, the others are figures."""
+    widths = [max(len(line[at]) for line in (head, *rows)) for at in range(len(head))]
+
+    def line(cells: Sequence[str]) -> str:
+        first = cells[0].ljust(widths[0])
+        return " | ".join(["| " + first, *map(str.rjust, cells[1:], widths[1:])]) + " |"
+
+    rule = ["-" * widths[0], *("-" * (width - 1) + ":" for width in widths[1:])]
+    return [line(head), line(rule), *map(line, rows)]
+
+
+def label(name: str) -> str:
+    """Return how a filter is called in the tables; ours are bold."""
+    return f"**{METHODS[name].label}**" if name in METHODS else name
+
+
+def number(value: float, digits: int) -> str:
+    """Return a figure as text; a dash where there is none."""
+    return f"{value:.{digits}f}" if math.isfinite(value) else NONE
+
+
+def isprs(results: Scores, title: str) -> list[str]:
+    """Return one figure of every filter on every sample, and the mean."""
+    figure = FIGURES[title]
+    samples = list(next(iter(results.values())))
+    rows = [
+        [
+            label(name),
+            *(number(getattr(assessments[sample], figure), 2) for sample in samples),
+            number(mean(assessments, figure), 2),
+        ]
+        for name, assessments in results.items()
+    ]
+    return table([title, *(sample.replace("samp", "") for sample in samples), "mean"], rows)
+
+
+def quoted() -> list[str]:
+    """Return the mean figures of the filters that are not measured here."""
+    rows = [[f"{name} (quoted)", total, kappa] for name, (total, kappa, _) in QUOTED.items()]
+    return table(["Not measured here", "total error, %", "kappa, %"], rows)
+
+
+def goals(results: Scores) -> list[str]:
+    """Return what is wanted of our filters beside what they reach."""
+    ours = {name: results[name] for name in results if name in METHODS}
+    rows = []
+    for name, (most, least) in GOALS.items():
+        if name and name not in ours:
+            continue
+        measured = name or best(ours)
+        total, kappa = (mean(ours[measured], figure) for figure in ("total_error", "kappa"))
+        rows.append(
+            [
+                METHODS[name].label if name else f"Best of ours ({METHODS[measured].label})",
+                f"≤ {most:g}",
+                number(total, 2),
+                f"≥ {least:g}",
+                number(kappa, 2),
+                "yes" if total <= most and kappa >= least else "no",
+            ]
+        )
+    head = ["", "total error wanted", "reached", "kappa wanted", "reached", "goal met"]
+    return table(head, rows)
+
+
+def labels(results: TileScores) -> list[str]:
+    """Return the errors on the tiles whose labels are trusted."""
+    tiles = [tile for tile in data.REAL if tile.is_trusted and tile.title in results]
+    rows = []
+    for name in _filters(results):
+        row = [label(name)]
+        for tile in tiles:
+            one = results[tile.title][name].assessment
+            figures = (one.total_error, one.type_1_error, one.type_2_error) if one else ()
+            row += [number(each, 2) for each in figures] or ["failed", NONE, NONE]
+        rows.append(row)
+    for name, (_, _, totals) in QUOTED.items():
+        cells = ([totals.get(tile.title, NONE), NONE, NONE] for tile in tiles)
+        rows.append([f"{name} (quoted)", *(cell for part in cells for cell in part)])
+    head = [each for tile in tiles for each in (f"{tile.title}: total", "I", "II")]
+    return table(["Errors, %", *head], rows)
+
+
+def doubtful(results: TileScores) -> list[str]:
+    """Return which share of the classes left out the filters take for ground."""
+    head, columns = ["Taken for ground, %"], []
+    for tile in data.REAL:
+        for value in tile.left_out if tile.title in results else ():
+            head.append(f"{tile.title}, class {value}")
+            columns.append((tile.title, value))
+    rows = []
+    for name in _filters(results):
+        cells = []
+        for title, value in columns:
+            shares = results[title][name].shares
+            cells.append(number(shares.get(value, math.nan), 1))
+        rows.append([label(name), *cells])
+    return table(head, rows)
+
+
+def dtm(results: TileScores, title: str, figure: str, digits: int) -> list[str]:
+    """Return one figure of the terrain models of every filter on every tile."""
+    rows = []
+    for name in _filters(results):
+        scores = (results[tile][name].dtm for tile in results)
+        cells = (number(getattr(each, figure), digits) if each else "failed" for each in scores)
+        rows.append([label(name), *cells])
+    if figure == "rmse":
+        for name, values in QUOTED_RMSE.items():
+            rows.append([f"{name} (quoted)", *(values.get(tile, NONE) for tile in results)])
+    return table([title, *results], rows)
+
+
+def seconds(results: TileScores) -> list[str]:
+    """Return how long the filters took; remembered answers of peers take next to nothing."""
+    rows = [
+        [label(name), *(number(results[tile][name].seconds, 1) for tile in results)]
+        for name in _filters(results)
+    ]
+    return table(["Seconds, from memory for peers asked before", *results], rows)
+
+
+def problems(results: TileScores) -> list[str]:
+    """Return which filter failed on which tile, and why."""
+    return [
+        f"{name} on {tile}: {one.problem}"
+        for tile, scores in results.items()
+        for name, one in scores.items()
+        if one.problem
+    ]
+
+
+def sensitivity(rows: Sequence[Sensitivity]) -> list[str]:
+    """Return what halving and doubling each default of one filter does."""
+    cells = []
+    for row in rows:
+        unit = f" {row.declaration.unit}" if row.declaration.unit else ""
+        default = " to ".join(_ends(row.defaults)) + unit
+        line = [row.declaration.label, default + (", chosen" if _is_chosen(row) else "")]
+        for change in row.changes:
+            line += [_value(change), number(change.total_error, 2), number(change.kappa, 1)]
+        cells.append(line)
+    head = ["Parameter", "default", "halved", "total", "kappa", "doubled", "total", "kappa"]
+    return table(head, cells)
+
+
+def _filters(results: TileScores) -> list[str]:
+    return list(next(iter(results.values())))
+
+
+def _is_chosen(row: Sensitivity) -> bool:
+    return row.declaration.default is None
+
+
+def _ends(texts: Sequence[str]) -> Sequence[str]:
+    """Return the least and the greatest of values as text, or the only one."""
+    ordered = sorted(texts, key=lambda text: float(text.split(",")[0]))
+    return ordered if len(ordered) == 1 else (ordered[0], ordered[-1])
+
+
+def _value(change: Change) -> str:
+    text = " to ".join(_ends(change.values)) + (" (limit)" if change.is_limited else "")
+    return f"{text}, refused" if change.problem else text
