@@ -6,7 +6,7 @@ File in, file out; every front end takes this path.
 from __future__ import annotations
 
 import contextlib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -136,11 +136,14 @@ class KeyPointSummary:
     ----------
     point_count, ground_count, key_point_count : int
         Points of the file, those of the ground, and those of them that are key points.
+    class_counts : dict of int to int
+        Points of each class in the output.
     """
 
     point_count: int
     ground_count: int
     key_point_count: int
+    class_counts: dict[int, int] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -265,8 +268,8 @@ def write_key_points(
     points = cloud.points(is_ground)
     keys = np.zeros(cloud.count, dtype=bool)
     keys[is_ground] = model_key_points(points, parameters, progress.part(0.15, 0.85))
+    classes = cloud.classification.copy()
     if by_class:
-        classes = cloud.classification.copy()
         classes[is_ground & old] = ground.ground_classes[0]
         classes[keys] = mark.key_class
         changes = Changes(classification=classes)
@@ -275,10 +278,12 @@ def write_key_points(
         flags[keys] = 1
         changes = Changes(key_points=flags)
     write_changed(source, target, changes, progress.part(0.85, 1.0))
+    counts = np.unique(classes, return_counts=True)
     return KeyPointSummary(
         point_count=cloud.count,
         ground_count=points.count,
         key_point_count=int(np.count_nonzero(keys)),
+        class_counts={int(value): int(count) for value, count in zip(*counts)},
     )
 
 

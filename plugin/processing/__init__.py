@@ -2,12 +2,18 @@
 
 from .assess import AssessAlgorithm
 from .grid_minimum import GridMinimumAlgorithm
+from .height_above_ground import HeightAboveGroundAlgorithm
+from .model_key_points import ModelKeyPointsAlgorithm
 from .slope_filter import SlopeFilterAlgorithm
+from .terrain_model import TerrainModelAlgorithm
 from .tin_densification import TinDensificationAlgorithm
 
 ALGORITHMS = (
     TinDensificationAlgorithm,
     GridMinimumAlgorithm,
     SlopeFilterAlgorithm,
+    TerrainModelAlgorithm,
+    HeightAboveGroundAlgorithm,
+    ModelKeyPointsAlgorithm,
     AssessAlgorithm,
 )

@@ -47,6 +47,19 @@ PARAMETERS = {
         "SLOPE_NORM", "CELL_SIZE", "SLOPE_TOLERANCE",
         *SHARED_PARAMETERS,
     ],
+    "bareearth:heightaboveground": ["INPUT", "GROUND_CLASSES", "OUTPUT_AS", "OUTPUT"],
+    "bareearth:modelkeypoints": [
+        "INPUT",
+        "TOLERANCE_ABOVE", "TOLERANCE_BELOW", "GRID_SIZE",
+        "GROUND_CLASSES", "MARK_AS", "KEY_CLASS",
+        "OUTPUT",
+    ],
+    "bareearth:terrainmodel": [
+        "INPUT", "GROUND_CLASSES",
+        "DTM_CELL_SIZE", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
+        "SURFACE_RETURNS", "MAX_EDGE",
+        "DTM", "DSM", "CHM", "HILLSHADE",
+    ],
     "bareearth:assess": [
         "CLASSIFIED", "REFERENCE", "GROUND_CLASSES", "IGNORED_CLASSES", "MAP_CELL_SIZE",
         "REPORT", "ERROR_MAP",
@@ -56,6 +69,22 @@ OUTPUTS = {
     "bareearth:tindensification": SHARED_OUTPUTS,
     "bareearth:gridminimum": SHARED_OUTPUTS,
     "bareearth:slopefilter": SHARED_OUTPUTS,
+    "bareearth:heightaboveground": [
+        "OUTPUT",
+        "POINT_COUNT",
+        "GROUND_COUNT",
+        "MINIMUM",
+        "MAXIMUM",
+    ],
+    "bareearth:modelkeypoints": ["OUTPUT", "POINT_COUNT", "GROUND_COUNT", "KEY_POINT_COUNT"],
+    "bareearth:terrainmodel": [
+        "DTM",
+        "DSM",
+        "CHM",
+        "HILLSHADE",
+        "GROUND_COUNT",
+        "SURFACE_COUNT",
+    ],
     "bareearth:assess": [
         "REPORT",
         "ERROR_MAP",

@@ -1,0 +1,56 @@
+"""Heights above ground, in the toolbox."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ...algorithms.products import GroundClasses, HeightOutput, write_height_above_ground
+from .base import command_line
+from .products import ProductAlgorithm
+
+
+class HeightAboveGroundAlgorithm(ProductAlgorithm):
+    """Height above ground."""
+
+    identifier = "heightaboveground"
+    title = "Height above ground"
+    summary = "Adds the height of every point above the ground points of a point cloud."
+    about = (
+        "Writes a classified point cloud anew with the height of every point above the ground, that"
+        " is above the triangulation (TIN) of the ground points, or beyond it above the nearest of"
+        " them."
+        " Heights are in the vertical unit of the CRS. They become an extra dimension,"
+        " HeightAboveGround, or take the place of z; nothing else in the file changes."
+    )
+    keywords = (
+        "lidar", "point cloud", "las", "laz", "copc", "hag", "normalise", "normalize", "height",
+        "vegetation", "canopy", "tin", "extra bytes",
+    )  # fmt: skip
+    page = "height-above-ground"
+    cloud_label = "Point cloud with heights"
+    numbers = (
+        ("POINT_COUNT", "Points"),
+        ("GROUND_COUNT", "Ground points"),
+        ("MINIMUM", "Lowest height"),
+        ("MAXIMUM", "Highest height"),
+    )
+
+    def parameter_sets(self):
+        """Return the ground classes and where the heights go."""
+        return GroundClasses, HeightOutput
+
+    def compute(self, parameters, context, progress):
+        """Write the heights."""
+        chosen = self.chosen(parameters, context)
+        output = self.cloud_output(parameters, context, progress)
+        progress.command(command_line("height", [str(self.source), output], chosen, {}))
+        summary = write_height_above_ground(self.source, Path(output), *chosen, progress)
+        progress.info(
+            f"Heights above ground are {summary.minimum:.2f} to {summary.maximum:.2f}"
+            f" {summary.unit}."
+        )
+        return {"OUTPUT": output, **self.numbers_of(summary)}
+
+    def createInstance(self):
+        """Return another instance."""
+        return HeightAboveGroundAlgorithm()

@@ -1,0 +1,57 @@
+"""Model key points, in the toolbox."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ...algorithms.products import GroundClasses, KeyPointMark, write_key_points
+from ...algorithms.terrain.model_key_points import ModelKeyPoints
+from .base import command_line
+from .outputs import ClassStyle, style
+from .products import ProductAlgorithm
+
+
+class ModelKeyPointsAlgorithm(ProductAlgorithm):
+    """Classify model key points."""
+
+    identifier = "modelkeypoints"
+    title = "Classify model key points"
+    summary = "Finds the few ground points whose triangulation is as good as that of all of them."
+    about = (
+        "Chooses, of the ground points of a classified point cloud, the few that a terrain model"
+        " needs: no other ground point lies farther above or below their triangulation (TIN) than"
+        " the tolerances. They get a class of their own, or the key-point flag; nothing else in the"
+        " file changes.\nLengths are metres, whatever the unit of the CRS."
+    )
+    keywords = (
+        "lidar", "point cloud", "las", "laz", "copc", "ground", "thin", "thinning", "generalise",
+        "keypoints", "classification", "classify", "terrain", "contours", "tin",
+    )  # fmt: skip
+    page = "model-key-points"
+    cloud_label = "Point cloud with key points"
+    numbers = (
+        ("POINT_COUNT", "Points"),
+        ("GROUND_COUNT", "Ground points"),
+        ("KEY_POINT_COUNT", "Key points"),
+    )
+
+    def parameter_sets(self):
+        """Return tolerances, ground classes, and how the points are marked."""
+        return ModelKeyPoints, GroundClasses, KeyPointMark
+
+    def compute(self, parameters, context, progress):
+        """Find and mark them."""
+        chosen = self.chosen(parameters, context)
+        output = self.cloud_output(parameters, context, progress)
+        progress.command(command_line("key-points", [str(self.source), output], chosen, {}))
+        summary = write_key_points(self.source, Path(output), *chosen, progress)
+        progress.info(
+            f"{summary.key_point_count:,} of {summary.ground_count:,} ground points are key points"
+            f" ({summary.key_point_count / summary.ground_count:.1%})."
+        )
+        style(context, output, ClassStyle(summary.class_counts))
+        return {"OUTPUT": output, **self.numbers_of(summary)}
+
+    def createInstance(self):
+        """Return another instance."""
+        return ModelKeyPointsAlgorithm()

@@ -1,0 +1,76 @@
+"""What the Processing algorithms that work on a classified point cloud have in common."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from qgis.core import QgsProcessingContext, QgsProcessingOutputNumber
+
+from .. import compat
+from .base import BareEarthAlgorithm
+from .feedback import FeedbackProgress
+from .inputs import PointCloudInput, ignored_filter, source_path
+from .outputs import point_cloud_formats
+
+
+class ProductAlgorithm(BareEarthAlgorithm):
+    """Base of the algorithms that make something of a classified point cloud.
+
+    Attributes
+    ----------
+    cloud_label : str
+        What the point cloud to be made is called; empty if none is.
+    numbers : tuple of (str, str)
+        Name and label of each number that is returned. In small letters, the name is that of the
+        attribute of the summary which holds it.
+    """
+
+    section = "Products"
+    cloud_label = ""
+    numbers: tuple[tuple[str, str], ...] = ()
+
+    def add_outputs(self) -> None:
+        """Add the fields of the files to be made."""
+        self.addParameter(
+            compat.point_cloud_output("OUTPUT", self.cloud_label, point_cloud_formats())
+        )
+
+    def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
+        """Declare the fields of the dialog and the results."""
+        self.addParameter(PointCloudInput("INPUT", "Classified point cloud"))
+        self.add_declared()
+        self.add_outputs()
+        for name, label in self.numbers:
+            self.addOutput(QgsProcessingOutputNumber(name, label))
+
+    def check(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
+        """Refuse values that are not allowed, and an input that is not there."""
+        super().check(parameters, context)
+        source_path(self, parameters, "INPUT", context)
+
+    def prepare(
+        self,
+        parameters: dict[str, Any],
+        context: QgsProcessingContext,
+        progress: FeedbackProgress,
+    ) -> None:
+        """Find the input's file."""
+        self.source = source_path(self, parameters, "INPUT", context)
+        if ignored_filter(self, parameters, "INPUT", context):
+            progress.warning("The layer's filter is not applied: all points are read.")
+
+    def cloud_output(
+        self,
+        parameters: dict[str, Any],
+        context: QgsProcessingContext,
+        progress: FeedbackProgress,
+    ) -> str:
+        """Return the path of the point cloud to be made; say so if QGIS cannot show it."""
+        output = self.point_cloud_destination(parameters, "OUTPUT", context)
+        if not compat.can_load(output):
+            progress.info(f"This QGIS cannot show such a file as a layer. It will be at {output}.")
+        return output
+
+    def numbers_of(self, summary: Any) -> dict[str, Any]:
+        """Return the numbers that a summary holds."""
+        return {name: getattr(summary, name.lower()) for name, _ in self.numbers}

@@ -1,0 +1,140 @@
+"""Heights above ground, key points and terrain models in the toolbox."""
+
+import os
+import shlex
+
+import laspy
+import numpy as np
+import pytest
+from osgeo import gdal
+from qgis.core import QgsProcessingException, QgsProcessingParameterDefinition
+from support import Log
+
+gdal.UseExceptions()
+
+HEIGHT = "bareearth:heightaboveground"
+KEY_POINTS = "bareearth:modelkeypoints"
+TERRAIN = "bareearth:terrainmodel"
+
+
+@pytest.fixture
+def out(tmp_path):
+    (tmp_path / "out").mkdir()
+    return tmp_path / "out"
+
+
+@pytest.fixture
+def labelled(scene):
+    """The scene with its truth: ground 2, the building 6."""
+    las = laspy.read(scene.path)
+    las.classification[:] = np.where(scene.ground, 2, 6)
+    las.write(str(scene.path))
+    return scene
+
+
+def parameters_for(name, scene, out):
+    files = ("dtm", "dsm", "chm", "hillshade") if name == TERRAIN else ()
+    parameters = {"INPUT": str(scene.path), **{f.upper(): str(out / f"{f}.tif") for f in files}}
+    return parameters if files else {**parameters, "OUTPUT": str(out / "out.laz")}
+
+
+def plane(x, y):
+    return 100 + 0.05 * (x - 500_000) + 0.02 * (y - 5_700_000)
+
+
+@pytest.mark.parametrize("output_as", ["dimension", "z"])
+def test_heights(labelled, out, output_as):
+    import processing
+
+    parameters = {**parameters_for(HEIGHT, labelled, out), "OUTPUT_AS": output_as}
+    results = processing.run(HEIGHT, parameters)
+    before, after = laspy.read(labelled.path), laspy.read(results["OUTPUT"])
+    heights = after["HeightAboveGround"] if output_as == "dimension" else after.z
+    expected = np.asarray(before.z) - plane(np.asarray(before.x), np.asarray(before.y))
+    assert np.allclose(heights, expected, atol=0.002)
+    assert results["POINT_COUNT"] == labelled.count
+    assert results["GROUND_COUNT"] == labelled.ground_count
+    assert results["MINIMUM"] == pytest.approx(expected.min(), abs=0.002)
+    assert results["MAXIMUM"] == pytest.approx(expected.max(), abs=0.002)
+
+
+@pytest.mark.parametrize("mark", ["class", "flag"])
+def test_key_points(labelled, out, mark):
+    import processing
+
+    parameters = {**parameters_for(KEY_POINTS, labelled, out), "MARK_AS": mark}
+    results = processing.run(KEY_POINTS, parameters)
+    after = laspy.read(results["OUTPUT"])
+    keys = np.asarray(after.classification) == 8 if mark == "class" else after.key_point == 1
+    assert np.count_nonzero(keys) == results["KEY_POINT_COUNT"] < 60
+    assert results["GROUND_COUNT"] == labelled.ground_count
+    assert not keys[~labelled.ground].any()
+
+
+def test_rasters(labelled, out):
+    import processing
+
+    results = processing.run(TERRAIN, parameters_for(TERRAIN, labelled, out))
+    rasters = {name: gdal.Open(results[name]) for name in ("DTM", "DSM", "CHM", "HILLSHADE")}
+    dtm, dsm, chm, shade = (each.ReadAsArray() for each in rasters.values())
+    rows, columns = np.mgrid[: dtm.shape[0], : dtm.shape[1]]
+    west, _, _, north, _, _ = rasters["DTM"].GetGeoTransform()
+    terrain = plane(west + columns + 0.5, north - rows - 0.5)
+    inside = np.s_[2:-2, 2:-2]
+    assert np.allclose(dtm[inside], terrain[inside], atol=0.01)
+    assert dsm.max() == 112.0 and shade.max() > 0
+    assert np.allclose(chm[inside], np.maximum(dsm - dtm, 0)[inside], atol=1e-4)
+    assert "25832" in rasters["CHM"].GetProjection()
+    assert results["SURFACE_COUNT"] == labelled.count
+
+
+@pytest.mark.parametrize("name", [HEIGHT, KEY_POINTS, TERRAIN])
+def test_the_log_tells_the_same_command_line(registry, labelled, out, context, log, name):
+    from bare_earth.algorithms.cli import main
+
+    parameters = {**parameters_for(name, labelled, out), "GROUND_CLASSES": "2, 9"}
+    results, done = registry.createAlgorithmById(name).run(parameters, context, log)
+    assert done, log.text
+    before = {path: (out / path).read_bytes() for path in os.listdir(out)}
+    command = next(shlex.split(line) for line in log.said if line.startswith("bare-earth "))
+    assert "--ground-classes" in command
+    assert main(command[1:]) == 0
+    same = {path: (out / path).read_bytes() for path in os.listdir(out)}
+    if name == TERRAIN:  # with another library the bytes of a GeoTIFF may differ
+        same, before = set(same), set(before)
+    assert same == before and results
+
+
+@pytest.mark.parametrize("name", [HEIGHT, KEY_POINTS, TERRAIN])
+def test_cancel_leaves_nothing(registry, labelled, out, context, name):
+    for percent in (0, 20, 70, 90):
+        log = Log(cancel_at=percent)
+        parameters = parameters_for(name, labelled, out)
+        results, _ = registry.createAlgorithmById(name).run(parameters, context, log)
+        assert results == {} and os.listdir(out) == []
+        assert not context.layersToLoadOnCompletion()
+
+
+@pytest.mark.parametrize("name", [HEIGHT, KEY_POINTS, TERRAIN])
+def test_no_ground_is_told(scene, out, name):
+    import processing
+
+    with pytest.raises(QgsProcessingException, match="Classify its ground first"):
+        processing.run(name, parameters_for(name, scene, out))
+    assert os.listdir(out) == []
+
+
+def test_a_raster_must_be_made(registry, labelled, context, log):
+    algorithm = registry.createAlgorithmById(TERRAIN)
+    _, done = algorithm.run({"INPUT": str(labelled.path)}, context, log)
+    assert not done and "at least one raster" in log.text
+    optional = QgsProcessingParameterDefinition.Flag.FlagOptional
+    for name in ("DTM", "DSM", "CHM", "HILLSHADE"):
+        assert algorithm.parameterDefinition(name).flags() & optional
+
+
+def test_a_wrong_value_is_refused_before_anything_runs(registry, labelled, out, context):
+    algorithm = registry.createAlgorithmById(KEY_POINTS)
+    parameters = {**parameters_for(KEY_POINTS, labelled, out), "TOLERANCE_ABOVE": -1}
+    possible, text = algorithm.checkParameterValues(parameters, context)
+    assert not possible and "Tolerance above must be at least 0 m" in text
