@@ -197,7 +197,8 @@ def write_height_above_ground(
     is_ground = ground.of(cloud)
     points = cloud.points(slice(None))
     heights = height_above_ground(points, is_ground, progress.part(0.15, 0.8))
-    heights /= cloud.crs.vertical_unit
+    # Without the noise of rounding: ground points have 0, not -0.
+    heights = np.round(heights / cloud.crs.vertical_unit, 6) + 0.0
     unit = unit_name(cloud.crs.vertical_unit)
     if output.output_as == "z":
         changes = Changes(z=_integers(cloud, heights))

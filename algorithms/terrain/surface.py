@@ -12,10 +12,10 @@ from ..progress import SILENT, Progress
 from .tin import Tin, is_one_line, lowest_of_duplicates
 
 # The time of a triangulation grows faster than its vertices, and with these it is a second or two.
-_VERTICES_A_BLOCK = 150_000
+_VERTICES_A_BLOCK = 250_000
 # Vertices round a block that are triangulated with it, as a share of its longer side, and by what
 # that grows where they do not suffice.
-_MARGIN, _GROWTH = 0.08, 3.0
+_MARGIN, _GROWTH = 0.05, 3.0
 # Metres from the hull within which a query may be outside by rounding.
 _ON_HULL = 1e-6
 # Share of its radius by which a vertex may lie inside a circle and count as on it: rounding.
