@@ -35,6 +35,11 @@ from .measure import (
 DENSE_TILE = "ahn3_urban"
 
 
+def tell(text: str) -> None:
+    """Say how far it is, beside what is printed."""
+    print(text, file=sys.stderr, flush=True)
+
+
 def show(*blocks: Sequence[str]) -> None:
     """Print tables, each after an empty line."""
     for lines in blocks:
@@ -53,11 +58,14 @@ def measure_isprs(filters: Sequence[GroundFilter], samples: Sequence[Path]) -> S
 def measure_real(filters: Sequence[GroundFilter]) -> tables.TileScores:
     """Measure the filters on the real tiles that are here and print the figures."""
     results: tables.TileScores = {}
+    filters = [each for each in filters if getattr(each, "is_for_tiles", True)]
     for tile in data.REAL:
         path = data.real(tile.name)
         if path.exists():
-            print(f"{tile.name} ...", file=sys.stderr, flush=True)
+            tell(f"{tile.name} ...")
             results[tile.title] = score_tile(filters, tile, *data.load(path))
+            for name, one in results[tile.title].items():
+                tell(f"  {name}: {one.seconds:.1f} s {one.problem or one.dtm}")
     if results:
         show(tables.labels(results), tables.doubtful(results))
         show(*(tables.dtm(results, *each) for each in tables.DTM_FIGURES))
@@ -78,7 +86,7 @@ def measure_sensitivity(
     for method in methods:
         results[method] = {}
         for where, labelled in clouds.items():
-            print(f"{method} on {where}, halved and doubled ...", file=sys.stderr, flush=True)
+            tell(f"{method} on {where}, halved and doubled ...")
             results[method][where] = sensitivity(method, labelled)
             show([f"{method}, {where}"], tables.sensitivity(results[method][where]))
     return results

@@ -16,7 +16,9 @@ from bare_earth.algorithms.terrain.inpaint import inpaint
 from .measure import GROUND, ReferenceModel
 
 TYPE_1, TYPE_2 = "#1565d8", "#e02020"
-_INCHES, _DOTS_PER_INCH = 7.0, 110
+_INCHES, _DOTS_PER_INCH = 7.5, 110
+# Inches below and above a map, for legend and title.
+_MARGIN = 0.7
 # Dots of wrong points are about as wide as the distance between points, but never a mere speck.
 _SMALLEST_DOT = 1.2
 # Cells of the model that are a longer way off are skipped in the picture of a large tile.
@@ -41,7 +43,8 @@ def error_map(
     figure, axes = _figure(1, cells.rows / cells.columns)
     axes = axes[0]
     axes.imshow(relief, cmap="gray", extent=extent, vmin=-120, vmax=255, interpolation="nearest")
-    width = max(72.0 * _INCHES * cells.size / (extent[1] - extent[0]), _SMALLEST_DOT)
+    longer = max(extent[1] - extent[0], extent[3] - extent[2])
+    width = max(72.0 * _INCHES * cells.size / longer, _SMALLEST_DOT)
     for wrong, colour, label in (
         (truth & ~ground, TYPE_1, f"type I: ground missed, {assessment.type_1_error:.1f} %"),
         (~truth & ground, TYPE_2, f"type II: other kept, {assessment.type_2_error:.1f} %"),
@@ -78,8 +81,10 @@ def _figure(columns: int, ratio: float):
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    width = _INCHES if columns == 1 else 1.4 * _INCHES
-    figure = Figure(figsize=(width, width / columns * ratio + 0.7), layout="constrained")
+    # The longer side of a single map, or of two side by side the width, is what is given.
+    width = _INCHES * min(1.0, 1.0 / ratio) if columns == 1 else 1.4 * _INCHES
+    size = max(width, 4.5), width / columns * ratio + _MARGIN
+    figure = Figure(figsize=size, layout="constrained")
     FigureCanvasAgg(figure)
     axes = figure.subplots(1, columns, squeeze=False)[0]
     for each in axes:

@@ -20,13 +20,10 @@ from bare_earth.algorithms.parameters import Declaration, ParameterSet
 from bare_earth.algorithms.pointcloud.cloud import PointCloud
 from bare_earth.algorithms.pointcloud.selection import Selection
 from bare_earth.algorithms.progress import SILENT
-from bare_earth.algorithms.terrain import model as terrain
+from bare_earth.algorithms.terrain.model import interpolate
 from bare_earth.algorithms.terrain.raster import RasterGrid
 
 from . import data
-
-# Under its new name, or under that of before.
-_dtm = getattr(terrain, "dtm", None) or terrain.interpolate
 
 GROUND = 2
 FACTORS = (0.5, 2.0)
@@ -125,7 +122,7 @@ class ReferenceModel:
         ground = cloud.points(reference == GROUND)
         self._cloud = cloud
         self._grid = RasterGrid.over(ground, cloud.frame, 1.0)
-        self.heights = _dtm(ground, self._grid)
+        self.heights = interpolate(ground, self._grid)
 
     @property
     def cell_size(self) -> float:
@@ -134,7 +131,7 @@ class ReferenceModel:
 
     def of(self, ground: np.ndarray) -> np.ndarray:
         """Return the terrain model of a ground mask on the same grid."""
-        return _dtm(self._cloud.points(ground), self._grid)
+        return interpolate(self._cloud.points(ground), self._grid)
 
     def error(self, ground: np.ndarray) -> DtmError:
         """Return how far the terrain model of a ground mask lies from this one."""

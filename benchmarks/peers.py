@@ -32,9 +32,12 @@ class Peer:
         What is imported, and what pip installs.
     note : str
         What else there is to know.
+    is_for_tiles : bool
+        Whether it is measured on the real tiles, too.
     """
 
     name = module = package = note = ""
+    is_for_tiles = True
 
     @property
     def is_installed(self) -> bool:
@@ -93,7 +96,8 @@ class WideMorphological(Morphological):
     """The same with the windows of the paper's one set of parameters."""
 
     name = "pysmrf, windows=18"
-    note = "not its default, but the radius in the paper's one set of parameters"
+    note = "not its default but the radius in the paper's one set of parameters; samples only"
+    is_for_tiles = False
 
     def __init__(self) -> None:
         super().__init__(windows=18)

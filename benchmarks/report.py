@@ -10,7 +10,7 @@ from bare_earth.algorithms.assessment import Assessment
 from bare_earth.algorithms.filters import METHODS
 
 from . import data, maps, peers, tables
-from .measure import GroundFilter, ReferenceModel, Scores, Sensitivity
+from .measure import GroundFilter, ReferenceModel, Scores, Sensitivity, mean
 
 PAGE = Path(__file__).parents[1] / "docs" / "accuracy.md"
 IMAGES = PAGE.parent / "images"
@@ -101,7 +101,7 @@ def write(
         "doubtful": tables.doubtful(real),
         "dtm": _blocks(tables.dtm(real, *each) for each in tables.DTM_FIGURES),
         "relief": _pictures(pictures, RELIEF_NAME),
-        "sensitivity": _moved(moved),
+        "sensitivity": _moved(moved, isprs, real),
         "problems": [f"- **What failed**: {each}." for each in tables.problems(real)],
     }
     template = Template(TEMPLATE.read_text(encoding="utf-8"))
@@ -120,17 +120,19 @@ def _peers() -> list[str]:
     return lines
 
 
-def _moved(moved: Moved) -> list[str]:
+def _moved(moved: Moved, isprs: Scores, real: tables.TileScores) -> list[str]:
     lines: list[str] = []
     for method, places in moved.items():
         lines += [f"### {METHODS[method].label}", ""]
         for where, rows in places.items():
-            lines += [f"On {where}. {_spread(rows)}", "", *tables.sensitivity(rows), ""]
+            one = real[where][method].assessment if where in real else None
+            base = one.total_error if one else mean(isprs[method], "total_error")
+            lines += [f"On {where}. {_spread(rows, base)}", "", *tables.sensitivity(rows), ""]
     return lines[:-1]
 
 
-def _spread(rows: Sequence[Sensitivity]) -> str:
-    """Return the sentence on the largest move."""
+def _spread(rows: Sequence[Sensitivity], base: float) -> str:
+    """Return the sentence on the smallest and the largest move."""
     moves = [
         (change.total_error, row.declaration.label, way)
         for row in rows
@@ -138,11 +140,11 @@ def _spread(rows: Sequence[Sensitivity]) -> str:
         if not change.problem
     ]
     if not moves:
-        return "Every change is refused."
+        return f"Total error {base:.2f} %; every change is refused."
     most, label, way = max(moves)
     return (
-        f"Total error stays between {min(moves)[0]:.2f} and {most:.2f} %; what costs most is"
-        f" *{label}* {way}:"
+        f"Total error {base:.2f} % with the defaults, {min(moves)[0]:.2f} to {most:.2f} % with one"
+        f" moved; what costs most is *{label}* {way}:"
     )
 
 
