@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -9,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .errors import BareEarthError
-from .files import check_output
+from .files import check_output, replacing
 from .parameters import ParameterSet, parameter
 from .pointcloud.cloud import PointCloud
 from .pointcloud.reading import read_cloud
@@ -231,17 +232,21 @@ def assess_files(
         raise BareEarthError("All points are of ignored classes: there is nothing to assess.")
     progress(0.8)
     if report is not None or error_map is not None:
-        points, comparison = result.points(order_result), Comparison.of(ground, classes, options)
-        if error_map is not None:
-            _write_error_map(error_map, points, comparison, result.frame, options, progress)
-        progress(0.9)
-        if report is not None:
-            # It knows this module, too.
-            from .report import write_report
+        # It knows this module, too.
+        from .report import write_report
 
-            files = (classified, reference)
-            write_report(report, assessment, comparison, points, options, files)
-    progress(1.0)
+        points, comparison = result.points(order_result), Comparison.of(ground, classes, options)
+        with contextlib.ExitStack() as outputs:  # both or none
+            report, error_map = (
+                path and outputs.enter_context(replacing(path)) for path in (report, error_map)
+            )
+            if error_map is not None:
+                _write_error_map(error_map, points, comparison, result.frame, options, progress)
+            progress(0.9)
+            if report is not None:
+                files = (classified, reference)
+                write_report(report, assessment, comparison, points, options, files)
+            progress(1.0)
     return assessment
 
 

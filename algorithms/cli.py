@@ -126,6 +126,7 @@ def _parser(arguments: Sequence[str]) -> argparse.ArgumentParser:
     _add_classify(commands, common, arguments)
     _add_info(commands, common)
     _add_assess(commands, common)
+    _add_remove_objects(commands, common)
     _add_height(commands, common)
     _add_key_points(commands, common)
     _add_terrain(commands, common)
@@ -281,6 +282,36 @@ def _assess(options: argparse.Namespace) -> int:
             progress=progress,
         )
     print(json.dumps(assessment.as_dict()) if options.json else "\n".join(assessment.lines()))
+    return _DONE
+
+
+def _add_remove_objects(commands: Any, common: argparse.ArgumentParser) -> None:
+    from .terrain.off_terrain import OffTerrain
+
+    parser = commands.add_parser(
+        "remove-off-terrain-objects",
+        parents=[common],
+        help="take buildings and trees out of an elevation raster",
+        description="Takes what stands steeply above the terrain round it out of an elevation"
+        " raster, and fills the gaps smoothly.",
+    )
+    parser.add_argument("input", metavar="INPUT", help="a raster that GDAL reads")
+    parser.add_argument("output", metavar="OUTPUT", type=Path, help="GeoTIFF (.tif)")
+    parser.add_argument("--json", action="store_true", help="print the counts as JSON")
+    add_options(parser, OffTerrain)
+    parser.set_defaults(run=_remove_objects)
+
+
+def _remove_objects(options: argparse.Namespace) -> int:
+    from .terrain.off_terrain import OffTerrain, remove_objects_file
+
+    chosen = from_options(OffTerrain, options)
+    with _Terminal(options.verbose) as progress:
+        removal = remove_objects_file(options.input, options.output, chosen, progress)
+    if options.json:
+        print(json.dumps(dataclasses.asdict(removal)))
+    elif options.verbose or sys.stdout.isatty():
+        print(f"{options.output}: {removal.text}")
     return _DONE
 
 

@@ -1,4 +1,4 @@
-"""Rasters of the terrain: their grid, and GeoTIFF files by GDAL (in QGIS) or rasterio (outside)."""
+"""Rasters of the terrain: their grid, and files by GDAL (in QGIS) or rasterio (outside)."""
 
 from __future__ import annotations
 
@@ -6,17 +6,28 @@ import importlib.util
 import math
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
 from ..errors import BareEarthError
 from ..files import check_output, replacing, shown
+from ..pointcloud.crs import unit_name
+from ..pointcloud.wkt import read_wkt
 from ..points import Frame, Points
-from ..progress import Progress
+from ..progress import SILENT, Progress
 
 NODATA = -9999.0
 _MOST_CELLS = 400_000_000
 _BLOCK = 256
+_SURVEY_FOOT = 1200 / 3937
+# As files state the unit of their heights, in metres.
+_UNITS = {
+    "m": 1.0, "metre": 1.0, "meter": 1.0, "metres": 1.0, "meters": 1.0,
+    "ft": 0.3048, "foot": 0.3048, "feet": 0.3048, "international foot": 0.3048,
+    "us-ft": _SURVEY_FOOT, "us survey foot": _SURVEY_FOOT, "us survey feet": _SURVEY_FOOT,
+    "foot_us": _SURVEY_FOOT, "ftus": _SURVEY_FOOT, "sft": _SURVEY_FOOT,
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -76,6 +87,16 @@ class RasterGrid:
         return cls(west * cell, north * cell, cell, columns, rows, frame)
 
     @property
+    def unit(self) -> str:
+        """What the band says of the unit of its values: nothing, the CRS does."""
+        return ""
+
+    @property
+    def geotransform(self) -> tuple[float, ...]:
+        """Where the cells lie in the CRS, as GDAL says it."""
+        return self.west, self.cell_size, 0.0, self.north, 0.0, -self.cell_size
+
+    @property
     def cell_metres(self) -> float:
         """Side of a cell in metres."""
         return self.cell_size * self.frame.horizontal_unit
@@ -95,8 +116,167 @@ class RasterGrid:
         return centres * self.frame.horizontal_unit
 
 
+class Raster(NamedTuple):
+    """A band of a raster file in memory.
+
+    Attributes
+    ----------
+    heights : numpy.ndarray of float32, shape (rows, columns)
+        The cells in file order, in the vertical unit of `frame`; NaN where there is no value.
+    geotransform : tuple of float
+        Where the cells lie in the CRS, as GDAL says it.
+    frame : Frame
+        The CRS and its units; its origin is of no use here.
+    unit : str
+        What the band says of the unit of its values; empty if nothing.
+    """
+
+    heights: np.ndarray
+    geotransform: tuple[float, ...]
+    frame: Frame
+    unit: str = ""
+
+    @property
+    def cell_metres(self) -> tuple[float, float]:
+        """Distance in metres between neighbours in a row, and between those in a column."""
+        _, a, b, _, c, d = self.geotransform
+        unit = self.frame.horizontal_unit
+        return math.hypot(a, c) * unit, math.hypot(b, d) * unit
+
+
+def read_raster(source: str | Path, band: int = 1, progress: Progress = SILENT) -> Raster:
+    """Read one band of a raster file as heights.
+
+    Parameters
+    ----------
+    source : str or Path
+        The file, or whatever else GDAL opens.
+    band : int
+        Number of the band, from 1.
+    progress : Progress
+        Told which units are assumed where none is stated.
+
+    Raises
+    ------
+    BareEarthError
+        If there is no library to read rasters with, the band cannot be read, or the CRS is not a
+        projected one.
+    """
+    read = _library(_read_with_gdal, _read_with_rasterio, "Reading")
+    content = read(str(source), band)
+    values, valid = content.values, content.valid
+    if values.dtype.kind not in "iuf":
+        raise BareEarthError(f"Cannot read {source}: its cells are no heights, but {values.dtype}.")
+    heights = values.astype(np.float32)
+    if (content.scale, content.offset) != (1.0, 0.0):
+        heights = (values * content.scale + content.offset).astype(np.float32)
+    heights[~(valid & np.isfinite(values))] = np.nan
+    frame = _frame_of(source, content, progress)
+    return Raster(heights, content.geotransform, frame, content.unit)
+
+
+class _Content(NamedTuple):
+    """What a library reads of a file."""
+
+    values: np.ndarray
+    valid: np.ndarray
+    geotransform: tuple[float, ...]
+    wkt: str
+    unit: str
+    scale: float
+    offset: float
+
+
+def _frame_of(source: str | Path, content: _Content, progress: Progress) -> Frame:
+    """Settle the units: those that the band and the CRS state, metres where nothing is."""
+    facts = read_wkt(content.wkt) if content.wkt else None
+    if facts is not None and facts.is_geographic:
+        raise BareEarthError(
+            f"{source} is not in a projected CRS ({facts.name}), so that nothing can be measured in"
+            " it. Reproject it first: in QGIS with 'Warp (reproject)', elsewhere with 'gdalwarp"
+            " -t_srs EPSG:... INPUT OUTPUT'."
+        )
+    horizontal = facts.horizontal_unit if facts is not None else None
+    if horizontal is None:
+        progress.warning(
+            f"{source} does not say its CRS, or not its unit: its coordinates are taken as metres."
+        )
+        horizontal = 1.0
+    vertical = _UNITS.get(content.unit.strip().lower())
+    if vertical is None and facts is not None:
+        vertical = facts.vertical_unit
+    if vertical is None:
+        vertical = horizontal
+        if not math.isclose(horizontal, 1.0):
+            progress.info(
+                "The raster does not state the unit of its heights: taken as that of x and y,"
+                f" {unit_name(horizontal)}."
+            )
+    return Frame((0.0, 0.0), horizontal, vertical, content.wkt or None)
+
+
+def _read_with_gdal(source: str, band: int) -> _Content:
+    from osgeo import gdal
+
+    with _GdalErrors(gdal, "read") as errors:
+        dataset = gdal.Open(source, gdal.GA_ReadOnly)
+        errors.check(source)
+        if dataset is None:
+            raise BareEarthError(f"Cannot read {source}: it is no raster that GDAL knows.")
+        _check_size(source, band, dataset.RasterCount, (dataset.RasterYSize, dataset.RasterXSize))
+        layer = dataset.GetRasterBand(band)
+        values = layer.ReadAsArray()
+        errors.check(source)
+        valid = layer.GetMaskBand().ReadAsArray() != 0
+        errors.check(source)
+        scale, offset = layer.GetScale(), layer.GetOffset()
+        return _Content(
+            values,
+            valid,
+            tuple(dataset.GetGeoTransform()),
+            dataset.GetProjection(),
+            layer.GetUnitType() or "",
+            1.0 if scale is None else scale,
+            0.0 if offset is None else offset,
+        )
+
+
+def _read_with_rasterio(source: str, band: int) -> _Content:
+    import rasterio
+    from rasterio.errors import RasterioError
+
+    try:
+        with rasterio.open(source) as dataset:
+            _check_size(source, band, dataset.count, dataset.shape)
+            return _Content(
+                dataset.read(band),
+                dataset.read_masks(band) != 0,
+                dataset.transform.to_gdal(),
+                dataset.crs.to_wkt() if dataset.crs else "",
+                dataset.units[band - 1] or "",
+                dataset.scales[band - 1],
+                dataset.offsets[band - 1],
+            )
+    except RasterioError as error:
+        raise BareEarthError(f"Cannot read {source}: {str(error).rstrip('.')}.") from error
+
+
+def _check_size(source: str, band: int, bands: int, shape: tuple[int, int]) -> None:
+    if band > bands:
+        raise BareEarthError(f"{source} has no band {band}: it has {bands}.")
+    if shape[0] * shape[1] > _MOST_CELLS:
+        raise BareEarthError(
+            f"{source} has {shape[1]:,} x {shape[0]:,} cells, too many to be held in memory. Cut"
+            " it into parts that overlap."
+        )
+
+
 def write_geotiff(
-    target: Path, values: np.ndarray, grid: RasterGrid, nodata: float, progress: Progress
+    target: Path,
+    values: np.ndarray,
+    grid: RasterGrid | Raster,
+    nodata: float,
+    progress: Progress,
 ) -> None:
     """Write a tiled, deflated, single-band GeoTIFF.
 
@@ -106,7 +286,7 @@ def write_geotiff(
         The file to make.
     values : numpy.ndarray of float32 or uint8, shape (rows, columns)
         The cells from north to south; `nodata` where there is no value.
-    grid : RasterGrid
+    grid : RasterGrid or Raster
         Where the cells lie.
     nodata : float
         The value that stands for none.
@@ -134,16 +314,25 @@ def check_raster_output(target: Path, sources: tuple[Path, ...] = ()) -> None:
 
 
 def _writer():
-    """Return the function that writes with the library that is there; GDAL first, for QGIS."""
+    """Return the function that writes with the library that is there."""
+    return _library(_write_with_gdal, _write_with_rasterio, "Writing")
+
+
+def _library(by_gdal, by_rasterio, what: str):
+    """Return the function for the library that is there; GDAL first, for QGIS."""
     if importlib.util.find_spec("osgeo") is not None:
-        return _write_with_gdal
+        return by_gdal
     if importlib.util.find_spec("rasterio") is not None:
-        return _write_with_rasterio
-    raise BareEarthError("Writing a raster needs rasterio: pip install rasterio.")
+        return by_rasterio
+    raise BareEarthError(f"{what} a raster needs rasterio: pip install rasterio.")
 
 
 def _write_with_gdal(
-    path: Path, values: np.ndarray, grid: RasterGrid, nodata: float, progress: Progress
+    path: Path,
+    values: np.ndarray,
+    grid: RasterGrid | Raster,
+    nodata: float,
+    progress: Progress,
 ) -> None:
     from osgeo import gdal, osr
 
@@ -157,10 +346,10 @@ def _write_with_gdal(
     ]
     options += [f"BLOCKXSIZE={_BLOCK}", f"BLOCKYSIZE={_BLOCK}"]
     kind = gdal.GDT_Float32 if is_float else gdal.GDT_Byte
-    with _GdalErrors(gdal) as errors:
+    with _GdalErrors(gdal, "write") as errors:
         dataset = gdal.GetDriverByName("GTiff").Create(str(path), columns, rows, 1, kind, options)
         errors.check(path)
-        dataset.SetGeoTransform((grid.west, grid.cell_size, 0.0, grid.north, 0.0, -grid.cell_size))
+        dataset.SetGeoTransform(grid.geotransform)
         if grid.frame.wkt:
             reference = osr.SpatialReference()
             if reference.ImportFromWkt(grid.frame.wkt) == 0:
@@ -170,6 +359,8 @@ def _write_with_gdal(
             errors.clear()
         band = dataset.GetRasterBand(1)
         band.SetNoDataValue(nodata)
+        if grid.unit:
+            band.SetUnitType(grid.unit)
         band.WriteArray(values)
         band.FlushCache()
         dataset.FlushCache()
@@ -180,8 +371,8 @@ def _write_with_gdal(
 class _GdalErrors:
     """Collects GDAL's error messages, whichever of its error modes the application chose."""
 
-    def __init__(self, gdal) -> None:
-        self._gdal, self._texts = gdal, []
+    def __init__(self, gdal, what: str) -> None:
+        self._gdal, self._what, self._texts = gdal, what, []
 
     def __enter__(self) -> _GdalErrors:
         self._gdal.PushErrorHandler(self._receive)
@@ -190,7 +381,7 @@ class _GdalErrors:
     def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         self._gdal.PopErrorHandler()
         if isinstance(error, RuntimeError):  # the application made GDAL raise its errors
-            raise BareEarthError(f"Cannot write the raster: {shown(error)}") from error
+            raise BareEarthError(f"Cannot {self._what} the raster: {shown(error)}") from error
 
     def _receive(self, severity: int, number: int, text: str) -> None:
         if severity >= self._gdal.CE_Failure:
@@ -199,18 +390,22 @@ class _GdalErrors:
     def clear(self) -> None:
         self._texts.clear()
 
-    def check(self, path: Path) -> None:
+    def check(self, path: str | Path) -> None:
         if self._texts:
             reason = shown(self._texts[0]).rstrip(".")
-            raise BareEarthError(f"Cannot write {shown(path)}: {reason}.")
+            raise BareEarthError(f"Cannot {self._what} {shown(path)}: {reason}.")
 
 
 def _write_with_rasterio(
-    path: Path, values: np.ndarray, grid: RasterGrid, nodata: float, progress: Progress
+    path: Path,
+    values: np.ndarray,
+    grid: RasterGrid | Raster,
+    nodata: float,
+    progress: Progress,
 ) -> None:
     import rasterio
     from rasterio.errors import CRSError, RasterioError
-    from rasterio.transform import from_origin
+    from rasterio.transform import Affine
 
     crs = None
     if grid.frame.wkt:
@@ -223,10 +418,12 @@ def _write_with_rasterio(
             path, "w", driver="GTiff", width=values.shape[1], height=values.shape[0], count=1,
             dtype=values.dtype.name, nodata=nodata, crs=crs, tiled=True, compress="deflate",
             predictor=3 if values.dtype.kind == "f" else 2, blockxsize=_BLOCK, blockysize=_BLOCK,
-            transform=from_origin(grid.west, grid.north, grid.cell_size, grid.cell_size),
+            transform=Affine.from_gdal(*grid.geotransform),
             BIGTIFF="IF_SAFER",
         ) as dataset:  # fmt: skip
             dataset.write(values, 1)
+            if grid.unit:
+                dataset.units = (grid.unit,)
     except RasterioError as error:
         raise BareEarthError(f"Cannot write {shown(path)}: {shown(error)}.") from error
 

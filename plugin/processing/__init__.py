@@ -4,6 +4,7 @@ from .assess import AssessAlgorithm
 from .grid_minimum import GridMinimumAlgorithm
 from .height_above_ground import HeightAboveGroundAlgorithm
 from .model_key_points import ModelKeyPointsAlgorithm
+from .remove_off_terrain_objects import RemoveOffTerrainObjectsAlgorithm
 from .slope_filter import SlopeFilterAlgorithm
 from .terrain_model import TerrainModelAlgorithm
 from .tin_densification import TinDensificationAlgorithm
@@ -16,4 +17,5 @@ ALGORITHMS = (
     HeightAboveGroundAlgorithm,
     ModelKeyPointsAlgorithm,
     AssessAlgorithm,
+    RemoveOffTerrainObjectsAlgorithm,
 )

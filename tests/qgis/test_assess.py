@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from osgeo import gdal
 from qgis.core import QgsProcessingException
+from support import Log
 
 ALGORITHM = "bareearth:assess"
 
@@ -58,6 +59,18 @@ def test_defaults_and_empty_outputs(files, tmp_path):
         ALGORITHM, {"CLASSIFIED": files[0], "REFERENCE": files[1], "REPORT": "TEMPORARY_OUTPUT"}
     )
     assert results["REPORT"].endswith(".html")
+
+
+def test_cancel_leaves_nothing(registry, files, tmp_path, context):
+    (tmp_path / "out").mkdir()
+    parameters = {
+        "CLASSIFIED": files[0], "REFERENCE": files[1],
+        "REPORT": str(tmp_path / "out" / "r.html"), "ERROR_MAP": str(tmp_path / "out" / "e.tif"),
+    }  # fmt: skip
+    for percent in (1, 70, 80, 90):
+        algorithm = registry.createAlgorithmById(ALGORITHM)
+        assert algorithm.run(parameters, context, Log(cancel_at=percent))[0] == {}
+        assert list((tmp_path / "out").iterdir()) == []
 
 
 def test_a_figure_without_points_is_left_out(files, scene, tmp_path):

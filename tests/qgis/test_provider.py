@@ -64,6 +64,9 @@ PARAMETERS = {
         "CLASSIFIED", "REFERENCE", "GROUND_CLASSES", "IGNORED_CLASSES", "MAP_CELL_SIZE",
         "REPORT", "ERROR_MAP",
     ],
+    "bareearth:removeoffterrainobjects": [
+        "INPUT", "MAX_OBJECT_SIZE", "SLOPE_THRESHOLD", "BAND", "OUTPUT",
+    ],
 }  # fmt: skip
 OUTPUTS = {
     "bareearth:tindensification": SHARED_OUTPUTS,
@@ -94,6 +97,7 @@ OUTPUTS = {
         "TYPE_2_ERROR",
         "TOTAL_ERROR",
     ],
+    "bareearth:removeoffterrainobjects": ["OUTPUT", "CELL_COUNT", "REMOVED_COUNT"],
 }
 
 

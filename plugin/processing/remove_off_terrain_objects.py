@@ -1,0 +1,71 @@
+"""Removal of buildings and trees from the raster of a surface, in the toolbox."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from qgis.core import (
+    QgsProcessingOutputNumber,
+    QgsProcessingParameterRasterDestination,
+    QgsProcessingParameterRasterLayer,
+)
+
+from ...algorithms.errors import BareEarthError
+from ...algorithms.terrain.off_terrain import OffTerrain, remove_objects_file
+from .base import BareEarthAlgorithm, command_line
+from .outputs import ElevationStyle, style
+
+
+class RemoveOffTerrainObjectsAlgorithm(BareEarthAlgorithm):
+    """Remove off-terrain objects."""
+
+    identifier = "removeoffterrainobjects"
+    title = "Remove off-terrain objects"
+    section = "Products"
+    summary = "Takes buildings, trees and other steep-sided objects out of an elevation raster."
+    about = (
+        "Makes a terrain model of a surface model where there is no point cloud. What stands above"
+        " the terrain round it with steep edges on all sides, and is not larger than the largest"
+        " object, is removed, and the gaps are filled smoothly. Hills and slopes stay.\nThe output"
+        " has the same grid, CRS and unit. Lengths are metres, whatever the unit of the CRS."
+    )
+    keywords = (
+        "raster", "dem", "dsm", "dtm", "surface", "terrain", "buildings", "trees", "vegetation",
+        "off-terrain objects", "oto", "whitebox", "lindsay", "top-hat", "bare earth",
+    )  # fmt: skip
+    page = "remove-off-terrain-objects"
+
+    def parameter_sets(self):
+        """Return what is an object."""
+        return (OffTerrain,)
+
+    def initAlgorithm(self, configuration=None):
+        """Declare the fields of the dialog and the results."""
+        self.addParameter(QgsProcessingParameterRasterLayer("INPUT", "Elevation raster"))
+        self.add_declared()
+        self.addParameter(QgsProcessingParameterRasterDestination("OUTPUT", "Without objects"))
+        self.addOutput(QgsProcessingOutputNumber("CELL_COUNT", "Cells with a height"))
+        self.addOutput(QgsProcessingOutputNumber("REMOVED_COUNT", "Cells of objects"))
+
+    def prepare(self, parameters, context, progress):
+        """Find the input's file."""
+        layer = self.parameterAsRasterLayer(parameters, "INPUT", context)
+        if layer is None or layer.providerType() != "gdal":
+            raise BareEarthError("The elevation raster is not a file. Export it as GeoTIFF first.")
+        self._source = layer.source()
+
+    def compute(self, parameters, context, progress):
+        """Remove the objects."""
+        (chosen,) = self.chosen(parameters, context)
+        output = self.parameterAsOutputLayer(parameters, "OUTPUT", context)
+        files = [self._source, output]
+        progress.command(command_line("remove-off-terrain-objects", files, [chosen], {}))
+        removal = remove_objects_file(self._source, Path(output), chosen, progress)
+        progress.info(removal.text)
+        style(context, output, ElevationStyle())
+        counts = {"CELL_COUNT": removal.cell_count, "REMOVED_COUNT": removal.removed_count}
+        return {"OUTPUT": output, **counts}
+
+    def createInstance(self):
+        """Return another instance."""
+        return RemoveOffTerrainObjectsAlgorithm()
