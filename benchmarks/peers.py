@@ -32,11 +32,13 @@ class Peer:
         What is imported, and what pip installs.
     note : str
         What else there is to know.
+    build : str
+        What else its answers depend on, beside its version.
     is_for_tiles : bool
         Whether it is measured on the real tiles, too.
     """
 
-    name = module = package = note = ""
+    name = module = package = note = build = ""
     is_for_tiles = True
 
     @property
@@ -52,7 +54,8 @@ class Peer:
     def ground(self, cloud: PointCloud) -> np.ndarray:
         """Return the ground mask of a cloud, from the cache if it was asked before."""
         with _silent():
-            return remembered(f"{self.name} {self.version}", cloud, self.classify)
+            asked = f"{self.name} {self.version} {self.build}".strip()
+            return remembered(asked, cloud, self.classify)
 
     def classify(self, cloud: PointCloud) -> np.ndarray:
         """Run the filter."""
@@ -63,9 +66,14 @@ class Cloth(Peer):
     """The cloth simulation filter, by its authors (Zhang et al. 2016)."""
 
     name, module, package = "CSF", "CSF", "cloth-simulation-filter"
-    note = "cloth resolution 1 m, rigidness 3, slope smoothing on"
+    note = (
+        "cloth resolution 1 m, rigidness 3, slope smoothing on; in one thread, since with more its"
+        " labels differ from run to run"
+    )
+    build = "1 thread"
 
     def classify(self, cloud: PointCloud) -> np.ndarray:
+        os.environ["OMP_NUM_THREADS"] = "1"  # heard when its library is loaded
         import CSF
 
         cloth = CSF.CSF()
