@@ -24,6 +24,8 @@ from .raster import NODATA, check_raster_output, read_raster, write_geotiff
 # Each pair of opposite directions to the eight neighbours once.
 _DIRECTIONS = ((0, 1), (1, -1), (1, 0), (1, 1))
 _RELAXATIONS = 40
+# Neighbours from which the terrain must come up gently: a way one cell wide is no hillside.
+_WAYS = 2
 
 
 @dataclass(frozen=True)
@@ -187,6 +189,7 @@ def _grown_back(
     free = np.pad(known, 1).ravel()
     ground = free & (heights <= slope * cell_metres[0])
     free &= ~ground
+    ways = np.zeros(len(heights), dtype=np.uint8)
     front = np.flatnonzero(ground)
     steps = [
         (
@@ -203,6 +206,8 @@ def _grown_back(
             gentle = free[cells]
             cells, origin = cells[gentle], front[gentle]
             cells = cells[heights[cells] - heights[origin] < slope * length]
+            ways[cells] += 1
+            cells = cells[ways[cells] == _WAYS]
             free[cells] = False
             reached.append(cells)
         front = np.concatenate(reached)

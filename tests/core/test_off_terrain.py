@@ -101,6 +101,17 @@ def test_the_slope_threshold_tells_a_hill_from_an_object():
     assert remove_objects(ground, CELL, steep)[1][70:80, 100:110].any()
 
 
+def test_a_way_one_cell_wide_does_not_save_a_roof():
+    ground = np.full((60, 60), 50.0)
+    heights, x = ground.copy(), np.arange(60)
+    heights[20:40, 30:50] = 54.0
+    heights[30, 10:30] = 50.0 + 0.2 * (x[10:30] - 10)
+    bare, _ = remove_objects(heights, CELL)
+    assert np.abs(bare - ground).max() < 0.3
+    heights[20:40, 10:30] = 50.0 + 0.2 * (x[10:30] - 10)
+    assert not remove_objects(heights, CELL)[1][21:39].any()
+
+
 def test_no_data_stays_and_does_not_hide_objects():
     ground, heights, objects = surface()
     gap = np.zeros(heights.shape, bool)
