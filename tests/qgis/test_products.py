@@ -7,7 +7,14 @@ import laspy
 import numpy as np
 import pytest
 from osgeo import gdal
-from qgis.core import QgsProcessingException, QgsProcessingParameterDefinition
+from qgis.core import (
+    Qgis,
+    QgsPointCloudAttribute,
+    QgsPointCloudLayer,
+    QgsProcessingException,
+    QgsProcessingParameterDefinition,
+    QgsProviderRegistry,
+)
 from support import Log
 
 gdal.UseExceptions()
@@ -138,3 +145,18 @@ def test_a_wrong_value_is_refused_before_anything_runs(registry, labelled, out, 
     parameters = {**parameters_for(KEY_POINTS, labelled, out), "TOLERANCE_ABOVE": -1}
     possible, text = algorithm.checkParameterValues(parameters, context)
     assert not possible and "Tolerance above must be at least 0 m" in text
+
+
+@pytest.mark.skipif(
+    "copc" not in QgsProviderRegistry.instance().providerList(),
+    reason=f"QGIS {Qgis.QGIS_VERSION} of this build loads no point clouds",
+)
+def test_qgis_knows_the_heights(labelled, out):
+    import processing
+
+    path = str(out / "heights.copc.laz")
+    processing.run(HEIGHT, {"INPUT": str(labelled.path), "OUTPUT": path})
+    layer = QgsPointCloudLayer(path, "heights", "copc")
+    assert layer.isValid()
+    heights = layer.attributes().find("HeightAboveGround")[0]
+    assert heights.type() == QgsPointCloudAttribute.DataType.Float
