@@ -46,8 +46,15 @@ class GroundClasses(ParameterSet):
         " and 9 where water counts as ground. Withheld points are left out.",
     )
 
-    def of(self, cloud: PointCloud) -> np.ndarray:
+    def of(self, cloud: PointCloud, also: tuple[int, ...] = ()) -> np.ndarray:
         """Return which points of a cloud are ground; boolean, shape (n,).
+
+        Parameters
+        ----------
+        cloud : PointCloud
+            The points, with their classes.
+        also : tuple of int
+            Classes that are ground as well.
 
         Raises
         ------
@@ -55,9 +62,12 @@ class GroundClasses(ParameterSet):
             If none is, or the CRS is geographic.
         """
         cloud.require_projected()
-        ground = np.isin(cloud.classification, self.ground_classes) & ~cloud.withheld
+        if not self.ground_classes:
+            raise BareEarthError("Choose at least one ground class.")
+        classes = (*self.ground_classes, *also)
+        ground = np.isin(cloud.classification, classes) & ~cloud.withheld
         if not ground.any():
-            wanted = " or ".join(str(each) for each in self.ground_classes) or "none"
+            wanted = " or ".join(str(each) for each in self.ground_classes)
             present = ", ".join(str(each) for each in np.unique(cloud.classification))
             raise BareEarthError(
                 f"{cloud.path} has no ground points: none is of class {wanted}, there are the"
@@ -263,9 +273,7 @@ def write_key_points(
     if by_class and cloud.point_format <= _LAST_LEGACY_FORMAT:
         _check_legacy_class(cloud, mark.key_class)
     old = cloud.classification == mark.key_class
-    is_ground = ground.of(cloud)
-    if by_class:
-        is_ground |= old & ~cloud.withheld
+    is_ground = ground.of(cloud, (mark.key_class,) if by_class else ())
     points = cloud.points(is_ground)
     keys = np.zeros(cloud.count, dtype=bool)
     keys[is_ground] = model_key_points(points, parameters, progress.part(0.15, 0.85))

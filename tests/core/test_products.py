@@ -228,6 +228,25 @@ def test_key_points_once_more_are_the_same(tmp_path):
     assert four.read_bytes() == three.read_bytes() != two.read_bytes()
 
 
+def test_key_points_of_nothing_but_key_points(tmp_path):
+    one, two = tmp_path / "one.las", tmp_path / "two.las"
+    scene(one)
+    las = laspy.read(one)
+    las.classification[las.classification == 2] = 8
+    las.write(str(one))
+    summary = write_key_points(one, two)
+    assert summary.class_counts[8] == summary.key_point_count < 30
+    assert summary.class_counts[2] == 800 - summary.key_point_count
+
+
+def test_no_ground_class_is_told(tmp_path):
+    scene(tmp_path / "in.las")
+    with pytest.raises(BareEarthError, match="at least one ground class"):
+        write_height_above_ground(
+            tmp_path / "in.las", tmp_path / "out.las", GroundClasses(ground_classes=())
+        )
+
+
 def test_a_class_that_does_not_fit_is_told(tmp_path):
     scene(tmp_path / "in.las", 1, "1.2")
     with pytest.raises(BareEarthError, match="holds classes up to 31, not 40"):
