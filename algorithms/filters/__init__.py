@@ -43,6 +43,7 @@ METHODS = {
             "TIN densification",
             tin_densification.TinDensification,
             tin_densification.classify,
+            takes_known_ground=True,
         ),
         Method("grid-minimum", "Grid minimum", grid_minimum.GridMinimum, grid_minimum.classify),
         Method("slope", "Slope filter", slope.SlopeFilter, slope.classify),

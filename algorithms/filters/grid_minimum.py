@@ -13,7 +13,6 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from scipy import ndimage
 
 from ..errors import BareEarthError
 from ..parameters import ParameterSet, parameter
@@ -210,6 +209,9 @@ def _cells(points: Points, size: float, progress: Progress) -> Cells:
 
 def _density(points: Points, size: float) -> float:
     """Return the median number of points per square metre, of blocks within the survey."""
+
+    from scipy import ndimage
+
     blocks = Cells.over(points, max(_DENSITY_BLOCK, 4.0 * size))
     counts = np.bincount(blocks.index, minlength=blocks.rows * blocks.columns)
     counts = counts.reshape(blocks.shape)
@@ -224,6 +226,9 @@ def _noise(heights: np.ndarray, cells: Cells, blocks: _Blocks) -> np.ndarray:
     A gap in the canopy, a yard or a street between roofs is a pit too, but has others as low near
     it; noise stands alone.
     """
+
+    from scipy import ndimage
+
     around = _Blocks.over(cells, _NOISE_WIDTH)
     usual = ndimage.median_filter(inpaint(around.lowest(heights)), 5, mode="nearest")
     below = heights < around.interpolated(usual, heights.shape) - _NOISE_DEPTH

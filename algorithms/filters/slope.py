@@ -16,7 +16,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import ndimage
 
 from ..errors import BareEarthError
 from ..parameters import ParameterSet, parameter
@@ -284,6 +283,9 @@ def _slope(eroded: np.ndarray, size: float, reach: float) -> np.ndarray:
     The eroded surface has no objects. Its gradient is averaged, not its height, which a border
     would flatten.
     """
+
+    from scipy import ndimage
+
     surface = inpaint(np.where(np.isfinite(eroded), eroded, np.nan))
     window = 2 * max(round(reach / 2), 1) + 1
     gradient = _gradient(surface, size)

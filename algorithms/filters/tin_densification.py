@@ -10,6 +10,7 @@ algorithm for airborne LiDAR data in forested areas. ISPRS Journal 117, 79-91.
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from dataclasses import dataclass
 
@@ -20,16 +21,17 @@ from ..parameters import ParameterSet, parameter
 from ..points import Points
 from ..progress import SILENT, Progress
 from ..terrain.cells import Cells, spacing
-from ..terrain.ground_cells import Allowance, ground_cells
+from ..terrain.densification import DensificationRules, densified
+from ..terrain.ground_cells import ground_cells
 from ..terrain.inpaint import inpaint
-from ..terrain.objects import raised_objects
+from ..terrain.model_key_points import ModelKeyPoints, model_key_points
+from ..terrain.objects import largest_object, raised_objects
 from ..terrain.outliers import low_outliers
 from ..terrain.tin import Tin
 
 # Side of the cells whose lowest points may become vertices of the TIN.
 _CELL = 1.0
 _OUTLIER_SLOPE = 5.0
-_MOST_ROUNDS = 20
 # Metres between the virtual points round the survey.
 _RING_SPACING = 5.0
 # Heights in metres of the drops that bound an object, the tall ones first.
@@ -37,8 +39,29 @@ _OBJECT_HEIGHTS = (5.0, 4.5, 2.0)
 # Metres over which the final surface is smoothed to take its slope.
 _FACET_SMOOTHING = 0.7
 _POINTS_A_STEP = 1_000_000
-# Rounds that add less than this share of the vertices are not worth a triangulation.
-_LEAST_SHARE = 0.001
+# Metres: no larger building is expected where none is seen, or looked for.
+_USUAL_BUILDING, _LARGEST_BUILDING = 48.0, 150.0
+
+
+@dataclass(frozen=True)
+class Preset:
+    """Values for the parameters that are left empty; the building size may be left to the data."""
+
+    label: str
+    max_building_size: float | None
+    iteration_angle: float
+    iteration_distance: float
+
+
+PRESETS = {
+    "automatic": Preset("Automatic", None, 15.0, 1.4),
+    "flat": Preset("Flat land, fields", 48.0, 8.0, 0.7),
+    "hilly": Preset("Hilly land, forest", 30.0, 15.0, 1.4),
+    "steep": Preset("Steep or rugged terrain", 30.0, 25.0, 2.0),
+    "town": Preset("Town", 60.0, 12.0, 1.4),
+    "city": Preset("City, large halls", 120.0, 12.0, 1.4),
+    "lidar360": Preset("LiDAR360's values", 20.0, 8.0, 1.4),
+}
 
 
 @dataclass(frozen=True)
@@ -48,14 +71,24 @@ class TinDensification(ParameterSet):
     Named as in LiDAR360's *Classify Ground Points* and TerraScan's *Ground*.
     """
 
-    max_building_size: float = parameter(
-        48.0,
+    preset: str = parameter(
+        "automatic",
+        label="Preset",
+        choices={name: preset.label for name, preset in PRESETS.items()},
+        help="Where the values come from that are left empty: from the points (automatic), or from"
+        " what suits a kind of terrain. The log says which values were used.",
+    )
+    max_building_size: float | None = parameter(
+        None,
         label="Maximum building size",
         unit="m",
         minimum=1.0,
         maximum=500.0,
+        kind="number",
+        empty="automatic",
         help="Shorter side of the largest building or other object. Whatever is narrower and stands"
-        " out from its surroundings gives no seed of the ground.",
+        " out from its surroundings gives no seed of the ground. Too large costs time and sharp"
+        " hilltops. Empty: from the preset.",
     )
     max_terrain_angle: float = parameter(
         88.0,
@@ -66,23 +99,27 @@ class TinDensification(ParameterSet):
         help="Steepest slope of the ground. On steeper triangles a point is judged by its mirror"
         " image beyond the nearest vertex.",
     )
-    iteration_angle: float = parameter(
-        15.0,
+    iteration_angle: float | None = parameter(
+        None,
         label="Iteration angle",
         unit="deg",
         minimum=0.1,
         maximum=90.0,
+        kind="number",
+        empty="automatic",
         help="Largest angle between a triangle and the line from one of its corners to a new"
         " point. Larger follows rugged ground better, smaller keeps low objects out: 4 in flat,"
-        " 10 and more in steep terrain.",
+        " 10 and more in steep terrain. Empty: from the preset.",
     )
-    iteration_distance: float = parameter(
-        1.0,
+    iteration_distance: float | None = parameter(
+        None,
         label="Iteration distance",
         unit="m",
         minimum=0.01,
         maximum=50.0,
-        help="Largest distance of a new point from its triangle.",
+        kind="number",
+        empty="automatic",
+        help="Largest distance of a new point from its triangle. Empty: from the preset.",
     )
     reduce_angle_edge: float | None = parameter(
         5.0,
@@ -107,17 +144,8 @@ class TinDensification(ParameterSet):
         kind="number",
         optional=True,
     )
-    seed_slope: float = parameter(
-        0.15,
-        label="Seed slope",
-        minimum=0.01,
-        maximum=5.0,
-        advanced=True,
-        help="Rise over run above which a bump of the lowest points is taken for an object and"
-        " gives no seed. Smaller is more careful, and loses sharp ridges.",
-    )
     noise_distance: float = parameter(
-        0.2,
+        0.3,
         label="Noise distance",
         unit="m",
         minimum=0.0,
@@ -145,15 +173,67 @@ class TinDensification(ParameterSet):
         help="What a slope of 45 degrees adds to the ground tolerance, less in proportion on"
         " gentler slopes.",
     )
+    only_key_points: bool = parameter(
+        False,
+        label="Only key points",
+        advanced=True,
+        help="Of the ground, keep only the points that a terrain model needs: those whose TIN lies"
+        " within the two tolerances below of every other ground point.",
+    )
+    key_point_tolerance_above: float = parameter(
+        0.15,
+        label="Key points: tolerance above",
+        unit="m",
+        minimum=0.0,
+        maximum=100.0,
+        advanced=True,
+        help="How far ground may lie above the TIN of the key points.",
+    )
+    key_point_tolerance_below: float = parameter(
+        0.15,
+        label="Key points: tolerance below",
+        unit="m",
+        minimum=0.0,
+        maximum=100.0,
+        advanced=True,
+        help="How far ground may lie below the TIN of the key points.",
+    )
+    key_point_grid_size: float = parameter(
+        20.0,
+        label="Key points: grid size",
+        unit="m",
+        minimum=0.1,
+        maximum=10000.0,
+        advanced=True,
+        help="Every cell of this size that has ground keeps at least one point.",
+    )
+
+    def resolve(self, points: Points) -> TinDensification:
+        """Return the parameters with a value for each that was left to the preset.
+
+        Parameters
+        ----------
+        points : Points
+            The whole survey: its blocks must all be classified with the same values.
+        """
+        preset = PRESETS[self.preset]
+        names = ("max_building_size", "iteration_angle", "iteration_distance")
+        empty = {name: getattr(preset, name) for name in names if getattr(self, name) is None}
+        if "max_building_size" in empty and empty["max_building_size"] is None:
+            empty["max_building_size"] = _building_size(points)
+        return dataclasses.replace(self, **empty)
 
 
 def classify(
-    points: Points, parameters: TinDensification, progress: Progress = SILENT
+    points: Points,
+    parameters: TinDensification,
+    progress: Progress = SILENT,
+    known_ground: np.ndarray | None = None,
 ) -> np.ndarray:
     """Tell ground from other points.
 
-    Low outliers are taken out of the grid of lowest points; its cells that a progressive opening
-    leaves as they are give the seeds of a TIN (Zhao et al. 2016, section 2); in rounds, each
+    Low outliers are taken out of the grid of lowest points; its cells that morphology takes for
+    ground give the seeds of a TIN (after Zhao et al. 2016, section 2); in rounds, each
     triangle takes the candidate nearest to it if distance and angle allow (Axelsson 2000, section
     3); last, every point close to the final TIN is ground.
 
@@ -165,6 +245,8 @@ def classify(
         Distances in metres, angles in degrees.
     progress : Progress
         Receives progress and messages.
+    known_ground : numpy.ndarray of bool, shape (n,), optional
+        Points that are surely ground: seeds whatever the grid says.
 
     Returns
     -------
@@ -178,6 +260,9 @@ def classify(
     Cancelled
         If the user asked to stop.
     """
+    resolved = parameters.resolve(points)
+    if resolved != parameters:
+        progress.info(_in_words(resolved))
     cells = Cells.over(points, _CELL)
     lowest = cells.lowest_points(points)
     heights = np.full(cells.rows * cells.columns, np.nan)
@@ -185,34 +270,84 @@ def classify(
     heights = heights.reshape(cells.shape)
     heights[low_outliers(heights, cells.size, _OUTLIER_SLOPE)] = np.nan
     progress(0.1)
-    objects = _objects(points, cells, parameters, progress.part(0.1, 0.2))
-    largest = parameters.max_building_size / 2.0
-    ground = ground_cells(
-        heights, cells.size, objects, largest, Allowance(), progress.part(0.2, 0.5)
-    )
-    if not ground.any():
+    objects = _objects(points, cells, resolved, progress.part(0.1, 0.2))
+    radius = resolved.max_building_size / 2.0
+    ground = ground_cells(heights, cells.size, objects, radius, progress=progress.part(0.2, 0.5))
+    is_seed = ground.ravel()[cells.index[lowest]]
+    is_candidate = (np.isfinite(heights) & ~ground).ravel()[cells.index[lowest]]
+    first = points.take(lowest[is_seed])
+    if known_ground is not None and known_ground.any():
+        known = points.take(known_ground)
+        first = Points(*(np.concatenate(pair) for pair in zip(first, known.take(_thinned(known)))))
+    if not first.count:
         raise BareEarthError(
             "No point can be taken for ground with certainty. Check the maximum building size and"
             " the selection of points."
         )
-    is_seed = ground.ravel()[cells.index[lowest]]
-    is_candidate = (np.isfinite(heights) & ~ground & ~objects).ravel()[cells.index[lowest]]
-    seeds = _with_margin(points.take(lowest[is_seed]), cells, np.where(ground, heights, np.nan))
+    seeds = _with_margin(first, cells, np.where(ground, heights, np.nan))
     candidates = points.take(lowest[is_candidate])
-    tin = _densified(seeds, candidates, parameters, progress.part(0.5, 0.8))
-    return _near_surface(points, tin, cells, parameters, progress.part(0.8, 1.0))
+    tin = densified(seeds, candidates, _rules(resolved), progress.part(0.5, 0.8))
+    found = _near_surface(points, tin, cells, resolved, progress.part(0.8, 0.95))
+    return _key_points(points, found, resolved, progress.part(0.95, 1.0))
+
+
+def _in_words(parameters: TinDensification) -> str:
+    return (
+        f"TIN densification: preset {parameters.preset}, maximum building size"
+        f" {parameters.max_building_size:g} m, iteration angle {parameters.iteration_angle:g} deg,"
+        f" iteration distance {parameters.iteration_distance:g} m."
+    )
+
+
+def _rules(parameters: TinDensification) -> DensificationRules:
+    names = (each.name for each in dataclasses.fields(DensificationRules))
+    return DensificationRules(**{name: getattr(parameters, name) for name in names})
+
+
+def _thinned(points: Points) -> np.ndarray:
+    """Return the index of the lowest point of each cell."""
+    return Cells.over(points, _CELL).lowest_points(points)
+
+
+def _key_points(
+    points: Points, ground: np.ndarray, parameters: TinDensification, progress: Progress
+) -> np.ndarray:
+    """Return the key points of the ground where only they are wanted, else all of it."""
+    if not parameters.only_key_points or not ground.any():
+        return ground
+    closeness = ModelKeyPoints(
+        parameters.key_point_tolerance_above,
+        parameters.key_point_tolerance_below,
+        parameters.key_point_grid_size,
+    )
+    key = np.zeros(points.count, dtype=bool)
+    key[ground] = model_key_points(points.take(ground), closeness, progress)
+    return key
+
+
+def _wide_cells(points: Points) -> tuple[Cells, np.ndarray]:
+    """Return cells wide enough to be without gaps, and their lowest heights without outliers.
+
+    Where points are sparse, gaps would break the rims of objects.
+    """
+    cells = Cells.over(points, max(_CELL, spacing(points)))
+    heights = cells.minimum(points.z)
+    heights[low_outliers(heights, cells.size, _OUTLIER_SLOPE)] = np.nan
+    return cells, heights
+
+
+def _building_size(points: Points) -> float:
+    """Return the width of the largest tall object in metres, but at least the usual one."""
+    cells, heights = _wide_cells(points)
+    width = largest_object(heights, cells.size, _OBJECT_HEIGHTS[0], _LARGEST_BUILDING)
+    return float(max(_USUAL_BUILDING, math.ceil(width)))
 
 
 def _objects(
     points: Points, cells: Cells, parameters: TinDensification, progress: Progress
 ) -> np.ndarray:
-    """Return which cells belong to tall objects bounded by drops all round.
-
-    Where points are sparse they are looked for among wider cells, since gaps would break the rims.
-    """
-    wide = Cells.over(points, max(cells.size, spacing(points)))
-    heights = wide.minimum(points.z)
-    heights[low_outliers(heights, wide.size, _OUTLIER_SLOPE)] = np.nan
+    """Return which cells belong to tall objects bounded by drops all round."""
+    wide, heights = _wide_cells(points)
     found = raised_objects(
         heights, wide.size, _OBJECT_HEIGHTS, parameters.max_building_size, progress
     )
@@ -233,89 +368,6 @@ def _with_margin(seeds: Points, cells: Cells, heights: np.ndarray) -> Points:
     ring_z = cells.at(inpaint(heights), ring_x, ring_y)
     ring = Points(ring_x, ring_y, ring_z)
     return Points(*(np.concatenate(pair) for pair in zip(seeds, ring)))
-
-
-def _densified(
-    seeds: Points, candidates: Points, parameters: TinDensification, progress: Progress
-) -> Tin:
-    """Return the TIN of the seeds, densified by candidates in rounds."""
-    tin = Tin(*seeds)
-    for round_ in range(_MOST_ROUNDS):
-        accepted = _round(tin, candidates, parameters)
-        if len(accepted) <= _LEAST_SHARE * len(tin.x):
-            break
-        joined = [
-            np.concatenate(pair) for pair in zip((tin.x, tin.y, tin.z), candidates.take(accepted))
-        ]
-        tin = Tin(*joined)
-        rest = np.ones(candidates.count, dtype=bool)
-        rest[accepted] = False
-        candidates = candidates.take(rest)
-        progress((round_ + 1) / _MOST_ROUNDS)
-    return tin
-
-
-def _round(tin: Tin, candidates: Points, parameters: TinDensification) -> np.ndarray:
-    """Return the indices of the candidates to add, at most one of each triangle."""
-    triangle = tin.locate(candidates.x, candidates.y)
-    which = np.flatnonzero(triangle >= 0)
-    triangle = triangle[which]
-    points = candidates.take(which)
-    distance, angle, longest = _distance_and_angle(tin, triangle, points, parameters)
-    allowed = np.full(len(which), math.radians(parameters.iteration_angle))
-    if parameters.reduce_angle_edge:
-        allowed *= np.minimum(longest / parameters.reduce_angle_edge, 1.0)
-    fits = (distance <= parameters.noise_distance) | (
-        (distance <= parameters.iteration_distance) & (angle <= allowed)
-    )
-    if parameters.stop_edge:
-        fits &= longest >= parameters.stop_edge
-    fitting = np.flatnonzero(fits)
-    order = np.lexsort((points.y[fitting], points.x[fitting], distance[fitting], triangle[fitting]))
-    fitting = fitting[order]
-    first = np.ones(len(fitting), dtype=bool)
-    first[1:] = np.diff(triangle[fitting]) != 0
-    return which[fitting[first]]
-
-
-def _distance_and_angle(
-    tin: Tin, triangle: np.ndarray, points: Points, parameters: TinDensification
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return distance to the facet, largest angle at its corners (rad), and its longest edge."""
-    corners = tin.triangles[triangle]
-    x, y, z = tin.x[corners], tin.y[corners], tin.z[corners]
-    normal, longest = _facets(x, y, z)
-    steep = np.arctan(np.hypot(normal[0], normal[1])) > math.radians(parameters.max_terrain_angle)
-    px, py, pz = points.x.copy(), points.y.copy(), points.z
-    if steep.any():
-        nearest = np.argmin((x - px[:, None]) ** 2 + (y - py[:, None]) ** 2, axis=1)
-        vertex = corners[np.arange(len(corners)), nearest]
-        px[steep] = 2 * tin.x[vertex[steep]] - px[steep]
-        py[steep] = 2 * tin.y[vertex[steep]] - py[steep]
-        beyond = tin.locate(px[steep], py[steep])
-        inside = np.flatnonzero(steep)[beyond >= 0]
-        corners[inside] = tin.triangles[beyond[beyond >= 0]]
-        x, y, z = tin.x[corners], tin.y[corners], tin.z[corners]
-        normal, _ = _facets(x, y, z)
-    height = pz - (z[:, 0] + normal[0] * (px - x[:, 0]) + normal[1] * (py - y[:, 0]))
-    distance = np.abs(height) / np.sqrt(1.0 + normal[0] ** 2 + normal[1] ** 2)
-    reach = np.sqrt((x - px[:, None]) ** 2 + (y - py[:, None]) ** 2 + (z - pz[:, None]) ** 2).min(
-        axis=1
-    )
-    angle = np.arcsin(np.clip(distance / np.maximum(reach, 1e-9), 0.0, 1.0))
-    return distance, angle, longest
-
-
-def _facets(
-    x: np.ndarray, y: np.ndarray, z: np.ndarray
-) -> tuple[tuple[np.ndarray, np.ndarray], np.ndarray]:
-    """Return the gradient of each facet, in x and y, and its longest edge in the plane."""
-    ux, uy, uz = x[:, 1] - x[:, 0], y[:, 1] - y[:, 0], z[:, 1] - z[:, 0]
-    vx, vy, vz = x[:, 2] - x[:, 0], y[:, 2] - y[:, 0], z[:, 2] - z[:, 0]
-    area = np.maximum(ux * vy - uy * vx, 1e-12)
-    gradient = (uz * vy - uy * vz) / area, (ux * vz - uz * vx) / area
-    edges = ux**2 + uy**2, vx**2 + vy**2, (vx - ux) ** 2 + (vy - uy) ** 2
-    return gradient, np.sqrt(np.maximum.reduce(edges))
 
 
 def _near_surface(

@@ -24,7 +24,7 @@ from .inpaint import inpaint
 from .morphology import opening
 
 # A first, strict opening (rise over run) gives the surface from which the terrain's slope is taken.
-_FIRST_SLOPE = 0.1
+_FIRST_SLOPE = 0.12
 # Metres over which that slope is smoothed, and the most of it that counts.
 _SLOPE_SMOOTHING, _LARGEST_SLOPE = 5.0, 0.6
 # Metres over which the surface is smoothed to tell a step from the terrain's own rise.
@@ -54,7 +54,7 @@ class Allowance:
     """
 
     base: float = 0.15
-    per_radius: float = 0.05
+    per_radius: float = 0.04
     per_slope: float = 0.2
     largest: float = 1.5
     gentle_step: float = 0.3
@@ -101,7 +101,7 @@ def ground_cells(
     progress(0.8)
     surface = inpaint(np.where(known & ~raised, heights, np.nan))
     progress(0.85)
-    raised &= ~_gentle_regions(filled, raised, surface, size, allowance)
+    raised &= objects | ~_gentle_regions(filled, raised, surface, size, allowance)
     progress(1.0)
     return known & ~raised
 

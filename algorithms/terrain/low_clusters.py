@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy import ndimage
 
 from .inpaint import inpaint
 from .morphology import opening
@@ -52,6 +51,9 @@ def low_clusters(
 
 def _compact(mask: np.ndarray, longest: int) -> np.ndarray:
     """Return the connected parts of a mask that are at most so many cells long and wide."""
+
+    from scipy import ndimage
+
     parts, count = ndimage.label(mask, np.ones((3, 3)))
     compact = np.zeros(count + 1, dtype=bool)
     for number, part in enumerate(ndimage.find_objects(parts), start=1):

@@ -11,7 +11,6 @@ import math
 from typing import Iterator
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from ..points import Points
 from ..progress import SILENT, Progress
@@ -188,6 +187,9 @@ class Neighbourhood:
 
     def _find_grown(self, counts: np.ndarray, at_least: int) -> tuple[np.ndarray, np.ndarray]:
         """Return the points with too few neighbours, and the radius of each that has enough."""
+
+        from scipy.spatial import cKDTree
+
         at_least = min(at_least, len(self._x) - 1)
         nothing = np.empty(0, dtype=np.intp), np.empty(0)
         if at_least < 1:

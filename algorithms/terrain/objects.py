@@ -10,7 +10,6 @@ from __future__ import annotations
 from typing import NamedTuple, Sequence
 
 import numpy as np
-from scipy import ndimage
 
 from ..progress import SILENT, Progress
 from .inpaint import inpaint
@@ -69,13 +68,32 @@ def raised_objects(
     -------
     numpy.ndarray of bool, shape (rows, columns)
     """
-    known = np.isfinite(heights)
-    inside = covered(known)
+    inside = covered(np.isfinite(heights))
     rest = heights.copy()
+    objects = np.zeros(heights.shape, dtype=bool)
     for done, threshold in enumerate(thresholds):
-        rest[Relief(rest, size, inside).regions(threshold).raised(max_size)] = np.nan
+        found = Relief(rest, size, inside).regions(threshold).raised(max_size)
+        rest[found] = np.nan
+        objects |= found
         progress((done + 1) / len(thresholds))
-    return known & np.isnan(rest)
+    return objects
+
+
+def largest_object(heights: np.ndarray, size: float, threshold: float, max_size: float) -> float:
+    """Return the width (shorter side) in metres of the largest object; 0 if there is none.
+
+    Parameters
+    ----------
+    heights, size
+        As for `raised_objects`.
+    threshold : float
+        Least height in metres of the drop that bounds an object.
+    max_size : float
+        Nothing wider is an object.
+    """
+    regions = Relief(heights, size, covered(np.isfinite(heights))).regions(threshold)
+    found = regions.number[regions.raised(max_size)]
+    return float(regions.width[found].max(initial=0.0))
 
 
 def covered(known: np.ndarray, reach: int = 4) -> np.ndarray:
@@ -88,6 +106,9 @@ def covered(known: np.ndarray, reach: int = 4) -> np.ndarray:
     reach : int
         Gaps up to twice as many cells wide are closed.
     """
+
+    from scipy import ndimage
+
     closed = np.pad(known, reach).astype(np.uint8)
     for extreme in (ndimage.maximum_filter1d, ndimage.minimum_filter1d):
         for axis in (0, 1):
@@ -168,6 +189,9 @@ class Relief:
         Rim cells belong to the region that they are level with, like the edge of a roof; those
         that are level with none, like a thin tree, form regions of their own.
         """
+
+        from scipy import ndimage
+
         steps = self._steps(threshold)
         rim = self._rims(steps)
         regions, count = ndimage.label(self._inside & ~rim)
@@ -200,6 +224,9 @@ class Relief:
         -------
         numpy.ndarray of bool, shape (rows, columns)
         """
+
+        from scipy import ndimage
+
         patches, count = ndimage.label(np.pad(candidates, self._step), np.ones((3, 3)))
         patches[(patches == 0) & self._inside] = count + 1
         border = self._border(patches.ravel(), count + 2, self._steps(threshold))
@@ -467,6 +494,9 @@ def _trend(heights: np.ndarray, size: float) -> tuple[np.ndarray, np.ndarray, np
     and trees do not move, and the unevenness the median of what departs from it; all three are
     rise over run.
     """
+
+    from scipy import ndimage
+
     block = max(round(_TREND_BLOCK / size), 3)
     slopes, roughness = [], np.zeros(heights.shape, dtype=heights.dtype)
     for axis in (0, 1):

@@ -22,7 +22,7 @@ OTHER_VALUES = {
     "boolean": lambda each: (not each.default, None),
     "choice": lambda each: next((key, key) for key in each.choices if key != each.default),
     "integer": lambda each: (each.default + 3, str(each.default + 3)),
-    "number": lambda each: ((each.default or 1.0) * 0.75, str((each.default or 1.0) * 0.75)),
+    "number": lambda each: ((each.default or 2.0) * 0.75, str((each.default or 2.0) * 0.75)),
     "integers": lambda each: ((1, 5), "1 5"),
     "numbers": lambda each: ((4.0, 1.5), "4 1.5"),
 }

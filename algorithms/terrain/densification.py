@@ -1,0 +1,145 @@
+"""Progressive densification of a TIN: points join it that lie close to its facets.
+
+References
+----------
+Axelsson, P. (2000): DEM generation from laser scanner data using adaptive TIN models.
+International Archives of Photogrammetry and Remote Sensing 33 (B4), section 3.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..points import Points
+from ..progress import Progress
+from .tin import Tin
+
+_MOST_ROUNDS = 20
+# Rounds that add less than this share of the vertices are not worth a triangulation.
+_LEAST_SHARE = 0.001
+
+
+@dataclass(frozen=True)
+class DensificationRules:
+    """When a point becomes a vertex; distances in metres, angles in degrees.
+
+    Attributes
+    ----------
+    iteration_angle : float
+        Largest angle between the facet and the line from one of its corners to the point.
+    iteration_distance : float
+        Largest distance from the facet.
+    max_terrain_angle : float
+        On steeper facets the mirror image of the point beyond the nearest corner is judged.
+    reduce_angle_edge : float or None
+        In triangles whose longest edge is shorter the angle is reduced in proportion.
+    stop_edge : float or None
+        Triangles whose longest edge is shorter take no point.
+    noise_distance : float
+        A point as close to the facet is taken whatever its angle.
+    """
+
+    iteration_angle: float
+    iteration_distance: float
+    max_terrain_angle: float
+    reduce_angle_edge: float | None
+    stop_edge: float | None
+    noise_distance: float
+
+
+def densified(
+    seeds: Points, candidates: Points, rules: DensificationRules, progress: Progress
+) -> Tin:
+    """Return the TIN of the seeds, densified by candidates in rounds.
+
+    Parameters
+    ----------
+    seeds : Points
+        The first vertices.
+    candidates : Points
+        Points that may become vertices.
+    rules : DensificationRules
+        Which of them do.
+    progress : Progress
+        Receives progress.
+    """
+    tin = Tin(*seeds)
+    for round_ in range(_MOST_ROUNDS):
+        accepted = _round(tin, candidates, rules)
+        if len(accepted) <= _LEAST_SHARE * len(tin.x):
+            break
+        joined = [
+            np.concatenate(pair) for pair in zip((tin.x, tin.y, tin.z), candidates.take(accepted))
+        ]
+        tin = Tin(*joined)
+        rest = np.ones(candidates.count, dtype=bool)
+        rest[accepted] = False
+        candidates = candidates.take(rest)
+        progress((round_ + 1) / _MOST_ROUNDS)
+    return tin
+
+
+def _round(tin: Tin, candidates: Points, rules: DensificationRules) -> np.ndarray:
+    """Return the indices of the candidates to add, at most one of each triangle."""
+    triangle = tin.locate(candidates.x, candidates.y)
+    which = np.flatnonzero(triangle >= 0)
+    triangle = triangle[which]
+    points = candidates.take(which)
+    distance, angle, longest = _distance_and_angle(tin, triangle, points, rules)
+    allowed = np.full(len(which), math.radians(rules.iteration_angle))
+    if rules.reduce_angle_edge:
+        allowed *= np.minimum(longest / rules.reduce_angle_edge, 1.0)
+    fits = (distance <= rules.noise_distance) | (
+        (distance <= rules.iteration_distance) & (angle <= allowed)
+    )
+    if rules.stop_edge:
+        fits &= longest >= rules.stop_edge
+    fitting = np.flatnonzero(fits)
+    order = np.lexsort((points.y[fitting], points.x[fitting], distance[fitting], triangle[fitting]))
+    fitting = fitting[order]
+    first = np.ones(len(fitting), dtype=bool)
+    first[1:] = np.diff(triangle[fitting]) != 0
+    return which[fitting[first]]
+
+
+def _distance_and_angle(
+    tin: Tin, triangle: np.ndarray, points: Points, rules: DensificationRules
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return distance to the facet, largest angle at its corners (rad), and its longest edge."""
+    corners = tin.triangles[triangle]
+    x, y, z = tin.x[corners], tin.y[corners], tin.z[corners]
+    normal, longest = _facets(x, y, z)
+    steep = np.arctan(np.hypot(normal[0], normal[1])) > math.radians(rules.max_terrain_angle)
+    px, py, pz = points.x.copy(), points.y.copy(), points.z
+    if steep.any():
+        nearest = np.argmin((x - px[:, None]) ** 2 + (y - py[:, None]) ** 2, axis=1)
+        vertex = corners[np.arange(len(corners)), nearest]
+        px[steep] = 2 * tin.x[vertex[steep]] - px[steep]
+        py[steep] = 2 * tin.y[vertex[steep]] - py[steep]
+        beyond = tin.locate(px[steep], py[steep])
+        inside = np.flatnonzero(steep)[beyond >= 0]
+        corners[inside] = tin.triangles[beyond[beyond >= 0]]
+        x, y, z = tin.x[corners], tin.y[corners], tin.z[corners]
+        normal, _ = _facets(x, y, z)
+    height = pz - (z[:, 0] + normal[0] * (px - x[:, 0]) + normal[1] * (py - y[:, 0]))
+    distance = np.abs(height) / np.sqrt(1.0 + normal[0] ** 2 + normal[1] ** 2)
+    reach = np.sqrt((x - px[:, None]) ** 2 + (y - py[:, None]) ** 2 + (z - pz[:, None]) ** 2).min(
+        axis=1
+    )
+    angle = np.arcsin(np.clip(distance / np.maximum(reach, 1e-9), 0.0, 1.0))
+    return distance, angle, longest
+
+
+def _facets(
+    x: np.ndarray, y: np.ndarray, z: np.ndarray
+) -> tuple[tuple[np.ndarray, np.ndarray], np.ndarray]:
+    """Return the gradient of each facet, in x and y, and its longest edge in the plane."""
+    ux, uy, uz = x[:, 1] - x[:, 0], y[:, 1] - y[:, 0], z[:, 1] - z[:, 0]
+    vx, vy, vz = x[:, 2] - x[:, 0], y[:, 2] - y[:, 0], z[:, 2] - z[:, 0]
+    area = np.maximum(ux * vy - uy * vx, 1e-12)
+    gradient = (uz * vy - uy * vz) / area, (ux * vz - uz * vx) / area
+    edges = ux**2 + uy**2, vx**2 + vy**2, (vx - ux) ** 2 + (vy - uy) ** 2
+    return gradient, np.sqrt(np.maximum.reduce(edges))
