@@ -30,9 +30,10 @@ SHARED_OUTPUTS = [
 PARAMETERS = {
     "bareearth:tindensification": [
         "INPUT",
-        "MAX_BUILDING_SIZE", "MAX_TERRAIN_ANGLE", "ITERATION_ANGLE", "ITERATION_DISTANCE",
-        "REDUCE_ANGLE_EDGE", "STOP_EDGE", "SEED_SLOPE", "NOISE_DISTANCE", "GROUND_TOLERANCE",
-        "SLOPE_TOLERANCE",
+        "PRESET", "MAX_BUILDING_SIZE", "MAX_TERRAIN_ANGLE", "ITERATION_ANGLE",
+        "ITERATION_DISTANCE", "REDUCE_ANGLE_EDGE", "STOP_EDGE", "NOISE_DISTANCE",
+        "GROUND_TOLERANCE", "SLOPE_TOLERANCE", "ONLY_KEY_POINTS", "KEY_POINT_TOLERANCE_ABOVE",
+        "KEY_POINT_TOLERANCE_BELOW", "KEY_POINT_GRID_SIZE",
         *SHARED_PARAMETERS,
     ],
     "bareearth:gridminimum": [
@@ -164,7 +165,8 @@ def test_units_and_rare_parameters(algorithm):
     assert size.description() == "Maximum building size [m]"
     assert algorithm.parameterDefinition("ITERATION_ANGLE").description().endswith("[°]")
     assert not size.flags() & advanced and edge.flags() & advanced
-    assert not size.flags() & optional and edge.flags() & optional
+    assert size.flags() & optional and edge.flags() & optional
+    assert not algorithm.parameterDefinition("MAX_TERRAIN_ANGLE").flags() & optional
 
 
 def test_copies_of_the_input_take_files_too(algorithm, scene, context):
