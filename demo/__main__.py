@@ -24,8 +24,6 @@ _ENVIRONMENT = Path(__file__).parent.parent / "tools" / "environment"
 _ALGORITHM = "bareearth:tindensification"
 # Cuts the scene's stream, bank, large building and wood.
 _SCENE_NORTHING = 5_931_196.0
-# The one thing a user has to tell of a place: its largest building, here 64 m by 46 m.
-_SCENE_BUILDING = "50"
 
 
 def main() -> int:
@@ -51,7 +49,7 @@ def main() -> int:
         result.unlink(missing_ok=True)
 
     start = time.monotonic()
-    by = _classify(cloud, *results, _SCENE_BUILDING if options.cloud is None else None)
+    by = _classify(cloud, *results)
     if by is None or not all(result.is_file() for result in results):
         return _fail("The classification failed; what it said is above.")
     print(f"Classified by {by} in {time.monotonic() - start:.1f} s")
@@ -68,16 +66,13 @@ def main() -> int:
     return 0
 
 
-def _classify(
-    cloud: Path, classified: Path, dtm: Path, hillshade: Path, building: str | None
-) -> str | None:
+def _classify(cloud: Path, classified: Path, dtm: Path, hillshade: Path) -> str | None:
     """Return what did it, or None if that failed."""
     if shutil.which("qgis_process") is None:
         print("No QGIS is installed: classifying by the command line.")
         command = [sys.executable, "-m", "bare_earth.algorithms", "classify", cloud, classified]
         command += ["--dtm", dtm, "--hillshade", hillshade, "--verbose"]
-        done = _run(*command, *(["--max-building-size", building] if building else []))
-        return "the command line" if done else None
+        return "the command line" if _run(*command) else None
     print("A QGIS is installed: classifying by qgis_process.")
     # In Debian 12 the wrapper of this name adds an option that it then does not know.
     qgis_process = "qgis_process.bin" if shutil.which("qgis_process.bin") else "qgis_process"
@@ -86,7 +81,6 @@ def _classify(
     # The working folder of QGIS may be another.
     files = {"INPUT": cloud, "OUTPUT": classified, "DTM": dtm, "HILLSHADE": hillshade}
     values = [f"{name}={path.resolve()}" for name, path in files.items()]
-    values += [f"MAX_BUILDING_SIZE={building}"] if building else []
     done = _run(_ENVIRONMENT, "qgis", qgis_process, "run", _ALGORITHM, "--", *values)
     return "qgis_process" if done else None
 
