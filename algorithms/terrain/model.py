@@ -13,6 +13,7 @@ from ..progress import SILENT, Progress
 from .hillshade import hillshade
 from .raster import NODATA, RasterGrid, write_geotiff
 from .surface import Surface
+from .tin import hull_corners
 
 # Rows are interpolated a strip at a time, so that the places of the cells take little memory.
 _CELLS_A_STRIP = 4_000_000
@@ -65,7 +66,7 @@ def interpolate(
     ----------
     points : Points
         The ground points; of those that share a quarter of a cell, the one nearest to its centre
-        is used.
+        is used, and the corners of the convex hull, so that no cell within it stays empty.
     grid : RasterGrid
         Where heights are wanted.
     progress : Progress
@@ -78,7 +79,10 @@ def interpolate(
     numpy.ndarray of float64, shape (rows, columns)
         Heights in metres; NaN outside the convex hull, and in gaps.
     """
-    surface = Surface(points.take(_nearest_to_centre(points, grid.cell_metres / _VERTICES_A_SIDE)))
+    vertices = _nearest_to_centre(points, grid.cell_metres / _VERTICES_A_SIDE)
+    if points.count:
+        vertices = np.union1d(vertices, hull_corners(points.x, points.y))
+    surface = Surface(points.take(vertices))
     progress(0.1)
     heights = np.empty((grid.rows, grid.columns))
     x, y = grid.x, grid.y

@@ -10,7 +10,7 @@ from ..parameters import ParameterSet, parameter
 from ..points import Points
 from ..progress import SILENT, Progress
 from .cells import Cells
-from .tin import Tin, is_one_line, lowest_of_duplicates
+from .tin import Tin, hull_corners, lowest_of_duplicates
 
 # Where a round would add so small a share of vertices it adds all points beyond the tolerance
 # instead of one a triangle: another triangulation for each few of them is not worth it.
@@ -87,24 +87,12 @@ def model_key_points(
     points = points.take(order)
     keys = np.zeros(points.count, dtype=bool)
     keys[Cells.over(points, parameters.grid_size).lowest_points(points)] = True
-    keys[_corners(points)] = True
+    keys[hull_corners(points.x, points.y)] = True
     progress(0.05)
     _densify(points, keys, parameters, progress.part(0.05, 1.0))
     chosen[order[keys]] = True
     progress(1.0)
     return chosen
-
-
-def _corners(points: Points) -> np.ndarray:
-    """Return the corners of the convex hull, or the two ends of a line."""
-    # Not at the start of QGIS, which loads this module, and where scipy may be missing.
-    from scipy.spatial import ConvexHull
-
-    xy = np.column_stack((points.x, points.y))
-    if is_one_line(xy):
-        order = np.lexsort((points.y, points.x))
-        return order[[0, -1]]
-    return ConvexHull(xy).vertices
 
 
 def _densify(

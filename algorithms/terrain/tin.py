@@ -208,6 +208,17 @@ def is_one_line(xy: np.ndarray) -> bool:
     return bool(spread[0] <= 1e-12 * max(spread[1], 1e-12))
 
 
+def hull_corners(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Return the indices of the corners of the convex hull, or of the two ends of a line."""
+    # Not at the start of QGIS, which loads this module, and where scipy may be missing.
+    from scipy.spatial import ConvexHull
+
+    xy = np.column_stack((x, y))
+    if is_one_line(xy):
+        return np.lexsort((y, x))[[0, -1]]
+    return ConvexHull(xy).vertices
+
+
 def _triangle_of_vertex(triangles: np.ndarray, count: int) -> np.ndarray:
     """Return a triangle at each vertex; at a vertex that Qhull left out, that of the one before."""
     triangle = np.full(count, -1, dtype=np.int32)

@@ -1,0 +1,44 @@
+"""The terrain model: exact on a plane, and without holes in the hull of the ground."""
+
+import numpy as np
+import pytest
+
+from bare_earth.algorithms.errors import BareEarthError
+from bare_earth.algorithms.points import Frame, Points
+from bare_earth.algorithms.terrain.model import TerrainModel, interpolate, write_terrain_model
+from bare_earth.algorithms.terrain.raster import RasterGrid
+from bare_earth.algorithms.terrain.tin import Tin
+
+FRAME = Frame((1000.0, 2000.0))
+
+
+def _points(count=4000, size=40.0, seed=0):
+    x, y = np.random.default_rng(seed).uniform(0.0, size, (2, count))
+    return Points(x, y, 100.0 + 0.3 * x - 0.2 * y)
+
+
+def test_a_plane_is_met_exactly():
+    points = _points()
+    grid = RasterGrid.over(points, FRAME, 1.0)
+    heights = interpolate(points, grid)
+    x, y = np.meshgrid(grid.x, grid.y)
+    known = np.isfinite(heights)
+    assert known.mean() > 0.95
+    assert np.allclose(heights[known], (100.0 + 0.3 * x - 0.2 * y)[known], atol=1e-6)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_every_cell_in_the_hull_of_the_points_has_a_height_though_they_are_thinned(seed):
+    points = _points(300, seed=seed)
+    grid = RasterGrid.over(points, FRAME, 3.0)
+    heights = interpolate(points, grid)
+    x, y = np.meshgrid(grid.x, grid.y)
+    inside = Tin(*points).locate(x.ravel(), y.ravel()) >= 0
+    assert np.array_equal(np.isfinite(heights).ravel(), inside)
+
+
+def test_without_ground_there_is_a_sentence_and_no_file(tmp_path):
+    nothing = Points(*np.empty((3, 0)))
+    with pytest.raises(BareEarthError, match="no ground point"):
+        write_terrain_model(nothing, FRAME, TerrainModel(), tmp_path / "dtm.tif", None)
+    assert not list(tmp_path.iterdir())
