@@ -17,9 +17,9 @@ from ..points import Points
 from ..progress import Progress
 from .tin import Tin
 
-_MOST_ROUNDS = 20
+_MOST_ROUNDS = 8
 # Rounds that add less than this share of the vertices are not worth a triangulation.
-_LEAST_SHARE = 0.001
+_LEAST_SHARE = 0.005
 
 
 @dataclass(frozen=True)
