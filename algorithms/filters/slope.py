@@ -40,6 +40,16 @@ _CLUSTER_WIDTH = 6.0
 # a large roof is a pit as well, but there is ground as low beyond the roof.
 _SURROUNDINGS = 3.0
 _POINTS_A_STEP = 200_000
+# Least search radius (m), slope threshold (deg) and height threshold (m) of each preset that
+# looks at many scales.
+_MANY_SCALES = {
+    "automatic": (18.0, 15.0, 0.5),
+    "flat": (24.0, 10.0, 0.4),
+    "hilly": (15.0, 15.0, 0.5),
+    "steep": (12.0, 25.0, 0.7),
+    "town": (24.0, 15.0, 0.5),
+    "city": (50.0, 15.0, 0.5),
+}
 
 
 @dataclass(frozen=True)
@@ -54,9 +64,15 @@ class SlopeFilter(ParameterSet):
         label="Preset",
         choices={
             "automatic": "Automatic (many scales, follows the terrain)",
+            "flat": "Flat land, fields",
+            "hilly": "Hilly land, forest",
+            "steep": "Steep or rugged terrain",
+            "town": "Town",
+            "city": "City, large halls",
             "whitebox": "Whitebox (one scale, 2 m, 45 deg, 1 m)",
         },
-        help="Automatic finds buildings as well as shrubs. Whitebox is the classic filter with the"
+        help="Automatic finds buildings as well as shrubs; the kinds of terrain do so with other"
+        " values for what is left empty. Whitebox is the classic filter with the"
         " values of WhiteboxTools: its radius of 2 m cannot see a building.",
     )
     search_radius: float | None = parameter(
@@ -149,10 +165,11 @@ class SlopeFilter(ParameterSet):
         if self.preset == "whitebox":
             chosen = {"search_radius": 2.0, "slope_threshold": 45.0, "height_threshold": 1.0}
         else:
-            chosen = {"slope_threshold": 15.0, "height_threshold": 0.5}
+            radius, slope, height = _MANY_SCALES[self.preset]
+            chosen = {"slope_threshold": slope, "height_threshold": height}
             if self.search_radius is None or self.cell_size is None:
                 spacing = _spacing(points)
-                chosen["search_radius"] = max(18.0, round(4.0 * spacing, 1))
+                chosen["search_radius"] = max(radius, round(4.0 * spacing, 1))
                 chosen["cell_size"] = max(1.0, round(0.4 * spacing, 1))
         empty = {name: value for name, value in chosen.items() if getattr(self, name) is None}
         return dataclasses.replace(self, **empty)

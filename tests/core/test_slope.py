@@ -243,3 +243,14 @@ def test_the_isprs_samples_come_out_as_measured():
         figures.append(compare(classify(points, SlopeFilter()), reference))
     assert np.mean([each.total_error for each in figures]) <= 4.5
     assert np.mean([each.kappa for each in figures]) >= 85.0
+
+
+def test_presets_by_terrain_give_what_is_left_empty_and_city_sees_a_large_hall():
+    x, y = np.random.default_rng(0).uniform(0.0, 160.0, (2, 30_000))
+    hall = (np.abs(x - 80.0) < 40.0) & (np.abs(y - 80.0) < 35.0)
+    points = Points(x, y, np.where(hall, 12.0, 0.0))
+    resolved = SlopeFilter(preset="city", height_threshold=0.3).resolve(points)
+    chosen = resolved.search_radius, resolved.slope_threshold, resolved.height_threshold
+    assert chosen == (50.0, 15.0, 0.3)
+    assert not classify(points, resolved)[hall].any()
+    assert classify(points, resolved)[~hall].all()
