@@ -1,0 +1,47 @@
+import threading
+import time
+
+import pytest
+
+from bare_earth.algorithms.threads import available_cpus, in_threads, may_use, workers
+
+
+def test_a_computation_may_use_one_thread_unless_told_otherwise():
+    assert workers() == 1
+    with may_use(3):
+        assert workers() == 3
+        with may_use(0):
+            assert workers() == 1
+        assert workers() == 3
+    assert workers() == 1
+
+
+def test_calls_run_in_the_calling_thread_where_one_may_be_used():
+    assert set(in_threads(lambda _: threading.get_ident(), range(4))) == {threading.get_ident()}
+
+
+def test_results_come_in_the_order_of_the_items():
+    def late(item):
+        time.sleep(0.02 * (4 - item))
+        return item, workers(), threading.get_ident()
+
+    with may_use(4):
+        results = in_threads(late, range(4))
+    assert [item for item, _, _ in results] == [0, 1, 2, 3]
+    assert {count for _, count, _ in results} == {1}
+    assert threading.get_ident() not in {ident for _, _, ident in results}
+
+
+@pytest.mark.parametrize("count", [1, 3])
+def test_the_first_failure_passes_on(count):
+    def fail(item):
+        if item in (2, 5):
+            raise ValueError(item)
+        return item
+
+    with may_use(count), pytest.raises(ValueError, match="2"):
+        in_threads(fail, range(8))
+
+
+def test_there_is_a_cpu():
+    assert available_cpus() >= 1
