@@ -49,6 +49,9 @@ _DEEPEST = _CUBE_BITS - _GRID_BITS
 # Points compressed between two looks at the progress.
 _BATCH = 1_000_000
 
+# A row of the hierarchy: depth, x, y and z of a node, then where its points begin, how many bytes
+# they take and how many they are; -1 points where the rest of the branch stands on another page.
+HIERARCHY_ENTRY = np.dtype([("key", "<i4", 4), ("start", "<u8"), ("size", "<i4"), ("count", "<i4")])
 _COPC_EXTENTS = ("copc", 10000)
 _GPS_TIME_TYPE, _SYNTHETIC_RETURNS, _WKT = 0x01, 0x08, 0x10
 _WAVEFORM_DESCRIPTORS = range(100, 355)
@@ -354,9 +357,7 @@ def _write_nodes(
     writer.finish()
     file.seek(start)
     sizes = np.array(writer.chunk_sizes(file), dtype=np.int64)
-    entries = np.zeros(
-        len(counts), dtype=[("key", "<i4", 4), ("start", "<u8"), ("size", "<i4"), ("count", "<i4")]
-    )
+    entries = np.zeros(len(counts), dtype=HIERARCHY_ENTRY)
     entries["key"] = octree.keys
     entries["start"] = start + 8 + np.cumsum(sizes) - sizes
     entries["size"], entries["count"] = sizes, counts

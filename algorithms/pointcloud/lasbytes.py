@@ -31,7 +31,7 @@ _LARGEST_KEPT = 1 << 20
 
 _ENCODING, _VERSION, _SYSTEM, _SOFTWARE, _HEADER_SIZE = 6, 24, 26, 58, 94
 _POINTS_START, _VLR_COUNT, _FORMAT, _RECORD_LENGTH, _LEGACY_COUNT = 96, 100, 104, 105, 107
-_SCALE, _OFFSET, _WAVEFORM_START, _EVLR_START, _COUNT = 131, 155, 227, 235, 247
+_SCALE, _OFFSET, _EXTENT, _WAVEFORM_START, _EVLR_START, _COUNT = 131, 155, 179, 227, 235, 247
 _Z_RANGE = 211
 
 
@@ -171,6 +171,16 @@ class LasLayout:
     def offset(self) -> tuple[float, float, float]:
         """What is then added to them."""
         return self._get("3d", _OFFSET)
+
+    @property
+    def minimum(self) -> tuple[float, float, float]:
+        """Smallest x, y and z in units of the CRS, as the header has them: it may be wrong."""
+        return self._get("6d", _EXTENT)[1::2]
+
+    @property
+    def maximum(self) -> tuple[float, float, float]:
+        """Largest x, y and z in units of the CRS, as the header has them: it may be wrong."""
+        return self._get("6d", _EXTENT)[0::2]
 
     @property
     def points_start(self) -> int:

@@ -1,0 +1,311 @@
+import struct
+
+import numpy as np
+import pytest
+from conftest import LasKit
+
+from bare_earth.algorithms.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.pointcloud import copc, copc_nodes, reading
+from bare_earth.algorithms.pointcloud.copc import HIERARCHY_ENTRY
+from bare_earth.algorithms.pointcloud.lasbytes import COPC_INFO, VLR_HEADER, read_layout
+from bare_earth.algorithms.pointcloud.reading import read_cloud
+from bare_earth.algorithms.pointcloud.window import read_window
+from bare_earth.algorithms.pointcloud.writing import write_classified
+
+POINTS = 12_000
+COLUMNS = ("x", "y", "z", "classification", "return_number", "number_of_returns", "withheld")
+# The points of `las.make` lie from 399,990 on, one metre apart.
+BOX = (399_993.0, 5_000_002.0, 399_999.0, 5_000_011.0)
+
+
+def in_box(cloud, box):
+    x = cloud.x * cloud.scale[0] + cloud.offset[0]
+    y = cloud.y * cloud.scale[1] + cloud.offset[1]
+    return (x >= box[0]) & (x <= box[2]) & (y >= box[1]) & (y <= box[3])
+
+
+def assert_is_part(window, cloud, box):
+    which = in_box(cloud, box)
+    for name in COLUMNS:
+        got, wanted = getattr(window, name), getattr(cloud, name)
+        assert got.dtype == wanted.dtype
+        np.testing.assert_array_equal(got, wanted[which], err_msg=name)
+    for name in ("path", "scale", "offset", "point_format", "crs"):
+        assert getattr(window, name) == getattr(cloud, name)
+    return int(which.sum())
+
+
+@pytest.mark.parametrize("name", ["in.las", "in.laz"])
+@pytest.mark.parametrize("point_format", range(11))
+def test_a_window_holds_what_masking_the_whole_gives(las, name, point_format, monkeypatch):
+    monkeypatch.setattr(reading, "_CHUNK", 70)
+    source = las.make(name, version=4, point_format=point_format, count=400, extra=3)
+    assert assert_is_part(read_window(source, BOX), read_cloud(source), BOX) == 7 * 10
+
+
+def test_the_border_belongs_to_the_window(las):
+    source = las.make(count=400)
+    assert read_window(source, (399_990.0, 5e6, 399_992.0, 5e6 + 1)).count == 3 * 2
+    assert read_window(source, (399_990.01, 5e6 + 0.01, 399_991.99, 5e6 + 1.99)).count == 1
+
+
+def test_a_window_without_points_is_an_empty_cloud(las):
+    for name in ("in.las", "in.laz"):
+        window = read_window(las.make(name), (0.0, 0.0, 1.0, 1.0))
+        assert window.count == 0
+        assert window.x.dtype == np.int32
+
+
+def test_a_rectangle_that_is_none_is_refused(las):
+    with pytest.raises(BareEarthError, match="XMIN below XMAX"):
+        read_window(las.make(), (2.0, 0.0, 1.0, 1.0))
+
+
+def test_a_wrong_header_is_told_and_hides_points_only_where_it_is_trusted(las):
+    source, heard = with_extent(las.make(count=400), 1, 2, 3, 4), las.Heard()
+    assert read_window(source, BOX, heard).count == 70
+    assert any("states a smaller extent than its points have" in each for each in heard.warnings)
+    assert read_window(source, BOX, trust_header=True).count == 0
+    assert read_window(with_extent(source, 399_990, 5e6, 400_009, 5_000_019), BOX).count == 70
+
+
+def with_extent(path, west, south, east, north):
+    data = bytearray(path.read_bytes())
+    struct.pack_into("<4d", data, 179, east, west, north, south)
+    path.write_bytes(data)
+    return path
+
+
+def test_a_right_header_is_not_complained_of(las):
+    source = with_extent(las.make(count=400), 399_990, 5e6, 400_009, 5_000_019)
+    heard = las.Heard()
+    assert read_window(source, BOX, heard, trust_header=True).count == 70
+    assert not any("extent" in each for each in heard.warnings)
+
+
+@pytest.mark.parametrize("name", ["in.las", "in.laz"])
+def test_damage_is_told(las, name):
+    source = las.make(name, count=5000)
+    source.write_bytes(source.read_bytes()[:-3000])
+    with pytest.raises(BareEarthError, match="damaged or cut off"):
+        read_window(source, BOX)
+
+
+def scattered(count, side=60_000, seed=5):
+    noise = np.random.default_rng(seed)
+    records = noise.integers(0, 256, (count, 30), dtype=np.uint8)
+    xyz = np.column_stack([*noise.integers(0, side, (2, count)), noise.integers(0, 900, count)])
+    records[:, :12] = xyz.astype("<i4").view(np.uint8)
+    records[:, 14] = 0x21
+    return records
+
+
+@pytest.fixture(scope="module")
+def octree_bytes(tmp_path_factory):
+    las = LasKit(tmp_path_factory.mktemp("octree"))
+    target = las.folder / "many.copc.laz"
+    with pytest.MonkeyPatch.context() as patch:
+        # At depth 0 the usual grid would take nearly all of so few points.
+        for name, value in {"LEAF_POINTS": 700, "SMALL_NODE": 100, "GRID_BITS": 3}.items():
+            patch.setattr(copc, f"_{name}", value)
+        patch.setattr(copc, "_DEEPEST", 18)
+        source = las.make(version=4, point_format=6, records=scattered(POINTS))
+        write_classified(source, target, (np.arange(POINTS) % 256).astype(np.uint8))
+    return target.read_bytes()
+
+
+@pytest.fixture
+def octree(las, octree_bytes):
+    """600 m x 600 m of points in a COPC file of many small nodes."""
+    path = las.folder / "many.copc.laz"
+    path.write_bytes(octree_bytes)
+    return path
+
+
+def boxes_in_octree():
+    noise = np.random.default_rng(8)
+    for _ in range(3):
+        x, y = 400_000 + noise.random(2) * 500, 5_000_000 + noise.random(2) * 500
+        yield (x.min(), y.min(), x.max() + 0.02, y.max() + 0.02)
+    yield (400_000.0, 5_000_000.0, 400_300.0, 5_000_300.0)
+    yield (399_000.0, 4_999_000.0, 401_000.0, 5_001_000.0)
+
+
+def test_a_window_of_copc_holds_what_masking_the_whole_gives(las, octree, monkeypatch):
+    monkeypatch.setattr(copc_nodes, "_BATCH", 3000)
+    cloud, heard = read_cloud(octree), las.Heard()
+    counts = [
+        assert_is_part(read_window(octree, box, heard), cloud, box) for box in boxes_in_octree()
+    ]
+    assert counts[-1] == POINTS
+    assert all(0 <= fraction <= 1 for fraction in heard.fractions)
+    assert not any("octree" in each for each in heard.warnings)
+
+
+def test_a_small_window_of_copc_reads_only_its_nodes(octree, monkeypatch):
+    read = []
+
+    def counting(layout, file, nodes, reader):
+        read.append(int(nodes["count"].sum()))
+        return decompress(layout, file, nodes, reader)
+
+    decompress = copc_nodes._decompress
+    monkeypatch.setattr(copc_nodes, "_decompress", counting)
+    window = read_window(octree, (400_100.0, 5_000_100.0, 400_140.0, 5_000_140.0))
+    assert 20 < window.count < 100
+    assert window.count < sum(read) < POINTS / 4
+    read.clear()
+    assert read_window(octree, (0.0, 0.0, 1.0, 1.0)).count == 0
+    assert not read
+
+
+def test_a_window_of_copc_by_another_writer(las):
+    copclib = pytest.importorskip("copclib")
+    path = las.folder / "other.copc.laz"
+    config = copclib.CopcConfigWriter(6, (0.01,) * 3, (400_000.0, 5_000_000.0, 0.0))
+    config.las_header.min = (400_000.0, 5_000_000.0, 0.0)
+    config.las_header.max = (400_600.0, 5_000_600.0, 9.0)
+    info = config.copc_info
+    info.center_x, info.center_y, info.center_z, info.halfsize = 400_300.0, 5_000_300.0, 0.0, 300.0
+    writer = copclib.FileWriter(str(path), config)
+    noise = np.random.default_rng(4)
+    # Each node of depth 2 on a page of its own, so that pages are nested.
+    for key in [(0, 0, 0, 0), *[(2, x, y, 0) for x in range(4) for y in range(4)]]:
+        side = 600 / 2 ** key[0]
+        points = copclib.Points(config.las_header)
+        for x, y, z in noise.random((50, 3)):
+            point = points.CreatePoint()
+            point.x = 400_000 + (key[1] + x) * side
+            point.y = 5_000_000 + (key[2] + y) * side
+            point.z = z
+            point.classification = int(x * 100)
+            points.AddPoint(point)
+        parent = copclib.VoxelKey(key) if key[0] else copclib.VoxelKey(0, 0, 0, 0)
+        writer.AddNode(copclib.VoxelKey(key), points, parent)
+    writer.Close()
+    cloud, heard = read_cloud(path), las.Heard()
+    for box in boxes_in_octree():
+        assert_is_part(read_window(path, box, heard), cloud, box)
+    assert not any("octree" in each for each in heard.warnings)
+
+
+def test_nested_pages_are_followed_only_where_the_window_is(octree, monkeypatch):
+    cloud = read_cloud(octree)
+    pages = nest_pages(octree)
+    read = []
+
+    def noting(layout, file, start, size):
+        read.append(start)
+        return read_page(layout, file, start, size)
+
+    read_page = copc_nodes._read_page
+    monkeypatch.setattr(copc_nodes, "_read_page", noting)
+    box = (400_010.0, 5_000_010.0, 400_100.0, 5_000_100.0)
+    assert_is_part(read_window(octree, box), cloud, box)
+    assert len(read) == 2
+    read.clear()
+    box = (400_010.0, 5_000_010.0, 400_590.0, 5_000_590.0)
+    assert_is_part(read_window(octree, box), cloud, box)
+    assert len(read) == 1 + pages
+
+
+def nest_pages(path):
+    """Move each branch of depth 1 to a page of its own at the end of the file."""
+    layout = read_layout(path)
+    info = layout.vlr(COPC_INFO).data
+    start, size = struct.unpack_from("<2Q", info, 40)
+    data = bytearray(path.read_bytes())
+    entries = np.frombuffer(bytes(data[start : start + size]), HIERARCHY_ENTRY)
+    depth = entries["key"][:, 0]
+    above = entries["key"][:, 1:] >> np.maximum(depth - 1, 0)[:, None]
+    root = [entries[depth == 0]]
+    branches = np.unique(above[depth > 0], axis=0)
+    for branch in branches:
+        page = entries[(depth > 0) & (above == branch).all(axis=1)]
+        pointer = np.array([((1, *branch), len(data), page.nbytes, -1)], HIERARCHY_ENTRY)
+        root.append(pointer)
+        data += page.tobytes()
+    root = np.concatenate(root)
+    place = bytes(data).index(info[:56])
+    struct.pack_into("<2Q", data, place + 40, len(data), root.nbytes)
+    path.write_bytes(data + root.tobytes())
+    return len(branches)
+
+
+def change_entries(path, change):
+    layout = read_layout(path)
+    start, size = struct.unpack_from("<2Q", layout.vlr(COPC_INFO).data, 40)
+    data = bytearray(path.read_bytes())
+    entries = np.frombuffer(bytes(data[start : start + size]), HIERARCHY_ENTRY).copy()
+    change(entries)
+    data[start : start + size] = entries.tobytes()
+    path.write_bytes(data)
+
+
+def lose_a_node(entries):
+    entries["count"][-1] = entries["size"][-1] = 0
+
+
+def swap_two_nodes(entries):
+    entries["key"][[-1, -2]] = entries["key"][[-2, -1]]
+
+
+def name_itself(entries):
+    entries["count"][0] = -1
+
+
+def leave_the_file(entries):
+    entries["start"][3] = 1 << 62
+
+
+def go_astray(entries):
+    entries["key"][5] = (1, 9, 0, 0)
+
+
+def overlap(entries):
+    entries["start"][4] = entries["start"][3]
+
+
+DAMAGES = [lose_a_node, swap_two_nodes, name_itself, leave_the_file, go_astray, overlap]
+
+
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_a_damaged_octree_is_told_and_loses_no_point(las, octree, damage):
+    cloud, heard = read_cloud(octree), las.Heard()
+    change_entries(octree, damage)
+    box = (400_000.0, 5_000_000.0, 400_600.0, 5_000_600.0)
+    assert_is_part(read_window(octree, box, heard), cloud, box)
+    assert any(each.startswith(f"The octree of {octree} is damaged") for each in heard.warnings)
+
+
+@pytest.mark.parametrize("field", [3, 0, 5])
+def test_a_wrong_cube_is_told_and_loses_no_point(las, octree, field):
+    data = bytearray(octree.read_bytes())
+    place = 375 + VLR_HEADER + 8 * field
+    if field == 5:
+        struct.pack_into("<Q", data, place, 1 << 63)
+    else:
+        struct.pack_into("<d", data, place, 7.0)
+    cloud, heard = read_cloud(octree), las.Heard()
+    octree.write_bytes(data)
+    box = (400_000.0, 5_000_000.0, 400_300.0, 5_000_300.0)
+    assert_is_part(read_window(octree, box, heard), cloud, box)
+    assert any("is damaged" in each for each in heard.warnings)
+
+
+def test_damaged_nodes_are_an_error(octree):
+    data = bytearray(octree.read_bytes())
+    start = read_layout(octree).points_start
+    data[start + 60 : start + 20_000] = bytes(20_000 - 60)
+    octree.write_bytes(data)
+    with pytest.raises(BareEarthError, match="damaged"):
+        read_window(octree, (400_000.0, 5_000_000.0, 400_300.0, 5_000_300.0))
+
+
+def test_reading_a_window_can_be_cancelled(octree, las, monkeypatch):
+    class Impatient(las.Heard):
+        def report(self, fraction):
+            raise Cancelled
+
+    with pytest.raises(Cancelled):
+        read_window(octree, (400_000.0, 5_000_000.0, 400_300.0, 5_000_300.0), Impatient())
