@@ -93,6 +93,31 @@ def place_dimension(layout: LasLayout, dimension: ExtraDimension) -> tuple[LasLa
     return _with_record(layout, descriptors), Place(start, kind)
 
 
+def extra_dimensions(layout: LasLayout) -> list[tuple[str, str, int]]:
+    """Return name, type and bytes of each dimension in extra bytes, in the terms of PDAL.
+
+    The type is "unsigned", "signed" or "floating". Pairs and triples, which are deprecated, and
+    bytes that nothing is said of are left out.
+    """
+    try:
+        descriptors = _descriptors(layout)
+    except BareEarthError:
+        return []
+    found = []
+    for descriptor in descriptors:
+        kind, options = descriptor[2], descriptor[3]
+        if not 1 <= kind < len(_SIZES):
+            continue
+        name, size = _text(descriptor[4:36]), _SIZES[kind]
+        if kind in _KINDS:
+            found.append((name, "floating", size))
+        elif options & (_HAS_SCALE | _HAS_OFFSET):
+            found.append((name, "floating", 8))
+        else:
+            found.append((name, "unsigned" if kind % 2 else "signed", size))
+    return found
+
+
 def _descriptors(layout: LasLayout) -> list[bytes]:
     """Return the descriptors that a file has.
 

@@ -1,0 +1,205 @@
+import os
+import struct
+
+import pytest
+
+from bare_earth.algorithms.errors import BareEarthError
+from bare_earth.algorithms.pointcloud.collection import find_files, open_collection
+from bare_earth.algorithms.pointcloud.vpc import write_vpc
+
+FEET = 'PROJCS["feet",GEOGCS["g",UNIT["degree",0.0174]],UNIT["US survey foot",0.30480060960]]'
+METRES = 'PROJCS["{}",GEOGCS["g",UNIT["degree",0.0174]],UNIT["metre",1]{}]'
+DEGREES = 'GEOGCS["lon lat",DATUM["d",SPHEROID["s",6378137,298]],UNIT["degree",0.0174]]'
+
+
+def metres(name="site", code=None):
+    return METRES.format(name, f',AUTHORITY["EPSG","{code}"]' if code else "")
+
+
+def tile(las, name, west=0.0, south=0.0, side=100.0, wkt=None, **wanted):
+    path = las.folder / name
+    path.parent.mkdir(exist_ok=True, parents=True)
+    wkt = metres() if wkt is None else wkt
+    vlrs = [las.vlr(b"LASF_Projection", 2112, wkt.encode())] if wkt else []
+    data = las.bytes(
+        version=4,
+        point_format=6,
+        encoding=0x10,
+        vlrs=vlrs,
+        compressed=name.lower().endswith("laz"),
+        **wanted,
+    )
+    data = bytearray(data)
+    struct.pack_into("<6d", data, 179, west + side, west, south + side, south, 9.0, 1.0)
+    path.write_bytes(data)
+    return path
+
+
+def names(paths):
+    return [path.name for path in paths]
+
+
+def test_a_folder_gives_its_clouds_sorted_and_not_those_below(las):
+    for name in ("b.LAS", "a.laz", "c.copc.LAZ", "below/d.las", ".1-2.part.e.las"):
+        tile(las, name)
+    (las.folder / "notes.txt").write_text("no list")
+    assert names(find_files([las.folder])) == ["a.laz", "b.LAS", "c.copc.LAZ"]
+    assert names(find_files([las.folder], recursive=True)) == [
+        "a.laz", "b.LAS", "d.las", "c.copc.LAZ",
+    ]  # fmt: skip
+
+
+def test_every_kind_of_source_is_taken_and_each_file_once(las):
+    files = [tile(las, f"{name}.las", 100.0 * number) for number, name in enumerate("abcd")]
+    write_vpc(las.folder / "two.vpc", files[:2])
+    listed = las.folder / "list.txt"
+    listed.write_text('# a list\n\nc.las\n"d.las"\n  a.las\n', encoding="utf-8-sig")
+    sources = [las.folder / "two.vpc", str(listed), files[3], las.folder / "." / "d.las"]
+    collection = open_collection(sources)
+    assert [each.path.resolve() for each in collection.tiles] == files
+    assert find_files(las.folder) == files
+
+
+def test_links_to_the_same_file_count_once(las):
+    file = tile(las, "a.las")
+    link = las.folder / "link.las"
+    try:
+        os.symlink(file, link)
+    except OSError:
+        pytest.skip("no symbolic links here")
+    assert len(find_files([las.folder])) == 1
+
+
+def test_a_tile_is_what_the_header_says(las):
+    path = tile(las, "a.laz", 300, 500, count=77, extra=2)
+    (found,) = open_collection([path]).tiles
+    assert (found.path, found.count, found.box) == (path, 77, (300, 500, 400, 600))
+    assert (found.minimum[2], found.maximum[2]) == (1, 9)
+    assert (found.scale, found.offset) == (las.SCALE, las.OFFSET)
+    assert (found.point_format, found.record_length) == (6, 32)
+    assert (found.is_compressed, found.is_copc) == (True, False)
+    assert found.crs.name == "site"
+
+
+def test_a_broken_file_stops_nothing_and_is_told(las):
+    good = tile(las, "good.las")
+    (las.folder / "cut.las").write_bytes(good.read_bytes()[:-10])
+    (las.folder / "other.laz").write_bytes(b"PK")
+    tile(las, "nowhere.las", float("nan"))
+    tile(las, "zero.las", side=0.0)
+    tile(las, "empty.las", count=0)
+    collection = open_collection([las.folder, las.folder / "missing.laz"])
+    assert [each.path for each in collection.tiles] == [good]
+    reasons = {each.path.name: each.reason for each in collection.broken}
+    assert "damaged or cut off" in reasons["cut.las"]
+    assert "not a LAS or LAZ file" in reasons["other.laz"]
+    assert "does not state the extent" in reasons["nowhere.las"]
+    assert "does not state the extent" in reasons["zero.las"]
+    assert "no points" in reasons["empty.las"]
+    assert "does not exist" in reasons["missing.laz"]
+    assert len(reasons) == 6
+
+
+def test_nothing_that_can_be_read_is_an_error(las):
+    for number in range(2):
+        (las.folder / f"{number}.las").write_bytes(b"PK")
+    with pytest.raises(BareEarthError, match=r"None of the 2 files .* not a LAS or LAZ file"):
+        open_collection([las.folder])
+    with pytest.raises(BareEarthError, match=r"0\.las is not a LAS"):
+        open_collection([las.folder / "0.las"])
+
+
+def test_sources_that_are_none_are_told(las):
+    with pytest.raises(BareEarthError, match=r"No \.las"):
+        find_files([las.folder])
+    with pytest.raises(BareEarthError, match="does not exist"):
+        find_files([las.folder / "no folder"])
+    for name, told in {"a.tif": "neither a point cloud", "a.vpc": "not a virtual"}.items():
+        (las.folder / name).write_text("x")
+        with pytest.raises(BareEarthError, match=told):
+            find_files([las.folder / name])
+    (las.folder / "a.txt").write_text("b.txt")
+    with pytest.raises(BareEarthError, match="lists another list"):
+        find_files([las.folder / "a.txt"])
+    (las.folder / "a.txt").write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(BareEarthError, match="UTF-8"):
+        find_files([las.folder / "a.txt"])
+
+
+@pytest.mark.parametrize(
+    ("other", "told"),
+    [
+        (FEET, "feet in US survey foot, height US survey foot: b.las"),
+        (metres("elsewhere"), "elsewhere in metre, height metre: b.las"),
+        (metres("site", 25833), None),
+        (DEGREES, "lon lat in degrees: b.las"),
+    ],
+)
+def test_tiles_in_different_crs_are_refused(las, other, told):
+    tile(las, "a.las", wkt=metres("site", 25832))
+    tile(las, "b.las", 100, wkt=other)
+    with pytest.raises(BareEarthError, match="not in the same CRS") as error:
+        open_collection([las.folder])
+    assert told is None or told in str(error.value)
+    assert "site in metre, height metre: a.las" in str(error.value)
+
+
+def test_one_crs_written_in_two_ways_is_one(las):
+    tile(las, "a.las", wkt=metres("WGS 84 / UTM zone 32N", 32632))
+    tile(las, "b.las", 100, wkt=metres("WGS_84_UTM_zone_32N"))
+    heard = las.Heard()
+    assert len(open_collection([las.folder], progress=heard).tiles) == 2
+    assert heard.warnings == []
+
+
+def test_a_missing_crs_is_taken_from_the_others_if_these_are_metres(las):
+    heard = las.Heard()
+    tile(las, "a.las")
+    for number in range(5):
+        tile(las, f"b{number}.las", 100 * number + 100, wkt="")
+    assert open_collection([las.folder], progress=heard).crs.name == "site"
+    (warning,) = heard.warnings
+    assert warning.startswith("b0.las, b1.las, b2.las and 2 more do not say the CRS")
+    tile(las, "a.las", wkt=FEET)
+    with pytest.raises(BareEarthError, match=r"none stated: b0\.las"):
+        open_collection([las.folder])
+
+
+def test_what_is_odd_about_all_files_is_told_once(las):
+    # The heights have a unit, but none that is known.
+    wkt = metres().join(('COMPD_CS["both",', ',VERT_CS["heights",VERT_DATUM["d",2005]]]'))
+    for number in range(4):
+        tile(las, f"{number}.las", 100 * number, wkt=wkt)
+    heard = las.Heard()
+    open_collection([las.folder], progress=heard)
+    assert len(heard.warnings) == 1
+    assert heard.warnings[0].endswith("(in 4 files)")
+    assert heard.fractions[-1] == 1
+
+
+def test_the_same_tile_twice_is_told(las):
+    tile(las, "a.las")
+    tile(las, "a.laz")
+    heard = las.Heard()
+    open_collection([las.folder], progress=heard)
+    assert any("a.las and a.laz have the same extent" in each for each in heard.warnings)
+
+
+def test_neighbours_are_those_within_the_distance(las):
+    for row in range(4):
+        for column in range(4):
+            tile(las, f"{row}{column}.las", 100 * column, 100 * row)
+    tile(las, "far.las", 450, 0, 50)
+    collection = open_collection([las.folder])
+    assert collection.box == pytest.approx((0, 0, 500, 400), abs=0.011)
+    by_name = {each.path.stem: each for each in collection.tiles}
+
+    def near(name, distance):
+        return [each.path.stem for each in collection.neighbours(by_name[name], distance)]
+
+    assert near("00", 0) == ["01", "10", "11"]
+    assert near("11", 0) == ["00", "01", "02", "10", "12", "20", "21", "22"]
+    assert near("00", 101) == ["01", "02", "10", "11", "12", "20", "21", "22"]
+    assert near("far", 49) == []
+    assert near("far", 50) == ["03", "13"]
+    assert [each.path.stem for each in collection.touching((310, 310, 320, 320))] == ["33"]

@@ -1,0 +1,181 @@
+import json
+import struct
+from urllib.request import pathname2url
+
+import numpy as np
+import pytest
+
+from bare_earth.algorithms.errors import BareEarthError
+from bare_earth.algorithms.pointcloud import wgs84
+from bare_earth.algorithms.pointcloud.vpc import read_vpc, write_vpc
+from bare_earth.algorithms.pointcloud.wgs84 import to_wgs84
+
+UTM = "EPSG:32632"
+
+
+def wkt_of(code):
+    return pytest.importorskip("pyproj").CRS.from_user_input(code).to_wkt("WKT1_GDAL")
+
+
+def tile(las, name="a.laz", code=UTM, extent=(400_000, 5_000_000, 401_000, 5_001_000), **wanted):
+    records = [las.vlr(b"LASF_Projection", 2112, wkt_of(code).encode() + b"\0")] if code else []
+    vlrs = [*records, *wanted.pop("vlrs", ())]
+    path = las.make(name, version=4, encoding=0x10, vlrs=vlrs, **wanted)
+    west, south, east, north = extent
+    data = bytearray(path.read_bytes())
+    struct.pack_into("<6d", data, 179, east, west, north, south, 90.0, 10.0)
+    path.write_bytes(data)
+    return path
+
+
+def written(las, *files, name="all.vpc"):
+    target = las.folder / name
+    heard = las.Heard()
+    write_vpc(target, files, heard)
+    return json.loads(target.read_text(encoding="utf-8")), heard
+
+
+def test_headers_become_items(las):
+    content, heard = written(las, tile(las, point_format=7, count=60))
+    assert content["type"] == "FeatureCollection"
+    (item,) = content["features"]
+    assert (item["type"], item["stac_version"], item["id"]) == ("Feature", "1.0.0", "a")
+    assert item["assets"]["data"] == {"href": "./a.laz", "roles": ["data"]}
+    properties = item["properties"]
+    assert properties["proj:bbox"] == [400_000, 5_000_000, 10, 401_000, 5_001_000, 90]
+    assert (properties["pc:count"], properties["pc:encoding"]) == (60, "LASzip")
+    assert properties["datetime"] == "2021-02-11T00:00:00Z"
+    assert properties["proj:wkt2"] == wkt_of(UTM)
+    names = [each["name"] for each in properties["pc:schemas"]]
+    assert len(set(names)) == len(names)
+    assert {"X", "Classification", "GpsTime", "Red", "ScanChannel"} < set(names)
+    assert heard.warnings == []
+
+
+def test_the_place_on_the_globe_is_that_of_the_crs(las):
+    pyproj = pytest.importorskip("pyproj")
+    (item,) = written(las, tile(las))[0]["features"]
+    ring = np.array(item["geometry"]["coordinates"][0])
+    back = pyproj.Transformer.from_crs(4326, UTM, always_xy=True).transform(*ring.T)
+    corners = [(4e5, 5e6), (401e3, 5e6), (401e3, 5.001e6), (4e5, 5.001e6), (4e5, 5e6)]
+    np.testing.assert_allclose(np.column_stack(back), corners, atol=0.01)
+    assert item["bbox"][:2] == ring.min(axis=0).tolist()
+    assert item["bbox"][3:5] == ring.max(axis=0).tolist()
+    assert 7.6 < item["bbox"][0] < item["bbox"][3] < 7.8
+    assert item["bbox"][2::3] == [10, 90]
+
+
+def test_libraries_agree_on_places(las):
+    wkt, places = wkt_of("EPSG:2927"), np.array([(1_100_000.0, 600_000.0), (1_200_000.0, 7e5)])
+    found = []
+    for package, transform in (("pyproj", wgs84._by_pyproj), ("rasterio", wgs84._by_rasterio)):
+        pytest.importorskip(package)
+        found.append(transform(wkt, places))
+        assert transform("no CRS", places) is None
+    np.testing.assert_allclose(found[0], found[1], atol=1e-6)
+    np.testing.assert_allclose(to_wgs84(wkt, places), found[0], atol=1e-6)
+
+
+@pytest.mark.parametrize("code", [None, UTM])
+def test_without_a_place_on_the_globe_the_crs_is_left_out(las, code, monkeypatch):
+    source = tile(las, code=code)
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    content, heard = written(las, source)
+    (item,) = content["features"]
+    assert item["properties"]["proj:wkt2"] == ""
+    assert item["geometry"] == item["properties"]["proj:geometry"]
+    assert any("does not state the CRS of 1 of its 1 files" in each for each in heard.warnings)
+
+
+def test_extra_bytes_are_dimensions(las):
+    descriptor = struct.pack("<2sBB32s156x", b"", 9, 0, b"height")
+    pair = struct.pack("<2sBB32s156x", b"", 3, 0x08, b"amplitude")
+    source = tile(las, extra=6, vlrs=[las.vlr(b"LASF_Spec", 4, descriptor + pair)])
+    schemas = written(las, source)[0]["features"][0]["properties"]["pc:schemas"]
+    assert schemas[-2:] == [
+        {"name": "height", "type": "floating", "size": 4},
+        {"name": "amplitude", "type": "floating", "size": 8},
+    ]
+
+
+def test_what_is_written_is_read(las):
+    (las.folder / "deep er").mkdir()
+    files = [tile(las, "deep er/a%20.laz"), tile(las, "a.laz"), tile(las, "b.las")]
+    (las.folder / "products").mkdir()
+    content, _ = written(las, *files, name="products/all.vpc")
+    assert len({item["id"] for item in content["features"]}) == 3
+    entries = read_vpc(las.folder / "products" / "all.vpc")
+    assert [entry.path.resolve() for entry in entries] == files
+    assert {entry.box for entry in entries} == {(400_000, 5_000_000, 401_000, 5_001_000)}
+    assert {entry.count for entry in entries} == {60}
+    assert {entry.wkt for entry in entries} == {wkt_of(UTM)}
+
+
+def vpc_of(las, *hrefs, **properties):
+    path = las.folder / "by-hand.vpc"
+    items = [{"properties": properties, "assets": {"data": {"href": href}}} for href in hrefs]
+    path.write_text(json.dumps({"type": "FeatureCollection", "features": items}))
+    return path
+
+
+def test_every_way_to_name_a_local_file_is_understood(las):
+    file = las.make("a b.las")
+    url = "file://" + pathname2url(str(file))
+    path = vpc_of(las, "./a b.las", "a b.las", "a%20b.las", str(file), url, "../clouds/a b.las")
+    assert [entry.path.resolve() for entry in read_vpc(path)] == [file] * 6
+    assert read_vpc(path)[0].count is None
+
+
+def test_the_points_are_taken_and_not_the_overview(las):
+    path = las.folder / "overview.vpc"
+    assets = {
+        "an-overview": {"href": "./o.copc.laz", "roles": ["overview"]},
+        "points": {"href": "./a.laz"},
+    }
+    item = {"properties": {}, "assets": assets}
+    path.write_text(json.dumps({"type": "FeatureCollection", "features": [item]}))
+    assert [entry.path.name for entry in read_vpc(path)] == ["a.laz"]
+
+
+@pytest.mark.parametrize(
+    "href", ["https://host/a.laz", "S3://bucket/a.laz", "/vsicurl/https://host/a.laz"]
+)
+def test_files_elsewhere_are_refused(las, href):
+    with pytest.raises(BareEarthError, match="is not on this computer"):
+        read_vpc(vpc_of(las, href))
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("LASF", "not JSON"),
+        ("[]", "not a feature collection"),
+        ('{"type": "FeatureCollection"}', "names no file"),
+        ('{"type": "FeatureCollection", "features": [{}]}', "names no file"),
+        ('{"type": "FeatureCollection", "features": [7]}', "names no file"),
+        ('{"type": "FeatureCollection", "features": []}', "lists no files"),
+    ],
+)
+def test_what_is_no_virtual_point_cloud_is_told(las, text, told):
+    path = las.folder / "odd.vpc"
+    path.write_text(text)
+    with pytest.raises(BareEarthError, match=told):
+        read_vpc(path)
+
+
+def test_a_missing_virtual_point_cloud_is_told(las):
+    with pytest.raises(BareEarthError, match="Cannot read"):
+        read_vpc(las.folder / "none.vpc")
+
+
+def test_a_failure_leaves_what_was_there(las):
+    target = las.folder / "all.vpc"
+    target.write_text("old")
+    with pytest.raises(BareEarthError, match="does not exist"):
+        write_vpc(target, [las.make(), las.folder / "none.laz"])
+    with pytest.raises(BareEarthError, match="no files to list"):
+        write_vpc(target, [])
+    with pytest.raises(BareEarthError, match=r"name it \.vpc"):
+        write_vpc(las.folder / "all.json", [las.make()])
+    assert target.read_text() == "old"
+    assert [each.name for each in las.folder.glob(".*")] == []
