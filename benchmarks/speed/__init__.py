@@ -1,0 +1,1 @@
+"""Measures what the filters cost beside reading and writing, and beside peers."""

@@ -1,0 +1,239 @@
+"""Measures what the filters cost: `python -m benchmarks.speed`.
+
+Every contestant is a whole process, from file to file. On each tile all take their turn within a
+round, and several rounds follow; what counts is the ratio to reading and writing in the same round,
+since a machine is rarely quiet. Generated tiles are kept in ~/.cache/bare-earth/benchmarks (or
+$BARE_EARTH_CACHE); real ones are sought in $BARE_EARTH_DATA.
+"""
+
+from __future__ import annotations
+
+import argparse
+import datetime
+import importlib.metadata
+import os
+import platform
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import Sequence
+
+from bare_earth.algorithms.threads import available_cpus
+
+from .. import data
+from . import profiling, results, tiles
+from .contestants import FLOOR, OURS, Contestant, contestants
+from .process import ROOT, STOPPED, Cost, measure
+from .report import PAGE, Report
+from .results import Results, Run
+from .tiles import Tile
+
+SIZES = (1.0, 10.0, 50.0)
+REAL = ("nrw_rural.laz", "hawaii_forest.laz")
+_PACKAGES = ("numpy", "scipy", "laspy", "lazrs")
+
+
+def tell(text: str) -> None:
+    """Say how far it is, beside what is printed."""
+    print(text, file=sys.stderr, flush=True)
+
+
+def compete(
+    tile: Tile, takers: Sequence[Contestant], rounds: int, peer_rounds: int, timeout: float
+) -> list[Run]:
+    """Measure all on one tile, in turn within each round.
+
+    Who fails or is stopped in one round does not take part in the next.
+    """
+    runs: list[Run] = []
+    out: set[str] = set()
+    with tempfile.TemporaryDirectory(prefix="bare-earth-speed-") as folder:
+        target = Path(folder) / "classified.laz"
+        for number in range(rounds):
+            for each in takers:
+                if each.name in out or (each.is_peer and number >= peer_rounds):
+                    continue
+                cost = _checked(measure(each.command(tile.path, target), timeout), tile, target)
+                runs.append(Run(tile.name, each.name, number, cost))
+                if cost.problem:
+                    out.add(each.name)
+                tell(
+                    f"{tile.name}, round {number + 1}, {each.label}: {cost.wall:.2f} s,"
+                    f" {cost.cpu:.2f} s CPU, {cost.memory / 1e6:.0f} MB {cost.problem}"
+                )
+                target.unlink(missing_ok=True)
+    return runs
+
+
+def _checked(cost: Cost, tile: Tile, target: Path) -> Cost:
+    """Return the cost, with a problem if not every point was written."""
+    if cost.problem:
+        return cost
+    written = tiles.tile(target).count if target.exists() else 0
+    if written == tile.count:
+        return cost
+    return cost._replace(problem=f"wrote {written:,} of {tile.count:,} points")
+
+
+def measure_all(
+    chosen: Sequence[Tile],
+    takers: Sequence[Contestant],
+    rounds: int,
+    peer_rounds: int,
+    timeout: float,
+) -> Results:
+    """Measure on all tiles, the smallest first; who is stopped on one is left out of the rest."""
+    found = Results(facts())
+    takers = list(takers)
+    for tile in sorted(chosen, key=lambda tile: tile.count):
+        found.tiles.append(tile)
+        # Once without counting: the file is then in the memory of the system for all.
+        measure(["cat", str(tile.path)])
+        found.runs += compete(tile, takers, rounds, peer_rounds, timeout)
+        takers = [
+            each for each in takers if not found.problem(tile.name, each.name).startswith(STOPPED)
+        ]
+    found.facts["Load average at the end"] = _load()
+    return found
+
+
+def facts() -> dict[str, str]:
+    """Return what the figures depend on beside the program."""
+    versions = (f"{name} {importlib.metadata.version(name)}" for name in _PACKAGES)
+    commit = ["git", "-C", str(ROOT), "describe", "--always", "--dirty"]
+    try:
+        done = subprocess.run(commit, check=True, capture_output=True, text=True).stdout.strip()
+    except (OSError, subprocess.CalledProcessError):
+        done = "unknown"
+    return {
+        "Date": datetime.date.today().isoformat(),
+        "Commit": done,
+        "Processor": f"{_processor()}, {available_cpus()} cores",
+        "Python": ", ".join([platform.python_version(), *versions]),
+        "Load average at the start": _load(),
+    }
+
+
+def _load() -> str:
+    return f"{os.getloadavg()[0]:.1f}"
+
+
+def _processor() -> str:
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    except OSError:
+        lines = []
+    models = (line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
+    return next(models, platform.processor() or platform.machine())
+
+
+def generated(sizes: Sequence[float]) -> list[Tile]:
+    """Return tiles of so many million points, made by a process of their own if missing."""
+    made = []
+    for size in sizes:
+        count = round(size * 1e6)
+        path = tiles.path_of(count)
+        if not path.exists():
+            tell(f"Making {path} ...")
+            cost = measure([sys.executable, "-m", "benchmarks.speed.tiles", str(count), str(path)])
+            if cost.problem:
+                raise SystemExit(f"The tile of {count:,} points was not made: {cost.problem}")
+        made.append(tiles.tile(path, tiles.title(count)))
+    return made
+
+
+def _parser(known: Sequence[Contestant]) -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks.speed",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "--sizes", nargs="*", type=float, default=list(SIZES), metavar="MILLION",
+        help="generated tiles of so many million points (default: 1 10 50)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--tile", nargs="*", type=Path, metavar="FILE",
+        help=f"real tiles (default: {' '.join(REAL)})",
+    )  # fmt: skip
+    parser.add_argument("--rounds", type=int, default=5, help="how often (default: 5)")
+    parser.add_argument(
+        "--peer-rounds", type=int, default=2, help="in how many of these peers run (default: 2)"
+    )
+    parser.add_argument(
+        "--timeout", type=float, default=1800.0, metavar="SECONDS",
+        help="stop a run after so long, and leave larger tiles out (default: 1800)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--only", nargs="+", metavar="NAME", choices=[each.name for each in known],
+        help=f"beside the floor: {' '.join(each.name for each in known if each.name != FLOOR)}",
+    )  # fmt: skip
+    parser.add_argument(
+        "--profile", action="store_true", help="tell where the time goes (pip install py-spy)"
+    )
+    parser.add_argument(
+        "--qgis", default="", metavar="COMMAND", help="what runs others beside QGIS"
+    )
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write all figures")
+    parser.add_argument(
+        "--from", type=Path, dest="source", metavar="FILE",
+        help="measure nothing: take what --json wrote",
+    )  # fmt: skip
+    parser.add_argument("--write", action="store_true", help="write docs/performance.md")
+    return parser
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the benchmark that the command line asks for."""
+    options = _parser(contestants()).parse_args(arguments)
+    known = contestants(options.qgis)
+    found = results.load(options.source) if options.source else _measured(options, known)
+    if options.json:
+        results.save(found, options.json)
+    report = Report(found, known)
+    for lines in report.blocks().values():
+        if lines:
+            print("", *lines, sep="\n", flush=True)
+    if options.write:
+        report.write(PAGE)
+        print(f"\nWritten: {PAGE}")
+
+
+def _measured(options: argparse.Namespace, known: Sequence[Contestant]) -> Results:
+    takers = [
+        each
+        for each in known
+        if not each.missing and (each.name in (FLOOR, *(options.only or ())) or not options.only)
+    ]
+    files = options.tile
+    if files is None:
+        files = [path for path in map(data.real, REAL) if path.exists()]
+    # Paths from the root: the commands run in the repository.
+    chosen = [tiles.tile(path.resolve()) for path in files] + generated(options.sizes)
+    if not chosen:
+        raise SystemExit("There is no tile to measure on: give --sizes or --tile.")
+    found = measure_all(chosen, takers, options.rounds, options.peer_rounds, options.timeout)
+    if options.profile:
+        found.profiles = _profiles(found.tiles, takers)
+    return found
+
+
+def _profiles(chosen: Sequence[Tile], takers: Sequence[Contestant]) -> dict:
+    """Return the profile of each filter of ours on the largest tile that is not huge."""
+    if not profiling.program():
+        tell("Not installed: pip install py-spy")
+        return {}
+    fitting = [tile for tile in chosen if tile.count <= profiling.MOST_POINTS] or chosen[:1]
+    profiles = {}
+    with tempfile.TemporaryDirectory(prefix="bare-earth-speed-") as folder:
+        for each in takers:
+            if each.name in OURS:
+                tell(f"{each.label} on {fitting[-1].name}, under py-spy ...")
+                command = each.command(fitting[-1].path, Path(folder) / "classified.laz")
+                profiles[each.name] = profiling.profile(command, fitting[-1])
+    return profiles
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,153 @@
+"""What is measured: each contestant is the command of a whole process, from file to file."""
+
+from __future__ import annotations
+
+import functools
+import importlib.util
+import shlex
+import shutil
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Callable
+
+from bare_earth.algorithms.filters import METHODS
+
+from .process import ROOT
+
+FLOOR = "floor"
+OURS = tuple(METHODS)
+# Our classic slope filter, and the one of Whitebox with the same radius; then the radius that
+# finds buildings, which is the default of ours.
+SAME_RADIUS = (("slope-classic", "whitebox"), ("slope", "whitebox-wide"))
+OUT_OF_CORE = "out-of-core"
+QGIS, BESIDE_QGIS = "qgis", "beside-qgis"
+_MEMORY = "1"  # GB
+_QGIS_METHOD = "slope"
+
+
+@dataclass(frozen=True)
+class Contestant:
+    """One line of the tables.
+
+    Attributes
+    ----------
+    name, label : str
+        On the command line, and in the tables.
+    command : callable
+        Returns the command that reads one file and writes another.
+    is_peer : bool
+        Whether it is somebody else's.
+    note : str
+        What is to know of it.
+    missing : str
+        What it lacks here; empty if it can run.
+    """
+
+    name: str
+    label: str
+    command: Callable[[Path, Path], list[str]]
+    is_peer: bool = False
+    note: str = ""
+    missing: str = ""
+
+
+def contestants(qgis: str = "") -> list[Contestant]:
+    """Return all contestants, those that cannot run here, too.
+
+    Parameters
+    ----------
+    qgis : str
+        The command that runs others beside a QGIS; empty for that of the repository.
+    """
+    beside = shlex.split(qgis) or [str(ROOT / "tools" / "environment"), "qgis"]
+    return [
+        Contestant(FLOOR, "Reading and writing", _script("floor"), note="laspy with lazrs"),
+        *(_ours(name, METHODS[name].label, "--method", name) for name in METHODS),
+        _ours(
+            "slope-classic", "Slope filter, preset Whitebox", "--method", "slope",
+            "--preset", "whitebox", note="radius 2 m, 45 degrees, 1 m",
+        ),
+        _ours(
+            OUT_OF_CORE, "TIN densification, out of core", "--memory", _MEMORY,
+            note=f"with --memory {_MEMORY} (GB)", missing=_without_memory(),
+        ),
+        _peer("cloth", "CSF", "CSF", "cloth-simulation-filter", "its defaults, all its threads"),
+        _peer("morphological", "pysmrf", "pysmrf", "pysmrf", "its defaults"),
+        *(
+            _peer(
+                name, f"Whitebox slope filter, {radius} m", "whitebox_workflows",
+                "whitebox-workflows==1.3.5", f"its defaults but for the radius of {radius} m",
+                script="whitebox", option=radius,
+            )
+            for name, radius in (("whitebox", "2"), ("whitebox-wide", "18"))
+        ),
+        *_beside_qgis(beside),
+    ]  # fmt: skip
+
+
+def _script(name: str, *more: str) -> Callable[[Path, Path], list[str]]:
+    return lambda source, target: [
+        *(sys.executable, "-m", "benchmarks.speed.scripts", name, str(source), str(target)), *more
+    ]  # fmt: skip
+
+
+def _classify(python: list[str], *options: str) -> Callable[[Path, Path], list[str]]:
+    start = [*python, "-m", "bare_earth.algorithms", "classify", *options]
+    return lambda source, target: [*start, str(source), str(target)]
+
+
+def _ours(name: str, label: str, *options: str, note: str = "", missing: str = "") -> Contestant:
+    return Contestant(
+        name, label, _classify([sys.executable], *options), note=note, missing=missing
+    )
+
+
+def _peer(
+    name: str, label: str, module: str, package: str, note: str, script: str = "", option: str = ""
+) -> Contestant:
+    missing = "" if importlib.util.find_spec(module) else f"pip install {package}"
+    command = _script(script or name, *filter(None, [option]))
+    return Contestant(name, label, command, True, note, missing)
+
+
+def _beside_qgis(beside: list[str]) -> list[Contestant]:
+    """Return the same filter by QGIS and by the command, both with the Python of QGIS."""
+    program = shutil.which("qgis_process.bin") or shutil.which("qgis_process")
+    missing = "" if program else "a QGIS with qgis_process"
+    method = METHODS[_QGIS_METHOD]
+    algorithm = f"bareearth:{_QGIS_METHOD}filter"
+
+    def in_qgis(source: Path, target: Path) -> list[str]:
+        _enable(tuple(beside), program or "")
+        run = [*beside, program or "", "run", algorithm, "--"]
+        return [*run, f"INPUT={source}", f"OUTPUT={target}"]
+
+    command = _classify([*beside, "/usr/bin/python3"], "--method", _QGIS_METHOD)
+    return [
+        Contestant(
+            BESIDE_QGIS, f"{method.label}, Python of QGIS", command, missing=missing,
+            note="the command, beside QGIS",
+        ),
+        Contestant(
+            QGIS, f"{method.label}, in QGIS", in_qgis, note="qgis_process", missing=missing
+        ),
+    ]  # fmt: skip
+
+
+@functools.cache
+def _enable(beside: tuple[str, ...], program: str) -> None:
+    """Tell QGIS once to load the plugin."""
+    subprocess.run(
+        [*beside, program, "plugins", "enable", "bare_earth"],
+        cwd=ROOT, check=False, capture_output=True,
+    )  # fmt: skip
+
+
+@functools.cache
+def _without_memory() -> str:
+    """Return what is missing for work out of core: the option is younger than the benchmark."""
+    asked = _classify([sys.executable], "--help")(Path(), Path())[:-2]
+    said = subprocess.run(asked, cwd=ROOT, check=False, capture_output=True, text=True).stdout
+    return "" if "--memory" in said else "an option --memory of the command"

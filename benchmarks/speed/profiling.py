@@ -1,0 +1,96 @@
+"""Tells where the time of a filter goes, by py-spy: it samples a process from outside."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import sys
+import tempfile
+from collections import Counter
+from pathlib import Path
+from typing import Iterable, Sequence
+
+from .process import measure
+from .results import Profile
+from .tiles import Tile
+
+HEAVIEST = 5
+# A profile of a larger tile says nothing new.
+MOST_POINTS = 10_000_000
+_RATE = 50
+# The outermost of these files on the stack tells which part of the work it is.
+_PARTS = {
+    "algorithms/pointcloud/reading.py": "reading",
+    "algorithms/pointcloud/writing.py": "writing",
+    "algorithms/filters/": "filtering",
+    "algorithms/terrain/": "filtering",
+}
+_STARTING, _REST = "starting Python", "the rest"
+SHARES = ("reading", "filtering", "writing", _STARTING, _REST)
+# A thread in one of these waits for others.
+_WAITING = re.compile(r"\((threading|queue|selectors)\.py|concurrent/futures/")
+
+
+def program() -> str | None:
+    """Return the path of py-spy, or None."""
+    beside = Path(sys.executable).with_name("py-spy")
+    return str(beside) if beside.exists() else shutil.which("py-spy")
+
+
+def profile(command: Sequence[str], tile: Tile) -> Profile:
+    """Run a command under py-spy.
+
+    Raises
+    ------
+    RuntimeError
+        If it fails.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        target = Path(folder) / "stacks.txt"
+        spy = [program() or "py-spy", "record", "--format", "raw", "--output", str(target)]
+        spy += ["--rate", str(_RATE), "--function", "--idle", "--threads", "--"]
+        cost = measure([*spy, *command])
+        if cost.problem or not target.exists():
+            raise RuntimeError(f"py-spy: {cost.problem or 'no stacks'}")
+        return summed(target.read_text(encoding="utf-8").splitlines(), tile.name)
+
+
+def summed(stacks: Iterable[str], tile: str) -> Profile:
+    """Sum up folded stacks: `thread; outermost; ...; innermost count` on each line.
+
+    The parts are shares of the main thread's time. The functions are the innermost ones of our
+    package and its libraries, of all threads that do not wait.
+    """
+    parts: Counter[str] = Counter()
+    functions: Counter[str] = Counter()
+    for line in stacks:
+        stack, _, count = line.rpartition(" ")
+        thread, *frames = stack.split(";")
+        if not frames:
+            continue
+        if thread.endswith("MainThread"):
+            parts[_part(frames)] += int(count)
+        if not _WAITING.search(frames[-1]) and "importlib" not in frames[-1]:
+            functions[_name(frames[-1])] += int(count)
+    whole, work = max(sum(parts.values()), 1), max(sum(functions.values()), 1)
+    return Profile(
+        tile,
+        whole / _RATE,
+        {part: 100.0 * parts[part] / whole for part in SHARES},
+        [(name, 100.0 * count / work) for name, count in functions.most_common(HEAVIEST)],
+    )
+
+
+def _part(frames: Sequence[str]) -> str:
+    if any("importlib" in frame for frame in frames):
+        return _STARTING
+    for frame in frames:
+        for file, part in _PARTS.items():
+            if file in frame:
+                return part
+    return _REST
+
+
+def _name(frame: str) -> str:
+    """Return `function (file)` without the line and without folders that say nothing."""
+    return re.sub(r"\((?:bare_earth/)?(.*?)(?::\d+)?\)$", r"(\1)", frame)
