@@ -19,6 +19,7 @@ from .pointcloud.cloud import PointCloud
 from .pointcloud.crs import unit_name
 from .pointcloud.extrabytes import ExtraDimension
 from .pointcloud.reading import read_cloud
+from .pointcloud.records import check_class
 from .pointcloud.selection import NOISE
 from .pointcloud.writing import check_writable, write_changed
 from .progress import SILENT, Progress
@@ -30,7 +31,6 @@ from .terrain.surface_model import SurfaceModel, canopy_height, surface_heights
 
 HEIGHT_DIMENSION = "HeightAboveGround"
 _INTEGERS = np.iinfo(np.int32)
-_LARGEST_LEGACY_CLASS, _LAST_LEGACY_FORMAT = 31, 5
 
 
 @dataclass(frozen=True)
@@ -270,8 +270,8 @@ def write_key_points(
     check_writable(target)
     cloud = read_cloud(source, progress.part(0.0, 0.15))
     by_class = mark.mark_as == "class"
-    if by_class and cloud.point_format <= _LAST_LEGACY_FORMAT:
-        _check_legacy_class(cloud, mark.key_class)
+    if by_class:
+        check_class(cloud.path, cloud.point_format, mark.key_class, "the key points")
     old = cloud.classification == mark.key_class
     is_ground = ground.of(cloud, (mark.key_class,) if by_class else ())
     points = cloud.points(is_ground)
@@ -294,14 +294,6 @@ def write_key_points(
         key_point_count=int(np.count_nonzero(keys)),
         class_counts={int(value): int(count) for value, count in zip(*counts)},
     )
-
-
-def _check_legacy_class(cloud: PointCloud, value: int) -> None:
-    if value > _LARGEST_LEGACY_CLASS:
-        raise BareEarthError(
-            f"{cloud.path} has point format {cloud.point_format}, which holds classes up to"
-            f" {_LARGEST_LEGACY_CLASS}, not {value}. Choose another class for the key points."
-        )
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,8 @@ import numpy as np
 from ..errors import BareEarthError
 from .extrabytes import ExtraDimension, place_dimension
 from .lasbytes import LasLayout, with_z_range
-from .records import FIRST_EXTENDED_FORMAT
+from .records import FIRST_EXTENDED_FORMAT, check_class
 
-_LARGEST_LEGACY_CLASS = 31
 _Z = slice(8, 12)
 # The key-point flag: in the byte of the class up to point format 5, in that of the flags from 6 on.
 _LEGACY_KEY_POINT, _KEY_POINT, _FLAGS = 0x40, 0x02, 15
@@ -79,13 +78,9 @@ class Rewriting:
     def check_classes(self) -> None:
         """Refuse classes that the point format of the file has no room for."""
         classes = self._changes.classification
-        legacy = self.source.point_format < FIRST_EXTENDED_FORMAT
-        if legacy and classes is not None and classes.max() > _LARGEST_LEGACY_CLASS:
-            raise BareEarthError(
-                f"Point format {self.source.point_format} holds classes up to"
-                f" {_LARGEST_LEGACY_CLASS}, not {classes.max()}. Choose another class for the"
-                " ground."
-            )
+        if classes is not None:
+            largest = int(classes.max())
+            check_class(self.source.path, self.source.point_format, largest, "the ground")
 
     def classes(self, records: np.ndarray, start: int) -> np.ndarray:
         """Return the classes that records, which begin with the point `start`, are to have."""

@@ -13,6 +13,33 @@ from .sources import damage_told, damaged, open_source
 CHUNK = 1_000_000
 _BLOCK = 1 << 24
 FIRST_EXTENDED_FORMAT = 6
+_LARGEST_LEGACY_CLASS = 31
+
+
+def check_class(path: object, point_format: int, value: int, what: str) -> None:
+    """Refuse a class that the point format of a file has no room for.
+
+    Parameters
+    ----------
+    path : path-like
+        The file.
+    point_format : int
+        Its point format; 0 to 5 have five bits for the class.
+    value : int
+        The class.
+    what : str
+        Whose class it is, as "the ground".
+
+    Raises
+    ------
+    BareEarthError
+        If the class does not fit.
+    """
+    if point_format < FIRST_EXTENDED_FORMAT and value > _LARGEST_LEGACY_CLASS:
+        raise BareEarthError(
+            f"Point format {point_format} holds classes up to {_LARGEST_LEGACY_CLASS}, not {value}."
+            f" Choose another class for {what} of {path}."
+        )
 
 
 def read_records(layout: LasLayout, chunk: int = CHUNK) -> Iterator[np.ndarray]:

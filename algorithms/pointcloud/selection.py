@@ -10,11 +10,11 @@ from ..errors import BareEarthError
 from ..parameters import ParameterSet, parameter
 from ..progress import Progress
 from .cloud import PointCloud
+from .records import check_class
 
 NEVER_CLASSIFIED, UNCLASSIFIED, GROUND = 0, 1, 2
 LOW_NOISE = 7
 NOISE = (LOW_NOISE, 18)
-_LAST_LEGACY_FORMAT, _LARGEST_LEGACY_CLASS = 5, 31
 
 
 @dataclass(frozen=True)
@@ -113,7 +113,7 @@ class Selection(ParameterSet):
             If no point is left, the CRS is geographic, or the points cannot hold the class.
         """
         cloud.require_projected()
-        self._check_class(cloud)
+        check_class(cloud.path, cloud.point_format, self.to_class, "the ground")
         noise = self._left_out_noise(cloud)
         if noise:
             counts = ", ".join(f"{count:,} of class {value}" for value, count in noise.items())
@@ -180,14 +180,6 @@ class Selection(ParameterSet):
         if low is not None:
             classes[eligible & low] = LOW_NOISE
         return classes
-
-    def _check_class(self, cloud: PointCloud) -> None:
-        if cloud.point_format <= _LAST_LEGACY_FORMAT and self.to_class > _LARGEST_LEGACY_CLASS:
-            raise BareEarthError(
-                f"{cloud.path} has point format {cloud.point_format}, which holds classes up to"
-                f" {_LARGEST_LEGACY_CLASS}, not {self.to_class}. Choose another class for the"
-                " ground."
-            )
 
     def _left_out_noise(self, cloud: PointCloud) -> dict[int, int]:
         """Return the number of points of each noise class that is left out."""
