@@ -182,30 +182,24 @@ def _add_classify(commands: Any, common: argparse.ArgumentParser, arguments: Seq
 def _classify(options: argparse.Namespace) -> int:
     from .classification import classify_file
 
-    chosen = {name: from_options(declared, options) for name, declared in options.groups.items()}
+    parameters, selection, terrain = _chosen(options)
     area = _area_of(options)
     with _Terminal(options.verbose) as progress:
         summary = classify_file(
             options.input,
             options.output,
-            chosen["parameters"],
-            chosen["selection"],
-            chosen["terrain"],
+            parameters,
+            selection,
+            terrain,
             dtm=options.dtm,
             hillshade=options.hillshade,
             progress=progress,
             area=area,
         )
-    if options.json:
-        print(json.dumps(dataclasses.asdict(summary)))
-    elif options.verbose or sys.stdout.isatty():
-        ground, count = summary.area_ground_count, summary.area_count
-        place = "" if area is None else " in the area"
-        print(
-            f"{options.output}: {ground:,} of {count:,} points{place} are ground"
-            f" ({100 * ground / count:.1f} %)"
-        )
-    return _DONE
+    ground, count = summary.area_ground_count, summary.area_count
+    place = "" if area is None else " in the area"
+    text = f"{ground:,} of {count:,} points{place} are ground ({100 * ground / count:.1f} %)"
+    return _tell(options, summary, f"{options.output}: {text}")
 
 
 def _area_of(options: argparse.Namespace) -> Any:
@@ -297,22 +291,15 @@ def _add_remove_objects(commands: Any, common: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("input", metavar="INPUT", help="a raster that GDAL reads")
     parser.add_argument("output", metavar="OUTPUT", type=Path, help="GeoTIFF (.tif)")
-    parser.add_argument("--json", action="store_true", help="print the counts as JSON")
-    add_options(parser, OffTerrain)
-    parser.set_defaults(run=_remove_objects)
+    _add_groups(parser, {"parameters": OffTerrain}, _remove_objects)
 
 
 def _remove_objects(options: argparse.Namespace) -> int:
-    from .terrain.off_terrain import OffTerrain, remove_objects_file
+    from .terrain.off_terrain import remove_objects_file
 
-    chosen = from_options(OffTerrain, options)
     with _Terminal(options.verbose) as progress:
-        removal = remove_objects_file(options.input, options.output, chosen, progress)
-    if options.json:
-        print(json.dumps(dataclasses.asdict(removal)))
-    elif options.verbose or sys.stdout.isatty():
-        print(f"{options.output}: {removal.text}")
-    return _DONE
+        removal = remove_objects_file(options.input, options.output, *_chosen(options), progress)
+    return _tell(options, removal, f"{options.output}: {removal.text}")
 
 
 def _add_height(commands: Any, common: argparse.ArgumentParser) -> None:
