@@ -18,15 +18,13 @@ from .pointcloud.cloud import PointCloud
 from .pointcloud.reading import read_cloud
 from .pointcloud.selection import Selection
 from .pointcloud.writing import check_writable, write_classified
-from .points import Points
 from .progress import SILENT, Progress
-from .terrain.below_ground import below_ground
 from .terrain.model import TerrainModel, write_terrain_model
 from .terrain.raster import check_raster_output
-
-# Metres round an area from which points are taken as context: no less than these, and so many
-# times the largest length among the parameters of the method.
-_CONTEXT, _CONTEXT_LENGTHS = 100.0, 3.0
+from .tiling.blocks import GROUND, LOW
+from .tiling.cloudstore import CloudStore, Part
+from .tiling.ground import blocks_of, label_ground
+from .tiling.memory import Resources
 
 
 @dataclass(frozen=True)
@@ -63,6 +61,7 @@ def classify(
     selection: Selection = Selection(),
     progress: Progress = SILENT,
     area: Area | None = None,
+    resources: Resources = Resources(),
 ) -> tuple[np.ndarray, np.ndarray]:
     """Classify the points of a cloud in memory.
 
@@ -78,6 +77,8 @@ def classify(
         Receives progress and messages.
     area : Area, optional
         Points outside keep their class; those near it are still context for the method.
+    resources : Resources
+        How many threads to use, and how much memory.
 
     Returns
     -------
@@ -93,7 +94,7 @@ def classify(
     Cancelled
         If the user asked to stop.
     """
-    result = _classify(cloud, parameters, selection, progress, area)
+    result = _classify(cloud, parameters, selection, progress, area, resources)
     return result.classification, result.selected
 
 
@@ -111,6 +112,7 @@ def _classify(
     selection: Selection,
     progress: Progress,
     area: Area | None,
+    resources: Resources,
 ) -> _Result:
     cloud.require_projected()
     inside, within = _extent_of(cloud, parameters, area, progress.part(0.0, 0.05))
@@ -120,17 +122,16 @@ def _classify(
             f"None of the {np.count_nonzero(inside):,} points in the area takes part. Choose"
             " another area, or other returns or classes."
         )
-    points = cloud.points(selected)
+    known = selection.known_ground(cloud, selected)
+    blocks = blocks_of(parameters)
+    wanted = None if area is None else inside
+    store = CloudStore([Part(cloud, selected, known, wanted)], cloud.frame, blocks)
     progress(0.1)
-    known = selection.known_ground(cloud, selected)[selected]
-    end = 0.9 if selection.low_noise_class else 1.0
-    found = _ground_of(points, parameters, known, progress.part(0.1, end))
-    ground, low = np.zeros(cloud.count, dtype=bool), None
-    ground[selected] = found
-    if selection.low_noise_class:
-        low = np.zeros(cloud.count, dtype=bool)
-        depth = selection.low_noise_depth
-        low[selected] = below_ground(points, found, depth, progress.part(end, 1.0))
+    depth = selection.low_noise_depth if selection.low_noise_class else None
+    label_ground(store, parameters, blocks, depth, resources, progress.part(0.1, 1.0))
+    ground, low = store.labels[0] == GROUND, None
+    if depth is not None:
+        low = store.labels[0] == LOW
         count = np.count_nonzero(low & inside)
         progress.info(f"{count:,} points lie more than {depth:g} m below the ground.")
     classification = selection.classes(cloud, ground, low, inside)
@@ -152,12 +153,7 @@ def _extent_of(
             " the area in the CRS of the points."
         )
     progress.info(f"{count:,} of {cloud.count:,} points lie in the area.")
-    lengths = [
-        getattr(parameters, each.name) or 0.0
-        for each in parameters.declarations()
-        if each.unit == "m" and each.kind == "number"
-    ]
-    metres = max(_CONTEXT, _CONTEXT_LENGTHS * max(lengths, default=0.0))
+    metres = method_of(parameters).reach(parameters)
     near = Area(area.buffered_box(metres / cloud.crs.horizontal_unit))
     return inside, near.of(cloud, progress.part(0.8, 1.0))
 
@@ -175,19 +171,6 @@ def _in_words(bounds: tuple[float, ...]) -> str:
     return f"x {west:.10g} to {east:.10g}, y {south:.10g} to {north:.10g}"
 
 
-def _ground_of(
-    points: Points, parameters: ParameterSet, known: np.ndarray, progress: Progress
-) -> np.ndarray:
-    """Return which points the method takes for ground, and those that are known to be."""
-    method = method_of(parameters)
-    if not known.any():
-        return method.classify(points, parameters, progress)
-    if method.takes_known_ground:
-        return method.classify(points, parameters, progress, known_ground=known) | known
-    progress.info(f"{method.label} does not start from known ground: it is only kept.")
-    return method.classify(points, parameters, progress) | known
-
-
 def classify_file(
     source: Path,
     target: Path,
@@ -198,6 +181,7 @@ def classify_file(
     hillshade: Path | None = None,
     progress: Progress = SILENT,
     area: Area | None = None,
+    resources: Resources = Resources(),
 ) -> Summary:
     """Classify the ground points of a LAS, LAZ or COPC file and write the file anew.
 
@@ -206,7 +190,7 @@ def classify_file(
     source, target : Path
         The input, and the output (.las, .laz or .copc.laz). The output equals the input but for
         the classification.
-    parameters, selection, progress, area
+    parameters, selection, progress, area, resources
         As for `classify`.
     terrain : TerrainModel
         How to make the terrain model.
@@ -226,7 +210,7 @@ def classify_file(
         check_raster_output(raster, (source, target))
     cloud = read_cloud(source, progress.part(0.0, 0.15))
     classification, selected, inside = _classify(
-        cloud, parameters, selection, progress.part(0.15, 0.7), area
+        cloud, parameters, selection, progress.part(0.15, 0.7), area, resources
     )
     ground = classification == selection.to_class
     with contextlib.ExitStack() as outputs:

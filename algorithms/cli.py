@@ -137,6 +137,7 @@ def _add_classify(commands: Any, common: argparse.ArgumentParser, arguments: Seq
     from .filters import METHODS
     from .pointcloud.selection import Selection
     from .terrain.model import TerrainModel
+    from .tiling.memory import Resources
 
     parser = commands.add_parser(
         "classify",
@@ -171,6 +172,7 @@ def _add_classify(commands: Any, common: argparse.ArgumentParser, arguments: Seq
         "parameters": (f"{method.label} parameters", method.parameters),
         "selection": ("Which points, which classes", Selection),
         "terrain": ("Terrain model", TerrainModel),
+        "resources": ("Threads and memory", Resources),
     }
     for title, declared in groups.values():
         add_options(parser.add_argument_group(title), declared)
@@ -195,6 +197,7 @@ def _classify(options: argparse.Namespace) -> int:
             hillshade=options.hillshade,
             progress=progress,
             area=area,
+            resources=chosen["resources"],
         )
     ground, count = summary.area_ground_count, summary.area_count
     place = "" if area is None else " in the area"

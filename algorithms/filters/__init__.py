@@ -23,6 +23,8 @@ class Method(NamedTuple):
         Its `ParameterSet`.
     classify : callable
         ``classify(points, parameters, progress)``, a pure function that returns the ground mask.
+    reach : callable
+        ``reach(parameters)``, the metres beyond which a point does not matter for another.
     takes_known_ground : bool
         Whether `classify` takes the keyword ``known_ground``, a mask of points that are surely
         ground, and starts from them.
@@ -32,6 +34,7 @@ class Method(NamedTuple):
     label: str
     parameters: type[ParameterSet]
     classify: Callable[..., np.ndarray]
+    reach: Callable[..., float]
     takes_known_ground: bool = False
 
 
@@ -43,10 +46,17 @@ METHODS = {
             "TIN densification",
             tin_densification.TinDensification,
             tin_densification.classify,
+            tin_densification.reach,
             takes_known_ground=True,
         ),
-        Method("grid-minimum", "Grid minimum", grid_minimum.GridMinimum, grid_minimum.classify),
-        Method("slope", "Slope filter", slope.SlopeFilter, slope.classify),
+        Method(
+            "grid-minimum",
+            "Grid minimum",
+            grid_minimum.GridMinimum,
+            grid_minimum.classify,
+            grid_minimum.reach,
+        ),
+        Method("slope", "Slope filter", slope.SlopeFilter, slope.classify, slope.reach),
     )
 }
 

@@ -37,6 +37,8 @@ _NOISE_DEPTH = 2.0
 _STEEPEST = 5.0
 _RELAXATIONS = 2
 _CHUNK = 1 << 18
+# Metres beyond which points do not matter: so many times the largest object, but at least this.
+_REACH_OBJECTS, _LEAST_REACH = 2.0, 100.0
 
 
 @dataclass(frozen=True)
@@ -104,6 +106,11 @@ class GridMinimum(ParameterSet):
             raise BareEarthError(
                 f"Height thresholds must be a list from the largest to the smallest, not {given}."
             )
+
+
+def reach(parameters: GridMinimum) -> float:
+    """Return the metres beyond which a point does not matter for another."""
+    return max(_LEAST_REACH, _REACH_OBJECTS * parameters.max_object_size)
 
 
 def classify(points: Points, parameters: GridMinimum, progress: Progress = SILENT) -> np.ndarray:

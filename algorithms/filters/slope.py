@@ -40,6 +40,10 @@ _CLUSTER_WIDTH = 6.0
 # a large roof is a pit as well, but there is ground as low beyond the roof.
 _SURROUNDINGS = 3.0
 _POINTS_A_STEP = 200_000
+# Metres beyond which points do not matter: so many times the search radius, on one scale just what
+# erosion, dilation and comparison need, and at least this where it follows from the points.
+_REACH_RADII, _REACH_RADII_ON_ONE_SCALE, _LEAST_REACH = 5.0, 3.01, 100.0
+_WHITEBOX_RADIUS = 2.0
 # Least search radius (m), slope threshold (deg) and height threshold (m) of each preset that
 # looks at many scales.
 _MANY_SCALES = {
@@ -163,7 +167,11 @@ class SlopeFilter(ParameterSet):
             Equal to this one if nothing was empty.
         """
         if self.preset == "whitebox":
-            chosen = {"search_radius": 2.0, "slope_threshold": 45.0, "height_threshold": 1.0}
+            chosen = {
+                "search_radius": _WHITEBOX_RADIUS,
+                "slope_threshold": 45.0,
+                "height_threshold": 1.0,
+            }
         else:
             radius, slope, height = _MANY_SCALES[self.preset]
             chosen = {"slope_threshold": slope, "height_threshold": height}
@@ -173,6 +181,15 @@ class SlopeFilter(ParameterSet):
                 chosen["cell_size"] = max(1.0, round(0.4 * spacing, 1))
         empty = {name: value for name, value in chosen.items() if getattr(self, name) is None}
         return dataclasses.replace(self, **empty)
+
+
+def reach(parameters: SlopeFilter) -> float:
+    """Return the metres beyond which a point does not matter for another."""
+    if parameters.preset == "whitebox":
+        metres = _REACH_RADII_ON_ONE_SCALE * (parameters.search_radius or _WHITEBOX_RADIUS)
+        return max(_LEAST_REACH, metres) if parameters.min_neighbours else metres
+    radius = parameters.search_radius or _MANY_SCALES[parameters.preset][0]
+    return max(_LEAST_REACH, _REACH_RADII * radius)
 
 
 def classify(points: Points, parameters: SlopeFilter, progress: Progress = SILENT) -> np.ndarray:

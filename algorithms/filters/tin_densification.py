@@ -41,6 +41,8 @@ _FACET_SMOOTHING = 0.7
 _POINTS_A_STEP = 1_000_000
 # Metres: no larger building is expected where none is seen, or looked for.
 _USUAL_BUILDING, _LARGEST_BUILDING = 48.0, 150.0
+# Metres beyond which points do not matter: so many times the largest building, but at least this.
+_REACH_BUILDINGS, _LEAST_REACH = 2.0, 100.0
 
 
 @dataclass(frozen=True)
@@ -222,6 +224,12 @@ class TinDensification(ParameterSet):
         if "max_building_size" in empty and empty["max_building_size"] is None:
             empty["max_building_size"] = _building_size(points)
         return dataclasses.replace(self, **empty)
+
+
+def reach(parameters: TinDensification) -> float:
+    """Return the metres beyond which a point does not matter for another."""
+    size = parameters.max_building_size or PRESETS[parameters.preset].max_building_size or 0.0
+    return max(_LEAST_REACH, _REACH_BUILDINGS * size)
 
 
 def classify(

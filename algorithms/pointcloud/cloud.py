@@ -12,6 +12,9 @@ from ..errors import BareEarthError
 from ..points import Frame, Points
 from .crs import Crs
 
+# Share of the scale by which offsets may differ from a multiple of it: they are rounded numbers.
+_WHOLE = 0.01
+
 
 @dataclass
 class PointCloud:
@@ -68,13 +71,16 @@ class PointCloud:
         )
         return Frame(origin, self.crs.horizontal_unit, self.crs.vertical_unit, self.crs.wkt)
 
-    def points(self, which: np.ndarray) -> Points:
-        """Return coordinates in metres, relative to the origin of `frame`.
+    def points(self, which: np.ndarray | slice, frame: Frame | None = None) -> Points:
+        """Return coordinates in metres, relative to the origin of a frame.
 
         Parameters
         ----------
-        which : numpy.ndarray
+        which : numpy.ndarray or slice
             Boolean mask or indices of the points to return.
+        frame : Frame, optional
+            The frame of a survey of which this file is a part; `frame` if none is given. Files of
+            one scale give equal numbers for equal places, whatever their offsets.
 
         Raises
         ------
@@ -82,17 +88,16 @@ class PointCloud:
             If the CRS is not a projected one.
         """
         self.require_projected()
-        # The origin is taken away from the integers: no digit is lost, wherever the survey lies.
-        x = self.x[which].astype(np.float64)
-        x -= self._minimum[0]
-        x *= self.scale[0] * self.crs.horizontal_unit
-        y = self.y[which].astype(np.float64)
-        y -= self._minimum[1]
-        y *= self.scale[1] * self.crs.horizontal_unit
-        z = self.z[which] * self.scale[2]
-        z += self.offset[2]
-        z *= self.crs.vertical_unit
-        return Points(x, y, z)
+        origin = (*(self.frame if frame is None else frame).origin, 0.0)
+        units = (self.crs.horizontal_unit, self.crs.horizontal_unit, self.crs.vertical_unit)
+        return Points(
+            *(
+                _metres(values[which], scale, offset - start, unit)
+                for values, scale, offset, start, unit in zip(
+                    (self.x, self.y, self.z), self.scale, self.offset, origin, units
+                )
+            )
+        )
 
     def require_projected(self) -> None:
         """Refuse coordinates in degrees, on which no distance can be measured.
@@ -109,3 +114,19 @@ class PointCloud:
                 " cloud data management, elsewhere with 'pdal translate INPUT OUTPUT reprojection"
                 " --filters.reprojection.out_srs=EPSG:...'."
             )
+
+
+def _metres(integers: np.ndarray, scale: float, offset: float, unit: float) -> np.ndarray:
+    """Return coordinates in metres.
+
+    The offset is added to the integers where it is a multiple of the scale: no digit is lost,
+    wherever the survey lies.
+    """
+    whole = float(np.rint(offset / scale))
+    rest = offset - whole * scale
+    metres = integers.astype(np.float64)
+    metres += whole
+    metres *= scale * unit
+    if abs(rest) > _WHOLE * scale:
+        metres += rest * unit
+    return metres

@@ -15,6 +15,7 @@ from ...algorithms.filters import METHODS
 from ...algorithms.parameters import ParameterSet
 from ...algorithms.pointcloud.selection import Selection
 from ...algorithms.terrain.model import TerrainModel
+from ...algorithms.tiling.memory import Resources
 from .. import compat
 from .base import BareEarthAlgorithm, command_line
 from .feedback import FeedbackProgress
@@ -36,7 +37,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
 
     def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
         """Return the method's parameters, then those that all methods share."""
-        return METHODS[self.method].parameters, Selection, TerrainModel
+        return METHODS[self.method].parameters, Selection, TerrainModel, Resources
 
     def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
         """Declare the fields of the dialog and the results."""
@@ -96,7 +97,10 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         command = command_line("classify", [str(self._source), output], chosen, options)
         progress.command(" ".join([command, *self._area_options(progress)]))
         rasters = [Path(each) if each else None for each in (dtm, hillshade)]
-        summary = classify_file(self._source, Path(output), *chosen, *rasters, progress, self._area)
+        *policy, resources = chosen
+        summary = classify_file(
+            self._source, Path(output), *policy, *rasters, progress, self._area, resources
+        )
         ground, count = summary.area_ground_count, summary.area_count
         place = " in the area" if self._area else ""
         progress.info(f"{ground:,} of {count:,} points{place} are ground ({ground / count:.1%}).")

@@ -20,6 +20,7 @@ from bare_earth.algorithms.pointcloud.selection import Selection
 from bare_earth.algorithms.points import Points
 from bare_earth.algorithms.progress import SILENT
 from bare_earth.algorithms.terrain.below_ground import below_ground
+from bare_earth.algorithms.tiling import ground
 
 EAST, NORTH = 500_000.0, 5_700_000.0
 FOOT = 0.3048
@@ -76,7 +77,8 @@ def watched(monkeypatch, result=None, takes_known_ground=False):
         return np.zeros(points.count, bool) if result is None else result(points)
 
     method = METHODS["slope"]._replace(classify=watch, takes_known_ground=takes_known_ground)
-    monkeypatch.setattr(classification, "method_of", lambda parameters: method)
+    for module in (classification, ground):
+        monkeypatch.setattr(module, "method_of", lambda parameters: method)
     return given
 
 
@@ -88,7 +90,7 @@ def test_the_method_sees_what_lies_near_the_area_and_no_more(unit, long_scene, m
     assert given["points"].x.min() == pytest.approx(120, abs=0.5)
     # More where a parameter is larger.
     classify(cloud, SlopeFilter(search_radius=40.0), area=box(220, 5, 260, 35, unit))
-    assert np.ptp(given["points"].x) == pytest.approx(280, abs=0.5)
+    assert np.ptp(given["points"].x) == pytest.approx(440, abs=0.5)
 
 
 def test_outside_an_area_even_old_ground_and_class_0_stay(scene):

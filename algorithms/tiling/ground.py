@@ -1,0 +1,200 @@
+"""The ground of a survey, block by block."""
+
+from __future__ import annotations
+
+import collections
+from typing import Callable, NamedTuple
+
+import numpy as np
+
+from ..errors import BareEarthError
+from ..filters import Method, method_of
+from ..parameters import ParameterSet
+from ..progress import SILENT, Progress
+from ..terrain.below_ground import below_ground
+from .blocks import LOW, Block, Blocks, Contents, Store
+from .memory import Resources
+from .scheduling import run_jobs
+
+# Bytes that a filter takes for each point that it sees, and for each square metre of a window.
+_BYTES_A_POINT, _BYTES_A_SQUARE_METRE = 110, 100
+# The step of low outliers takes this share of the time of a block.
+_LOW_SHARE = 0.1
+
+
+class _Labelled(NamedTuple):
+    """What a block gave: labels of the points at some positions."""
+
+    positions: np.ndarray
+    labels: np.ndarray
+    notes: _Notes
+
+
+def blocks_of(parameters: ParameterSet) -> Blocks:
+    """Return the blocks in which a method filters a survey."""
+    return Blocks.of(method_of(parameters).reach(parameters))
+
+
+def label_ground(
+    store: Store,
+    parameters: ParameterSet,
+    blocks: Blocks,
+    low_noise_depth: float | None = None,
+    resources: Resources = Resources(),
+    progress: Progress = SILENT,
+) -> None:
+    """Give every wanted point of a store its label: `GROUND`, `LOW` or 0.
+
+    Parameters
+    ----------
+    store : Store
+        The points.
+    parameters : ParameterSet
+        Those of one method.
+    blocks : Blocks
+        How the survey is cut; `blocks_of` says.
+    low_noise_depth : float, optional
+        Points that lie so many metres below the ground get `LOW`; none if it is not given.
+    resources : Resources
+        Threads, and the memory for the blocks.
+    progress : Progress
+        Used in the calling thread only.
+
+    Raises
+    ------
+    BareEarthError
+        If no block has ground.
+    Cancelled
+        If the user asked to stop.
+    """
+    method = method_of(parameters)
+    if store.has_known and not method.takes_known_ground:
+        progress.info(f"{method.label} does not start from known ground: it is only kept.")
+    todo = list(blocks.over(store))
+    counts = [_count(blocks, each, store) for each in todo]
+    at_once = _at_once(len(todo), max(counts), blocks, resources)
+    job_of = _job_maker(store, method, parameters, blocks, low_noise_depth)
+    jobs = [job_of(each, len(todo) == 1) for each in todo]
+    workers = max(1, resources.thread_count // at_once)
+    notes = {}
+    for number, result in run_jobs(jobs, counts, at_once, workers, progress):
+        store.put(result.positions, result.labels)
+        if result.notes.count:
+            notes[number] = result.notes
+    _tell(progress, [notes[number] for number in sorted(notes)])
+
+
+def _count(blocks: Blocks, block: Block, store: Store) -> int:
+    """Return about how many points the filter sees for a block."""
+    return int(store.leaves.counts[store.leaves.within(blocks.window(block))].sum())
+
+
+def memory_of_block(count: int, blocks: Blocks) -> int:
+    """Return about how many bytes it takes to filter a block that sees `count` points."""
+    area = (blocks.side + 2.0 * blocks.buffer) ** 2
+    return int(_BYTES_A_POINT * count + _BYTES_A_SQUARE_METRE * area)
+
+
+def _at_once(number: int, largest: int, blocks: Blocks, resources: Resources) -> int:
+    """Return how many blocks may be filtered at the same time."""
+    fitting = resources.bytes // max(memory_of_block(largest, blocks), 1)
+    return int(max(1, min(number, resources.thread_count, fitting)))
+
+
+def _job_maker(
+    store: Store,
+    method: Method,
+    parameters: ParameterSet,
+    blocks: Blocks,
+    low_noise_depth: float | None,
+) -> Callable[[Block, bool], Callable[[Progress], _Labelled]]:
+    def job_of(block: Block, is_only: bool) -> Callable[[Progress], _Labelled]:
+        def job(progress: Progress) -> _Labelled:
+            contents = blocks.contents(block, store)
+            core = contents.wanted & block.holds(contents.points)
+            positions = contents.positions[core]
+            notes = _Notes(progress, len(positions), is_only)
+            labels = np.zeros(len(positions), dtype=np.uint8)
+            if notes.count:
+                try:
+                    labels = _labels(contents, method, parameters, low_noise_depth, notes)[core]
+                except BareEarthError as error:
+                    notes.failure = error
+            return _Labelled(positions, labels, notes)
+
+        return job
+
+    return job_of
+
+
+def _labels(
+    contents: Contents,
+    method: Method,
+    parameters: ParameterSet,
+    low_noise_depth: float | None,
+    progress: Progress,
+) -> np.ndarray:
+    """Return the label of each point of a window."""
+    end = 1.0 if low_noise_depth is None else 1.0 - _LOW_SHARE
+    part = progress.part(0.0, end)
+    points, known = contents.points, contents.known
+    if known.any() and method.takes_known_ground:
+        ground = method.classify(points, parameters, part, known_ground=known)
+    else:
+        ground = method.classify(points, parameters, part)
+    ground |= known
+    labels = ground.astype(np.uint8)
+    if low_noise_depth is not None:
+        labels[below_ground(points, ground, low_noise_depth, progress.part(end, 1.0))] = LOW
+    return labels
+
+
+class _Notes(Progress):
+    """Passes on the progress of a block, and keeps its messages until all blocks are done.
+
+    Attributes
+    ----------
+    count : int
+        Points that the block was to label.
+    messages : list of tuple of str
+        Kind and text of each.
+    failure : BareEarthError or None
+        Why it has no ground.
+    """
+
+    def __init__(self, whole: Progress, count: int, is_only: bool) -> None:
+        self._whole, self._is_only, self.count = whole, is_only, count
+        self.messages: list[tuple[str, str]] = []
+        self.failure: BareEarthError | None = None
+
+    def report(self, fraction: float) -> None:
+        self._whole(fraction)
+
+    def info(self, text: str) -> None:
+        self._keep("info", text)
+
+    def warning(self, text: str) -> None:
+        self._keep("warning", text)
+
+    def _keep(self, kind: str, text: str) -> None:
+        if self._is_only:  # nothing to wait for
+            getattr(self._whole, kind)(text)
+        else:
+            self.messages.append((kind, text))
+
+
+def _tell(progress: Progress, blocks: list[_Notes]) -> None:
+    """Tell each message of the blocks once, and how many failed."""
+    failed = [each for each in blocks if each.failure is not None]
+    if failed and len(failed) == len(blocks):
+        raise failed[0].failure
+    messages = collections.Counter(m for each in blocks for m in dict.fromkeys(each.messages))
+    for (kind, text), count in messages.items():
+        if count < len(blocks):
+            text = f"{text.rstrip('.')} (in {count} of {len(blocks)} blocks)."
+        getattr(progress, kind)(text)
+    if failed:
+        progress.warning(
+            f"No ground was found in {len(failed)} of {len(blocks)} blocks: their"
+            f" {sum(each.count for each in failed):,} points are not ground. {failed[0].failure}"
+        )

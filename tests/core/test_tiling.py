@@ -1,0 +1,297 @@
+import dataclasses
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bare_earth.algorithms.classification import classify
+from bare_earth.algorithms.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.filters.grid_minimum import GridMinimum
+from bare_earth.algorithms.filters.slope import SlopeFilter
+from bare_earth.algorithms.filters.tin_densification import TinDensification
+from bare_earth.algorithms.pointcloud.cloud import PointCloud
+from bare_earth.algorithms.pointcloud.crs import Crs
+from bare_earth.algorithms.pointcloud.reading import read_cloud
+from bare_earth.algorithms.progress import SILENT, Progress
+from bare_earth.algorithms.threads import workers
+from bare_earth.algorithms.tiling import ground as ground_module
+from bare_earth.algorithms.tiling.blocks import Blocks
+from bare_earth.algorithms.tiling.cloudstore import CloudStore, Part
+from bare_earth.algorithms.tiling.ground import blocks_of, label_ground
+from bare_earth.algorithms.tiling.memory import Resources, free_memory
+from bare_earth.algorithms.tiling.scheduling import run_jobs
+
+REAL = Path("/work/shared/data")
+PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
+ORIGIN = (500_000.0, 5_700_000.0, 50.0)
+
+
+def cloud_of(x, y, z, offset=ORIGIN, scale=0.01):
+    """Return a cloud of integers; x, y and z are those of the survey, whatever the offset."""
+    shift = [round((start - own) / scale) for start, own in zip(ORIGIN, offset)]
+    integers = [(each + by).astype(np.int32) for each, by in zip((x, y, z), shift)]
+    ones = np.ones(len(x), np.uint8)
+    return PointCloud(
+        Path("in.las"), *integers, (scale,) * 3, offset, ones, ones, ones,
+        np.zeros(len(x), bool), 6, Crs(),
+    )  # fmt: skip
+
+
+def survey(count=30_000, width=300.0, depth=130.0, seed=3):
+    """Return integers of a strip with houses and trees, over several blocks of 80 m."""
+    random = np.random.default_rng(seed)
+    x, y = random.uniform(0, width, count), random.uniform(0, depth, count)
+    z = 0.06 * x + 2 * np.sin(y / 25) + random.normal(0, 0.03, count)
+    z[(x % 45 < 12) & (y % 35 < 10)] += 6.0
+    trees = random.random(count) < 0.1
+    z[trees] += random.uniform(1, 9, trees.sum())
+    z[random.choice(count, 8, replace=False)] -= 15.0
+    return tuple(np.round(each * 100).astype(np.int64) for each in (x, y, z))
+
+
+def labels_of(parts, parameters, blocks, threads=1, depth=1.0, known=None, progress=SILENT):
+    corner = tuple(min(each.frame.origin[axis] for each in parts) for axis in (0, 1))
+    frame = dataclasses.replace(parts[0].frame, origin=corner)
+    store = CloudStore([Part(each, np.ones(each.count, bool)) for each in parts], frame, blocks)
+    label_ground(store, parameters, blocks, depth, Resources(threads=threads), progress)
+    return store.labels
+
+
+# Blocks
+
+
+def test_blocks_are_a_kilometre_or_four_times_the_reach():
+    assert Blocks.of(100.0) == Blocks(1000.0, 100.0) == blocks_of(TinDensification())
+    assert Blocks.of(251.0) == Blocks(1100.0, 251.0)
+    assert blocks_of(TinDensification(max_building_size=300)).buffer == 600
+    assert blocks_of(TinDensification(preset="city")).buffer == 240
+    assert blocks_of(GridMinimum(max_object_size=200)) == Blocks(1600.0, 400.0)
+    assert blocks_of(SlopeFilter(preset="whitebox")).buffer == pytest.approx(6.02)
+    assert blocks_of(SlopeFilter(preset="whitebox", min_neighbours=5)).buffer == 100
+    assert blocks_of(SlopeFilter(preset="city")).buffer == 250
+
+
+def test_what_a_box_needs_is_whole_blocks_and_their_buffer():
+    assert Blocks(100.0, 10.0).needed((150, 20, 210, 99)) == (90, -10, 310, 110)
+
+
+def test_every_point_lies_in_one_block_and_crowded_blocks_are_quartered():
+    x, y, z = survey()
+    crowd = np.random.default_rng(4).uniform(10_000, 12_000, (2, 5000)).astype(int)
+    cloud = cloud_of(np.r_[x, crowd[0]], np.r_[y, crowd[1]], np.r_[z, z[:5000]])
+    blocks = Blocks(80.0, 8.0, most_points=1500)
+    store = CloudStore([Part(cloud, np.ones(cloud.count, bool))], cloud.frame, blocks)
+    points, times = cloud.points(slice(None)), np.zeros(cloud.count, int)
+    sides = set()
+    for block in blocks.over(store):
+        inside = block.holds(points)
+        times += inside
+        sides.add(block.side)
+        assert np.count_nonzero(inside) <= 1500 or block.side == 10
+        contents = blocks.contents(block, store)
+        west, south, east, north = blocks.window(block)
+        seen = (points.x >= west) & (points.x < east) & (points.y >= south) & (points.y < north)
+        assert np.array_equal(np.sort(contents.positions), np.flatnonzero(seen))
+        assert np.array_equal(contents.points.z, points.z[contents.positions])
+    assert (times == 1).all() and sides == {40.0, 20.0, 10.0}
+
+
+# The same labels whatever the cut
+
+
+@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
+def test_labels_do_not_depend_on_threads_order_or_the_cut_into_files(parameters):
+    xyz, random = survey(7000, 150.0, 75.0), np.random.default_rng(7)
+    blocks = Blocks(80.0, 30.0, most_points=2500)
+    (expected,) = labels_of([cloud_of(*xyz)], parameters, blocks)
+    assert {0, 1, 2} == set(np.unique(expected)) and 0.4 < (expected == 1).mean() < 0.95
+    for threads, files in ((2, 1), (5, 3)):
+        mixed = random.permutation(len(expected))
+        cuts = np.array_split(mixed, np.sort(random.integers(1, len(mixed), files - 1)))
+        offsets = [tuple(np.subtract(ORIGIN, random.integers(0, 9000, 3))) for _ in cuts]
+        parts = [cloud_of(*(v[cut] for v in xyz), at) for cut, at in zip(cuts, offsets)]
+        for cut, labels in zip(cuts, labels_of(parts, parameters, blocks, threads)):
+            assert np.array_equal(labels, expected[cut])
+
+
+@pytest.mark.parametrize("name", ["isprs/samp52.laz", "real/ahn3_urban.laz"])
+def test_real_points_get_the_same_labels_in_any_order_and_number_of_threads(name):
+    if not (REAL / name).is_file():
+        pytest.skip("the real data are not here")
+    cloud, random = read_cloud(REAL / name), np.random.default_rng(2)
+    xyz = [values.astype(np.int64) for values in (cloud.x, cloud.y, cloud.z)]
+    near = cloud.x < cloud.x.min() + 250 / cloud.scale[0]
+    near &= cloud.y < cloud.y.min() + 250 / cloud.scale[1]
+    keep = np.flatnonzero(near & (random.random(cloud.count) < min(1.0, 100_000 / cloud.count)))
+    mixed = random.permutation(keep)
+    whole, shuffled = (
+        cloud_of(*(each[which] for each in xyz), cloud.offset, cloud.scale[0])
+        for which in (keep, mixed)
+    )
+    blocks = Blocks(150.0, 30.0)
+    (expected,) = labels_of([whole], SlopeFilter(), blocks, 1)
+    (found,) = labels_of([shuffled], SlopeFilter(), blocks, 5)
+    assert np.array_equal(found[np.argsort(mixed)], expected[np.argsort(keep)])
+
+
+def test_files_of_one_scale_give_equal_numbers_for_equal_places():
+    x, y, z = survey(2000)
+    here, there = cloud_of(x, y, z), cloud_of(x, y, z, (499_877.13, 5_600_000.01, -20.5))
+    for mine, other in zip(here.points(slice(None)), there.points(slice(None), here.frame)):
+        assert np.array_equal(mine, other)
+    # Where the offsets differ by half a step of the scale the places do, too.
+    half = cloud_of(x, y, z)
+    half.offset = (500_000.005, *ORIGIN[1:])
+    shifted = half.points(slice(None), here.frame)
+    assert np.allclose(shifted.x - here.points(slice(None)).x, 0.005, atol=1e-9)
+
+
+def test_points_that_are_only_context_get_no_label_and_their_blocks_no_filter():
+    x, y, z = survey()
+    cloud, blocks = cloud_of(x, y, z), Blocks(80.0, 40.0)
+    every, wanted = np.ones(cloud.count, bool), x < 7000
+    whole, some = (
+        CloudStore([Part(cloud, every, None, each)], cloud.frame, blocks) for each in (None, wanted)
+    )
+    for store in (whole, some):
+        label_ground(store, GridMinimum(), blocks)
+    assert np.array_equal(some.labels[0], np.where(wanted, whole.labels[0], 0))
+
+
+# Stray points and messages
+
+
+@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
+@pytest.mark.parametrize("east", [-1e6, 1e6])
+def test_a_stray_point_far_away_changes_nothing_else(parameters, east):
+    x, y, z = survey(8000, 120.0, 90.0)
+    stray = [np.r_[values, at] for values, at in zip((x, y, z), (int(east * 100), 0, 1000))]
+    found, selected = classify(cloud_of(*stray), parameters)
+    assert selected.all() and len(found) == 8001
+    assert 0.4 < (found[:-1] == 2).mean() < 0.95
+    if east > 0:  # the frame is the same
+        alone, _ = classify(cloud_of(x, y, z), parameters)
+        assert np.array_equal(found[:-1], alone)
+
+
+def watched(monkeypatch, function, reach=20.0):
+    method = METHODS["slope"]._replace(
+        classify=lambda points, parameters, progress: function(points, progress),
+        reach=lambda parameters: reach,
+    )
+    monkeypatch.setattr(ground_module, "method_of", lambda parameters: method)
+
+
+def test_blocks_without_ground_are_told_and_messages_told_once(monkeypatch, las):
+    def function(points, progress):
+        progress.info("All the same.")
+        if points.x.max() > 250:
+            raise BareEarthError("Nothing here.")
+        if points.y.min() < 60:
+            progress.warning("A southern block.")
+        return np.ones(points.count, bool)
+
+    watched(monkeypatch, function)
+    heard, blocks = las.Heard(), Blocks(100.0, 20.0)
+    (labels,) = labels_of([cloud_of(*survey())], SlopeFilter(), blocks, 3, None, progress=heard)
+    assert heard.infos == ["All the same."]
+    assert heard.warnings[0] == "A southern block (in 2 of 6 blocks)."
+    count = np.count_nonzero(labels == 0)
+    assert heard.warnings[1:] == [
+        f"No ground was found in 2 of 6 blocks: their {count:,} points are not ground."
+        " Nothing here."
+    ]
+    assert count > 5000 and heard.fractions == sorted(heard.fractions)
+
+
+def test_where_no_block_has_ground_the_error_is_that_of_the_first(monkeypatch):
+    def function(points, progress):
+        raise BareEarthError(f"Nothing east of {points.x.min():.0f}.")
+
+    watched(monkeypatch, function)
+    with pytest.raises(BareEarthError, match=r"^Nothing east of 0\.$"):
+        labels_of([cloud_of(*survey())], SlopeFilter(), Blocks(100.0, 20.0), 3)
+
+
+# Threads
+
+
+def test_blocks_that_are_alone_may_use_all_threads_and_many_one_each(monkeypatch):
+    seen = []
+
+    def function(points, progress):
+        seen.append((workers(), threading.get_ident()))
+        return np.ones(points.count, bool)
+
+    watched(monkeypatch, function)
+    labels_of([cloud_of(*survey())], SlopeFilter(), Blocks(1000.0, 20.0), 4)
+    assert [count for count, _ in seen] == [4] and seen[0][1] != threading.get_ident()
+    seen.clear()
+    labels_of([cloud_of(*survey())], SlopeFilter(), Blocks(100.0, 20.0), 4)
+    assert [count for count, _ in seen] == [1] * 6
+    # With memory for one block only there is one at a time, and it may use all threads.
+    seen.clear()
+    monkeypatch.setattr(ground_module, "memory_of_block", lambda count, blocks: 1 << 60)
+    labels_of([cloud_of(*survey())], SlopeFilter(), Blocks(100.0, 20.0), 4)
+    assert [count for count, _ in seen] == [4] * 6 and len({ident for _, ident in seen}) == 1
+
+
+class Impatient(Progress):
+    """Cancels some time after the first job began."""
+
+    def __init__(self, begun, after=0.2):
+        self.begun, self.after, self.asked = begun, after, None
+
+    def report(self, fraction):
+        if self.begun.wait(5.0) and self.asked is None:
+            self.asked = time.monotonic() + self.after
+        if time.monotonic() > self.asked:
+            raise Cancelled
+
+
+@pytest.mark.parametrize("side", [1000.0, 100.0])
+def test_a_cancel_is_heard_within_a_second_while_a_block_computes(monkeypatch, side):
+    begun, stopped, go_on = threading.Event(), threading.Event(), threading.Event()
+
+    def function(points, progress):
+        begun.set()
+        go_on.wait(20.0)  # as a long call of a library, which asks nobody
+        try:
+            progress(0.5)
+        except Cancelled:
+            stopped.set()
+            raise
+        return np.ones(points.count, bool)
+
+    watched(monkeypatch, function)
+    progress = Impatient(begun)
+    with pytest.raises(Cancelled):
+        labels_of([cloud_of(*survey())], SlopeFilter(), Blocks(side, 20.0), 2, progress=progress)
+    assert time.monotonic() - progress.asked < 1.0
+    assert not stopped.is_set()
+    go_on.set()
+    assert stopped.wait(5.0)
+
+
+def test_jobs_give_their_results_and_the_first_error_ends_them():
+    jobs = [lambda progress, n=number: n * n for number in range(7)]
+    assert sorted(run_jobs(jobs, [1] * 7, 3, 1, SILENT)) == [(n, n * n) for n in range(7)]
+    assert list(run_jobs([], [], 3, 1, SILENT)) == []
+
+    def fail(progress):
+        raise ValueError("no")
+
+    with pytest.raises(ValueError, match="no"):
+        list(run_jobs([fail, *jobs], [1] * 8, 2, 1, SILENT))
+
+
+def test_free_memory_and_threads_are_found():
+    assert 1 << 26 < free_memory() < 1 << 50
+    assert Resources(memory=1.5).bytes == 1.5 * (1 << 30)
+    assert Resources().bytes == pytest.approx(free_memory() / 2, rel=0.2)
+    assert Resources(threads=3).thread_count == 3 and Resources().thread_count >= 1
+    with pytest.raises(BareEarthError, match="Threads must be at least 1"):
+        Resources(threads=0)
