@@ -5,7 +5,7 @@ import pytest
 from scenes import error, scatter, surveyed, village
 
 from bare_earth.algorithms.assessment import compare
-from bare_earth.algorithms.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.errors import BareEarthError
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum, classify
 from bare_earth.algorithms.points import Points
 from bare_earth.algorithms.progress import Progress
@@ -127,10 +127,7 @@ def test_the_order_and_the_place_of_the_points_do_not_matter():
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 10])
-def test_a_handful_of_points_is_classified_without_an_error(count):
-    line = np.arange(count, dtype=float)
-    points = Points(3.0 * line, 2.0 * line, 0.1 * line)
-    assert classify(points, GridMinimum()).all()
+def test_points_at_one_place_are_classified_without_an_error(count):
     together = Points(np.ones(count), np.ones(count), np.ones(count))
     assert classify(together, GridMinimum()).all()
 
@@ -152,16 +149,6 @@ def test_stray_coordinates_are_refused_with_a_sentence():
     many = Points(*(np.concatenate((each, np.zeros(50000))) for each in points))
     with pytest.raises(BareEarthError, match="stray coordinates"):
         classify(many, GridMinimum(cell_size=0.01))
-
-
-def test_a_cancel_ends_the_classification():
-    class Stop(Progress):
-        def report(self, fraction):
-            if fraction > 0.3:
-                raise Cancelled
-
-    with pytest.raises(Cancelled):
-        classify(village()[0], GridMinimum(), Stop())
 
 
 @pytest.mark.skipif(not data.isprs(), reason="the ISPRS samples are not here")

@@ -7,7 +7,7 @@ import pytest
 from scenes import error, scatter, surveyed, village
 
 from bare_earth.algorithms.assessment import compare
-from bare_earth.algorithms.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.errors import BareEarthError
 from bare_earth.algorithms.filters.slope import SlopeFilter, classify
 from bare_earth.algorithms.points import Points
 from bare_earth.algorithms.progress import Progress
@@ -196,13 +196,6 @@ def test_the_order_and_the_place_of_the_points_do_not_matter(parameters):
     assert np.mean(classify(moved, parameters) != found) < 1e-4
 
 
-@pytest.mark.parametrize("parameters", [SlopeFilter(), CLASSIC, SlopeFilter(slope_norm=False)])
-@pytest.mark.parametrize("count", [1, 2, 3, 10])
-def test_a_handful_of_points_is_classified_without_an_error(parameters, count):
-    line = np.arange(count, dtype=float)
-    assert classify(Points(3.0 * line, 2.0 * line, 0.1 * line), parameters).all()
-
-
 @pytest.mark.parametrize("parameters", [SlopeFilter(), CLASSIC])
 def test_points_at_one_place_are_classified_without_an_error(parameters):
     points = Points(np.ones(5), np.ones(5), np.zeros(5))
@@ -221,17 +214,6 @@ def test_one_stray_point_does_not_stop_the_classic_filter():
     points = Points(*(np.append(each, value) for each, value in zip(points, (5e3, 5e3, 0.0))))
     parameters = CLASSIC.resolve(points)
     assert np.array_equal(classify(points, parameters), by_brute_force(points, parameters))
-
-
-@pytest.mark.parametrize("parameters", [SlopeFilter(), CLASSIC])
-def test_a_cancel_ends_the_classification(parameters):
-    class Stop(Progress):
-        def report(self, fraction):
-            if fraction > 0.3:
-                raise Cancelled
-
-    with pytest.raises(Cancelled):
-        classify(village()[0], parameters, Stop())
 
 
 @pytest.mark.skipif(not data.isprs(), reason="the ISPRS samples are not here")

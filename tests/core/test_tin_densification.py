@@ -5,7 +5,7 @@ import pytest
 from scenes import error, scatter, surveyed, village
 
 from bare_earth.algorithms.assessment import compare
-from bare_earth.algorithms.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.errors import BareEarthError
 from bare_earth.algorithms.filters.tin_densification import TinDensification, classify
 from bare_earth.algorithms.points import Points
 from bare_earth.algorithms.progress import Progress
@@ -57,27 +57,10 @@ def test_a_smaller_iteration_distance_never_adds_ground():
     assert near.sum() <= far.sum()
 
 
-@pytest.mark.parametrize("count", [1, 2, 3, 10])
-def test_a_handful_of_points_is_classified_without_an_error(count):
-    line = np.arange(count, dtype=float)
-    points = Points(3.0 * line, 2.0 * line, 0.1 * line)
-    assert classify(points, TinDensification()).all()
-
-
 def test_stray_coordinates_are_refused_with_a_sentence():
     points = Points(np.array([0.0, 1e9]), np.array([0.0, 1e9]), np.zeros(2))
     with pytest.raises(BareEarthError, match="stray coordinates"):
         classify(points, TinDensification())
-
-
-def test_a_cancel_ends_the_classification():
-    class Stop(Progress):
-        def report(self, fraction):
-            if fraction > 0.3:
-                raise Cancelled
-
-    with pytest.raises(Cancelled):
-        classify(village()[0], TinDensification(), Stop())
 
 
 @pytest.mark.skipif(not data.isprs(), reason="the ISPRS samples are not here")
