@@ -184,7 +184,7 @@ def _add_classify(commands: Any, common: argparse.ArgumentParser, arguments: Seq
 def _classify(options: argparse.Namespace) -> int:
     from .classification import classify_file
 
-    parameters, selection, terrain = _chosen(options)
+    parameters, selection, terrain, resources = _chosen(options)
     area = _area_of(options)
     with _Terminal(options.verbose) as progress:
         summary = classify_file(
@@ -197,7 +197,7 @@ def _classify(options: argparse.Namespace) -> int:
             hillshade=options.hillshade,
             progress=progress,
             area=area,
-            resources=chosen["resources"],
+            resources=resources,
         )
     ground, count = summary.area_ground_count, summary.area_count
     place = "" if area is None else " in the area"
