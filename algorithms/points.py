@@ -52,3 +52,7 @@ class Points(NamedTuple):
     def take(self, which: np.ndarray) -> Points:
         """Return the points that a boolean mask or an index array names."""
         return Points(self.x[which], self.y[which], self.z[which])
+
+    def and_also(self, others: Points) -> Points:
+        """Return these points and others after them."""
+        return Points(*(np.concatenate(pair) for pair in zip(self, others)))

@@ -12,6 +12,8 @@ import threading
 from concurrent.futures import ThreadPoolExecutor
 from typing import Callable, Iterable, Iterator, TypeVar
 
+from .progress import Progress
+
 _Item = TypeVar("_Item")
 _Result = TypeVar("_Result")
 _current = threading.local()
@@ -65,3 +67,26 @@ def in_threads(function: Callable[[_Item], _Result], items: Iterable[_Item]) -> 
         return [function(item) for item in items]
     with ThreadPoolExecutor(count, thread_name_prefix="strip") as pool:
         return list(pool.map(function, items))
+
+
+def over_parts(
+    function: Callable[[slice], object], count: int, part: int, progress: Progress
+) -> None:
+    """Call a function for the parts of a range, in threads, and say between them how far it is.
+
+    Parameters
+    ----------
+    function : callable
+        Takes a slice of the range; it keeps its result where no other call writes.
+    count : int
+        Length of the range.
+    part : int
+        Length of a part.
+    progress : Progress
+        Receives progress, from the calling thread.
+    """
+    at_once = 4 * workers() * part
+    for start in range(0, count, at_once):
+        end = min(start + at_once, count)
+        in_threads(function, (slice(at, min(at + part, end)) for at in range(start, end, part)))
+        progress(end / count)

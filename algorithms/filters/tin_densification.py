@@ -13,6 +13,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -21,13 +22,14 @@ from ..parameters import ParameterSet, parameter
 from ..points import Points
 from ..progress import SILENT, Progress
 from ..terrain.cells import Cells, spacing
-from ..terrain.densification import DensificationRules, densified
+from ..terrain.densification import DensificationRules, accepted, bounding
+from ..terrain.gradient import steepness
 from ..terrain.ground_cells import ground_cells
 from ..terrain.inpaint import inpaint
 from ..terrain.model_key_points import ModelKeyPoints, model_key_points
-from ..terrain.objects import largest_object, raised_objects
+from ..terrain.near_surface import near_surface
+from ..terrain.objects import Regions, bounded_regions, raised_objects
 from ..terrain.outliers import low_outliers
-from ..terrain.tin import Tin
 
 # Side of the cells whose lowest points may become vertices of the TIN.
 _CELL = 1.0
@@ -38,7 +40,9 @@ _RING_SPACING = 5.0
 _OBJECT_HEIGHTS = (5.0, 4.5, 2.0)
 # Metres over which the final surface is smoothed to take its slope.
 _FACET_SMOOTHING = 0.7
-_POINTS_A_STEP = 1_000_000
+# How many times the iteration distance a candidate may lie off the seeds' smooth surface: no facet
+# comes as close to those farther away.
+_REACHABLE = 3.0
 # Metres: no larger building is expected where none is seen, or looked for.
 _USUAL_BUILDING, _LARGEST_BUILDING = 48.0, 150.0
 # Metres beyond which points do not matter: so many times the largest building, but at least this.
@@ -218,11 +222,15 @@ class TinDensification(ParameterSet):
         points : Points
             The whole survey: its blocks must all be classified with the same values.
         """
+        return self._resolved(_Survey(points))
+
+    def _resolved(self, survey: _Survey) -> TinDensification:
         preset = PRESETS[self.preset]
         names = ("max_building_size", "iteration_angle", "iteration_distance")
         empty = {name: getattr(preset, name) for name in names if getattr(self, name) is None}
         if "max_building_size" in empty and empty["max_building_size"] is None:
-            empty["max_building_size"] = _building_size(points)
+            width = survey.tall.largest(_LARGEST_BUILDING)
+            empty["max_building_size"] = float(max(_USUAL_BUILDING, math.ceil(width)))
         return dataclasses.replace(self, **empty)
 
 
@@ -230,6 +238,58 @@ def reach(parameters: TinDensification) -> float:
     """Return the metres beyond which a point does not matter for another."""
     size = parameters.max_building_size or PRESETS[parameters.preset].max_building_size or 0.0
     return max(_LEAST_REACH, _REACH_BUILDINGS * size)
+
+
+class _Survey:
+    """The lowest points of a survey, on cells for the seeds and on cells for objects.
+
+    Attributes
+    ----------
+    spacing : float
+        Mean distance between points in metres.
+    cells : Cells
+        Those whose lowest points may become vertices.
+    lowest : numpy.ndarray of intp
+        The lowest point of each occupied cell.
+    heights : numpy.ndarray of float64, shape (rows, columns)
+        Their heights, without low outliers; NaN where there is none.
+    """
+
+    def __init__(self, points: Points) -> None:
+        self._points = points
+        self.spacing = spacing(points)
+        self.cells = Cells.over(points, _CELL)
+        self.lowest = self.cells.lowest_points(points)
+        heights = np.full(self.cells.rows * self.cells.columns, np.nan)
+        heights[self.cells.index[self.lowest]] = points.z[self.lowest]
+        self.heights = self._without_outliers(heights.reshape(self.cells.shape), _CELL)
+
+    @staticmethod
+    def _without_outliers(heights: np.ndarray, size: float) -> np.ndarray:
+        heights[low_outliers(heights, size, _OUTLIER_SLOPE)] = np.nan
+        return heights
+
+    @cached_property
+    def _wide(self) -> tuple[Cells, np.ndarray]:
+        """Cells wide enough to be without gaps, which would break the rims of objects."""
+        if self.spacing <= _CELL:
+            return self.cells, self.heights
+        cells = Cells.over(self._points, self.spacing)
+        return cells, self._without_outliers(cells.minimum(self._points.z), cells.size)
+
+    @cached_property
+    def tall(self) -> Regions:
+        """The regions between the drops of tall objects."""
+        cells, heights = self._wide
+        return bounded_regions(heights, cells.size, _OBJECT_HEIGHTS[0])
+
+    def objects(self, max_size: float, progress: Progress) -> np.ndarray:
+        """Return which of `cells` belong to tall objects bounded by drops all round."""
+        wide, heights = self._wide
+        found = raised_objects(
+            heights, wide.size, _OBJECT_HEIGHTS, max_size, progress, first=self.tall
+        )
+        return wide.resampled(found, self.cells)
 
 
 def classify(
@@ -243,7 +303,7 @@ def classify(
     Low outliers are taken out of the grid of lowest points; its cells that morphology takes for
     ground give the seeds of a TIN (after Zhao et al. 2016, section 2); in rounds, each
     triangle takes the candidate nearest to it if distance and angle allow (Axelsson 2000, section
-    3); last, every point close to the final TIN is ground.
+    3); last, every point close to the surface through all vertices is ground.
 
     Parameters
     ----------
@@ -268,34 +328,31 @@ def classify(
     Cancelled
         If the user asked to stop.
     """
-    resolved = parameters.resolve(points)
+    survey = _Survey(points)
+    progress(0.1)
+    resolved = parameters._resolved(survey)
     if resolved != parameters:
         progress.info(_in_words(resolved))
-    cells = Cells.over(points, _CELL)
-    lowest = cells.lowest_points(points)
-    heights = np.full(cells.rows * cells.columns, np.nan)
-    heights[cells.index[lowest]] = points.z[lowest]
-    heights = heights.reshape(cells.shape)
-    heights[low_outliers(heights, cells.size, _OUTLIER_SLOPE)] = np.nan
-    progress(0.1)
-    objects = _objects(points, cells, resolved, progress.part(0.1, 0.2))
+    cells, heights = survey.cells, survey.heights
+    objects = survey.objects(resolved.max_building_size, progress.part(0.1, 0.25))
     radius = resolved.max_building_size / 2.0
-    ground = ground_cells(heights, cells.size, objects, radius, progress=progress.part(0.2, 0.5))
-    is_seed = ground.ravel()[cells.index[lowest]]
-    is_candidate = (np.isfinite(heights) & ~ground).ravel()[cells.index[lowest]]
-    first = points.take(lowest[is_seed])
+    ground = ground_cells(heights, _CELL, objects, radius, progress=progress.part(0.25, 0.7))
+    lowest, seeds = points.take(survey.lowest), ground.ravel()[cells.index[survey.lowest]]
+    first = lowest.take(seeds)
     if known_ground is not None and known_ground.any():
         known = points.take(known_ground)
-        first = Points(*(np.concatenate(pair) for pair in zip(first, known.take(_thinned(known)))))
+        first = first.and_also(known.take(_thinned(known)))
     if not first.count:
         raise BareEarthError(
             "No point can be taken for ground with certainty. Check the maximum building size and"
             " the selection of points."
         )
-    seeds = _with_margin(first, cells, np.where(ground, heights, np.nan))
-    candidates = points.take(lowest[is_candidate])
-    tin = densified(seeds, candidates, _rules(resolved), progress.part(0.5, 0.8))
-    found = _near_surface(points, tin, cells, resolved, progress.part(0.8, 0.95))
+    waiting = lowest.take(~seeds & np.isfinite(heights).ravel()[cells.index[survey.lowest]])
+    vertices = _densified(first, waiting, survey, resolved, progress.part(0.7, 0.8))
+    surface = inpaint(_lowest(cells, vertices))
+    found = near_surface(
+        points, cells, surface, _tolerance(surface, resolved), progress.part(0.8, 0.95)
+    )
     return _key_points(points, found, resolved, progress.part(0.95, 1.0))
 
 
@@ -333,39 +390,47 @@ def _key_points(
     return key
 
 
-def _wide_cells(points: Points) -> tuple[Cells, np.ndarray]:
-    """Return cells wide enough to be without gaps, and their lowest heights without outliers.
-
-    Where points are sparse, gaps would break the rims of objects.
-    """
-    cells = Cells.over(points, max(_CELL, spacing(points)))
-    heights = cells.minimum(points.z)
-    heights[low_outliers(heights, cells.size, _OUTLIER_SLOPE)] = np.nan
-    return cells, heights
-
-
-def _building_size(points: Points) -> float:
-    """Return the width of the largest tall object in metres, but at least the usual one."""
-    cells, heights = _wide_cells(points)
-    width = largest_object(heights, cells.size, _OBJECT_HEIGHTS[0], _LARGEST_BUILDING)
-    return float(max(_USUAL_BUILDING, math.ceil(width)))
-
-
-def _objects(
-    points: Points, cells: Cells, parameters: TinDensification, progress: Progress
-) -> np.ndarray:
-    """Return which cells belong to tall objects bounded by drops all round."""
-    wide, heights = _wide_cells(points)
-    found = raised_objects(
-        heights, wide.size, _OBJECT_HEIGHTS, parameters.max_building_size, progress
-    )
-    return wide.resampled(found, cells)
+def _densified(
+    first: Points,
+    waiting: Points,
+    survey: _Survey,
+    parameters: TinDensification,
+    progress: Progress,
+) -> Points:
+    """Return the first vertices and those that join them."""
+    cells = survey.cells
+    surface = inpaint(_lowest(cells, first))
+    slope = cells.at(steepness(surface, cells.size), waiting.x, waiting.y)
+    distance = np.abs(waiting.z - cells.at(surface, waiting.x, waiting.y))
+    reachable = _REACHABLE * parameters.iteration_distance * np.hypot(1.0, slope)
+    waiting = waiting.take(distance <= reachable)
+    progress(0.1)
+    reach = math.ceil(max(survey.spacing / cells.size, 1.0))
+    needed = bounding(_holding(cells, first), _holding(cells, waiting), reach)
+    seeds = first.take(needed[cells.of(first)]).and_also(_ring(cells, surface))
+    joined = accepted(seeds, waiting, _rules(parameters), first.count, progress.part(0.1, 1.0))
+    return first.and_also(waiting.take(joined))
 
 
-def _with_margin(seeds: Points, cells: Cells, heights: np.ndarray) -> Points:
-    """Return the seeds and a ring of virtual points round all cells.
+def _holding(cells: Cells, points: Points) -> np.ndarray:
+    """Return which cells hold one of some points."""
+    holding = np.zeros(cells.shape, dtype=bool)
+    holding[cells.of(points)] = True
+    return holding
 
-    Without it, ground beyond the hull of the seeds would have no triangle to be judged by.
+
+def _lowest(cells: Cells, points: Points) -> np.ndarray:
+    """Return the lowest height of some points in each cell; NaN where there is none."""
+    lowest = np.full(cells.shape, np.inf)
+    np.minimum.at(lowest, cells.of(points), points.z)
+    lowest[np.isinf(lowest)] = np.nan
+    return lowest
+
+
+def _ring(cells: Cells, surface: np.ndarray) -> Points:
+    """Return virtual points round all cells.
+
+    Without them, ground beyond the hull of the seeds would have no triangle to be judged by.
     """
     south, west = cells.first_row * cells.size, cells.first_column * cells.size
     height, width = cells.rows * cells.size, cells.columns * cells.size
@@ -373,32 +438,15 @@ def _with_margin(seeds: Points, cells: Cells, heights: np.ndarray) -> Points:
     y = south + height * np.linspace(0.0, 1.0, max(int(height / _RING_SPACING), 1) + 1)
     ring_x = np.concatenate((x, x, np.full(len(y), west), np.full(len(y), west + width)))
     ring_y = np.concatenate((np.full(len(x), south), np.full(len(x), south + height), y, y))
-    ring_z = cells.at(inpaint(heights), ring_x, ring_y)
-    ring = Points(ring_x, ring_y, ring_z)
-    return Points(*(np.concatenate(pair) for pair in zip(seeds, ring)))
+    return Points(ring_x, ring_y, cells.at(surface, ring_x, ring_y))
 
 
-def _near_surface(
-    points: Points, tin: Tin, cells: Cells, parameters: TinDensification, progress: Progress
-) -> np.ndarray:
-    """Return which points lie close to the TIN, sampled once in each cell.
+def _tolerance(surface: np.ndarray, parameters: TinDensification) -> np.ndarray:
+    """Return how far from the surface ground may lie, at each cell.
 
-    The slope is that of the smoothed surface: single facets between lowest points are too uneven.
+    The slope is that of the smoothed surface: between single lowest points it is too uneven.
     """
     from scipy import ndimage
 
-    surface = inpaint(tin.interpolate(*cells.centres()).reshape(cells.shape))
-    progress(0.4)
-    smooth = ndimage.gaussian_filter(surface, _FACET_SMOOTHING / cells.size, mode="nearest")
-    # A grid one cell wide has no slope across.
-    slopes = [np.gradient(smooth, cells.size, axis=k) for k in (0, 1) if cells.shape[k] > 1]
-    slope = np.sqrt(sum((each**2 for each in slopes), np.zeros(cells.shape)))
-    tolerance = parameters.ground_tolerance + parameters.slope_tolerance * slope
-    ground = np.empty(points.count, dtype=bool)
-    for first in range(0, points.count, _POINTS_A_STEP):
-        part = slice(first, first + _POINTS_A_STEP)
-        place = points.x[part], points.y[part]
-        distance = np.abs(points.z[part] - cells.at(surface, *place))
-        ground[part] = distance <= cells.at(tolerance, *place)
-        progress(0.4 + 0.6 * min((first + _POINTS_A_STEP) / points.count, 1.0))
-    return ground
+    smooth = ndimage.gaussian_filter(surface, _FACET_SMOOTHING / _CELL, mode="nearest")
+    return parameters.ground_tolerance + parameters.slope_tolerance * steepness(smooth, _CELL)

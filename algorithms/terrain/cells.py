@@ -11,9 +11,8 @@ from ..errors import BareEarthError
 from ..points import Points
 
 _MOST_CELLS = 200_000_000
-# Metres between points below which gaps in the survey do not matter for their spacing, and the
-# side in metres of the blocks that are such a gap where they have no point.
-_DENSE, _BLOCK = 1.0, 10.0
+# Side in metres of the blocks that are a gap in the survey where they have no point.
+_BLOCK = 10.0
 
 
 @dataclass(frozen=True)
@@ -71,6 +70,12 @@ class Cells:
         lowest[np.isinf(lowest)] = np.nan
         return lowest.reshape(self.shape)
 
+    def of(self, points: Points) -> tuple[np.ndarray, np.ndarray]:
+        """Return row and column of the cell of each of some points, which lie over the grid."""
+        row = np.floor(points.y / self.size).astype(np.intp) - self.first_row
+        column = np.floor(points.x / self.size).astype(np.intp) - self.first_column
+        return row, column
+
     def lowest_points(self, points: Points) -> np.ndarray:
         """Return the index of the lowest point of each occupied cell, in the order of the cells.
 
@@ -124,10 +129,18 @@ class Cells:
         return grid[np.ix_(row, column)]
 
 
-def spacing(points: Points) -> float:
-    """Return the mean distance between points in metres, large gaps in the survey left out."""
+def spacing(points: Points, dense: float = 1.0) -> float:
+    """Return the mean distance between points in metres, large gaps in the survey left out.
+
+    Parameters
+    ----------
+    points : Points
+        All points.
+    dense : float
+        Metres: a smaller spacing is as good as any, and gaps are not looked for.
+    """
     area = float(np.ptp(points.x)) * float(np.ptp(points.y))
-    if area <= _DENSE**2 * points.count:
+    if area <= dense**2 * points.count:
         return float(np.sqrt(area / points.count))  # gaps could only make it smaller
     blocks = Cells.over(points, _BLOCK)
     return float(np.sqrt(np.count_nonzero(blocks.occupied) * _BLOCK**2 / points.count))

@@ -50,36 +50,74 @@ class DensificationRules:
     noise_distance: float
 
 
-def densified(
-    seeds: Points, candidates: Points, rules: DensificationRules, progress: Progress
-) -> Tin:
-    """Return the TIN of the seeds, densified by candidates in rounds.
+def accepted(
+    seeds: Points,
+    candidates: Points,
+    rules: DensificationRules,
+    all_count: int,
+    progress: Progress,
+) -> np.ndarray:
+    """Return which candidates join the TIN of the seeds, round by round.
 
     Parameters
     ----------
     seeds : Points
-        The first vertices.
+        The first vertices, as many as bound the triangles in which candidates lie.
     candidates : Points
         Points that may become vertices.
     rules : DensificationRules
         Which of them do.
+    all_count : int
+        Vertices of the whole surface, of which `seeds` may be a part: a round that adds few in
+        comparison is the last.
     progress : Progress
         Receives progress.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (candidates,)
     """
-    tin = Tin(*seeds)
+    vertices = seeds
+    joined = np.zeros(candidates.count, dtype=bool)
     for round_ in range(_MOST_ROUNDS):
-        accepted = _round(tin, candidates, rules)
-        if len(accepted) <= _LEAST_SHARE * len(tin.x):
+        waiting = np.flatnonzero(~joined)
+        new = waiting[_round(Tin(*vertices), candidates.take(waiting), rules)]
+        joined[new] = True
+        if len(new) <= _LEAST_SHARE * all_count:
             break
-        joined = [
-            np.concatenate(pair) for pair in zip((tin.x, tin.y, tin.z), candidates.take(accepted))
-        ]
-        tin = Tin(*joined)
-        rest = np.ones(candidates.count, dtype=bool)
-        rest[accepted] = False
-        candidates = candidates.take(rest)
+        vertices = vertices.and_also(candidates.take(new))
         progress((round_ + 1) / _MOST_ROUNDS)
-    return tin
+    return joined
+
+
+def bounding(vertices: np.ndarray, waiting: np.ndarray, reach: int) -> np.ndarray:
+    """Return the vertices that may bound a triangle in which a candidate lies.
+
+    A triangulation of these alone has the same triangles there: those near candidates, and those
+    round the gaps in which candidates lie. All others, most by far, would only cost time.
+
+    Parameters
+    ----------
+    vertices, waiting : numpy.ndarray of bool, shape (rows, columns)
+        Cells that hold a vertex, and cells that hold a candidate.
+    reach : int
+        Cells over which vertices are next to each other: what is farther from all is a gap.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (rows, columns)
+    """
+    from scipy import ndimage
+
+    def spread(mask: np.ndarray, cells: int) -> np.ndarray:
+        return ndimage.maximum_filter(mask.view(np.uint8), 2 * cells + 1, mode="constant") > 0
+
+    gaps, count = ndimage.label(~spread(vertices, reach), np.ones((3, 3)))
+    near = spread(waiting, reach + 1)
+    wanted = np.zeros(count + 1, dtype=bool)
+    wanted[np.unique(gaps[near])] = True
+    wanted[0] = False
+    return vertices & (spread(waiting, 2 * reach) | spread(wanted[gaps], 3 * reach))
 
 
 def _round(tin: Tin, candidates: Points, rules: DensificationRules) -> np.ndarray:

@@ -20,8 +20,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..progress import SILENT, Progress
+from .gradient import gradient
 from .inpaint import inpaint
-from .morphology import opening
+from .morphology import in_steps, opening
 
 # A first, strict opening (rise over run) gives the surface from which the terrain's slope is taken.
 _FIRST_SLOPE = 0.12
@@ -96,7 +97,7 @@ def ground_cells(
     filled = inpaint(heights).astype(np.float32)
     first, limit = _standing_out(filled, size, largest_window, allowance, progress.part(0.0, 0.7))
     surface = inpaint(np.where(known & ~first & ~objects, heights, np.nan))
-    slope = _slope(surface, size, _SLOPE_SMOOTHING)
+    slope = np.hypot(*_smooth_gradient(surface, size, _SLOPE_SMOOTHING))
     raised = objects | (np.minimum(slope, _LARGEST_SLOPE) < limit)
     progress(0.8)
     surface = inpaint(np.where(known & ~raised, heights, np.nan))
@@ -118,39 +119,36 @@ def _standing_out(
     limit : numpy.ndarray of float32, shape (rows, columns)
         The terrain's slope (rise over run) below which a cell stands out by the allowance.
     """
-    first = np.zeros(filled.shape, dtype=bool)
-    limit = np.full(filled.shape, -np.inf, dtype=np.float32)
-    last = filled
+    first = np.zeros(filled.size, dtype=bool)
+    limit = np.full(filled.size, -np.inf, dtype=np.float32)
+    last, step = in_steps(filled)
     largest = max(round(largest_window / size), 1)
     for radius in range(1, largest + 1):
         opened = opening(last, radius)
-        cut = last - opened
-        metres = radius * size
-        first |= cut > _FIRST_SLOPE * metres
-        level = allowance.base + allowance.per_radius * metres
-        slope = (cut - np.float32(level)) / np.float32(max(allowance.per_slope * metres, 1e-6))
-        slope[cut > allowance.largest] = np.inf
-        np.maximum(limit, slope, out=limit)
+        # As unsigned numbers, differences do not overflow.
+        cut = (last - opened).view(np.uint16).ravel()
         last = opened
+        metres = radius * size
+        level = allowance.base + allowance.per_radius * metres
+        # Most cells lose too little to stand out on any slope.
+        which = np.flatnonzero(cut > min(_FIRST_SLOPE * metres, level) / step)
+        lost = cut[which] * np.float32(step)
+        first[which[lost > _FIRST_SLOPE * metres]] = True
+        slope = (lost - np.float32(level)) / np.float32(max(allowance.per_slope * metres, 1e-6))
+        slope[lost > allowance.largest] = np.inf
+        limit[which] = np.maximum(limit[which], slope)
         progress(radius / largest)
-    return first, limit
+    return first.reshape(filled.shape), limit.reshape(filled.shape)
 
 
-def _slope(surface: np.ndarray, size: float, smoothing: float) -> np.ndarray:
-    """Return the slope (rise over run) of a smoothed surface at each cell."""
-    return np.hypot(*_gradient(surface, size, smoothing))
-
-
-def _gradient(surface: np.ndarray, size: float, smoothing: float) -> tuple[np.ndarray, np.ndarray]:
+def _smooth_gradient(
+    surface: np.ndarray, size: float, smoothing: float
+) -> tuple[np.ndarray, np.ndarray]:
     """Return the slope of a smoothed surface towards north and east."""
     from scipy import ndimage
 
     smooth = ndimage.gaussian_filter(surface, smoothing / size, mode="nearest")
-    # A grid one cell wide has no slope across.
-    return tuple(
-        np.gradient(smooth, size, axis=axis) if smooth.shape[axis] > 1 else np.zeros(smooth.shape)
-        for axis in (0, 1)
-    )
+    return gradient(smooth, size)
 
 
 def _gentle_regions(
@@ -164,7 +162,7 @@ def _gentle_regions(
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
-    north, east = _gradient(surface, size, _TREND_SMOOTHING)
+    north, east = _smooth_gradient(surface, size, _TREND_SMOOTHING)
     sides = [_steps(filled, north, 0, size, allowance), _steps(filled, east, 1, size, allowance)]
     one, other, sign = (np.concatenate(each) for each in zip(*sides))
     # Only pairs of which one at least is raised matter.

@@ -4,56 +4,105 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..threads import in_threads
+
+# Metres: heights are compared in steps of this, unless their range is too large for 16 bits.
+_STEP, _MOST_STEPS = 0.01, 65_000
+# What stands this far above nearly all others, or below, does so by any measure.
+_BEYOND, _NEARLY_ALL = 200.0, 0.001
+# Cells that are worked on at a time, those round them included: they stay in the processor's cache.
+_CELLS_A_STRIP = 1 << 17
+
+
+def in_steps(grid: np.ndarray) -> tuple[np.ndarray, float]:
+    """Return heights as whole numbers of small steps, on which morphology is three times as fast.
+
+    Parameters
+    ----------
+    grid : numpy.ndarray of float, shape (rows, columns)
+        Heights in metres without NaN. The few that lie hundreds of metres above or below the
+        others are drawn near, as the steps would be coarse otherwise.
+
+    Returns
+    -------
+    steps : numpy.ndarray of int16, shape (rows, columns)
+    step : float
+        Metres of a step: a centimetre, or more if the others span more than 650 m.
+    """
+    few = int(_NEARLY_ALL * grid.size)
+    low, high = np.partition(grid.ravel(), (few, grid.size - 1 - few))[[few, grid.size - 1 - few]]
+    low = max(float(low) - _BEYOND, float(grid.min()))
+    high = min(float(high) + _BEYOND, float(grid.max()))
+    step = max(_STEP, (high - low) / _MOST_STEPS)
+    steps = np.rint((np.clip(grid, low, high) - low) / step) - _MOST_STEPS // 2
+    return steps.astype(np.int16), step
+
 
 def opening(grid: np.ndarray, radius: float) -> np.ndarray:
     """Return the opening of a grid by a disc: what is narrower than the disc is cut off.
 
     Parameters
     ----------
-    grid : numpy.ndarray of float, shape (rows, columns)
+    grid : numpy.ndarray of float or int, shape (rows, columns)
         Heights without NaN.
     radius : float
         Radius of the disc in cells; a cell belongs to it if its centre does.
 
     Returns
     -------
-    numpy.ndarray of float, shape (rows, columns)
+    numpy.ndarray of the same type, shape (rows, columns)
         Nowhere higher than `grid`, which is continued by its border cells: far enough for a disc
         to stand outside, or the upper border of a plain slope would be cut off.
     """
-    reach = int(round(radius, 6))
-    padded = np.pad(grid, reach, mode="edge")
-    opened = -erosion(-erosion(padded, radius), radius)
-    return opened[reach : reach + grid.shape[0], reach : reach + grid.shape[1]]
+    padded = np.pad(grid, 2 * _reach(radius), mode="edge")
+    return _extreme(np.maximum, _extreme(np.minimum, padded, radius), radius)
 
 
 def erosion(grid: np.ndarray, radius: float) -> np.ndarray:
-    """Return the minimum of the grid within a disc round each cell.
+    """Return the minimum of the grid within a disc round each cell."""
+    return _extreme(np.minimum, np.pad(grid, _reach(radius), mode="edge"), radius)
 
-    A disc is a stack of rows: the minimum along rows of each needed length is found once by
-    doubling, so that the cost grows with the radius and not with its square.
-    """
-    radius = round(radius, 6)  # one that is whole but for rounding is whole
-    reach = int(radius)
-    rows, columns = grid.shape
-    padded = np.pad(grid, reach, mode="edge")
-    # Half the length of the disc's row at each distance from its middle row.
-    halves = np.floor(np.sqrt(radius**2 - np.arange(reach + 1) ** 2) + 1e-9).astype(int)
-    result = np.full(grid.shape, np.inf, dtype=grid.dtype)
-    run, length = padded, 1  # run[:, i] is the minimum of `length` cells from i on
-    for half in sorted(set(halves.tolist())):
-        wanted = 2 * half + 1
-        while 2 * length <= wanted:
-            run = np.minimum(run[:, :-length], run[:, length:])
-            length *= 2
-        line = run if length == wanted else _overlapped(run, wanted - length)
-        line = line[:, reach - half : reach - half + columns]
-        for distance in np.flatnonzero(halves == half):
-            for row in {reach - distance, reach + distance}:
-                np.minimum(result, line[row : row + rows], out=result)
+
+def _reach(radius: float) -> int:
+    return int(round(radius, 6))  # one that is whole but for rounding is whole
+
+
+def _extreme(which: np.ufunc, padded: np.ndarray, radius: float) -> np.ndarray:
+    """Return the minimum or the maximum within a disc round each cell that has a whole one."""
+    reach = _reach(radius)
+    rows, columns = (side - 2 * reach for side in padded.shape)
+    result = np.empty((rows, columns), dtype=padded.dtype)
+    strip = max(_CELLS_A_STRIP // padded.shape[1] - 2 * reach, reach, 1)
+
+    def fill(first: int) -> None:
+        last = min(first + strip, rows)
+        _in_strip(which, padded[first : last + 2 * reach], radius, result[first:last])
+
+    in_threads(fill, range(0, rows, strip))
     return result
 
 
-def _overlapped(run: np.ndarray, shift: int) -> np.ndarray:
-    """Return the minima of runs that are longer by `shift` (at most doubled)."""
-    return np.minimum(run[:, :-shift], run[:, shift:])
+def _in_strip(which: np.ufunc, padded: np.ndarray, radius: float, result: np.ndarray) -> None:
+    """Fill `result` with the extreme within a disc round each cell of a strip.
+
+    A disc is a stack of rows: the extreme along rows of each needed length is found once by
+    doubling, so that the cost grows with the radius and not with its square.
+    """
+    reach = _reach(radius)
+    rows, columns = result.shape
+    # Half the length of the disc's row at each distance from its middle row.
+    squares = round(radius, 6) ** 2 - np.arange(reach + 1) ** 2
+    halves = np.floor(np.sqrt(squares) + 1e-9).astype(int)
+    result[:] = padded[reach : reach + rows, reach : reach + columns]
+    run, length = padded, 1  # run[:, i] is the extreme of `length` cells from i on
+    for half in sorted(set(halves.tolist())):
+        wanted = 2 * half + 1
+        while 2 * length <= wanted:
+            run = which(run[:, :-length], run[:, length:])
+            length *= 2
+        shift = wanted - length  # two runs that overlap make a longer one
+        line = which(run[:, :-shift], run[:, shift:]) if shift else run
+        line = line[:, reach - half : reach - half + columns]
+        for distance in np.flatnonzero(halves == half):
+            for row in {reach - distance, reach + distance}:
+                which(result, line[row : row + rows], out=result)

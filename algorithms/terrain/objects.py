@@ -47,6 +47,7 @@ def raised_objects(
     thresholds: Sequence[float],
     max_size: float,
     progress: Progress = SILENT,
+    first: Regions | None = None,
 ) -> np.ndarray:
     """Return which cells of a minimum grid belong to objects that stand out all round.
 
@@ -63,6 +64,8 @@ def raised_objects(
         Largest width (shorter side) of an object in metres.
     progress : Progress
         Receives progress.
+    first : Regions, optional
+        The `bounded_regions` of the first threshold, if they are known.
 
     Returns
     -------
@@ -72,28 +75,25 @@ def raised_objects(
     rest = heights.copy()
     objects = np.zeros(heights.shape, dtype=bool)
     for done, threshold in enumerate(thresholds):
-        found = Relief(rest, size, inside).regions(threshold).raised(max_size)
+        known = first if done == 0 else None
+        found = (known or Relief(rest, size, inside).regions(threshold)).raised(max_size)
         rest[found] = np.nan
         objects |= found
         progress((done + 1) / len(thresholds))
     return objects
 
 
-def largest_object(heights: np.ndarray, size: float, threshold: float, max_size: float) -> float:
-    """Return the width (shorter side) in metres of the largest object; 0 if there is none.
+def bounded_regions(heights: np.ndarray, size: float, threshold: float) -> Regions:
+    """Return the regions between the drops of a minimum grid.
 
     Parameters
     ----------
     heights, size
         As for `raised_objects`.
     threshold : float
-        Least height in metres of the drop that bounds an object.
-    max_size : float
-        Nothing wider is an object.
+        Least height in metres of a drop.
     """
-    regions = Relief(heights, size, covered(np.isfinite(heights))).regions(threshold)
-    found = regions.number[regions.raised(max_size)]
-    return float(regions.width[found].max(initial=0.0))
+    return Relief(heights, size, covered(np.isfinite(heights))).regions(threshold)
 
 
 def covered(known: np.ndarray, reach: int = 4) -> np.ndarray:
@@ -356,6 +356,10 @@ class Regions:
         numpy.ndarray of bool, shape (rows, columns)
         """
         return self._bounded(max_size, 1, _OBJECT_SHARE, _LEAST_SHARE, _LEAST_STEEPNESS)
+
+    def largest(self, max_size: float) -> float:
+        """Return the width in metres of the largest that `raised` finds; 0 if there is none."""
+        return float(self.width[self.number[self.raised(max_size)]].max(initial=0.0))
 
     def sunken(self, max_size: float) -> np.ndarray:
         """Return the cells of the regions whose border is a rise nearly all round: of pits.

@@ -1,0 +1,32 @@
+"""The gradient of a height grid."""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+def gradient(surface: np.ndarray, size: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return the slope of a surface towards north and east, rise over run.
+
+    Parameters
+    ----------
+    surface : numpy.ndarray of float, shape (rows, columns)
+        Heights in metres without NaN, rows from south.
+    size : float
+        Side of a cell in metres.
+
+    Returns
+    -------
+    north, east : numpy.ndarray of float, shape (rows, columns)
+        Central differences, one-sided at the border; 0 along a side of a single cell.
+    """
+    north, east = (
+        np.gradient(surface, size, axis=axis) if surface.shape[axis] > 1 else np.zeros_like(surface)
+        for axis in (0, 1)
+    )
+    return north, east
+
+
+def steepness(surface: np.ndarray, size: float) -> np.ndarray:
+    """Return the length of the `gradient` of a surface at each cell, rise over run."""
+    return np.hypot(*gradient(surface, size))
