@@ -43,6 +43,8 @@ _FACET_SMOOTHING = 0.7
 # How many times the iteration distance a candidate may lie off the seeds' smooth surface: no facet
 # comes as close to those farther away.
 _REACHABLE = 3.0
+# With more vertices than these in the 3 x 3 cells round a candidate its triangle is too small for it.
+_MOST_VERTICES_ROUND = 4
 # Metres: no larger building is expected where none is seen, or looked for.
 _USUAL_BUILDING, _LARGEST_BUILDING = 48.0, 150.0
 # Metres beyond which points do not matter: so many times the largest building, but at least this.
@@ -403,10 +405,12 @@ def _densified(
     slope = cells.at(steepness(surface, cells.size), waiting.x, waiting.y)
     distance = np.abs(waiting.z - cells.at(surface, waiting.x, waiting.y))
     reachable = _REACHABLE * parameters.iteration_distance * np.hypot(1.0, slope)
-    waiting = waiting.take(distance <= reachable)
+    holding = _holding(cells, first)
+    in_gap = _counts_round(holding)[cells.of(waiting)] <= _MOST_VERTICES_ROUND
+    waiting = waiting.take(in_gap & (distance <= reachable))
     progress(0.1)
     reach = math.ceil(max(survey.spacing / cells.size, 1.0))
-    needed = bounding(_holding(cells, first), _holding(cells, waiting), reach)
+    needed = bounding(holding, _holding(cells, waiting), reach)
     seeds = first.take(needed[cells.of(first)]).and_also(_ring(cells, surface))
     joined = accepted(seeds, waiting, _rules(parameters), first.count, progress.part(0.1, 1.0))
     return first.and_also(waiting.take(joined))
@@ -417,6 +421,13 @@ def _holding(cells: Cells, points: Points) -> np.ndarray:
     holding = np.zeros(cells.shape, dtype=bool)
     holding[cells.of(points)] = True
     return holding
+
+
+def _counts_round(mask: np.ndarray) -> np.ndarray:
+    """Return how many of the 3 x 3 cells round each cell a mask holds."""
+    padded = np.pad(mask.astype(np.int8), 1)
+    rows = padded[:-2] + padded[1:-1] + padded[2:]
+    return rows[:, :-2] + rows[:, 1:-1] + rows[:, 2:]
 
 
 def _lowest(cells: Cells, points: Points) -> np.ndarray:

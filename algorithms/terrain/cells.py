@@ -84,11 +84,14 @@ class Cells:
         """
         lowest = self.minimum(points.z).ravel()
         which = np.flatnonzero(points.z == lowest[self.index])
-        order = np.lexsort((points.y[which], points.x[which], self.index[which]))
-        which = which[order]
-        first = np.ones(len(which), dtype=bool)
-        first[1:] = np.diff(self.index[which]) != 0
-        return which[first]
+        found = np.full(lowest.size, -1, dtype=np.intp)
+        found[self.index[which]] = which
+        # Only where two are equally low their order could matter.
+        tied = np.unique(self.index[which[found[self.index[which]] != which]])
+        which = which[np.isin(self.index[which], tied)]
+        order = np.lexsort((-points.y[which], -points.x[which]))
+        found[self.index[which[order]]] = which[order]  # the last one stays
+        return found[found >= 0]
 
     @cached_property
     def occupied(self) -> np.ndarray:
