@@ -124,10 +124,14 @@ def _beside_qgis(beside: list[str]) -> list[Contestant]:
         run = [*beside, program or "", "run", algorithm, "--"]
         return [*run, f"INPUT={source}", f"OUTPUT={target}"]
 
-    command = _classify([*beside, "/usr/bin/python3"], "--method", _QGIS_METHOD)
+    def beside_qgis(source: Path, target: Path) -> list[str]:
+        _enable(tuple(beside), program or "")  # which makes the environment if there is none
+        python = [*beside, "/usr/bin/python3"]
+        return _classify(python, "--method", _QGIS_METHOD)(source, target)
+
     return [
         Contestant(
-            BESIDE_QGIS, f"{method.label}, Python of QGIS", command, missing=missing,
+            BESIDE_QGIS, f"{method.label}, Python of QGIS", beside_qgis, missing=missing,
             note="the command, beside QGIS",
         ),
         Contestant(

@@ -17,6 +17,8 @@ ROOT = Path(__file__).parents[2]
 # Peak memory is told in kilobytes, but on macOS in bytes.
 _UNIT = 1 if sys.platform == "darwin" else 1024
 
+# Of what a process says, only the end is looked at: this one must stay small.
+_MOST_SAID = 10_000
 # How a problem begins that is only a lack of time.
 STOPPED = "stopped after"
 
@@ -76,7 +78,7 @@ def measure(command: Sequence[str], timeout: float | None = None) -> Cost:
             watch.cancel()
         wall = time.perf_counter() - start
         process.returncode = os.waitstatus_to_exitcode(status)
-        said.seek(0)
+        said.seek(max(said.seek(0, os.SEEK_END) - _MOST_SAID, 0))
         text = said.read().decode(errors="replace")
     problem = ""
     if is_late.is_set():
