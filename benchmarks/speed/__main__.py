@@ -17,7 +17,7 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
-from typing import Sequence
+from typing import Callable, Sequence
 
 from bare_earth.algorithms.threads import available_cpus
 
@@ -82,8 +82,12 @@ def measure_all(
     rounds: int,
     peer_rounds: int,
     timeout: float,
+    keep: Callable[[Results], None] = lambda found: None,
 ) -> Results:
-    """Measure on all tiles, the smallest first; who is stopped on one is left out of the rest."""
+    """Measure on all tiles, the smallest first; who is stopped on one is left out of the rest.
+
+    What is there after each tile is given to `keep`.
+    """
     found = Results(facts())
     takers = list(takers)
     for tile in sorted(chosen, key=lambda tile: tile.count):
@@ -96,7 +100,8 @@ def measure_all(
         takers = [
             each for each in takers if not found.problem(tile.name, each.name).startswith(STOPPED)
         ]
-    found.facts["Load average at the end"] = _load()
+        found.facts["Load average at the end"] = _load()
+        keep(found)
     return found
 
 
@@ -219,7 +224,12 @@ def _measured(options: argparse.Namespace, known: Sequence[Contestant]) -> Resul
     chosen = [tiles.tile(path.resolve()) for path in files] + generated(options.sizes)
     if not chosen:
         raise SystemExit("There is no tile to measure on: give --sizes or --tile.")
-    found = measure_all(chosen, takers, options.rounds, options.peer_rounds, options.timeout)
+
+    def keep(found: Results) -> None:
+        if options.json:
+            results.save(found, options.json)
+
+    found = measure_all(chosen, takers, options.rounds, options.peer_rounds, options.timeout, keep)
     if options.profile:
         found.profiles = _profiles(found.tiles, takers)
     return found

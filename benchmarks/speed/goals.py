@@ -23,6 +23,7 @@ BYTES_A_POINT, OUT_OF_CORE_BYTES = 120.0, 2e9
 QGIS_SECONDS = 2.0
 
 _NOTHING = math.nan, "-"
+_AT_LEAST = ", at least"
 
 
 class Goal(NamedTuple):
@@ -38,6 +39,16 @@ class Goal(NamedTuple):
     def is_met(self) -> bool:
         """Whether it is reached."""
         return self.reached <= self.limit if self.is_most else self.reached >= self.limit
+
+    @property
+    def verdict(self) -> str:
+        """What to say of it."""
+        if math.isnan(self.reached):
+            return "not measured"
+        if self.is_met:
+            return "yes"
+        # A lower bound that is too low says nothing.
+        return "open" if self.where.endswith(_AT_LEAST) else "no"
 
 
 def goals(results: Results) -> list[Goal]:
@@ -85,7 +96,7 @@ def _faster(results: Results, ours: str, peer: str) -> list[tuple[float, str]]:
     for run in results.runs:
         cost = results.costs(run.tile, ours).get(run.round)
         if run.contestant == peer and run.cost.problem.startswith(STOPPED) and cost:
-            return [(run.cost.wall / cost.wall, f"{run.tile}, at least")]
+            return [(run.cost.wall / cost.wall, f"{run.tile}{_AT_LEAST}")]
     return []
 
 

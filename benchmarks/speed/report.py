@@ -70,14 +70,13 @@ class Report:
     def _goals(self) -> list[str]:
         rows = []
         for goal in goals(self._results):
-            is_measured = goal.reached == goal.reached
             rows.append(
                 [
                     goal.title,
                     f"{'≤' if goal.is_most else '≥'} {goal.limit:g}",
                     number(goal.reached, 2),
                     goal.where,
-                    ("yes" if goal.is_met else "no") if is_measured else "not measured",
+                    goal.verdict,
                 ]
             )
         return table(["", "wanted", "reached", "on", "goal met"], rows)

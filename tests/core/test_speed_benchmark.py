@@ -55,6 +55,8 @@ def test_cost_is_that_of_the_process():
 
 def test_process_that_fails_or_takes_too_long_is_told():
     assert measure(python("raise ValueError('no licence')")).problem == "ValueError: no licence"
+    wordy = measure(python("print('word ' * 100_000); raise ValueError('no licence')"))
+    assert wordy.problem == "ValueError: no licence"
     assert measure(python("import sys; sys.exit(3)")).problem == "ended with 3"
     late = measure(python("import time; time.sleep(60)"), timeout=0.5)
     assert late.problem == "stopped after 0.5 s"
@@ -122,7 +124,11 @@ def test_all_take_turns_and_who_is_stopped_is_left_out(survey, tmp_path):
         taker("thief", f"shutil.copy({str(small)!r}, target)"),
         taker("mute", "pass"),
     ]
-    found = speed.measure_all(chosen, takers, rounds=2, peer_rounds=1, timeout=2.0)
+    kept = []
+    found = speed.measure_all(
+        chosen, takers, 2, 1, 2.0, lambda found: kept.append([each.name for each in found.tiles])
+    )
+    assert kept == [["small"], ["small", "large"]]
     assert [each.name for each in found.tiles] == ["small", "large"]
     order = [(run.tile, run.round, run.contestant) for run in found.runs]
     assert order == [
@@ -184,7 +190,8 @@ def test_goals_are_met_missed_or_not_measured():
     assert not goal(found, "Grid minimum: time").is_met
     assert np.isnan(goal(found, "TIN densification: time").reached)
     assert goal(found, "CSF").reached == pytest.approx(90 / 19)
-    assert not goal(found, "CSF").is_met
+    assert goal(found, "CSF").verdict == "no"
+    assert goal(found, "pysmrf").verdict == "not measured"
     assert goal(found, "Slope filter: peak").reached == 100.0
     assert goal(found, "Slope filter: peak").is_met
     assert not goal(made_up({4: fast}, memory=121), "Slope filter: peak").is_met
@@ -196,6 +203,9 @@ def test_peer_that_never_ends_took_at_least_its_time():
     found.runs.append(Run("1 million", "whitebox-wide", 0, cost))
     reached = goal(found, "Whitebox, 18 m")
     assert (reached.reached, reached.where) == (30.0, "1 million, at least")
+    assert reached.verdict == "yes"
+    found.runs[-1] = found.runs[-1]._replace(cost=cost._replace(wall=10.0))
+    assert goal(found, "Whitebox, 18 m").verdict == "open"
     failed = found.runs.pop()._replace(cost=cost._replace(problem="no licence"))
     found.runs.append(failed)
     assert np.isnan(goal(found, "Whitebox, 18 m").reached)
