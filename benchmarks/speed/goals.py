@@ -16,7 +16,7 @@ TIMES_THE_FLOOR = {"grid-minimum": 1.4, "slope": 2.0, "tin-densification": 2.0}
 LEAST_POINTS, DENSITIES = 3_000_000, (4.0, 20.0)
 PEERS = {"cloth": "CSF", "morphological": "pysmrf"}
 TIMES_FASTER, TIMES_FASTER_THAN_WHITEBOX = 5.0, 10.0
-EXPONENT = 1.05
+EXPONENT, LEAST_FOR_GROWTH = 1.05, 1_000_000
 # Below this the interpreter and its libraries count more than the points.
 LEAST_FOR_MEMORY = 1_000_000
 BYTES_A_POINT, OUT_OF_CORE_BYTES = 120.0, 2e9
@@ -101,12 +101,21 @@ def _faster(results: Results, ours: str, peer: str) -> list[tuple[float, str]]:
 
 
 def _growth(results: Results) -> Iterator[Goal]:
-    counts = [tile.name for tile in results.tiles if tile.is_generated]
-    where = f"{counts[0]} to {counts[-1]}" if len(counts) > 1 else "-"
     for name in OURS:
-        found = results.exponent(name)
-        title = f"{METHODS[name].label}: exponent of time against points"
-        yield Goal(title, EXPONENT, *_NOTHING if found is None else (found, where))
+        # What a process takes to start hides the growth of small tiles.
+        tiles = [
+            tile
+            for tile in results.tiles
+            if tile.is_generated
+            and tile.count >= LEAST_FOR_GROWTH
+            and results.costs(tile.name, name)
+        ]
+        found = _NOTHING
+        if tiles and tiles[-1].count >= 10 * tiles[0].count:
+            where = f"{tiles[0].name} to {tiles[-1].name}"
+            exponent = results.exponent(name, least=LEAST_FOR_GROWTH)
+            found = found if exponent is None else (exponent, where)
+        yield Goal(f"{METHODS[name].label}: exponent of time against points", EXPONENT, *found)
 
 
 def _memory(results: Results) -> Iterator[Goal]:

@@ -98,12 +98,17 @@ class Results:
         ]
         return done[-1] if done else None
 
-    def exponent(self, contestant: str, figure: str = "wall") -> float | None:
-        """Return b of cost = a x points^b over the generated tiles, by least squares of logs."""
+    def exponent(self, contestant: str, figure: str = "wall", least: int = 0) -> float | None:
+        """Return b of cost = a x points^b, by least squares of logs.
+
+        Over the generated tiles of at least so many points.
+        """
         pairs = [
             (tile.count, found.median)
             for tile in self.tiles
-            if tile.is_generated and (found := self.spread(tile.name, contestant, figure))
+            if tile.is_generated
+            and tile.count >= least
+            and (found := self.spread(tile.name, contestant, figure))
         ]
         if len(pairs) < 2:
             return None

@@ -171,6 +171,14 @@ def test_exponent_is_that_of_the_generated_tiles():
     times = {size: {"slope": 3.0 * size**1.25} for size in (1, 10, 50)}
     found = made_up(times)
     assert found.exponent("slope") == pytest.approx(1.25)
+    assert goal(found, "Slope filter: exponent").verdict == "no"
+    near = made_up({size: {"slope": size} for size in (0.2, 1, 5)})
+    assert goal(near, "Slope filter: exponent").verdict == "not measured"
+    wide = made_up({size: {"slope": max(size, 0.5)} for size in (0.2, 1, 10)})
+    assert goal(wide, "Slope filter: exponent")[2:4] == (
+        pytest.approx(1.0),
+        "1 million to 10 million",
+    )
     real = tiles.Tile("real", "/none", 100, 1.0)
     found.tiles.append(real)
     found.runs.append(Run("real", "slope", 0, Cost(1e6, 1.0, 1)))
