@@ -8,6 +8,7 @@ what it leaves open is ours, see docs/grid-minimum.md.
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -41,44 +42,97 @@ _CHUNK = 1 << 18
 _REACH_OBJECTS, _LEAST_REACH = 2.0, 100.0
 
 
+class Preset(NamedTuple):
+    """What a kind of terrain asks for.
+
+    Attributes
+    ----------
+    label : str
+        As in the dialog.
+    cell_size : float
+        Least cell size in metres; grows where points are sparse, but in the paper's preset.
+    height_thresholds : tuple of float
+        In metres.
+    final_height, max_object_size : float
+        In metres.
+    """
+
+    label: str
+    cell_size: float
+    height_thresholds: tuple[float, ...]
+    final_height: float
+    max_object_size: float
+
+
+PRESETS = {
+    "automatic": Preset("Automatic", 0.5, (5.0, 4.5, 2.0), 0.3, 40.0),
+    "flat": Preset("Flat land, fields", 0.5, (5.0, 4.5, 2.0), 0.25, 40.0),
+    "hilly": Preset("Hilly land, forest", 1.0, (5.0, 4.5, 2.0), 0.3, 25.0),
+    "steep": Preset("Steep or rugged terrain", 0.5, (5.0, 4.5, 2.0), 0.5, 25.0),
+    "town": Preset("Town", 0.5, (5.0, 4.5, 2.0), 0.3, 60.0),
+    "city": Preset("City, large halls", 0.5, (5.0, 4.5, 2.0), 0.3, 120.0),
+    "paper": Preset("The paper's values", 0.5, (5.0, 4.5, 2.0), 0.3, 40.0),
+}
+
+
 @dataclass(frozen=True)
 class GridMinimum(ParameterSet):
-    """Parameters of the minimum-Z grid filter."""
+    """Parameters of the minimum-Z grid filter.
 
-    cell_size: float = parameter(
-        0.5,
+    Those left empty are taken from the preset; `resolve` says which.
+    """
+
+    preset: str = parameter(
+        "automatic",
+        label="Preset",
+        choices={name: preset.label for name, preset in PRESETS.items()},
+        help="Where the values come from that are left empty: what suits most land (automatic) or a"
+        " kind of terrain. The log says which values were used.",
+    )
+    cell_size: float | None = parameter(
+        None,
         label="Cell size",
         unit="m",
         minimum=0.01,
         maximum=100.0,
+        kind="number",
+        empty="automatic",
         help="Side of the square cells whose lowest points are compared. 0.5 m suits 7 to 9"
-        " points/m2. Where a cell would hold less than a point, a multiple is taken instead.",
+        " points/m2. Empty: from the preset; where such a cell would hold less than a point, a"
+        " multiple.",
     )
-    height_thresholds: tuple[float, ...] = parameter(
-        (5.0, 4.5, 2.0),
+    height_thresholds: tuple[float, ...] | None = parameter(
+        None,
         label="Height thresholds",
         unit="m",
         minimum=0.05,
         maximum=1000.0,
+        kind="numbers",
+        empty="automatic",
         help="One pass for each, from the largest: of two neighbouring cells that differ by more,"
-        " the higher is the rim of an object.",
+        " the higher is the rim of an object. Empty: from the preset.",
     )
-    final_height: float = parameter(
-        0.3,
+    final_height: float | None = parameter(
+        None,
         label="Final height",
         unit="m",
         minimum=0.01,
         maximum=100.0,
+        kind="number",
+        empty="automatic",
         help="In the last pass whatever stands this far above the ground beside it is removed:"
-        " bushes, cars, walls. Larger spares rough ground.",
+        " bushes, cars, walls. Larger spares rough ground. Empty: from the preset.",
     )
-    max_object_size: float = parameter(
-        40.0,
+    max_object_size: float | None = parameter(
+        None,
         label="Maximum object size",
         unit="m",
         minimum=0.1,
         maximum=1000.0,
-        help="Shorter side of the largest building. What is wider is terrain.",
+        kind="number",
+        empty="automatic",
+        help="Shorter side of the largest building. What is wider is terrain. Empty: from the"
+        " preset.",
     )
     ground_tolerance: float = parameter(
         0.4,
@@ -101,16 +155,39 @@ class GridMinimum(ParameterSet):
     def __post_init__(self) -> None:
         super().__post_init__()
         heights = self.height_thresholds
+        if heights is None:
+            return
         if not heights or any(low > high for high, low in zip(heights, heights[1:])):
             given = ", ".join(f"{each:g}" for each in heights) or "nothing"
             raise BareEarthError(
                 f"Height thresholds must be a list from the largest to the smallest, not {given}."
             )
 
+    def resolve(self, points: Points) -> GridMinimum:
+        """Return the parameters with a value for each that was left empty.
+
+        Parameters
+        ----------
+        points : Points
+            The whole survey: its blocks must all be classified with the same values.
+
+        Returns
+        -------
+        GridMinimum
+            Equal to this one if nothing was empty.
+        """
+        preset = PRESETS[self.preset]
+        names = ("cell_size", "height_thresholds", "final_height", "max_object_size")
+        empty = {name: getattr(preset, name) for name in names if getattr(self, name) is None}
+        if "cell_size" in empty and self.preset != "paper":
+            empty["cell_size"] *= _multiple(_density(points, preset.cell_size), preset.cell_size)
+        return dataclasses.replace(self, **empty)
+
 
 def reach(parameters: GridMinimum) -> float:
     """Return the metres beyond which a point does not matter for another."""
-    return max(_LEAST_REACH, _REACH_OBJECTS * parameters.max_object_size)
+    largest = parameters.max_object_size or PRESETS[parameters.preset].max_object_size
+    return max(_LEAST_REACH, _REACH_OBJECTS * largest)
 
 
 def classify(points: Points, parameters: GridMinimum, progress: Progress = SILENT) -> np.ndarray:
@@ -141,17 +218,21 @@ def classify(points: Points, parameters: GridMinimum, progress: Progress = SILEN
     Cancelled
         If the user asked to stop.
     """
-    cells = _cells(points, parameters.cell_size, progress)
+    resolved = parameters.resolve(points)
+    if resolved != parameters:
+        progress.info(_in_words(resolved))
+    _tell_of_gaps(points, resolved, progress)
+    cells = Cells.over(points, resolved.cell_size)
     progress(0.1)
     heights = cells.minimum(points.z)
     blocks = _Blocks.over(cells, _BLOCK)
     heights[_noise(heights, cells, blocks)] = np.nan
     progress(0.2)
     ground = heights.copy()
-    ground[_tall_objects(heights, blocks, parameters, progress.part(0.2, 0.5))] = np.nan
-    ground = _without_low_objects(ground, heights, cells.size, parameters, progress.part(0.5, 0.8))
+    ground[_tall_objects(heights, blocks, resolved, progress.part(0.2, 0.5))] = np.nan
+    ground = _without_low_objects(ground, heights, cells.size, resolved, progress.part(0.5, 0.8))
     surface = inpaint(ground, _RELAXATIONS)
-    return _near_surface(points, cells, surface, parameters, progress.part(0.8, 1.0))
+    return _near_surface(points, cells, surface, resolved, progress.part(0.8, 1.0))
 
 
 class _Blocks(NamedTuple):
@@ -202,16 +283,30 @@ class _Blocks(NamedTuple):
         return tuple(slice(first, first + count) for first, count in zip(self.first, shape))
 
 
-def _cells(points: Points, size: float, progress: Progress) -> Cells:
-    """Return cells of the wanted size, or of a multiple of it where points are too few."""
+def _in_words(parameters: GridMinimum) -> str:
+    heights = ", ".join(f"{each:g}" for each in parameters.height_thresholds)
+    return (
+        f"Grid minimum: preset {parameters.preset}, cell size {parameters.cell_size:g} m, height"
+        f" thresholds {heights} m, final height {parameters.final_height:g} m, maximum object size"
+        f" {parameters.max_object_size:g} m."
+    )
+
+
+def _tell_of_gaps(points: Points, parameters: GridMinimum, progress: Progress) -> None:
+    """Warn of cells that are too small for the points."""
+    size = parameters.cell_size
     density = _density(points, size)
-    multiple = max(round(math.sqrt(_POINTS_PER_CELL / density) / size), 1)
+    multiple = _multiple(density, size)
     if multiple > 1:
-        progress.info(
+        progress.warning(
             f"{density:.2g} points/m2 are too few for cells of {size:g} m: the rims of objects"
-            f" would have gaps. Cells of {multiple * size:g} m are used instead."
+            f" have gaps. Give {multiple * size:g} m, or leave the cell size to another preset."
         )
-    return Cells.over(points, multiple * size)
+
+
+def _multiple(density: float, size: float) -> int:
+    """Return how many times larger cells must be to hold a point."""
+    return max(round(math.sqrt(_POINTS_PER_CELL / density) / size), 1)
 
 
 def _density(points: Points, size: float) -> float:

@@ -48,9 +48,9 @@ _WHITEBOX_RADIUS = 2.0
 # looks at many scales.
 _MANY_SCALES = {
     "automatic": (18.0, 15.0, 0.5),
-    "flat": (24.0, 10.0, 0.4),
+    "flat": (24.0, 15.0, 0.4),
     "hilly": (15.0, 15.0, 0.5),
-    "steep": (12.0, 25.0, 0.7),
+    "steep": (12.0, 20.0, 0.5),
     "town": (24.0, 15.0, 0.5),
     "city": (50.0, 15.0, 0.5),
 }

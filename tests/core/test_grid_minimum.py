@@ -6,7 +6,7 @@ from scenes import error, scatter, surveyed, village
 
 from bare_earth.algorithms.assessment import compare
 from bare_earth.algorithms.errors import BareEarthError
-from bare_earth.algorithms.filters.grid_minimum import GridMinimum, classify
+from bare_earth.algorithms.filters.grid_minimum import PRESETS, GridMinimum, classify
 from bare_earth.algorithms.points import Points
 from bare_earth.algorithms.progress import Progress
 from benchmarks import data
@@ -14,10 +14,13 @@ from benchmarks import data
 
 class Log(Progress):
     def __init__(self):
-        self.texts = []
+        self.texts, self.warnings = [], []
 
     def info(self, text):
         self.texts.append(text)
+
+    def warning(self, text):
+        self.warnings.append(text)
 
 
 def flat(density: float = 8.0, size: float = 80.0) -> Points:
@@ -105,8 +108,8 @@ def test_cells_grow_with_the_distance_of_the_points_and_the_log_tells(density, c
     points.z[roof] += 7.0
     log = Log()
     found = classify(points, GridMinimum(), log)
-    assert len(log.texts) == 1
-    assert f"Cells of {cell} are used" in log.texts[0]
+    assert len(log.texts) == 1 and not log.warnings
+    assert f"preset automatic, cell size {cell}, " in log.texts[0]
     assert error(found, ~roof) < 1.0
 
 
@@ -114,7 +117,59 @@ def test_cells_stay_as_wanted_where_points_are_dense_enough_even_in_part_of_the_
     points = flat(7.0)
     log = Log()
     classify(points.take(np.abs(points.x - points.y) < 15.0), GridMinimum(), log)
-    assert not log.texts
+    assert "cell size 0.5 m" in log.texts[0]
+
+
+@pytest.mark.parametrize("parameters", [GridMinimum(cell_size=0.5), GridMinimum(preset="paper")])
+def test_cells_given_by_hand_or_by_the_paper_stay_and_a_warning_tells_of_gaps(parameters):
+    log, points = Log(), flat(1.0)
+    assert parameters.resolve(points).cell_size == 0.5
+    classify(points, parameters, log)
+    assert len(log.warnings) == 1 and "too few for cells of 0.5 m" in log.warnings[0]
+    assert "Give 1 m" in log.warnings[0]
+
+
+def test_the_log_says_which_values_the_preset_chose_and_they_give_the_same_again():
+    points, _ = village(0.2, density=1.0)
+    told, silent = Log(), Log()
+    found = classify(points, GridMinimum(preset="hilly"), told)
+    chosen = GridMinimum(preset="hilly").resolve(points)
+    heights = ", ".join(f"{each:g}" for each in chosen.height_thresholds)
+    assert told.texts == [
+        f"Grid minimum: preset hilly, cell size {chosen.cell_size:g} m, height thresholds"
+        f" {heights} m, final height {chosen.final_height:g} m, maximum object size"
+        f" {chosen.max_object_size:g} m."
+    ]
+    by_hand = GridMinimum(
+        "hilly",
+        chosen.cell_size,
+        chosen.height_thresholds,
+        chosen.final_height,
+        chosen.max_object_size,
+    )
+    assert by_hand == chosen == chosen.resolve(points)
+    assert np.array_equal(classify(points, by_hand, silent), found)
+    assert not silent.texts and not silent.warnings
+
+
+def test_a_preset_gives_what_is_left_empty_and_nothing_else():
+    resolved = GridMinimum(preset="city", final_height=0.7, height_thresholds=[3.0]).resolve(flat())
+    assert resolved.final_height == 0.7 and resolved.height_thresholds == (3.0,)
+    assert resolved.max_object_size == PRESETS["city"].max_object_size
+    paper = GridMinimum(preset="paper").resolve(flat(0.5))
+    assert (paper.cell_size, paper.height_thresholds, paper.final_height) == (
+        0.5, (5.0, 4.5, 2.0), 0.3,
+    )  # fmt: skip
+
+
+def test_the_preset_says_how_large_a_hall_may_be():
+    x, y = scatter(size=120.0, density=4.0)
+    hall = (np.abs(x - 60.0) < 30.0) & (np.abs(y - 60.0) < 30.0)
+    points = Points(x, y, surveyed(x, y, np.where(hall, 14.0, 0.0)))
+    assert classify(points, GridMinimum(preset="steep"))[hall].mean() > 0.9
+    for preset in ("automatic", "town", "city"):
+        found = classify(points, GridMinimum(preset=preset))
+        assert not found[hall].any() and found[~hall].mean() > 0.97
 
 
 def test_the_order_and_the_place_of_the_points_do_not_matter():
