@@ -12,12 +12,13 @@ import numpy as np
 from .errors import BareEarthError
 from .files import check_output, replacing
 from .filters import method_of
+from .output import Output
 from .parameters import ParameterSet
 from .pointcloud.area import Area
 from .pointcloud.cloud import PointCloud
 from .pointcloud.reading import read_cloud
 from .pointcloud.selection import Selection
-from .pointcloud.writing import check_writable, write_classified
+from .pointcloud.writing import check_writable, write_changed
 from .progress import SILENT, Progress
 from .terrain.model import TerrainModel, write_terrain_model
 from .terrain.raster import check_raster_output
@@ -182,6 +183,7 @@ def classify_file(
     progress: Progress = SILENT,
     area: Area | None = None,
     resources: Resources = Resources(),
+    output: Output = Output(),
 ) -> Summary:
     """Classify the ground points of a LAS, LAZ or COPC file and write the file anew.
 
@@ -189,13 +191,15 @@ def classify_file(
     ----------
     source, target : Path
         The input, and the output (.las, .laz or .copc.laz). The output equals the input but for
-        the classification.
+        the classification, and what `output` asks for.
     parameters, selection, progress, area, resources
         As for `classify`.
     terrain : TerrainModel
         How to make the terrain model.
     dtm, hillshade : Path, optional
         GeoTIFF files of the terrain model to write as well.
+    output : Output
+        Which points are written, and whether with their heights above ground.
 
     Raises
     ------
@@ -222,8 +226,10 @@ def classify_file(
             write_terrain_model(
                 cloud.points(ground), cloud.frame, terrain, *rasters, progress.part(0.7, 0.85)
             )
-        write_classified(source, target, classification, progress.part(0.85, 1.0))
-    values, counts = np.unique(classification, return_counts=True)
+        changes = output.changes(cloud, classification, ground, progress.part(0.85, 0.9))
+        write_changed(source, target, changes, progress.part(0.9, 1.0))
+    written = classification[ground] if output.ground_only else classification
+    values, counts = np.unique(written, return_counts=True)
     return Summary(
         point_count=cloud.count,
         area_count=int(np.count_nonzero(inside)),

@@ -135,6 +135,7 @@ def _parser(arguments: Sequence[str]) -> argparse.ArgumentParser:
 
 def _add_classify(commands: Any, common: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from .filters import METHODS
+    from .output import Output
     from .pointcloud.selection import Selection
     from .terrain.model import TerrainModel
     from .tiling.memory import Resources
@@ -172,6 +173,7 @@ def _add_classify(commands: Any, common: argparse.ArgumentParser, arguments: Seq
         "parameters": (f"{method.label} parameters", method.parameters),
         "selection": ("Which points, which classes", Selection),
         "terrain": ("Terrain model", TerrainModel),
+        "output": ("Output", Output),
         "resources": ("Threads and memory", Resources),
     }
     for title, declared in groups.values():
@@ -184,7 +186,7 @@ def _add_classify(commands: Any, common: argparse.ArgumentParser, arguments: Seq
 def _classify(options: argparse.Namespace) -> int:
     from .classification import classify_file
 
-    parameters, selection, terrain, resources = _chosen(options)
+    parameters, selection, terrain, output, resources = _chosen(options)
     area = _area_of(options)
     with _Terminal(options.verbose) as progress:
         summary = classify_file(
@@ -198,6 +200,7 @@ def _classify(options: argparse.Namespace) -> int:
             progress=progress,
             area=area,
             resources=resources,
+            output=output,
         )
     ground, count = summary.area_ground_count, summary.area_count
     place = "" if area is None else " in the area"

@@ -13,23 +13,21 @@ import numpy as np
 
 from .errors import BareEarthError
 from .files import check_output, replacing
+from .output import HEIGHT_DIMENSION, height_dimension, heights_of
 from .parameters import ParameterSet, parameter
 from .pointcloud.changes import Changes
 from .pointcloud.cloud import PointCloud
 from .pointcloud.crs import unit_name
-from .pointcloud.extrabytes import ExtraDimension
 from .pointcloud.reading import read_cloud
 from .pointcloud.records import check_class
 from .pointcloud.selection import NOISE
 from .pointcloud.writing import check_writable, write_changed
 from .progress import SILENT, Progress
-from .terrain.height_above_ground import height_above_ground
 from .terrain.model import TerrainModel, interpolate, write_heights, write_hillshade
 from .terrain.model_key_points import ModelKeyPoints, model_key_points
 from .terrain.raster import RasterGrid, check_raster_output
 from .terrain.surface_model import SurfaceModel, canopy_height, surface_heights
 
-HEIGHT_DIMENSION = "HeightAboveGround"
 _INTEGERS = np.iinfo(np.int32)
 
 
@@ -205,23 +203,18 @@ def write_height_above_ground(
     check_writable(target)
     cloud = read_cloud(source, progress.part(0.0, 0.15))
     is_ground = ground.of(cloud)
-    points = cloud.points(slice(None))
-    heights = height_above_ground(points, is_ground, progress.part(0.15, 0.8))
-    # Without the noise of rounding: ground points have 0, not -0.
-    heights = np.round(heights / cloud.crs.vertical_unit, 6) + 0.0
-    unit = unit_name(cloud.crs.vertical_unit)
+    heights = heights_of(cloud, is_ground, progress.part(0.15, 0.8))
     if output.output_as == "z":
         changes = Changes(z=_integers(cloud, heights))
     else:
-        values = heights.astype(np.float32)
-        changes = Changes(extra=ExtraDimension(HEIGHT_DIMENSION, f"Above ground, {unit}", values))
+        changes = Changes(extra=height_dimension(cloud, heights))
     write_changed(source, target, changes, progress.part(0.8, 1.0))
     return HeightSummary(
         point_count=cloud.count,
         ground_count=int(np.count_nonzero(is_ground)),
         minimum=float(heights.min()),
         maximum=float(heights.max()),
-        unit=unit,
+        unit=unit_name(cloud.crs.vertical_unit),
     )
 
 

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Iterator
 
 import numpy as np
 
 from ..errors import BareEarthError
 from .extrabytes import ExtraDimension, place_dimension
-from .lasbytes import LasLayout, with_z_range
-from .records import FIRST_EXTENDED_FORMAT, check_class
+from .lasbytes import LasLayout, with_count, with_z_range
+from .records import FIRST_EXTENDED_FORMAT, check_class, read_records
 
 _Z = slice(8, 12)
 # The key-point flag: in the byte of the class up to point format 5, in that of the flags from 6 on.
@@ -30,17 +31,20 @@ class Changes:
         Heights as integers, of the scale and offset that the file has.
     extra : ExtraDimension or None
         A dimension in extra bytes.
+    kept : numpy.ndarray of bool or None
+        The points that are written; all if it is not given.
     """
 
     classification: np.ndarray | None = None
     key_points: np.ndarray | None = None
     z: np.ndarray | None = None
     extra: ExtraDimension | None = None
+    kept: np.ndarray | None = None
 
     def columns(self) -> list[np.ndarray]:
         """Return what is given."""
         extra = None if self.extra is None else self.extra.values
-        columns = self.classification, self.key_points, self.z, extra
+        columns = self.classification, self.key_points, self.z, extra, self.kept
         return [each for each in columns if each is not None]
 
 
@@ -70,10 +74,46 @@ class Rewriting:
             raise BareEarthError(f"{source.path} has changed while it was worked on. Run it again.")
         self.source = self.target = source
         self._changes, self._place = changes, None
+        if changes.kept is not None and not changes.kept.any():
+            raise BareEarthError(f"None of the points of {source.path} is left to be written.")
         if changes.extra is not None:
-            self.target, self._place = place_dimension(source, changes.extra)
+            extra = changes.extra
+            if changes.kept is not None:
+                extra = replace(extra, values=extra.values[changes.kept])
+            self.target, self._place = place_dimension(source, extra)
         if changes.z is not None:
             self.target = with_z_range(self.target, int(changes.z.min()), int(changes.z.max()))
+
+        if changes.kept is not None:
+            self.target = with_count(self.target, int(np.count_nonzero(changes.kept)))
+
+    @property
+    def leaves_out(self) -> bool:
+        """Whether not all points are written."""
+        return self._changes.kept is not None
+
+    def points(self) -> Iterator[tuple[np.ndarray, np.ndarray, float]]:
+        """Yield the points that are written, by chunks: as they are to be, but for their classes.
+
+        Yields
+        ------
+        records : numpy.ndarray of uint8, shape (k, record length of the target)
+            The next ones may reuse its memory.
+        classes : numpy.ndarray of uint8, shape (k,)
+            What their classes are to be.
+        done : float
+            Share of the source that has been read.
+        """
+        start = 0
+        for old in read_records(self.source):
+            records = self.apply(old, start)
+            classes = self.classes(records, start)
+            end = start + len(old)
+            if self._changes.kept is not None:
+                kept = self._changes.kept[start:end]
+                records, classes = records[kept], classes[kept]
+            yield records, classes, end / self.source.count
+            start = end
 
     def check_classes(self) -> None:
         """Refuse classes that the point format of the file has no room for."""

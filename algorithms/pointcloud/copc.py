@@ -33,7 +33,7 @@ from .lasbytes import (
     Vlr,
     new_vlr,
 )
-from .records import LazRecordWriter, copy_range, laszip_vlr, read_records
+from .records import LazRecordWriter, copy_range, laszip_vlr
 from .sources import open_source
 
 # A node takes one point for each cell of a grid of so many cells along each side, ...
@@ -303,18 +303,17 @@ def _read(rewriting: Rewriting, point_format: int, progress: Progress) -> np.nda
     length = RECORD_LENGTHS[point_format]
     records = np.zeros((layout.count, length + layout.extra_bytes), dtype=np.uint8)
     start = 0
-    for raw in read_records(rewriting.source):
-        new = records[start : start + len(raw)]
-        old = rewriting.apply(raw, start)
+    for old, classes, done in rewriting.points():
+        new = records[start : start + len(old)]
         if layout.point_format >= 6:
             # 9 and 10 are 6 and 8 with waveforms behind.
             new[:, :length] = old[:, :length]
         else:
             _modernise(old, new, layout.point_format)
         new[:, length:] = old[:, RECORD_LENGTHS[layout.point_format] :]
-        new[:, 16] = rewriting.classes(old, start)
-        start += len(raw)
-        progress(start / layout.count)
+        new[:, 16] = classes
+        start += len(old)
+        progress(done)
     return records
 
 

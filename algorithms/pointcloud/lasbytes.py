@@ -11,7 +11,7 @@ import struct
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, Sequence
 
 from ..errors import BareEarthError
 from .sources import damaged, open_source
@@ -32,7 +32,9 @@ _LARGEST_KEPT = 1 << 20
 _ENCODING, _VERSION, _SYSTEM, _SOFTWARE, _HEADER_SIZE = 6, 24, 26, 58, 94
 _POINTS_START, _VLR_COUNT, _FORMAT, _RECORD_LENGTH, _LEGACY_COUNT = 96, 100, 104, 105, 107
 _SCALE, _OFFSET, _EXTENT, _WAVEFORM_START, _EVLR_START, _COUNT = 131, 155, 179, 227, 235, 247
-_Z_RANGE = 211
+_Z_RANGE, _LEGACY_RETURNS, _RETURNS = 211, 111, 255
+_LEGACY_RETURN_COUNT, _RETURN_COUNT = 5, 15
+_LAST_LEGACY_FORMAT = 5
 
 
 @dataclass(frozen=True)
@@ -269,6 +271,40 @@ def with_z_range(layout: LasLayout, lowest: int, highest: int) -> LasLayout:
     header, scale, offset = bytearray(layout.header), layout.scale[2], layout.offset[2]
     extent = highest * scale + offset, lowest * scale + offset
     struct.pack_into("<2d", header, _Z_RANGE, *extent)
+    return replace(layout, header=bytes(header))
+
+
+def with_count(layout: LasLayout, count: int) -> LasLayout:
+    """Return the layout with another number of points; see `with_statistics` for the rest."""
+    header = bytearray(layout.header)
+    legacy = layout.minor_version < 4 or layout.point_format <= _LAST_LEGACY_FORMAT
+    struct.pack_into("<I", header, _LEGACY_COUNT, count if legacy and count < 1 << 32 else 0)
+    if layout.minor_version >= 4:
+        struct.pack_into("<Q", header, _COUNT, count)
+    return replace(layout, header=bytes(header))
+
+
+def with_statistics(
+    layout: LasLayout, lowest: Sequence[int], highest: Sequence[int], returns: Sequence[int]
+) -> LasLayout:
+    """Return the layout with another extent, and other numbers of points of each return.
+
+    Parameters
+    ----------
+    lowest, highest : sequence of int
+        Smallest and largest x, y and z as integers.
+    returns : sequence of int
+        How many first, second, ... returns there are; fifteen numbers.
+    """
+    header = bytearray(layout.header)
+    for axis, (scale, offset) in enumerate(zip(layout.scale, layout.offset)):
+        extent = highest[axis] * scale + offset, lowest[axis] * scale + offset
+        struct.pack_into("<2d", header, _EXTENT + 16 * axis, *extent)
+    legacy = layout.minor_version < 4 or layout.point_format <= _LAST_LEGACY_FORMAT
+    old = [each if legacy and each < 1 << 32 else 0 for each in returns[:_LEGACY_RETURN_COUNT]]
+    struct.pack_into(f"<{_LEGACY_RETURN_COUNT}I", header, _LEGACY_RETURNS, *old)
+    if layout.minor_version >= 4:
+        struct.pack_into(f"<{_RETURN_COUNT}Q", header, _RETURNS, *returns)
     return replace(layout, header=bytes(header))
 
 

@@ -87,6 +87,35 @@ def set_classes(layout: LasLayout, records: np.ndarray, classes: np.ndarray) -> 
         records[:, 15] = (records[:, 15] & 0xE0) | classes
 
 
+class Tally:
+    """Counts what a header says of points, as they are written.
+
+    Attributes
+    ----------
+    lowest, highest : numpy.ndarray of int64, shape (3,)
+        Smallest and largest x, y and z as integers.
+    returns : numpy.ndarray of int64, shape (15,)
+        How many first, second, ... returns there were.
+    """
+
+    def __init__(self, point_format: int) -> None:
+        self._return_bits = 0x0F if point_format >= FIRST_EXTENDED_FORMAT else 0x07
+        limits = np.iinfo(np.int64)
+        self.lowest = np.full(3, limits.max)
+        self.highest = np.full(3, limits.min)
+        self.returns = np.zeros(15, dtype=np.int64)
+
+    def add(self, records: np.ndarray) -> None:
+        """Count points, given as their bytes."""
+        if not len(records):
+            return
+        xyz = np.ascontiguousarray(records[:, :12]).view("<i4")
+        self.lowest = np.minimum(self.lowest, xyz.min(axis=0))
+        self.highest = np.maximum(self.highest, xyz.max(axis=0))
+        numbers = np.bincount(records[:, 14] & self._return_bits, minlength=16)
+        self.returns += numbers[1:16]
+
+
 class LasRecordWriter:
     """Writes the bytes of points as they are."""
 

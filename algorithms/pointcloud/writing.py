@@ -18,13 +18,21 @@ from ..progress import SILENT, Progress
 from .backends import require
 from .changes import Changes, Rewriting
 from .copc import write_copc
-from .lasbytes import COPC_HIERARCHY, COPC_INFO, EVLR_COUNT, LASZIP, LasLayout, read_layout
+from .lasbytes import (
+    COPC_HIERARCHY,
+    COPC_INFO,
+    EVLR_COUNT,
+    LASZIP,
+    LasLayout,
+    read_layout,
+    with_statistics,
+)
 from .records import (
     LasRecordWriter,
     LazRecordWriter,
+    Tally,
     copy_range,
     laszip_vlr,
-    read_records,
     set_classes,
 )
 from .sources import open_source
@@ -70,7 +78,8 @@ def write_changed(
 ) -> None:
     """Write `source` anew with other values of its points.
 
-    All that is not to change stays: points, their order, integers and extra bytes, the header and
+    Points are left out only if the changes say so; header and counts then speak of the rest. All
+    that is not to change stays: points, their order, integers and extra bytes, the header and
     all records, but for what compressing or decompressing needs. Writing .copc.laz changes the
     order of the points, and the point formats 0 to 5 to 6 to 8, as its specification wants.
 
@@ -127,17 +136,24 @@ def _write(rewriting: Rewriting, target: Path, progress: Progress) -> None:
     with open(target, "w+b") as file:
         file.write(layout.prefix(tuple(vlrs), compressed))
         writer = LazRecordWriter(file, laszip) if laszip else LasRecordWriter(file)
-        start, channels = 0, set()
-        for old in read_records(rewriting.source):
-            records = rewriting.apply(old, start)
-            set_classes(layout, records, rewriting.classes(old, start))
+        channels, tally = set(), Tally(layout.point_format)
+        for records, classes, done in rewriting.points():
+            set_classes(layout, records, classes)
             if laszip is not None and layout.point_format in _EXTENDED_WITH_WAVEFORMS:
                 channels |= set(np.unique(records[:, 15] & _CHANNEL_BITS).tolist())
                 _check_channels(layout, channels)
             writer.write(records)
-            start += len(records)
-            progress(start / layout.count)
+            if rewriting.leaves_out:
+                tally.add(records)
+            progress(done)
         writer.finish()
+        if rewriting.leaves_out:
+            # What the header of the source says of all points would be wrong of some.
+            layout = with_statistics(
+                layout, tally.lowest.tolist(), tally.highest.tolist(), tally.returns.tolist()
+            )
+            file.seek(0)
+            file.write(layout.prefix(tuple(vlrs), compressed)[: len(layout.header)])
         _copy_tail(rewriting, file)
 
 

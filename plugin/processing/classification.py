@@ -12,6 +12,7 @@ from qgis.core import (
 )
 
 from ...algorithms.filters import METHODS
+from ...algorithms.output import Output
 from ...algorithms.parameters import ParameterSet
 from ...algorithms.pointcloud.selection import Selection
 from ...algorithms.terrain.model import TerrainModel
@@ -37,7 +38,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
 
     def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
         """Return the method's parameters, then those that all methods share."""
-        return METHODS[self.method].parameters, Selection, TerrainModel, Resources
+        return METHODS[self.method].parameters, Selection, TerrainModel, Output, Resources
 
     def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
         """Declare the fields of the dialog and the results."""
@@ -97,9 +98,9 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         command = command_line("classify", [str(self._source), output], chosen, options)
         progress.command(" ".join([command, *self._area_options(progress)]))
         rasters = [Path(each) if each else None for each in (dtm, hillshade)]
-        *policy, resources = chosen
+        *policy, wanted, resources = chosen
         summary = classify_file(
-            self._source, Path(output), *policy, *rasters, progress, self._area, resources
+            self._source, Path(output), *policy, *rasters, progress, self._area, resources, wanted
         )
         ground, count = summary.area_ground_count, summary.area_count
         place = " in the area" if self._area else ""

@@ -89,6 +89,27 @@ def test_lists_and_empty_fields_of_the_other_methods(name, registry, scene, out,
     assert not possible and ("largest" in text or "at least" in text)
 
 
+@pytest.mark.parametrize("name", ["tindensification", "gridminimum", "slopefilter"])
+def test_ground_only_with_heights(name, registry, scene, out, context, log):
+    from bare_earth.algorithms.cli import main
+
+    algorithm = registry.createAlgorithmById(f"bareearth:{name}")
+    wanted = {"GROUND_ONLY": True, "HEIGHT_ABOVE_GROUND": True}
+    results, done = algorithm.run({**everything(scene, out), **wanted}, context, log)
+    assert done, log.text
+    cloud = laspy.read(results["OUTPUT"])
+    assert len(cloud.points) == results["GROUND_COUNT"] < results["POINT_COUNT"] == scene.count
+    assert set(np.unique(cloud.classification)) == {2}
+    assert np.allclose(cloud["HeightAboveGround"], 0.0, atol=1e-3)
+    assert "points that are not ground are left out" in log.text
+    with open(results["OUTPUT"], "rb") as file:
+        before = file.read()
+    command = next(shlex.split(line) for line in log.said if line.startswith("bare-earth "))
+    assert main(command[1:]) == 0
+    with open(results["OUTPUT"], "rb") as file:
+        assert file.read() == before
+
+
 def test_processing_run(scene, out):
     import processing
 

@@ -13,6 +13,7 @@ from qgis.core import (
 )
 from support import ALGORITHM, ROOT
 
+from bare_earth.algorithms.output import Output
 from bare_earth.algorithms.pointcloud.selection import Selection
 from bare_earth.algorithms.terrain.model import TerrainModel
 from bare_earth.algorithms.tiling.memory import Resources
@@ -22,7 +23,7 @@ SHARED_PARAMETERS = [
     "FROM_CLASSES", "SEED_CLASSES", "TO_CLASS", "RETURNS", "OTHERS",
     "LOW_NOISE_CLASS", "LOW_NOISE_DEPTH",
     "DTM_CELL_SIZE", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
-    "THREADS", "MEMORY",
+    "GROUND_ONLY", "HEIGHT_ABOVE_GROUND", "THREADS", "MEMORY",
     "EXTENT", "BOUNDARY",
     "OUTPUT", "DTM", "HILLSHADE",
 ]  # fmt: skip
@@ -40,8 +41,8 @@ PARAMETERS = {
     ],
     "bareearth:gridminimum": [
         "INPUT",
-        "CELL_SIZE", "HEIGHT_THRESHOLDS", "FINAL_HEIGHT", "MAX_OBJECT_SIZE", "GROUND_TOLERANCE",
-        "SLOPE_TOLERANCE",
+        "PRESET", "CELL_SIZE", "HEIGHT_THRESHOLDS", "FINAL_HEIGHT", "MAX_OBJECT_SIZE",
+        "GROUND_TOLERANCE", "SLOPE_TOLERANCE",
         *SHARED_PARAMETERS,
     ],
     "bareearth:slopefilter": [
@@ -228,7 +229,7 @@ def test_its_page_holds_every_parameter_with_its_default(each, registry):
     # What all ground classifications share stands on the page of one of them.
     shared = page_of(registry.createAlgorithmById(ALGORITHM))
     for declared in each.parameter_sets():
-        holds = shared if declared in (Selection, TerrainModel, Resources) else page
+        holds = shared if declared in (Selection, TerrainModel, Output, Resources) else page
         for parameter in declared.declarations():
             row = f"| **{parameter.label}** `{parameter.name.upper()}` | "
             assert row in holds
