@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 
@@ -15,10 +14,13 @@ from .filters import method_of
 from .output import Output
 from .parameters import ParameterSet
 from .pointcloud.area import Area
+from .pointcloud.changes import Changes
 from .pointcloud.cloud import PointCloud
+from .pointcloud.lasbytes import read_layout
 from .pointcloud.reading import read_cloud
-from .pointcloud.selection import Selection
-from .pointcloud.writing import check_writable, write_changed
+from .pointcloud.scope import Scope
+from .pointcloud.selection import Selection, count_classes
+from .pointcloud.writing import check_writable, is_copc, write_changed
 from .progress import SILENT, Progress
 from .terrain.model import TerrainModel, write_terrain_model
 from .terrain.raster import check_raster_output
@@ -26,6 +28,7 @@ from .tiling.blocks import GROUND, LOW
 from .tiling.cloudstore import CloudStore, Part
 from .tiling.ground import blocks_of, label_ground
 from .tiling.memory import Resources
+from .tiling.streaming import Outcome, classify_parts, fits_in_memory
 
 
 @dataclass(frozen=True)
@@ -95,81 +98,38 @@ def classify(
     Cancelled
         If the user asked to stop.
     """
-    result = _classify(cloud, parameters, selection, progress, area, resources)
-    return result.classification, result.selected
+    scope = Scope(selection, area, method_of(parameters).reach(parameters))
+    labels, inside, selected = _labels(cloud, parameters, scope, resources, progress)
+    return _classes(cloud, selection, labels, inside), selected & inside
 
 
-class _Result(NamedTuple):
-    """What `_classify` returns: as `classify`, and which points lie in the area."""
-
-    classification: np.ndarray
-    selected: np.ndarray
-    inside: np.ndarray
-
-
-def _classify(
+def _labels(
     cloud: PointCloud,
     parameters: ParameterSet,
-    selection: Selection,
-    progress: Progress,
-    area: Area | None,
+    scope: Scope,
     resources: Resources,
-) -> _Result:
-    cloud.require_projected()
-    inside, within = _extent_of(cloud, parameters, area, progress.part(0.0, 0.05))
-    selected = selection.select(cloud, progress, within)
-    if not (inside & selected).any():
-        raise BareEarthError(
-            f"None of the {np.count_nonzero(inside):,} points in the area takes part. Choose"
-            " another area, or other returns or classes."
-        )
-    known = selection.known_ground(cloud, selected)
-    blocks = blocks_of(parameters)
-    wanted = None if area is None else inside
-    store = CloudStore([Part(cloud, selected, known, wanted)], cloud.frame, blocks)
+    progress: Progress,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the label of each point, and which lie in the area, and which take part."""
+    selection = scope.selection
+    inside, selected = scope.choose(cloud, progress.part(0.0, 0.05))
+    scope.tell(progress)
     progress(0.1)
+    blocks = blocks_of(parameters)
+    part = Part(cloud, selected, selection.known_ground(cloud, selected), inside)
+    store = CloudStore([part], cloud.frame, blocks, progress.part(0.1, 0.2))
     depth = selection.low_noise_depth if selection.low_noise_class else None
-    label_ground(store, parameters, blocks, depth, resources, progress.part(0.1, 1.0))
-    ground, low = store.labels[0] == GROUND, None
-    if depth is not None:
-        low = store.labels[0] == LOW
-        count = np.count_nonzero(low & inside)
-        progress.info(f"{count:,} points lie more than {depth:g} m below the ground.")
-    classification = selection.classes(cloud, ground, low, inside)
-    return _Result(classification, selected & inside, inside)
+    label_ground(store, parameters, blocks, depth, resources, progress.part(0.2, 1.0))
+    labels = store.labels[0]
+    scope.tell_of_low(int(np.count_nonzero((labels == LOW) & inside)), progress)
+    return labels, inside, selected
 
 
-def _extent_of(
-    cloud: PointCloud, parameters: ParameterSet, area: Area | None, progress: Progress
-) -> tuple[np.ndarray, np.ndarray | None]:
-    """Return which points lie in an area, and which in it or near enough to be context."""
-    if area is None:
-        return np.ones(cloud.count, dtype=bool), None
-    inside = area.of(cloud, progress.part(0.0, 0.8))
-    count = int(np.count_nonzero(inside))
-    if not count:
-        wanted, there = _in_words(area.bounds), _in_words(_bounds(cloud))
-        raise BareEarthError(
-            f"No point of {cloud.path} lies in the area ({wanted}): the points have {there}. Give"
-            " the area in the CRS of the points."
-        )
-    progress.info(f"{count:,} of {cloud.count:,} points lie in the area.")
-    metres = method_of(parameters).reach(parameters)
-    near = Area(area.buffered_box(metres / cloud.crs.horizontal_unit))
-    return inside, near.of(cloud, progress.part(0.8, 1.0))
-
-
-def _bounds(cloud: PointCloud) -> tuple[float, ...]:
-    return tuple(
-        float(pick(each) * scale + offset)
-        for pick in (np.min, np.max)
-        for each, scale, offset in zip((cloud.x, cloud.y), cloud.scale, cloud.offset)
-    )
-
-
-def _in_words(bounds: tuple[float, ...]) -> str:
-    west, south, east, north = bounds
-    return f"x {west:.10g} to {east:.10g}, y {south:.10g} to {north:.10g}"
+def _classes(
+    cloud: PointCloud, selection: Selection, labels: np.ndarray, inside: np.ndarray
+) -> np.ndarray:
+    """Return the new class of each point."""
+    return selection.classes(cloud, labels == GROUND, labels == LOW, inside)
 
 
 def classify_file(
@@ -212,11 +172,16 @@ def classify_file(
     check_writable(target)
     for raster in filter(None, (dtm, hillshade)):
         check_raster_output(raster, (source, target))
-    cloud = read_cloud(source, progress.part(0.0, 0.15))
-    classification, selected, inside = _classify(
-        cloud, parameters, selection, progress.part(0.15, 0.7), area, resources
-    )
-    ground = classification == selection.to_class
+    resources = resources.now()
+    scope = Scope(selection, area, method_of(parameters).reach(parameters))
+    model = terrain if dtm or hillshade else None
+    count = read_layout(Path(source)).count
+    if fits_in_memory(count, resources):
+        outcome = _in_memory(source, parameters, scope, resources, model, progress.part(0.0, 0.7))
+    else:
+        _check_parts_do(target, output, count, progress)
+        blocks, part = blocks_of(parameters), progress.part(0.0, 0.7)
+        outcome = classify_parts(source, target, parameters, scope, blocks, resources, model, part)
     with contextlib.ExitStack() as outputs:
         # All outputs or none: the rasters get their names after the cloud is written.
         rasters = [
@@ -224,17 +189,59 @@ def classify_file(
         ]
         if any(rasters):
             write_terrain_model(
-                cloud.points(ground), cloud.frame, terrain, *rasters, progress.part(0.7, 0.85)
+                outcome.ground, outcome.frame, terrain, *rasters, progress.part(0.7, 0.85)
             )
-        changes = output.changes(cloud, classification, ground, progress.part(0.85, 0.9))
+        classes = outcome.classification
+        changes = Changes(classification=classes)
+        if output.ground_only or output.height_above_ground:
+            ground = classes == selection.to_class
+            changes = output.changes(outcome.cloud, classes, ground, progress.part(0.85, 0.9))
         write_changed(source, target, changes, progress.part(0.9, 1.0))
-    written = classification[ground] if output.ground_only else classification
-    values, counts = np.unique(written, return_counts=True)
+    counts = outcome.class_counts
+    written = [selection.to_class] if output.ground_only else np.flatnonzero(counts)
     return Summary(
-        point_count=cloud.count,
-        area_count=int(np.count_nonzero(inside)),
-        selected_count=int(np.count_nonzero(selected)),
-        ground_count=int(np.count_nonzero(ground)),
-        area_ground_count=int(np.count_nonzero(ground & inside)),
-        class_counts={int(value): int(count) for value, count in zip(values, counts)},
+        point_count=scope.tally.points,
+        area_count=scope.inside_count,
+        selected_count=scope.wanted_count,
+        ground_count=int(counts[selection.to_class]),
+        area_ground_count=outcome.area_ground_count,
+        class_counts={int(value): int(counts[value]) for value in written},
+    )
+
+
+def _in_memory(
+    source: Path,
+    parameters: ParameterSet,
+    scope: Scope,
+    resources: Resources,
+    terrain: TerrainModel | None,
+    progress: Progress,
+) -> Outcome:
+    """Classify a file with all of its points in memory."""
+    cloud = read_cloud(source, progress.part(0.0, 0.2))
+    labels, inside, _ = _labels(cloud, parameters, scope, resources, progress.part(0.2, 1.0))
+    classes = _classes(cloud, scope.selection, labels, inside)
+    ground = classes == scope.selection.to_class
+    return Outcome(
+        cloud,
+        classes,
+        cloud.frame,
+        count_classes(classes),
+        int(np.count_nonzero(ground & inside)),
+        None if terrain is None else cloud.points(ground),
+    )
+
+
+def _check_parts_do(target: Path, output: Output, count: int, progress: Progress) -> None:
+    """Refuse an output that needs all points in memory where they do not fit; tell of the way."""
+    needs = "writing COPC" if is_copc(target) else "measuring heights above ground"
+    if is_copc(target) or output.height_above_ground:
+        remedy = "Name the output .laz" if is_copc(target) else "Leave out the heights"
+        raise BareEarthError(
+            f"The {count:,} points do not fit into the memory that may be used, which {needs}"
+            f" needs. {remedy}, or give more memory."
+        )
+    progress.info(
+        f"The {count:,} points do not fit into the memory that may be used: they are read twice,"
+        " and wait in a temporary file in the folder of the output meanwhile."
     )

@@ -12,7 +12,7 @@ import numpy as np
 from ..progress import SILENT, Progress
 from .backends import require
 from .cloud import PointCloud
-from .crs import read_crs, unit_name
+from .crs import Crs, read_crs, unit_name
 from .lasbytes import LasLayout, read_layout
 from .sources import damage_told, damaged
 
@@ -46,7 +46,7 @@ def read_cloud(path: Path, progress: Progress = SILENT) -> PointCloud:
     """
     layout = read_layout(Path(path))
     require(*_packages(layout))
-    cloud = _empty_cloud(layout, progress)
+    cloud = _empty_cloud(layout, layout.count, read_crs(layout, progress))
     start = 0
     with _opened(layout) as reader:
         for chunk in _chunks(layout, reader):
@@ -56,6 +56,40 @@ def read_cloud(path: Path, progress: Progress = SILENT) -> PointCloud:
     if start != layout.count:
         raise damaged(layout.path)
     return cloud
+
+
+def read_parts(path: Path, progress: Progress = SILENT) -> Iterator[PointCloud]:
+    """Read a file part by part, so that it need not fit into memory.
+
+    Parameters
+    ----------
+    path, progress
+        As for `read_cloud`.
+
+    Yields
+    ------
+    PointCloud
+        The next points, in file order. The parts of a file are the same each time.
+
+    Raises
+    ------
+    BareEarthError
+        If the file cannot be read, with what to do about it.
+    Cancelled
+        If the user asked to stop.
+    """
+    layout = read_layout(Path(path))
+    require(*_packages(layout))
+    crs, start = read_crs(layout, progress), 0
+    with _opened(layout) as reader:
+        for chunk in _chunks(layout, reader):
+            part = _empty_cloud(layout, len(chunk), crs)
+            _fill(part, slice(None), chunk)
+            yield part
+            start += len(chunk)
+            progress(start / layout.count)
+    if start != layout.count:
+        raise damaged(layout.path)
 
 
 @dataclass(frozen=True)
@@ -209,9 +243,9 @@ def _chunks(layout: LasLayout, reader: laspy.LasReader) -> Iterator[laspy.ScaleA
         yield chunk
 
 
-def _empty_cloud(layout: LasLayout, progress: Progress) -> PointCloud:
+def _empty_cloud(layout: LasLayout, count: int, crs: Crs) -> PointCloud:
     def column(kind: type) -> np.ndarray:
-        return np.empty(layout.count, dtype=kind)
+        return np.empty(count, dtype=kind)
 
     return PointCloud(
         path=layout.path,
@@ -225,7 +259,7 @@ def _empty_cloud(layout: LasLayout, progress: Progress) -> PointCloud:
         number_of_returns=column(np.uint8),
         withheld=column(bool),
         point_format=layout.point_format,
-        crs=read_crs(layout, progress),
+        crs=crs,
     )
 
 

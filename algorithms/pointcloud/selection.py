@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from .records import check_class
 NEVER_CLASSIFIED, UNCLASSIFIED, GROUND = 0, 1, 2
 LOW_NOISE = 7
 NOISE = (LOW_NOISE, 18)
+_STEP = 1 << 20
 
 
 @dataclass(frozen=True)
@@ -112,32 +114,85 @@ class Selection(ParameterSet):
         BareEarthError
             If no point is left, the CRS is geographic, or the points cannot hold the class.
         """
+        self.check(cloud)
+        tally = Tally()
+        selected = self.choose(cloud, tally, within)
+        self.tell(tally, cloud.path, progress, within is not None)
+        return selected
+
+    def check(self, cloud: PointCloud) -> None:
+        """Refuse a file, whatever its points, whose CRS or point format does not do.
+
+        Raises
+        ------
+        BareEarthError
+            If the CRS is geographic, or the points cannot hold the class.
+        """
         cloud.require_projected()
         check_class(cloud.path, cloud.point_format, self.to_class, "the ground")
-        noise = self._left_out_noise(cloud)
-        if noise:
-            counts = ", ".join(f"{count:,} of class {value}" for value, count in noise.items())
+
+    def choose(
+        self, part: PointCloud, tally: Tally, within: np.ndarray | None = None
+    ) -> np.ndarray:
+        """Return which points of a part of a file take part, and count them.
+
+        Parameters
+        ----------
+        part : PointCloud
+            Any points of the file.
+        tally : Tally
+            Gets what there is to tell of them added.
+        within : numpy.ndarray of bool, shape (n,), optional
+            As for `select`.
+
+        Returns
+        -------
+        numpy.ndarray of bool, shape (n,)
+        """
+        unnumbered = (part.return_number == 0) | (part.number_of_returns == 0)
+        eligible = self._eligible(part, within)
+        selected = eligible
+        if self.returns == "last":
+            # A number above the total is wrong, but a last return whatever the total should be.
+            selected = eligible & ((part.return_number >= part.number_of_returns) | unnumbered)
+        known = self.known_ground(part, within)
+        tally.add(part, within, unnumbered=unnumbered, eligible=eligible, of_returns=selected)
+        selected = selected | known
+        tally.add_counts(known=known, selected=selected)
+        return selected
+
+    def tell(self, tally: Tally, path: Path, progress: Progress, in_area: bool = False) -> None:
+        """Tell how many points of a file are left out, and why.
+
+        Raises
+        ------
+        BareEarthError
+            If no point is left.
+        """
+        noise = [value for value in NOISE if value not in (self.from_classes or ())]
+        counts = ", ".join(
+            f"{tally.classes[value]:,} of class {value}" for value in noise if tally.classes[value]
+        )
+        if counts:
             progress.info(f"Noise is left out: {counts}.")
-        withheld = int(np.count_nonzero(cloud.withheld))
-        if withheld:
-            progress.info(f"{withheld:,} withheld points are left out.")
-        eligible = self._eligible(cloud, within)
-        selected = eligible & self._returns(cloud, progress)
-        if not selected.any():
-            raise BareEarthError(self._why_empty(cloud, eligible, within))
+        if tally.withheld:
+            progress.info(f"{tally.withheld:,} withheld points are left out.")
+        if self.returns == "last" and tally.unnumbered == tally.points:
+            progress.warning("The points have no return numbers: all of them are used.")
+        elif self.returns == "last" and tally.unnumbered:
+            progress.warning(
+                f"{tally.unnumbered:,} points have no return number: they are taken as single"
+                " returns."
+            )
+        if not tally.of_returns:
+            raise BareEarthError(tally.why_empty(f"{path} in the area" if in_area else f"{path}"))
         if self.seed_classes:
-            known = self.known_ground(cloud, within)
             classes = ", ".join(map(str, self.seed_classes))
-            if known.any():
-                progress.info(
-                    f"{np.count_nonzero(known):,} points of class {classes} are known ground."
-                )
+            if tally.known:
+                progress.info(f"{tally.known:,} points of class {classes} are known ground.")
             else:
                 progress.warning(f"There are no points of known ground (class {classes}).")
-            selected |= known
-        count = int(np.count_nonzero(selected))
-        progress.info(f"{count:,} of {cloud.count:,} points take part.")
-        return selected
+        progress.info(f"{tally.selected:,} of {tally.points:,} points take part.")
 
     def known_ground(self, cloud: PointCloud, within: np.ndarray | None = None) -> np.ndarray:
         """Return which points, of those within, are ground for certain."""
@@ -181,15 +236,6 @@ class Selection(ParameterSet):
             classes[eligible & low] = LOW_NOISE
         return classes
 
-    def _left_out_noise(self, cloud: PointCloud) -> dict[int, int]:
-        """Return the number of points of each noise class that is left out."""
-        counts = {
-            value: int(np.count_nonzero(cloud.classification == value))
-            for value in NOISE
-            if value not in (self.from_classes or ())
-        }
-        return {value: count for value, count in counts.items() if count}
-
     def _eligible(self, cloud: PointCloud, within: np.ndarray | None) -> np.ndarray:
         """Return which points, of those within, may change their class, whatever their return."""
         if self.from_classes:
@@ -199,31 +245,60 @@ class Selection(ParameterSet):
         eligible &= ~cloud.withheld
         return eligible if within is None else eligible & within
 
-    def _returns(self, cloud: PointCloud, progress: Progress) -> np.ndarray:
-        """Return which points are of the wanted returns."""
-        if self.returns == "all":
-            return np.ones(cloud.count, dtype=bool)
-        number, total = cloud.return_number, cloud.number_of_returns
-        unnumbered = (number == 0) | (total == 0)
-        count = int(np.count_nonzero(unnumbered))
-        if count == cloud.count:
-            progress.warning("The points have no return numbers: all of them are used.")
-        elif count:
-            progress.warning(
-                f"{count:,} points have no return number: they are taken as single returns."
-            )
-        # A number above the total is wrong, but a last return whatever the total should be.
-        return (number >= total) | unnumbered
 
-    def _why_empty(self, cloud: PointCloud, eligible: np.ndarray, within: np.ndarray | None) -> str:
+@dataclass
+class Tally:
+    """What a selection counted, in the parts of a file that it has seen so far.
+
+    Attributes
+    ----------
+    points, within, withheld, unnumbered : int
+        Points of all parts, those in the area (all without one), those withheld and those without
+        return number.
+    free : int
+        Points in the area that are not withheld.
+    eligible, of_returns, known, selected : int
+        Points that may change their class, those of them of the wanted returns, those surely
+        ground, and all that take part.
+    classes, classes_within : numpy.ndarray of int64, shape (256,)
+        Points of each class, of all parts and in the area.
+    """
+
+    points: int = 0
+    within: int = 0
+    withheld: int = 0
+    unnumbered: int = 0
+    free: int = 0
+    eligible: int = 0
+    of_returns: int = 0
+    known: int = 0
+    selected: int = 0
+    classes: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
+    classes_within: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
+
+    def add(self, part: PointCloud, within: np.ndarray | None, **masks: np.ndarray) -> None:
+        """Count the points of a part, and those of some masks."""
+        self.points += part.count
+        classes, free = part.classification, ~part.withheld
+        self.classes += count_classes(classes)
+        if within is not None:
+            classes, free = classes[within], free & within
+        self.within += len(classes)
+        self.classes_within += count_classes(classes)
+        self.add_counts(withheld=part.withheld, free=free, **masks)
+
+    def add_counts(self, **masks: np.ndarray) -> None:
+        """Count the points of masks, each named as the attribute."""
+        for name, mask in masks.items():
+            setattr(self, name, getattr(self, name) + int(np.count_nonzero(mask)))
+
+    def why_empty(self, place: str) -> str:
         """Return the sentence for a selection without points: what to change."""
-        which = np.ones(cloud.count, dtype=bool) if within is None else within
-        place = f"{cloud.path}" if within is None else f"{cloud.path} in the area"
-        if eligible.any():
+        if self.eligible:
             return f"No point of {place} is a last or single return. Choose all returns instead."
-        if cloud.withheld[which].all():
+        if not self.free:
             return f"All points of {place} are withheld. Clear that flag first."
-        present = ", ".join(str(value) for value in np.unique(cloud.classification[which]))
+        present = ", ".join(map(str, np.flatnonzero(self.classes_within)))
         return (
             f"No point of {place} is left to classify: it has the classes {present}. Choose among"
             " them the classes to classify anew."
@@ -235,3 +310,11 @@ def _is_one_of(classification: np.ndarray, classes: tuple[int, ...]) -> np.ndarr
     table = np.zeros(256, dtype=bool)
     table[list(classes)] = True
     return table[classification]
+
+
+def count_classes(classes: np.ndarray) -> np.ndarray:
+    """Return the number of points of each class; in steps, as bincount needs 8 bytes a point."""
+    counts = np.zeros(256, dtype=np.int64)
+    for first in range(0, len(classes), _STEP):
+        counts += np.bincount(classes[first : first + _STEP], minlength=256)
+    return counts

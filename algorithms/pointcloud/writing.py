@@ -106,15 +106,16 @@ def write_changed(
     if layout.is_compressed:
         require("lazrs")
     with replacing(target) as temporary:
-        if _is_copc(target):
+        if is_copc(target):
             write_copc(rewriting, temporary, progress)
         else:
             _write(rewriting, temporary, progress)
-    if not _is_copc(target):
+    if not is_copc(target):
         _tell_of_waveforms(layout, target, progress)
 
 
-def _is_copc(target: Path) -> bool:
+def is_copc(target: Path) -> bool:
+    """Return whether a file of this name is written as COPC."""
     return target.name.lower().endswith(_COPC_SUFFIX)
 
 

@@ -79,10 +79,7 @@ def interpolate(
     numpy.ndarray of float64, shape (rows, columns)
         Heights in metres; NaN outside the convex hull, and in gaps.
     """
-    vertices = _nearest_to_centre(points, grid.cell_metres / _VERTICES_A_SIDE)
-    if points.count:
-        vertices = np.union1d(vertices, hull_corners(points.x, points.y))
-    surface = Surface(points.take(vertices))
+    surface = Surface(points.take(vertices_of(points, grid.cell_metres)))
     progress(0.1)
     heights = np.empty((grid.rows, grid.columns))
     x, y = grid.x, grid.y
@@ -153,6 +150,24 @@ def write_hillshade(
     """Write the hillshade of heights (rows, columns) in metres as a GeoTIFF."""
     light = model.hillshade_azimuth, model.hillshade_altitude
     write_geotiff(target, hillshade(heights, grid.cell_metres, *light), grid, 0, progress)
+
+
+def vertices_of(points: Points, cell_size: float) -> np.ndarray:
+    """Return the indices of the points that a terrain model is made of, in ascending order.
+
+    What is left of points that were thinned part by part is the same as of all at once.
+
+    Parameters
+    ----------
+    points : Points
+        Ground points.
+    cell_size : float
+        Side of the cells of the model in metres.
+    """
+    vertices = _nearest_to_centre(points, cell_size / _VERTICES_A_SIDE)
+    if points.count:
+        vertices = np.union1d(vertices, hull_corners(points.x, points.y))
+    return vertices
 
 
 def _nearest_to_centre(points: Points, cell: float) -> np.ndarray:

@@ -19,6 +19,10 @@ from ..progress import SILENT, Progress
 
 NODATA = -9999.0
 _MOST_CELLS = 400_000_000
+# A raster of more cells must have points in this share of its squares of 1 km: else it is large
+# because of a few points with stray coordinates.
+_MANY_CELLS, _SQUARE, _LEAST_COVERED = 10_000_000, 1000.0, 0.01
+_STEP = 1 << 20
 _BLOCK = 256
 _SURVEY_FOOT = 1200 / 3937
 # As files state the unit of their heights, in metres.
@@ -79,7 +83,8 @@ class RasterGrid:
         )
         columns = max(math.ceil((frame.origin[0] + x1) / cell) - west, 1)
         rows = max(north - math.floor((frame.origin[1] + y0) / cell), 1)
-        if columns * rows > _MOST_CELLS:
+        cells = columns * rows
+        if cells > _MOST_CELLS or (cells > _MANY_CELLS and _covered(points) < _LEAST_COVERED):
             raise BareEarthError(
                 f"The raster would have {columns:,} x {rows:,} cells of {cell_size:g} m. Choose a"
                 " larger cell size, or remove points with stray coordinates."
@@ -114,6 +119,17 @@ class RasterGrid:
         """Cell centres from north to south, in local metres."""
         centres = self.north - self.frame.origin[1] - (np.arange(self.rows) + 0.5) * self.cell_size
         return centres * self.frame.horizontal_unit
+
+
+def _covered(points: Points) -> float:
+    """Return in which share of the squares over the extent of points there are any."""
+    extent = [np.ptp(each) // _SQUARE + 1.0 for each in (points.x, points.y)]
+    squares: set[complex] = set()
+    for first in range(0, points.count, _STEP):
+        part = slice(first, first + _STEP)
+        place = np.floor(points.x[part] / _SQUARE) + 1j * np.floor(points.y[part] / _SQUARE)
+        squares |= set(np.unique(place).tolist())
+    return len(squares) / (extent[0] * extent[1])
 
 
 class Raster(NamedTuple):

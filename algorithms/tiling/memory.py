@@ -49,6 +49,10 @@ class Resources(ParameterSet):
         """Number of threads to use."""
         return self.threads or available_cpus()
 
+    def now(self) -> Resources:
+        """Return the same with the memory that is free now, where none was given."""
+        return Resources(self.thread_count, max(self.bytes / GIGABYTE, 0.001))
+
     @property
     def bytes(self) -> int:
         """Memory to use."""

@@ -1,0 +1,204 @@
+"""Classifying a file that does not fit into memory: it is read twice, part by part."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import BareEarthError
+from ..parameters import ParameterSet
+from ..pointcloud.cloud import PointCloud
+from ..pointcloud.reading import read_parts
+from ..pointcloud.scope import Scope
+from ..points import Frame, Points
+from ..progress import SILENT, Progress
+from ..terrain.model import TerrainModel, vertices_of
+from .blocks import GROUND, LOW, Blocks
+from .ground import label_ground
+from .memory import GIGABYTE, Resources
+from .spill import Spill
+
+# Bytes that a cloud in memory takes a point, besides what a filter takes for those it sees.
+_BYTES_A_POINT_KEPT, _BYTES_A_POINT_SEEN, _MOST_SEEN = 40, 110, 12_000_000
+# What a run may take whatever the memory that it is given, and how much of it the blocks.
+_LEAST_MEMORY, _MOST_FOR_BLOCKS = 2 * GIGABYTE, GIGABYTE
+# Bytes that a terrain model takes for each vertex of its TIN.
+_BYTES_A_VERTEX = 700
+# Ground points that are gathered, at least, before they are thinned together.
+_STEP = 1 << 20
+
+
+@dataclass
+class Outcome:
+    """What became of the points of a file.
+
+    Attributes
+    ----------
+    cloud : PointCloud
+        The points; none of them where they are not in memory.
+    classification : numpy.ndarray of uint8, shape (n,)
+        The new class of every point, in file order.
+    class_counts : numpy.ndarray of int64, shape (256,)
+        Points of each class.
+    area_ground_count : int
+        Points of the class of the ground in the area.
+    ground : Points or None
+        The points of the class of the ground that a terrain model needs, if it is wanted.
+    frame : Frame
+        That of the survey.
+    """
+
+    cloud: PointCloud
+    classification: np.ndarray
+    frame: Frame
+    class_counts: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
+    area_ground_count: int = 0
+    ground: Points | None = None
+
+    def add(self, start: int, classes: np.ndarray, is_area_ground: np.ndarray) -> None:
+        """Put in the classes of the points from `start` on, and count them."""
+        self.classification[start : start + len(classes)] = classes
+        self.class_counts += np.bincount(classes, minlength=256)
+        self.area_ground_count += int(np.count_nonzero(is_area_ground))
+
+
+def fits_in_memory(count: int, resources: Resources) -> bool:
+    """Return whether a file of `count` points can be classified with all of them in memory."""
+    seen = _BYTES_A_POINT_SEEN * min(count, _MOST_SEEN)
+    return _BYTES_A_POINT_KEPT * count + seen <= resources.bytes
+
+
+def classify_parts(
+    source: Path,
+    target: Path,
+    parameters: ParameterSet,
+    scope: Scope,
+    blocks: Blocks,
+    resources: Resources = Resources(),
+    terrain: TerrainModel | None = None,
+    progress: Progress = SILENT,
+) -> Outcome:
+    """Classify a file part by part, its points on disk until their block is filtered.
+
+    Parameters
+    ----------
+    source, target : Path
+        The file, and the output, in whose folder the temporary files are.
+    parameters : ParameterSet
+        Those of one method.
+    scope : Scope
+        Which points are to be classified, and which take part.
+    blocks : Blocks
+        How the survey is cut.
+    resources : Resources
+        Threads and memory.
+    terrain : TerrainModel, optional
+        The terrain model that is to be made afterwards.
+    progress : Progress
+        Receives progress and messages.
+
+    Returns
+    -------
+    Outcome
+        The same as that of all points in memory.
+
+    Raises
+    ------
+    BareEarthError
+        If the file cannot be read, the disk is full, no point is left to classify, or the terrain
+        model would be too large.
+    Cancelled
+        If the user asked to stop.
+    """
+    selection = scope.selection
+    with Spill(target, blocks.leaf_side) as spill:
+        for part in read_parts(source, progress.part(0.0, 0.3)):
+            inside, selected = scope.choose(part)
+            known = selection.known_ground(part, selected)
+            spill.append(part, selected, known, inside)
+        scope.tell(progress)
+        frame = spill.finish(scope.lowest)
+        if terrain is not None:
+            _check_terrain(spill, terrain, resources)
+        depth = selection.low_noise_depth if selection.low_noise_class else None
+        fewer = _for_blocks(resources)
+        label_ground(spill, parameters, blocks, depth, fewer, progress.part(0.3, 0.8))
+        classification = np.empty(scope.tally.points, dtype=np.uint8)
+        outcome = Outcome(spill.cloud, classification, frame)
+        thinned = None if terrain is None else _Thinned(terrain, frame)
+        start = taken = low_count = 0
+        for part in read_parts(source, _Unsaid(progress.part(0.8, 1.0))):
+            inside, selected = scope.choose_again(part)
+            labels = spill.labels_of(part, selected, taken)
+            low = labels == LOW
+            low_count += int(np.count_nonzero(low & inside))
+            classes = selection.classes(part, labels == GROUND, low, inside)
+            is_ground = classes == selection.to_class
+            outcome.add(start, classes, is_ground & inside)
+            if thinned is not None:
+                thinned.add(part, is_ground)
+            start += part.count
+            taken += int(np.count_nonzero(selected))
+        scope.tell_of_low(low_count, progress)
+    if thinned is not None:
+        outcome.ground = thinned.points()
+    return outcome
+
+
+def _for_blocks(resources: Resources) -> Resources:
+    """Return the resources with no more memory than is good for the blocks of one run."""
+    memory = min(resources.bytes, _MOST_FOR_BLOCKS) / GIGABYTE
+    return Resources(threads=resources.threads, memory=max(memory, 0.001))
+
+
+def _check_terrain(spill: Spill, terrain: TerrainModel, resources: Resources) -> None:
+    """Refuse a terrain model that would not fit into memory, before the long work begins."""
+    side = spill.leaves.side
+    cells_a_leaf = (side / terrain.dtm_cell_size) ** 2
+    vertices = np.minimum(spill.leaves.counts, 4.0 * cells_a_leaf).sum()
+    needed = _BYTES_A_VERTEX * vertices
+    if needed > max(resources.bytes, _LEAST_MEMORY):
+        raise BareEarthError(
+            f"The terrain model of {spill.count:,} points would take about"
+            f" {needed / GIGABYTE:.0f} GB of memory. Give more memory, a larger cell size or an"
+            " extent, or classify without a terrain model."
+        )
+
+
+class _Unsaid(Progress):
+    """Passes on progress, but not what was told when the file was read for the first time."""
+
+    def __init__(self, whole: Progress) -> None:
+        self._whole = whole
+
+    def report(self, fraction: float) -> None:
+        self._whole(fraction)
+
+
+class _Thinned:
+    """The ground points that a terrain model needs, gathered part by part."""
+
+    def __init__(self, terrain: TerrainModel, frame: Frame) -> None:
+        # As a raster has it: rounded to and from the unit of the CRS.
+        self._cell = terrain.dtm_cell_size / frame.horizontal_unit * frame.horizontal_unit
+        self._frame, self._kept, self._new = frame, Points(*[np.zeros(0)] * 3), []
+
+    def add(self, part: PointCloud, is_ground: np.ndarray) -> None:
+        """Add the ground points of a part."""
+        points = part.points(is_ground, self._frame)
+        if points.count:
+            self._new.append(points.take(vertices_of(points, self._cell)))
+        # Not each time: all that is kept is thinned anew.
+        if sum(each.count for each in self._new) > max(self._kept.count, _STEP):
+            self.points()
+
+    def points(self) -> Points:
+        """Return what is left of all points so far, in the order of the file."""
+        both = [self._kept, *self._new]
+        points = Points(*map(np.concatenate, zip(*both)))
+        if points.count:
+            points = points.take(vertices_of(points, self._cell))
+        self._kept, self._new = points, []
+        return points

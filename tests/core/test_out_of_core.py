@@ -1,0 +1,266 @@
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import laspy
+import numpy as np
+import pytest
+
+from bare_earth.algorithms import classification
+from bare_earth.algorithms.classification import classify_file
+from bare_earth.algorithms.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.filters.grid_minimum import GridMinimum
+from bare_earth.algorithms.filters.slope import SlopeFilter
+from bare_earth.algorithms.filters.tin_densification import TinDensification
+from bare_earth.algorithms.output import Output
+from bare_earth.algorithms.pointcloud import reading
+from bare_earth.algorithms.pointcloud.area import Area
+from bare_earth.algorithms.pointcloud.selection import Selection
+from bare_earth.algorithms.progress import Progress
+from bare_earth.algorithms.terrain.model import TerrainModel
+from bare_earth.algorithms.tiling import spill, streaming
+from bare_earth.algorithms.tiling.blocks import Blocks
+from bare_earth.algorithms.tiling.memory import Resources
+
+PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
+LITTLE = Resources(threads=2, memory=0.001)
+MUCH = Resources(threads=2, memory=4.0)
+EAST, NORTH = 500_000.0, 5_700_000.0
+
+
+@pytest.fixture(autouse=True)
+def hungry(monkeypatch):
+    """Make a few hundred points too many for the least memory that can be given."""
+    monkeypatch.setattr(streaming, "_BYTES_A_POINT_KEPT", 3000)
+
+
+@pytest.fixture
+def small(monkeypatch):
+    """Make parts and blocks small, so that a small file has many."""
+    monkeypatch.setattr(reading, "_CHUNK", 1700)
+    monkeypatch.setattr(spill, "_GAP", 50)
+    monkeypatch.setattr(
+        classification, "blocks_of", lambda parameters: Blocks(80.0, 30.0, most_points=2500)
+    )
+
+
+def write(path, count=9000, east=EAST, stray=(), seed=3, shape=(160.0, 90.0), first=0.0):
+    """Write a strip with houses and trees, its points in no order, of several classes."""
+    random = np.random.default_rng(seed)
+    las = laspy.LasData(laspy.LasHeader(point_format=6, version="1.4"))
+    las.header.scales, las.header.offsets = (0.01,) * 3, (east, NORTH, 0.0)
+    x, y = (random.uniform(0, side, count) for side in shape)
+    z = 0.06 * x + 2 * np.sin(y / 25) + random.normal(0, 0.03, count)
+    z[(x % 45 < 12) & (y % 35 < 10)] += 6.0
+    z[random.choice(count, 8, replace=False)] -= 15.0
+    x[0] = first
+    x[1 : 1 + len(stray)] = stray
+    las.x, las.y, las.z = x + east, y + NORTH, z + 100
+    las.classification = random.choice([1, 2, 5, 7, 9], count, p=[0.5, 0.3, 0.1, 0.05, 0.05])
+    las.number_of_returns = random.integers(1, 4, count)
+    las.return_number = random.integers(1, np.array(las.number_of_returns) + 1)
+    las.withheld = random.random(count) < 0.01
+    las.write(str(path))
+    return path
+
+
+def run(source, folder, parameters, resources, *policy, **options):
+    folder.mkdir()
+    names = {name: folder / f"{name}.tif" for name in options.pop("rasters", ())}
+    summary = classify_file(
+        source, folder / "out.laz", parameters, *policy, resources=resources, **names, **options
+    )
+    return summary, {path.name: path.read_bytes() for path in folder.iterdir()}
+
+
+@pytest.mark.parametrize(
+    ("parameters", "selection", "area"),
+    [
+        *((each, Selection(low_noise_class=True), None) for each in PARAMETERS),
+        (SlopeFilter(), Selection(seed_classes=(9,), returns="all", others="unclassified"), None),
+        (TinDensification(), Selection(seed_classes=(9,), from_classes=(1, 2, 7)), None),
+        (GridMinimum(), Selection(), Area((EAST + 20, NORTH + 10, EAST + 110, NORTH + 60))),
+    ],
+)
+def test_the_same_bytes_in_memory_and_on_disk(small, las, tmp_path, parameters, selection, area):
+    source = write(tmp_path / "in.las", 7000)
+    heard = las.Heard(), las.Heard()
+    results = [
+        run(
+            source, tmp_path / name, parameters, resources, selection, TerrainModel(2.0),
+            rasters=("dtm", "hillshade"), area=area, progress=progress,
+        )
+        for name, resources, progress in (("much", MUCH, heard[0]), ("little", LITTLE, heard[1]))
+    ]  # fmt: skip
+    assert results[0] == results[1]
+    assert results[0][0].ground_count > 500 and len(results[0][1]) == 3
+    assert not any("read twice" in each for each in heard[0].infos)
+    said = [each for each in heard[1].infos if "read twice" not in each]
+    assert said == heard[0].infos and len(said) == len(heard[1].infos) - 1
+    assert heard[0].warnings == heard[1].warnings
+    assert heard[1].fractions[-1] == 1.0 and heard[1].fractions == sorted(heard[1].fractions)
+
+
+@pytest.mark.parametrize("name", ["isprs/samp52.laz", "real/ahn3_urban.laz"])
+def test_real_points_give_the_same_bytes_in_memory_and_on_disk(name, tmp_path):
+    source = Path("/work/shared/data") / name
+    if not source.is_file():
+        pytest.skip("the real data are not here")
+    results = [
+        run(source, tmp_path / str(each.memory), GridMinimum(), each, rasters=("dtm",))
+        for each in (MUCH, LITTLE)
+    ]
+    assert results[0] == results[1]
+
+
+def test_the_ground_is_thinned_part_by_part_as_at_once(small, tmp_path, monkeypatch):
+    monkeypatch.setattr(streaming, "_STEP", 500)
+    source = write(tmp_path / "in.las", 9000, shape=(40.0, 30.0))
+    results = [
+        run(source, tmp_path / str(each.memory), GridMinimum(), each, rasters=("dtm",))
+        for each in (MUCH, LITTLE)
+    ]
+    assert results[0] == results[1]
+
+
+def test_ground_points_only_in_memory_and_on_disk(small, tmp_path):
+    source, only = write(tmp_path / "in.las"), Output(ground_only=True)
+    results = [
+        run(source, tmp_path / str(each.memory), GridMinimum(), each, output=only)
+        for each in (MUCH, LITTLE)
+    ]
+    assert results[0] == results[1]
+    assert results[0][0].class_counts == {2: results[0][0].ground_count}
+
+
+# Stray points
+
+
+@pytest.mark.parametrize("resources", [MUCH, LITTLE], ids=["much", "little"])
+@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
+def test_a_stray_point_far_away_stops_nothing(parameters, resources, tmp_path):
+    source = write(tmp_path / "in.las", 4000, stray=(1e6,))
+    summary, _ = run(source, tmp_path / "out", parameters, resources)
+    assert 1000 < summary.ground_count < 3900
+    with pytest.raises(BareEarthError, match="larger cell size, or remove points with stray"):
+        run(source, tmp_path / "dtm", parameters, resources, rasters=("dtm",))
+    assert os.listdir(tmp_path / "dtm") == []
+
+
+# Limits
+
+
+def test_copc_and_too_large_a_model_are_refused_before_the_work(tmp_path, monkeypatch):
+    source = write(tmp_path / "in.las", 4000)
+    with pytest.raises(BareEarthError, match=r"writing COPC needs\. Name the output \.laz"):
+        classify_file(source, tmp_path / "a.copc.laz", SlopeFilter(), resources=LITTLE)
+    with pytest.raises(BareEarthError, match=r"measuring heights above ground needs\. Leave out"):
+        run(source, tmp_path / "b", SlopeFilter(), LITTLE, output=Output(height_above_ground=True))
+    monkeypatch.setattr(streaming, "_BYTES_A_VERTEX", 1 << 20)
+    monkeypatch.setattr(streaming, "label_ground", None)
+    with pytest.raises(BareEarthError, match="would take about 2 GB of memory"):
+        run(source, tmp_path / "out", SlopeFilter(), LITTLE, rasters=("dtm",))
+    assert os.listdir(tmp_path / "out") == []
+
+
+def test_a_full_disk_is_told_in_a_sentence(tmp_path, monkeypatch):
+    class Full:
+        def write(self, data):
+            raise OSError(28, "No space left on device")
+
+        def __enter__(self):
+            return self
+
+        def __exit__(self, *exception):
+            return None
+
+    monkeypatch.setattr(spill.tempfile, "TemporaryFile", lambda dir: Full())
+    with pytest.raises(BareEarthError, match=r"Cannot write .*out\.laz: the disk is full"):
+        run(write(tmp_path / "in.las", 500), tmp_path / "out", SlopeFilter(), LITTLE)
+
+
+@pytest.mark.parametrize(
+    ("selection", "area", "word"),
+    [
+        (Selection(from_classes=(64,)), None, r"it has the classes 1, 2, 5, 7, 9\. Choose among"),
+        (Selection(to_class=256 - 1), Area((0.0, 0.0, 1.0, 1.0)), "the points have x 500000 to"),
+    ],
+)
+def test_the_same_errors_on_disk(selection, area, word, tmp_path):
+    with pytest.raises(BareEarthError, match=word):
+        run(
+            write(tmp_path / "in.las", 500), tmp_path / "out", SlopeFilter(), LITTLE, selection,
+            area=area,
+        )  # fmt: skip
+
+
+# Ends
+
+
+class CancelAt(Progress):
+    """Cancels, and knows when it was asked to."""
+
+    def __init__(self, fraction):
+        self.fraction, self.last = fraction, 0.0
+
+    def report(self, fraction):
+        self.last = max(self.last, fraction)
+        if fraction >= self.fraction:
+            raise Cancelled
+
+
+@pytest.mark.parametrize("resources", [MUCH, LITTLE], ids=["much", "little"])
+@pytest.mark.parametrize("fraction", [0.0, 0.05, 0.3, 0.6, 0.8, 0.95])
+def test_a_cancel_leaves_nothing(small, fraction, resources, tmp_path):
+    source, progress = write(tmp_path / "in.las", 4000), CancelAt(fraction)
+    with pytest.raises(Cancelled):
+        run(source, tmp_path / "out", GridMinimum(), resources, rasters=("dtm",), progress=progress)
+    assert os.listdir(tmp_path / "out") == [] and progress.last >= fraction
+
+
+_RUN = """
+import sys
+from pathlib import Path
+import numpy as np
+from bare_earth.algorithms import cli
+from bare_earth.algorithms.tiling import {module}
+def late(*arguments, **options):
+    print("begun", flush=True)
+    {wait}
+{module}.{name} = late
+sys.exit(cli.main(sys.argv[1:]))
+"""
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows ends a process without telling it")
+@pytest.mark.parametrize("module", ["ground", "streaming"])
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
+def test_a_killed_run_leaves_nothing_beside_the_output(module, number, tmp_path):
+    # In the middle of the blocks, and when they are about to begin.
+    name = "_labels" if module == "ground" else "label_ground"
+    wait = "import time; [time.sleep(0.1) or arguments[-1](0.5) for _ in range(300)]"
+    if module == "streaming":
+        wait = "import time; time.sleep(30)"
+    source, out = write(tmp_path / "in.las", 9000), tmp_path / "out"
+    out.mkdir()
+    root = Path(classification.__file__).parents[2]
+    process = subprocess.Popen(
+        [
+            sys.executable, "-c", _RUN.format(module=module, name=name, wait=wait), "classify",
+            str(source), str(out / "out.laz"), "--method", "slope", "--memory", "0.001",
+        ],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        env={**os.environ, "PYTHONPATH": str(root)},
+    )  # fmt: skip
+    assert process.stdout.readline() == "begun\n"
+    process.send_signal(number)
+    begun = time.monotonic()
+    _, said = process.communicate(timeout=20)
+    assert time.monotonic() - begun < 5.0 and process.returncode != 0
+    assert os.listdir(out) == []
+    if number == signal.SIGTERM:
+        assert process.returncode == 1 and "Cancelled; nothing was written." in said
