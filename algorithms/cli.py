@@ -112,6 +112,7 @@ def _progress_bar() -> Any:
 
 def _parser(arguments: Sequence[str]) -> argparse.ArgumentParser:
     from .. import __version__
+    from .cli_tiles import add_classify_tiles
 
     parser = argparse.ArgumentParser(
         prog="bare-earth",
@@ -124,6 +125,7 @@ def _parser(arguments: Sequence[str]) -> argparse.ArgumentParser:
         "--verbose", action="store_true", help="say what is done, and where an error arose"
     )
     _add_classify(commands, common, arguments)
+    add_classify_tiles(commands, common, arguments)
     _add_info(commands, common)
     _add_assess(commands, common)
     _add_remove_objects(commands, common)

@@ -8,12 +8,12 @@ import itertools
 import os
 import re
 from pathlib import Path
-from typing import Iterator
+from typing import Container, Iterator
 
 from .errors import BareEarthError
 
 _numbers = itertools.count()
-_TEMPORARY = re.compile(r"\.\d+-\d+\.part\.")
+_TEMPORARY = re.compile(r"\.(\d+)-\d+\.part\.")
 
 _REASONS = {
     errno.ENOSPC: "the disk is full. Free some space or choose another folder",
@@ -74,6 +74,23 @@ def replacing(target: Path) -> Iterator[Path]:
     finally:
         with contextlib.suppress(OSError):
             temporary.unlink()
+
+
+def remove_leftovers(folder: Path, processes: Container[int] | None = None) -> None:
+    """Remove what `replacing` left in a folder when its process was killed.
+
+    Parameters
+    ----------
+    folder : Path
+        The folder; nothing else may be writing into it.
+    processes : container of int, optional
+        Only the files of these processes; of all if it is not given.
+    """
+    for path in folder.iterdir() if folder.is_dir() else ():
+        found = _TEMPORARY.match(path.name)
+        if found and (processes is None or int(found.group(1)) in processes):
+            with contextlib.suppress(OSError):
+                path.unlink()
 
 
 def describe_write_error(target: Path, error: OSError) -> BareEarthError:

@@ -19,6 +19,7 @@ WRITING_COPC = ("lazrs",)
 _PURPOSES = {
     "laspy": "reading point clouds",
     "lazrs": "reading and writing .laz and .copc.laz files",
+    "distributed": "working on a Dask cluster",
 }
 
 

@@ -157,7 +157,7 @@ def write_vpc(path: Path, files: Iterable[Path], progress: Progress = SILENT) ->
     check_output(path, tuple(files))
     features, unplaced = [], 0
     for number, file in enumerate(files, start=1):
-        feature = _feature(path, read_layout(file), progress)
+        feature = _feature(path, read_layout(file))
         unplaced += not feature["properties"]["proj:wkt2"]
         features.append(feature)
         progress(number / len(files))
@@ -223,7 +223,7 @@ def _path_of(href: str, folder: Path) -> Path:
     return path
 
 
-def _feature(target: Path, layout: LasLayout, progress: Progress) -> dict[str, Any]:
+def _feature(target: Path, layout: LasLayout) -> dict[str, Any]:
     """Return the STAC item of a file."""
     extent = [*layout.minimum, *layout.maximum]
     if not all(map(math.isfinite, extent)):
@@ -235,7 +235,7 @@ def _feature(target: Path, layout: LasLayout, progress: Progress) -> dict[str, A
     ring = np.array(
         [(west, south), (east, south), (east, north), (west, north), (west, south)], dtype=float
     )
-    wkt = compound_wkt(read_crs(layout, progress)) or ""
+    wkt = compound_wkt(read_crs(layout)) or ""
     globe = to_wgs84(wkt, ring) if wkt else None
     if globe is None:
         # As pdal_wrench does it where there is no CRS. With one, QGIS would take these coordinates

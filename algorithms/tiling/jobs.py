@@ -1,0 +1,305 @@
+"""The jobs of a survey of many files: plain functions of what can be pickled, with files between.
+
+They run in a thread, in another process or on another computer that sees the same folders.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..errors import BareEarthError, Cancelled
+from ..files import replacing
+from ..pointcloud.cloud import PointCloud
+from ..pointcloud.collection import Tile
+from ..pointcloud.reading import read_cloud
+from ..pointcloud.window import read_window
+from ..pointcloud.writing import write_classified
+from ..progress import Progress
+from ..threads import may_use
+from .blocks import GROUND, LOW
+from .cloudstore import CloudStore, Part
+from .ground import label_ground
+from .memory import GIGABYTE, Resources
+from .record import Record, write_record
+from .survey import Place, Survey, code
+
+_FAILURE = "no ground"
+
+
+class Share(NamedTuple):
+    """What a job may use.
+
+    Attributes
+    ----------
+    threads : int
+        Threads.
+    memory : int
+        Bytes.
+    """
+
+    threads: int
+    memory: int
+
+    @property
+    def resources(self) -> Resources:
+        """The same in the terms of `label_ground`."""
+        return Resources(threads=self.threads, memory=max(self.memory / GIGABYTE, 0.001))
+
+
+class Outcome(NamedTuple):
+    """What became of a job.
+
+    Attributes
+    ----------
+    result : object
+        What it returned.
+    messages : tuple of tuple of str
+        Kind and text of each.
+    failure : str or None
+        Why it failed.
+    """
+
+    result: Any
+    messages: tuple[tuple[str, str], ...] = ()
+    failure: str | None = None
+
+
+class LabelJob(NamedTuple):
+    """Labels the points of some blocks.
+
+    Attributes
+    ----------
+    survey : Survey
+        What all jobs share.
+    places : tuple of Place
+        The blocks.
+    files : tuple of Path
+        Where the labels of each go.
+    sources : tuple of Path
+        The files that may have points which these blocks need.
+    count : float
+        About how many points the blocks hold.
+    """
+
+    survey: Survey
+    places: tuple[Place, ...]
+    files: tuple[Path, ...]
+    sources: tuple[Path, ...]
+    count: float
+
+    def split(self) -> list[LabelJob]:
+        """Return a job for each of the blocks."""
+        count = self.count / len(self.places)
+        pairs = zip(self.places, self.files)
+        return [self._replace(places=(a,), files=(b,), count=count) for a, b in pairs]
+
+    def run(self, share: Share, progress: Progress) -> None:
+        """Do it."""
+        survey = self.survey
+        parts, codes = self._read(progress.part(0.0, 0.3))
+        labels, failure = [np.zeros(part.cloud.count, np.uint8) for part in parts], ""
+        if any(part.wanted.any() and part.selected.any() for part in parts):
+            store = CloudStore(parts, survey.frame, survey.blocks, progress.part(0.3, 0.35))
+            selection = survey.selection
+            depth = selection.low_noise_depth if selection.low_noise_class else None
+            rest = progress.part(0.35, 0.95)
+            try:
+                label_ground(store, survey.parameters, survey.blocks, depth, share.resources, rest)
+                labels = store.labels
+            except BareEarthError as error:
+                failure = str(error)
+        for place, file in zip(self.places, self.files):
+            self._write(file, code(place), parts, codes, labels, failure)
+        progress(1.0)
+
+    def _read(self, progress: Progress) -> tuple[list[Part], list[np.ndarray]]:
+        """Return the points that the blocks need, and the block of each."""
+        selection, parts, codes = self.survey.selection, [], []
+        window = self.survey.window(self.places)
+        here = np.array([code(place) for place in self.places])
+        for number, source in enumerate(self.sources):
+            start, end = (each / len(self.sources) for each in (number, number + 1))
+            try:
+                part = _Quiet(progress.part(start, end))
+                cloud = read_window(source, window, part, trust_header=True)
+            except BareEarthError as error:
+                progress.warning(
+                    f"The tiles beside {source.name} are classified without its points. {error}"
+                )
+                continue
+            if cloud.count:
+                selected = _selected(self.survey, cloud, part)
+                known = selection.known_ground(cloud, selected)
+                codes.append(self.survey.codes(cloud))
+                parts.append(Part(cloud, selected, known, np.isin(codes[-1], here)))
+        return parts, codes
+
+    def _write(
+        self,
+        file: Path,
+        block: int,
+        parts: list[Part],
+        codes: list[np.ndarray],
+        labels: list[np.ndarray],
+        failure: str,
+    ) -> None:
+        """Keep the labels of a block: for each file those of its points there, in its order."""
+        kept = {
+            part.cloud.path.name: values[there == block]
+            for part, there, values in zip(parts, codes, labels)
+        }
+        if failure:
+            kept[_FAILURE] = np.array(failure)
+        with replacing(file) as temporary:
+            np.savez(temporary, **kept)
+
+
+class TileSummary(NamedTuple):
+    """What became of one file.
+
+    Attributes
+    ----------
+    name : str
+        Of the output.
+    point_count, ground_count : int
+        Its points, and those of the target class.
+    """
+
+    name: str
+    point_count: int
+    ground_count: int
+
+    @property
+    def text(self) -> str:
+        """All of it in words."""
+        share = self.ground_count / self.point_count
+        return f"{self.name}: {self.point_count:,} points, {share:.1%} ground"
+
+
+class TileJob(NamedTuple):
+    """Writes a tile with the labels of its blocks.
+
+    Attributes
+    ----------
+    survey : Survey
+        What all jobs share.
+    tile : Tile
+        The input.
+    target : Path
+        The output.
+    places : tuple of Place
+        The blocks that may hold its points.
+    files : tuple of Path
+        Where the labels of each are.
+    record : Record
+        Says from what the output is made; written after it.
+    """
+
+    survey: Survey
+    tile: Tile
+    target: Path
+    places: tuple[Place, ...]
+    files: tuple[Path, ...]
+    record: Record
+
+    def run(self, share: Share, progress: Progress) -> TileSummary:
+        """Do it."""
+        selection = self.survey.selection
+        cloud = read_cloud(self.tile.path, _Quiet(progress.part(0.0, 0.35)))
+        # For what it says of the points: which take part is known from their labels.
+        selection.select(cloud, progress)
+        labels = self._labels(cloud)
+        low = labels == LOW if selection.low_noise_class else None
+        classes = selection.classes(cloud, labels == GROUND, low)
+        progress(0.4)
+        write_classified(self.tile.path, self.target, classes, progress.part(0.4, 1.0))
+        ground = int(np.count_nonzero(classes == selection.to_class))
+        summary = TileSummary(self.target.name, cloud.count, ground)
+        write_record(self.target, self.record, summary._asdict())
+        return summary
+
+    def _labels(self, cloud: PointCloud) -> np.ndarray:
+        """Return the label of each point.
+
+        Raises
+        ------
+        BareEarthError
+            If none is ground, or there are points where the header says that there are none.
+        """
+        codes, failure = self.survey.codes(cloud), ""
+        labels, found = np.zeros(cloud.count, dtype=np.uint8), 0
+        for place, file in zip(self.places, self.files):
+            here = np.flatnonzero(codes == code(place))
+            with np.load(file, allow_pickle=False) as kept:
+                values = kept[cloud.path.name] if cloud.path.name in kept else labels[:0]
+                if _FAILURE in kept and len(here):
+                    failure = str(kept[_FAILURE])
+            if len(values) != len(here):
+                raise BareEarthError(
+                    f"{cloud.path} changed while it was worked on. Classify it again."
+                )
+            labels[here] = values
+            found += len(here)
+        if found != cloud.count:
+            raise BareEarthError(
+                f"The header of {cloud.path} states a smaller extent than its points have. Write"
+                " the file anew with a program that corrects it."
+            )
+        if not (labels == GROUND).any():
+            raise BareEarthError(failure or f"No ground was found in {cloud.path}.")
+        return labels
+
+
+def _selected(survey: Survey, cloud: PointCloud, progress: Progress) -> np.ndarray:
+    """Return which points of a window take part: none where a whole file would be refused."""
+    try:
+        return survey.selection.select(cloud, progress)
+    except BareEarthError:  # told when the file itself is written
+        return np.zeros(cloud.count, dtype=bool)
+
+
+class _Quiet(Progress):
+    """Passes on progress, and no messages: what there is to tell of a file is told elsewhere."""
+
+    def __init__(self, whole: Progress) -> None:
+        self._whole = whole
+
+    def report(self, fraction: float) -> None:
+        self._whole(fraction)
+
+
+def attempt(job: LabelJob | TileJob, share: Share, progress: Progress) -> Outcome:
+    """Run a job; what goes wrong with it is told, not raised."""
+    notes = _Notes(progress)
+    try:
+        with may_use(share.threads):
+            return Outcome(job.run(share, notes), tuple(notes.messages))
+    except Cancelled:
+        raise
+    except BareEarthError as error:
+        failure = str(error)
+    except MemoryError:
+        failure = "There is not enough memory for it. Allow fewer threads."
+    except Exception as error:
+        failure = f"Unexpected {type(error).__name__}: {error}. Please report it."
+    return Outcome(None, tuple(notes.messages), failure)
+
+
+class _Notes(Progress):
+    """Passes on progress and keeps the messages, each with its kind."""
+
+    def __init__(self, whole: Progress) -> None:
+        self._whole = whole
+        self.messages: list[tuple[str, str]] = []
+
+    def report(self, fraction: float) -> None:
+        self._whole(fraction)
+
+    def info(self, text: str) -> None:
+        self.messages.append(("info", text))
+
+    def warning(self, text: str) -> None:
+        self.messages.append(("warning", text))

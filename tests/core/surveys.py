@@ -1,0 +1,70 @@
+"""Surveys of many files, cut from one cloud whose classes are known."""
+
+from __future__ import annotations
+
+import laspy
+import numpy as np
+
+SCALE = (0.01, 0.01, 0.01)
+ORIGIN = (500_000.0, 5_700_000.0, 0.0)
+
+
+def strip(count=12_000, width=300.0, depth=130.0, seed=3):
+    """Return integers of a strip with houses and trees, over several blocks of 80 m."""
+    random = np.random.default_rng(seed)
+    x, y = random.uniform(0, width, count), random.uniform(0, depth, count)
+    z = 60 + 0.06 * x + 2 * np.sin(y / 25) + random.normal(0, 0.03, count)
+    z[(x % 45 < 12) & (y % 35 < 10)] += 6.0
+    trees = random.random(count) < 0.1
+    z[trees] += random.uniform(1, 9, trees.sum())
+    z[random.choice(count, 8, replace=False)] -= 15.0
+    return np.round(np.column_stack((x, y, z)) * 100).astype(np.int64)
+
+
+def write(path, integers, shift=(0, 0, 0), classes=1):
+    """Write points; `shift` moves the offset of the file by so many steps, not its points."""
+    header = laspy.LasHeader(point_format=6, version="1.4")
+    header.scales = SCALE
+    header.offsets = tuple(o - s * by for o, s, by in zip(ORIGIN, SCALE, shift))
+    las = laspy.LasData(header)
+    las.X, las.Y, las.Z = (integers + np.array(shift)).T
+    las.classification[:] = classes
+    las.return_number[:] = las.number_of_returns[:] = 1
+    las.write(str(path))
+    return path
+
+
+def cut(folder, integers, files=6, seed=5, suffix=".laz"):
+    """Write points into files of irregular extents, in any order and with any offsets."""
+    folder.mkdir(exist_ok=True)
+    random = np.random.default_rng(seed)
+    columns, (x, y) = files // 2, integers.T[:2]
+    shares = np.arange(1, columns) + random.uniform(-0.3, 0.3, columns - 1)
+    column = np.digitize(x, np.quantile(x, shares / columns))
+    number = 2 * column + (y > np.quantile(y, random.uniform(0.3, 0.7, columns))[column])
+    for each in range(files):
+        part = random.permutation(integers[number == each])
+        write(folder / f"{each}{suffix}", part, random.integers(-9000, 9000, 3))
+    return folder
+
+
+def points_of(paths):
+    """Return integers and class of all points of some files, sorted, whatever their offsets."""
+    rows = []
+    for path in paths:
+        las = laspy.read(path)
+        shift = np.round((np.array(las.header.offsets) - ORIGIN) / las.header.scales)
+        integers = np.column_stack((las.X, las.Y, las.Z)).astype(np.int64) + shift.astype(np.int64)
+        rows.append(np.column_stack((integers, np.asarray(las.classification))))
+    rows = np.concatenate(rows)
+    return rows[np.lexsort(rows.T[::-1])]
+
+
+def finished(folder):
+    """Return the files of a folder, without those that are being written."""
+    return sorted(path for path in folder.glob("*.la[sz]") if path.name[0] != ".")
+
+
+def bytes_of(folder):
+    """Return what the classified files of a folder hold."""
+    return {path.name: path.read_bytes() for path in finished(folder)}

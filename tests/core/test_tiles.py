@@ -1,0 +1,405 @@
+import dataclasses
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import laspy
+import numpy as np
+import pytest
+from surveys import bytes_of, cut, finished, points_of, strip, write
+
+from bare_earth.algorithms import tiles as tiles_module
+from bare_earth.algorithms.classification import classify_file
+from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.filters.grid_minimum import GridMinimum
+from bare_earth.algorithms.filters.slope import SlopeFilter
+from bare_earth.algorithms.filters.tin_densification import TinDensification
+from bare_earth.algorithms.pointcloud.collection import open_collection
+from bare_earth.algorithms.pointcloud.reading import read_cloud
+from bare_earth.algorithms.pointcloud.selection import Selection
+from bare_earth.algorithms.pointcloud.vpc import read_vpc
+from bare_earth.algorithms.progress import SILENT, Progress
+from bare_earth.algorithms.tiles import classify_tiles
+from bare_earth.algorithms.tiling import jobs as jobs_module
+from bare_earth.algorithms.tiling.blocks import GROUND, LOW, Blocks
+from bare_earth.algorithms.tiling.cloudstore import CloudStore, Part
+from bare_earth.algorithms.tiling.ground import label_ground
+from bare_earth.algorithms.tiling.memory import Resources
+from bare_earth.algorithms.tiling.options import TileMethod, TileOutput
+from bare_earth.algorithms.tiling.survey import Place, Survey, frame_of, grouped
+from bare_earth.algorithms.tiling.workers import Processes, Threads
+
+REAL = Path("/work/shared/data")
+PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
+BLOCKS = Blocks(80.0, 30.0, most_points=2500)
+FAST = SlopeFilter(preset="whitebox")
+RESUME = TileOutput(resume=True)
+
+
+@pytest.fixture
+def out(tmp_path):
+    return tmp_path / "out"
+
+
+@pytest.fixture
+def six(tmp_path):
+    return cut(tmp_path / "in", strip(4000, 150.0, 40.0))
+
+
+def whole_classes(path, parameters, selection=Selection(), blocks=BLOCKS):
+    """Return the points of a file with the classes that they get as one cloud in these blocks."""
+    cloud = read_cloud(path)
+    selected = selection.select(cloud, SILENT)
+    store = CloudStore(
+        [Part(cloud, selected, selection.known_ground(cloud, selected))], cloud.frame, blocks
+    )
+    depth = selection.low_noise_depth if selection.low_noise_class else None
+    label_ground(store, parameters, blocks, depth)
+    labels = store.labels[0]
+    low = labels == LOW if depth is not None else None
+    rows = points_of([path])
+    unsorted = np.column_stack((cloud.x, cloud.y, cloud.z)).astype(np.int64)
+    shift = np.round((np.array(cloud.offset) - (500_000.0, 5_700_000.0, 0.0)) / cloud.scale)
+    classes = selection.classes(cloud, labels == GROUND, low)
+    found = np.column_stack((unsorted + shift.astype(np.int64), classes))
+    found = found[np.lexsort(found.T[::-1])]
+    assert np.array_equal(found[:, :3], rows[:, :3])
+    return found
+
+
+# The same labels as those of one file
+
+
+@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
+def test_tiles_get_the_labels_of_one_file_with_all_points(parameters, tmp_path, out):
+    integers, selection = strip(7000, 150.0, 75.0), Selection(low_noise_class=True)
+    whole = write(tmp_path / "whole.las", integers)
+    expected = whole_classes(whole, parameters, selection)
+    assert {1, 2, 7} == set(np.unique(expected[:, 3]))
+    folder = cut(tmp_path / "in", integers, 6)
+    for threads in (1, 3):
+        summary = classify_tiles(
+            [folder], out, parameters, selection, blocks=BLOCKS,
+            workers=Threads(Resources(threads=threads)),
+        )  # fmt: skip
+        assert not summary.failures and summary.done_count == summary.tile_count == 6
+        found = points_of(finished(out))
+        assert np.array_equal(found, expected)
+        assert summary.ground_count == np.count_nonzero(expected[:, 3] == 2)
+        assert summary.point_count == len(integers)
+
+
+@pytest.mark.parametrize("name", ["isprs/samp52.laz", "real/ahn3_urban.laz"])
+def test_real_tiles_get_the_labels_of_the_file_they_were_cut_from(name, tmp_path, out):
+    if not (REAL / name).is_file():
+        pytest.skip("the real data are not here")
+    las = laspy.read(REAL / name)
+    x, y = np.asarray(las.x), np.asarray(las.y)
+    near = (x < x.min() + 160) & (y < y.min() + 160)
+    integers = np.column_stack([np.round(each * 100) for each in (x, y, np.asarray(las.z))])
+    integers = (integers[near] - [50_000_000, 570_000_000, 0]).astype(np.int64)
+    if len(integers) > 50_000:
+        integers = integers[:: len(integers) // 50_000 + 1]
+    parameters, blocks = TinDensification(), Blocks(90.0, 50.0)
+    whole = write(tmp_path / "whole.laz", integers)
+    folder = cut(tmp_path / "in", integers, 8)
+    classify_tiles([folder], out, parameters, blocks=blocks)
+    found = points_of(finished(out))
+    assert np.array_equal(found, whole_classes(whole, parameters, blocks=blocks))
+    # And with the blocks of the method, as a user runs both.
+    classify_file(whole, tmp_path / "done.laz", parameters)
+    classify_tiles([folder], out, parameters)
+    found = points_of(finished(out))
+    assert np.array_equal(found, points_of([tmp_path / "done.laz"]))
+    assert 0.2 < np.mean(found[:, 3] == 2) < 0.98
+
+
+def test_a_tile_changes_in_nothing_but_its_classes(six, out):
+    classify_tiles([six], out, FAST)
+    for path in six.iterdir():
+        before, after = laspy.read(path), laspy.read(out / path.name)
+        assert np.array_equal(before.X, after.X) and np.array_equal(before.Z, after.Z)
+        assert np.array_equal(before.header.offsets, after.header.offsets)
+        assert set(np.unique(after.classification)) == {1, 2}
+
+
+def test_processes_give_the_same_bytes_as_threads(six, out, tmp_path):
+    blocks = Blocks(80.0, 10.0)
+    classify_tiles([six], tmp_path / "threads", FAST, blocks=blocks)
+    summary = classify_tiles(
+        [six], out, FAST, blocks=blocks, workers=Processes(Resources(threads=2))
+    )
+    assert summary.done_count == 6
+    assert bytes_of(out) == bytes_of(tmp_path / "threads")
+
+
+def test_blocks_are_read_in_groups_that_fit_into_memory(six):
+    collection = open_collection([six])
+    survey = Survey(FAST, Selection(), frame_of(collection), Blocks(20.0, 5.0))
+    places = [Place(column, row) for row in range(6) for column in range(15)]
+    many = grouped(survey, collection, places, 1, 1 << 40)
+    assert len(many) == 4 * 2  # squares of 4 x 4; with 8 x 8 there would be too few
+    assert sorted(place for group in many for place in group) == sorted(places)
+    assert len(grouped(survey, collection, places, 1, 0)) == 90
+    assert len(grouped(survey, collection, places, 100, 1 << 40)) == 90
+
+
+# What is written
+
+
+def test_the_results_are_listed_in_a_virtual_point_cloud(six, out, tmp_path):
+    summary = classify_tiles([six], out, FAST)
+    assert [each.path.name for each in read_vpc(out / "classified.vpc")] == sorted(
+        path.name for path in six.iterdir()
+    )
+    assert summary.vpc == str(out / "classified.vpc")
+    # It is a survey again.
+    other = tmp_path / "again"
+    classify_tiles([out / "classified.vpc"], other, FAST, vpc=tmp_path / "b.vpc")
+    assert bytes_of(other) == bytes_of(out)
+    assert len(read_vpc(tmp_path / "b.vpc")) == 6
+
+
+@pytest.mark.parametrize("format", ["las", "laz", "copc.laz"])
+def test_the_format_can_be_chosen(format, six, out):
+    classify_tiles([six], out, FAST, output=TileOutput(format=format))
+    assert {path.name for path in out.glob("*.la[sz]")} == {f"{n}.{format}" for n in range(6)}
+    assert {tile.is_copc for tile in open_collection([out]).tiles} == {format == "copc.laz"}
+
+
+def test_outputs_that_would_do_harm_are_refused(six, out, tmp_path):
+    with pytest.raises(BareEarthError, match="same folder"):
+        classify_tiles([six], six, FAST)
+    with pytest.raises(BareEarthError, match="searched for inputs"):
+        classify_tiles([six], six / "out", FAST, recursive=True)
+    with pytest.raises(BareEarthError, match=r"name it \.vpc"):
+        classify_tiles([six], out, FAST, vpc=tmp_path / "a.json")
+    with pytest.raises(BareEarthError, match="does not exist"):
+        classify_tiles([six], tmp_path / "no" / "where", FAST)
+    other = cut(tmp_path / "other", strip(500), 2)
+    with pytest.raises(BareEarthError, match="would both become"):
+        classify_tiles([six, other], out, FAST)
+    assert not out.exists() and not (six / "out").exists()
+
+
+# Tiles that are done
+
+
+def changed_times(folder):
+    return {path.name: path.stat().st_mtime_ns for path in finished(folder)}
+
+
+def test_tiles_that_are_done_are_kept_when_a_run_goes_on(six, out, las):
+    classify_tiles([six], out, FAST, blocks=BLOCKS)
+    before = changed_times(out)
+    (out / "3.laz").unlink()
+    heard = las.Heard()
+    summary = classify_tiles([six], out, FAST, output=RESUME, blocks=BLOCKS, progress=heard)
+    after = changed_times(out)
+    assert {name for name in after if after[name] != before[name]} == {"3.laz"}
+    assert summary.kept_count == 5 and summary.done_count == 6
+    assert "5 tiles are done already." in heard.infos
+    assert summary.point_count == 4000
+    # Without asking for it everything is done anew.
+    assert classify_tiles([six], out, FAST, blocks=BLOCKS).kept_count == 0
+    assert all(changed_times(out)[name] != after[name] for name in after)
+
+
+def test_other_parameters_or_inputs_make_tiles_anew_where_they_matter(six, out, las):
+    classify_tiles([six], out, FAST, blocks=Blocks(40.0, 5.0))
+    survey = dict(output=RESUME, blocks=Blocks(40.0, 5.0))
+    other, heard = dataclasses.replace(FAST, height_threshold=0.4), las.Heard()
+    assert classify_tiles([six], out, other, progress=heard, **survey).kept_count == 0
+    assert any("6 tiles that were done are classified anew" in each for each in heard.infos)
+    assert classify_tiles([six], out, other, **survey).kept_count == 6
+    selection = Selection(others="unclassified")
+    assert classify_tiles([six], out, other, selection, **survey).kept_count == 0
+    # One file at the end is written anew: those far from it stay.
+    os.utime(six / "5.laz", ns=(1, 1))
+    before = changed_times(out)
+    summary = classify_tiles([six], out, other, selection, **survey)
+    assert 1 <= summary.kept_count < 6
+    after = changed_times(out)
+    assert after["5.laz"] != before["5.laz"] and after["0.laz"] == before["0.laz"]
+
+
+def command(*words):
+    return [sys.executable, "-m", "bare_earth.algorithms", *map(str, words)]
+
+
+def environment():
+    parent = str(Path(tiles_module.__file__).parents[2])
+    return {**os.environ, "PYTHONPATH": os.pathsep.join([parent, os.environ.get("PYTHONPATH", "")])}
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no such signals")
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
+def test_a_killed_run_goes_on_and_gives_the_same_bytes(number, tmp_path, out):
+    folder = cut(tmp_path / "in", strip(60_000, 900.0, 300.0), 16)
+    words = ["classify-tiles", folder, out, "--threads", 2, "--resume"]
+    words += ["--method", "slope", "--preset", "whitebox"]
+    run = subprocess.Popen(command(*words), env=environment(), stderr=subprocess.PIPE, text=True)
+    end = time.monotonic() + 30
+    while not finished(out) and time.monotonic() < end and run.poll() is None:
+        time.sleep(0.005)
+    run.send_signal(number)
+    start = time.monotonic()
+    _, said = run.communicate()
+    assert time.monotonic() - start < 2.5
+    time.sleep(0.3)  # processes that lost theirs end by themselves
+    done = changed_times(out)
+    assert 1 <= len(done) < 16
+    if number == signal.SIGTERM:
+        assert run.returncode == 1 and "Go on with --resume" in said
+        assert not [path for path in out.rglob("*") if ".part." in path.name]
+    for path in finished(out):
+        laspy.read(path)
+    assert main([str(word) for word in words]) == 0
+    assert not [path for path in out.rglob("*") if ".part." in path.name]
+    kept = [name for name in done if changed_times(out)[name] == done[name]]
+    # At most the last ones were there without their record.
+    assert len(kept) >= len(done) - 2
+    classify_tiles([folder], tmp_path / "once", FAST)
+    assert bytes_of(out) == bytes_of(tmp_path / "once")
+
+
+# What goes wrong
+
+
+def test_broken_tiles_are_told_at_the_end_and_the_others_done(six, out, las, capsys):
+    data = (six / "1.laz").read_bytes()
+    (six / "1.laz").write_bytes(data[:900] + bytes(300) + data[1200:])
+    (six / "9.laz").write_bytes(b"no cloud")
+    heard = las.Heard()
+    summary = classify_tiles([six], out, FAST, blocks=BLOCKS, progress=heard)
+    assert [Path(path).name for path in summary.failures] == ["1.laz", "9.laz"]
+    assert summary.done_count == 5 and summary.tile_count == 7
+    assert set(bytes_of(out)) == {"0.laz", "2.laz", "3.laz", "4.laz", "5.laz"}
+    assert any("beside 1.laz are classified without its points" in each for each in heard.warnings)
+    assert len(read_vpc(out / "classified.vpc")) == 5
+    assert main(["classify-tiles", str(six), str(out), "--method", "slope", "--json"]) == 1
+    said = capsys.readouterr()
+    assert json.loads(said.out)["done_count"] == 5
+    assert f"{six / '9.laz'} is not classified." in said.err
+    # Once it is there again, it is done, and those beside it anew.
+    (six / "1.laz").write_bytes(data)
+    (six / "9.laz").unlink()
+    summary = classify_tiles([six], out, FAST, output=RESUME, blocks=BLOCKS)
+    assert summary.done_count == 6 and not summary.failures
+
+
+def test_tiles_without_ground_or_points_to_classify_are_told(six, out):
+    high = np.array([[900_000 + 7 * n, 900_000 + 5 * n, 900] for n in range(30)])
+    write(six / "noise.laz", high, classes=7)
+    summary = classify_tiles([six], out, FAST)
+    (reason,) = summary.failures.values()
+    assert "No point of" in reason and "left to classify" in reason
+    assert summary.done_count == 6
+
+
+def test_points_outside_of_the_extent_in_the_header_are_not_lost_silently(six, out):
+    with open(six / "2.laz", "r+b") as file:
+        file.seek(179)
+        box = np.frombuffer(file.read(48), "<f8").copy()
+        box[0] = box[1] + 1.0  # largest x, near the smallest
+        file.seek(179)
+        file.write(box.tobytes())
+    summary = classify_tiles([six], out, FAST, blocks=Blocks(20.0, 5.0))
+    assert [Path(path).name for path in summary.failures] == ["2.laz"]
+    assert "smaller extent" in str(summary.failures)
+
+
+def test_a_stray_point_far_away_does_not_stop_a_survey(tmp_path, out):
+    integers = np.vstack((strip(4000), [[100_000_000, 100_000_000, 6000]]))
+    folder = cut(tmp_path / "in", integers[:-1], 4)
+    write(folder / "stray.laz", integers[-40:])
+    summary = classify_tiles([folder], out, FAST, blocks=Blocks(100.0, 10.0))
+    assert summary.done_count == 5 and not summary.failures
+
+
+@pytest.mark.skipif(os.name == "nt", reason="it kills by signals")
+def test_a_process_that_dies_loses_nothing(tmp_path, out):
+    folder = cut(tmp_path / "in", strip(60_000, 900.0, 300.0), 16)
+    killed = []
+
+    class Killer(Progress):
+        def info(self, text):
+            if ".laz:" in text and not killed:
+                (victim, *_) = workers._pool._processes
+                os.kill(victim, signal.SIGKILL)
+                killed.append(victim)
+
+    workers = Processes(Resources(threads=2))
+    summary = classify_tiles([folder], out, FAST, progress=Killer(), workers=workers)
+    assert killed and not summary.failures and summary.done_count == 16
+    classify_tiles([folder], tmp_path / "once", FAST)
+    assert bytes_of(out) == bytes_of(tmp_path / "once")
+    assert not [path for path in out.rglob("*") if ".part." in path.name]
+
+
+def test_a_job_that_fails_fails_its_tile_only(six, out, monkeypatch):
+    def failing(source, target, classes, progress):
+        if source.name == "4.laz":
+            raise MemoryError
+        return write_classified(source, target, classes, progress)
+
+    write_classified = jobs_module.write_classified
+    monkeypatch.setattr(jobs_module, "write_classified", failing)
+    summary = classify_tiles([six], out, FAST)
+    assert summary.done_count == 5
+    assert "not enough memory" in summary.failures[str(six / "4.laz")]
+
+
+def test_labelling_that_fails_fails_the_tiles_of_that_block_only(six, out, monkeypatch):
+    def failing(store, parameters, blocks, *rest):
+        if store.leaves.x.max() > 110.0:
+            raise ValueError("no")
+        return label_ground(store, parameters, blocks, *rest)
+
+    monkeypatch.setattr(jobs_module, "label_ground", failing)
+    summary = classify_tiles([six], out, FAST, blocks=Blocks(20.0, 5.0))
+    assert 0 < len(summary.failures) < 6
+    assert all("Unexpected ValueError: no" in each for each in summary.failures.values())
+    assert summary.done_count == 6 - len(summary.failures)
+
+
+class Impatient(Progress):
+    """Cancels when the first tile is done."""
+
+    def __init__(self):
+        self.asked = None
+
+    def info(self, text):
+        if ".laz:" in text:
+            self.asked = time.monotonic()
+
+    def report(self, fraction):
+        if self.asked is not None:
+            raise Cancelled
+
+
+@pytest.mark.parametrize("kind", [Threads, Processes])
+def test_a_cancel_is_heard_within_a_second_and_finished_tiles_stay(kind, tmp_path, out):
+    folder = cut(tmp_path / "in", strip(60_000, 900.0, 300.0), 16)
+    progress = Impatient()
+    with pytest.raises(Cancelled):
+        classify_tiles([folder], out, FAST, progress=progress, workers=kind(Resources(threads=2)))
+    assert time.monotonic() - progress.asked < 1.5
+    done = bytes_of(out)
+    assert 1 <= len(done) < 16
+    assert not [path for path in out.rglob("*") if ".part." in path.name]
+    summary = classify_tiles([folder], out, FAST, output=RESUME)
+    assert summary.done_count == 16 and summary.kept_count >= 1
+
+
+def test_methods_in_short_have_the_presets_of_all():
+    for name in METHODS:
+        for preset in TileMethod.declarations()[1].choices:
+            chosen = TileMethod(method=name, preset=preset)
+            assert chosen.parameters == METHODS[name].parameters(preset=preset)
