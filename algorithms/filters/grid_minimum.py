@@ -20,11 +20,16 @@ from ..parameters import ParameterSet, parameter
 from ..points import Points
 from ..progress import SILENT, Progress
 from ..terrain.cells import Cells
+from ..terrain.gradient import steepness
 from ..terrain.inpaint import inpaint
-from ..terrain.objects import Relief, between_blocks, covered, raised_objects
+from ..terrain.near_surface import near_surface
+from ..terrain.objects import Relief, covered, raised_objects
+from ..terrain.trend import between_blocks
 
 # Points that a cell should hold on average: with fewer, gaps break the rims.
 _POINTS_PER_CELL = 1.0
+# Cells smaller than that by so small a share of themselves are not made larger.
+_NEARLY = 0.05
 # Least side in metres of the blocks that the density is counted in.
 _DENSITY_BLOCK = 10.0
 # Side in metres of the blocks of cells, two at least, that tall objects are looked for in.
@@ -37,7 +42,6 @@ _NOISE_WIDTH = 10.0
 _NOISE_DEPTH = 2.0
 _STEEPEST = 5.0
 _RELAXATIONS = 2
-_CHUNK = 1 << 18
 # Metres beyond which points do not matter: so many times the largest object, but at least this.
 _REACH_OBJECTS, _LEAST_REACH = 2.0, 100.0
 
@@ -232,7 +236,9 @@ def classify(points: Points, parameters: GridMinimum, progress: Progress = SILEN
     ground[_tall_objects(heights, blocks, resolved, progress.part(0.2, 0.5))] = np.nan
     ground = _without_low_objects(ground, heights, cells.size, resolved, progress.part(0.5, 0.8))
     surface = inpaint(ground, _RELAXATIONS)
-    return _near_surface(points, cells, surface, resolved, progress.part(0.8, 1.0))
+    rise = cells.size * _slope(surface, cells.size)
+    tolerance = resolved.ground_tolerance + resolved.slope_tolerance * rise
+    return near_surface(points, cells, surface, tolerance, progress.part(0.8, 1.0))
 
 
 class _Blocks(NamedTuple):
@@ -276,8 +282,8 @@ class _Blocks(NamedTuple):
 
     def interpolated(self, values: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
         """Return values of blocks, interpolated to each cell of a grid of some shape."""
-        reach = tuple(first + count for first, count in zip(self.first, shape))
-        return between_blocks(values, self.side, reach)[self._cells(shape)]
+        rows, columns = (np.arange(first, first + count) for first, count in zip(self.first, shape))
+        return between_blocks(values, self.side, rows, columns)
 
     def _cells(self, shape: tuple[int, int]) -> tuple[slice, ...]:
         return tuple(slice(first, first + count) for first, count in zip(self.first, shape))
@@ -305,8 +311,8 @@ def _tell_of_gaps(points: Points, parameters: GridMinimum, progress: Progress) -
 
 
 def _multiple(density: float, size: float) -> int:
-    """Return how many times larger cells must be to hold a point."""
-    return max(round(math.sqrt(_POINTS_PER_CELL / density) / size), 1)
+    """Return how many times larger cells must be to hold a point, or nearly so."""
+    return max(math.ceil(math.sqrt(_POINTS_PER_CELL / density) / size - _NEARLY), 1)
 
 
 def _density(points: Points, size: float) -> float:
@@ -383,73 +389,6 @@ def _without_low_objects(
     return np.where(kept, heights, np.nan)
 
 
-def _near_surface(
-    points: Points,
-    cells: Cells,
-    surface: np.ndarray,
-    parameters: GridMinimum,
-    progress: Progress,
-) -> np.ndarray:
-    """Return which points lie close to the ground's surface.
-
-    Most are decided by the least and the greatest of surface and tolerance in their cell; only
-    the others need them interpolated.
-    """
-    slope = _slope(surface, cells.size)
-    tolerance = parameters.ground_tolerance + parameters.slope_tolerance * cells.size * slope
-    bounds = _bounds(surface, tolerance)
-    ground = np.empty(points.count, dtype=bool)
-    for start in range(0, points.count, _CHUNK):
-        part = slice(start, start + _CHUNK)
-        z = points.z[part].astype(np.float32)
-        lower, sure_lower, sure_upper, upper = np.take(bounds, cells.index[part], axis=0).T
-        near = (z >= sure_lower) & (z <= sure_upper)
-        open_ = np.flatnonzero(~near & (z >= lower) & (z <= upper))
-        x, y = points.x[part][open_], points.y[part][open_]
-        height = points.z[part][open_] - cells.at(surface, x, y)
-        near[open_] = np.abs(height) <= cells.at(tolerance, x, y)
-        ground[part] = near
-        progress(0.85 + 0.15 * min(start + _CHUNK, points.count) / points.count)
-    return ground
-
-
-def _bounds(surface: np.ndarray, tolerance: np.ndarray) -> np.ndarray:
-    """Return what bounds the surface without and with its tolerance, in each cell.
-
-    Returns
-    -------
-    numpy.ndarray of float32, shape (cells, 4)
-        In ascending order, wherever the cell's surface is even enough: no ground below the first,
-        all ground between the second and the third, none above the fourth.
-    """
-    bounds = np.empty((surface.size, 4), dtype=np.float32)
-    lower, upper = (
-        (surface - tolerance).astype(np.float32),
-        (surface + tolerance).astype(np.float32),
-    )
-    bounds[:, 0] = _extreme(np.minimum, lower).ravel()
-    bounds[:, 1] = _extreme(np.maximum, lower).ravel()
-    bounds[:, 2] = _extreme(np.minimum, upper).ravel()
-    bounds[:, 3] = _extreme(np.maximum, upper).ravel()
-    return bounds
-
-
-def _extreme(which: np.ufunc, grid: np.ndarray) -> np.ndarray:
-    """Return the minimum or the maximum of the 3 x 3 cells round each cell."""
-    result = grid
-    for axis in (0, 1):
-        inner = np.swapaxes(result, 0, axis)
-        spread = inner.copy()
-        which(spread[1:], inner[:-1], out=spread[1:])
-        which(spread[:-1], inner[1:], out=spread[:-1])
-        result = np.swapaxes(spread, 0, axis)
-    return result
-
-
 def _slope(surface: np.ndarray, size: float) -> np.ndarray:
     """Return rise over run of a surface, no more than that of the steepest ground."""
-    slopes = [
-        np.gradient(surface, size, axis=axis) if surface.shape[axis] > 1 else np.zeros(())
-        for axis in (0, 1)
-    ]
-    return np.minimum(np.hypot(*slopes), _STEEPEST) + np.zeros(surface.shape)
+    return np.minimum(steepness(surface, size), _STEEPEST)

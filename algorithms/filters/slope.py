@@ -21,10 +21,12 @@ from ..errors import BareEarthError
 from ..parameters import ParameterSet, parameter
 from ..points import Points
 from ..progress import SILENT, Progress
-from ..terrain.cells import Cells
+from ..terrain.cells import Cells, spacing
+from ..terrain.gradient import gradient, steepness
 from ..terrain.inpaint import inpaint
 from ..terrain.low_clusters import low_clusters
 from ..terrain.morphology import erosion
+from ..terrain.near_surface import near_surface
 from ..terrain.neighbourhood import Neighbourhood
 from ..terrain.outliers import low_outliers
 
@@ -39,7 +41,6 @@ _CLUSTER_WIDTH = 6.0
 # They must lie below the terrain within this many search radii: the ground seen through a hole in
 # a large roof is a pit as well, but there is ground as low beyond the roof.
 _SURROUNDINGS = 3.0
-_POINTS_A_STEP = 200_000
 # Metres beyond which points do not matter: so many times the search radius, on one scale just what
 # erosion, dilation and comparison need, and at least this where it follows from the points.
 _REACH_RADII, _REACH_RADII_ON_ONE_SCALE, _LEAST_REACH = 5.0, 3.01, 100.0
@@ -176,9 +177,9 @@ class SlopeFilter(ParameterSet):
             radius, slope, height = _MANY_SCALES[self.preset]
             chosen = {"slope_threshold": slope, "height_threshold": height}
             if self.search_radius is None or self.cell_size is None:
-                spacing = _spacing(points)
-                chosen["search_radius"] = max(radius, round(4.0 * spacing, 1))
-                chosen["cell_size"] = max(1.0, round(0.4 * spacing, 1))
+                apart = spacing(points, _DENSE)
+                chosen["search_radius"] = max(radius, round(4.0 * apart, 1))
+                chosen["cell_size"] = max(1.0, round(0.4 * apart, 1))
         empty = {name: value for name, value in chosen.items() if getattr(self, name) is None}
         return dataclasses.replace(self, **empty)
 
@@ -239,15 +240,6 @@ def _in_words(parameters: SlopeFilter) -> str:
     )
 
 
-def _spacing(points: Points) -> float:
-    """Return the mean distance between points in metres, gaps in the survey left out."""
-    area = float(np.ptp(points.x)) * float(np.ptp(points.y))
-    if area <= _DENSE**2 * points.count:
-        return math.sqrt(area / points.count)  # gaps could only make it smaller
-    cells = Cells.over(points, 10.0)
-    return math.sqrt(np.count_nonzero(cells.occupied) * cells.size**2 / points.count)
-
-
 def _on_one_scale(points: Points, parameters: SlopeFilter, progress: Progress) -> np.ndarray:
     """Return the ground mask of the classic filter: every point against all its neighbours."""
     neighbourhood = Neighbourhood(points, parameters.search_radius, parameters.min_neighbours)
@@ -281,7 +273,10 @@ def _on_many_scales(points: Points, parameters: SlopeFilter, progress: Progress)
             "No point can be taken for ground with certainty. Check the thresholds and the"
             " selection of points."
         )
-    return _near_surface(points, cells, inpaint(lowest), parameters, progress.part(0.6, 1.0))
+    surface = inpaint(lowest)
+    rise = parameters.slope_tolerance * steepness(surface, cells.size)
+    tolerance = parameters.height_threshold + rise
+    return near_surface(points, cells, surface, tolerance, progress.part(0.6, 1.0))
 
 
 def _objects(
@@ -322,54 +317,7 @@ def _slope(eroded: np.ndarray, size: float, reach: float) -> np.ndarray:
 
     surface = inpaint(np.where(np.isfinite(eroded), eroded, np.nan))
     window = 2 * max(round(reach / 2), 1) + 1
-    gradient = _gradient(surface, size)
+    slopes = gradient(surface, size)
     for _ in range(2):
-        gradient = [ndimage.uniform_filter(each, window, mode="nearest") for each in gradient]
-    return np.hypot(*gradient)
-
-
-def _gradient(surface: np.ndarray, size: float) -> list[np.ndarray]:
-    """Return the two components of the gradient; 0 along a side of a single cell."""
-    return [
-        np.gradient(surface, size, axis=axis)
-        if surface.shape[axis] > 1
-        else np.zeros(surface.shape)
-        for axis in (0, 1)
-    ]
-
-
-def _near_surface(
-    points: Points, cells: Cells, surface: np.ndarray, parameters: SlopeFilter, progress: Progress
-) -> np.ndarray:
-    """Return which points lie close to a surface given at the centres of the cells."""
-    slope = np.hypot(*_gradient(surface, cells.size))
-    tolerance = parameters.height_threshold + parameters.slope_tolerance * slope
-    below, above = (
-        np.pad(grid, 1, mode="edge").ravel() for grid in (surface - tolerance, surface + tolerance)
-    )
-    width = cells.columns + 2
-    ground = np.empty(points.count, dtype=bool)
-    for first in range(0, points.count, _POINTS_A_STEP):
-        part = slice(first, first + _POINTS_A_STEP)
-        north = points.y[part] / cells.size - (cells.first_row - 0.5)
-        east = points.x[part] / cells.size - (cells.first_column - 0.5)
-        row, column = north.astype(np.intp), east.astype(np.intp)
-        north, east, corner = north - row, east - column, row * width + column
-        z = points.z[part]
-        ground[part] = z >= _bilinear(below, corner, width, north, east)
-        ground[part] &= z <= _bilinear(above, corner, width, north, east)
-        progress(first / points.count)
-    progress(1.0)
-    return ground
-
-
-def _bilinear(
-    grid: np.ndarray, corner: np.ndarray, width: int, north: np.ndarray, east: np.ndarray
-) -> np.ndarray:
-    """Interpolate between four cells of a flattened grid, `corner` being the southwestern one."""
-    west = grid[corner]
-    south_side = west + (grid[corner + 1] - west) * east
-    corner = corner + width
-    west = grid[corner]
-    north_side = west + (grid[corner + 1] - west) * east
-    return south_side + (north_side - south_side) * north
+        slopes = [ndimage.uniform_filter(each, window, mode="nearest") for each in slopes]
+    return np.hypot(*slopes)

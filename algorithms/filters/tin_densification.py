@@ -43,7 +43,7 @@ _FACET_SMOOTHING = 0.7
 # How many times the iteration distance a candidate may lie off the seeds' smooth surface: no facet
 # comes as close to those farther away.
 _REACHABLE = 3.0
-# With more vertices than these in the 3 x 3 cells round it the triangle of a candidate is too small.
+# With more vertices in the 3 x 3 cells round a candidate its triangle is too small to take it.
 _MOST_VERTICES_ROUND = 4
 # Metres: no larger building is expected where none is seen, or looked for.
 _USUAL_BUILDING, _LARGEST_BUILDING = 48.0, 150.0

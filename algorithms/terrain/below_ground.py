@@ -7,6 +7,7 @@ import numpy as np
 from ..points import Points
 from ..progress import SILENT, Progress
 from .cells import Cells
+from .gradient import steepness
 from .inpaint import inpaint
 
 _CELL = 1.0
@@ -55,7 +56,4 @@ def _rise(surface: np.ndarray) -> np.ndarray:
     # Not at the start of QGIS, which loads this module, and where scipy may be missing.
     from scipy import ndimage
 
-    # A grid one cell wide has no slope across.
-    rises = [np.gradient(surface, axis=axis) for axis in (0, 1) if surface.shape[axis] > 1]
-    rise = np.sqrt(sum((each**2 for each in rises), np.zeros(surface.shape)))
-    return ndimage.maximum_filter(rise, 3, mode="nearest")
+    return ndimage.maximum_filter(steepness(surface, 1.0), 3, mode="nearest")

@@ -12,17 +12,17 @@ from typing import NamedTuple, Sequence
 import numpy as np
 
 from ..progress import SILENT, Progress
+from ..threads import in_threads
 from .inpaint import inpaint
+from .trend import Rises, Trend
 
 # East, north and the two diagonals: with their opposites, the eight neighbours of a cell.
 _DIRECTIONS = ((0, 1), (1, 0), (1, 1), (1, -1))
 # Distance in metres at which heights are compared, unless cells are larger: over less a wall hit
 # half-way up, or a gap filled between roof and ground, makes a staircase of low steps.
 _STEP = 1.0
-# Side in metres of the blocks whose median slope is the trend of the terrain.
-_TREND_BLOCK = 15.0
-# Differences of a block that suffice for its median, along each axis.
-_TREND_SAMPLES = 15
+# Cells whose steps are computed at a time, so that they stay in the processor's cache.
+_CELLS_A_STRIP = 1 << 15
 # Passes in which rim cells join the region that they are level with.
 _JOINING_PASSES = 2
 # Passes in which cells that are level with the ground grow back.
@@ -116,31 +116,6 @@ def covered(known: np.ndarray, reach: int = 4) -> np.ndarray:
     return closed[reach : reach + known.shape[0], reach : reach + known.shape[1]].astype(bool)
 
 
-def between_blocks(values: np.ndarray, block: int, shape: tuple[int, int]) -> np.ndarray:
-    """Interpolate values at the middles of blocks bilinearly to cells.
-
-    Parameters
-    ----------
-    values : numpy.ndarray of float, shape (block rows, block columns)
-        A value of each block.
-    block : int
-        Cells along the side of a block.
-    shape : tuple of int
-        Rows and columns of cells, from the first cell of the first block on.
-
-    Returns
-    -------
-    numpy.ndarray of float, shape `shape`
-    """
-    for count in shape:
-        place = np.clip((np.arange(count) + 0.5) / block - 0.5, 0.0, len(values) - 1.0)
-        first = np.minimum(place.astype(int), max(len(values) - 2, 0))
-        weight = (place - first).astype(values.dtype)[:, None]
-        second = np.minimum(first + 1, len(values) - 1)
-        values = (values[first] * (1 - weight) + values[second] * weight).T
-    return values
-
-
 class Relief:
     """The steps of a height grid, as against what the trend of the terrain explains.
 
@@ -156,15 +131,11 @@ class Relief:
 
     def __init__(self, heights: np.ndarray, size: float, inside: np.ndarray) -> None:
         surface = inpaint(heights, _RELAXATIONS).astype(np.float32)
-        north, east, roughness = _trend(surface, size)
+        self._trend = Trend(surface, size)
         self._size, self._step = size, max(round(_STEP / size), 1)
         # A frame without height ends each row, so that neighbours are an offset apart.
         self._inside = np.pad(inside, self._step)
         self._heights = np.pad(surface, self._step, constant_values=np.nan).ravel()
-        self._north, self._east, self._slope, self._roughness = (
-            np.pad(np.float32(size) * each, self._step).ravel()
-            for each in (north, east, np.hypot(north, east), roughness)
-        )
 
     def rims(self, threshold: float, roughness_factor: float = 1.0) -> np.ndarray:
         """Return which cells are higher than one of their eight neighbours by too much.
@@ -252,19 +223,21 @@ class Relief:
         kept = np.pad(kept, self._step).ravel()
         grid = np.pad(heights.astype(np.float32), self._step, constant_values=np.nan).ravel()
         cells = np.flatnonzero(np.isfinite(grid) & ~kept)
+        trend = self._trend.at(*self._places(cells))
         for _ in range(_GROWING_PASSES):
             rises, count = np.zeros(len(cells), np.float32), np.zeros(len(cells), np.float32)
             for row, column in _DIRECTIONS:
                 offset = row * self._inside.shape[1] + column
-                trend = row * self._north[cells] + column * self._east[cells]
-                for neighbour, expected in ((cells + offset, trend), (cells - offset, -trend)):
+                ahead = row * trend.north + column * trend.east
+                for neighbour, expected in ((cells + offset, ahead), (cells - offset, -ahead)):
                     rise = grid[neighbour] - grid[cells] - expected
                     rises += np.where(kept[neighbour], rise, 0)
                     count += kept[neighbour]
-            allowed = threshold + self._slope[cells] + self._roughness[cells]
+            allowed = threshold + trend.steepest + trend.roughness
             level = (count > 0) & (np.abs(rises) <= allowed * count)
             kept[cells[level]] = True
             cells = cells[~level]
+            trend = Rises(*(each[~level] for each in trend))
         return self._unframed(kept.reshape(self._inside.shape))
 
     def _unframed(self, grid: np.ndarray) -> np.ndarray:
@@ -272,26 +245,68 @@ class Relief:
 
     def _steps(self, threshold: float, roughness_factor: float = 1.0) -> list[_Steps]:
         """Return the steps to the neighbours in four directions."""
-        allowance = self._slope + np.float32(roughness_factor) * self._roughness
-        steps = []
+        steps, width = [], self._inside.shape[1]
         for row, column in _DIRECTIONS:
             row, column = row * self._step, column * self._step
-            offset, length = row * self._inside.shape[1] + column, np.float32(np.hypot(row, column))
-            rise = self._heights[offset:] - self._heights[:-offset]
-            if row:
-                rise -= np.float32(row) * self._north[:-offset]
-            if column:
-                rise -= np.float32(column) * self._east[:-offset]
-            allowed = length * allowance[:-offset] + np.float32(threshold)
-            sign = (rise > allowed).view(np.int8) - (rise < -allowed).view(np.int8)
+            offset = row * width + column
+            sign = np.empty(self._heights.size - offset, dtype=np.int8)
             steps.append(_Steps(row, column, offset, sign))
+        strip = max(_CELLS_A_STRIP // width, 1)
+
+        def fill(first: int) -> None:
+            trend = self._trend_of_rows(first, min(first + strip, len(self._inside)))
+            for each in steps:
+                self._compare(each, first * width, trend, threshold, roughness_factor)
+
+        in_threads(fill, range(0, len(self._inside), strip))
         return steps
+
+    def _compare(
+        self, step: _Steps, start: int, trend: Rises, threshold: float, roughness_factor: float
+    ) -> None:
+        """Fill in the signs of one direction for the cells from `start` on that a trend is of."""
+        end = min(start + trend.north.size, step.sign.size)
+        if end <= start:
+            return
+        rise = self._heights[start + step.offset : end + step.offset] - self._heights[start:end]
+        north, east, steepest, roughness = (each[: end - start] for each in trend)
+        if step.row:
+            rise -= np.float32(step.row) * north
+        if step.column:
+            rise -= np.float32(step.column) * east
+        allowed = steepest + np.float32(roughness_factor) * roughness
+        allowed *= np.float32(np.hypot(step.row, step.column))
+        allowed += np.float32(threshold)
+        higher = (rise > allowed).view(np.int8)
+        np.subtract(higher, (rise < -allowed).view(np.int8), out=step.sign[start:end])
+
+    def _trend_of_rows(self, first: int, last: int) -> Rises:
+        """Return the trend at each cell of some rows with their frame, where it is 0."""
+        inner = slice(max(first - self._step, 0), max(last - self._step, 0))
+        rows = self._inside.shape[0] - 2 * self._step
+        rises = self._trend.of_rows(inner.start, min(inner.stop, rows))
+        above = inner.start + self._step - first
+        framed = []
+        for each in rises:
+            grid = np.zeros((last - first, self._inside.shape[1]), dtype=np.float32)
+            height = min(inner.stop, rows) - inner.start
+            if height > 0:
+                grid[above : above + height, self._step : -self._step] = each
+            framed.append(grid.ravel())
+        return Rises(*framed)
+
+    def _places(self, cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return row and column of cells; for those in the frame, of the cells beside it."""
+        rows, columns = (side - 2 * self._step for side in self._inside.shape)
+        row, column = np.divmod(cells, self._inside.shape[1])
+        row, column = row - self._step, column - self._step
+        return np.clip(row, 0, rows - 1), np.clip(column, 0, columns - 1)
 
     def _rise(self, cells: np.ndarray, step: _Steps, backward: bool = False) -> np.ndarray:
         """Return the rise from some cells to their neighbours in one direction, or its opposite."""
         first = cells - step.offset if backward else cells
         rise = self._heights[first + step.offset] - self._heights[first]
-        rise -= step.row * self._north[first] + step.column * self._east[first]
+        rise -= self._trend.along(*self._places(first), step.row, step.column)
         return -rise if backward else rise
 
     def _rims(self, steps: list[_Steps]) -> np.ndarray:
@@ -489,39 +504,3 @@ def _shorter_side(area: np.ndarray, perimeter: np.ndarray) -> np.ndarray:
     quarter = perimeter / 4.0
     rest = quarter**2 - area
     return np.where(rest < 0, np.sqrt(area), quarter - np.sqrt(np.maximum(rest, 0.0)))
-
-
-def _trend(heights: np.ndarray, size: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the terrain's slope towards north and east and its unevenness, at each cell.
-
-    Within blocks of some metres the slope is the median of that between neighbours, which walls
-    and trees do not move, and the unevenness the median of what departs from it; all three are
-    rise over run.
-    """
-
-    from scipy import ndimage
-
-    block = max(round(_TREND_BLOCK / size), 3)
-    slopes, roughness = [], np.zeros(heights.shape, dtype=heights.dtype)
-    for axis in (0, 1):
-        if heights.shape[axis] == 1:
-            slopes.append(np.zeros_like(heights))
-            continue
-        blocks = _sampled_blocks(np.diff(heights, axis=axis) / heights.dtype.type(size), block)
-        slope = np.median(blocks, axis=2)
-        departure = np.median(np.abs(blocks - slope[..., None]), axis=2)
-        for each in (slope, departure):
-            ndimage.median_filter(each, 3, mode="nearest", output=each)
-        slopes.append(between_blocks(slope, block, heights.shape))
-        roughness += between_blocks(departure, block, heights.shape) / 2
-    return slopes[0], slopes[1], roughness
-
-
-def _sampled_blocks(grid: np.ndarray, block: int) -> np.ndarray:
-    """Return some cells of each block of a grid, shape (rows, columns, samples) of blocks."""
-    rows, columns = (-(-side // block) for side in grid.shape)
-    missing = rows * block - grid.shape[0], columns * block - grid.shape[1]
-    padded = np.pad(grid, [(0, each) for each in missing], mode="symmetric")
-    step = max(block // _TREND_SAMPLES, 1)
-    blocks = padded.reshape(rows, block, columns, block)[:, ::step, :, ::step]
-    return blocks.transpose(0, 2, 1, 3).reshape(rows, columns, -1)

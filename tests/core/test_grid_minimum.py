@@ -100,7 +100,7 @@ def test_gaps_in_the_canopy_are_ground_and_not_noise():
     assert found[~crown].mean() > 0.97
 
 
-@pytest.mark.parametrize("density, cell", [(0.2, "2 m"), (1.0, "1 m")])
+@pytest.mark.parametrize("density, cell", [(0.2, "2.5 m"), (1.0, "1 m")])
 def test_cells_grow_with_the_distance_of_the_points_and_the_log_tells(density, cell):
     size = 80.0 if density == 1.0 else 250.0
     points = flat(density, size)

@@ -3,12 +3,8 @@
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.terrain.objects import (
-    Relief,
-    between_blocks,
-    covered,
-    raised_objects,
-)
+from bare_earth.algorithms.terrain.objects import Relief, covered, raised_objects
+from bare_earth.algorithms.terrain.trend import Trend, between_blocks
 
 
 def plain(side: int = 60, slope: float = 0.0) -> np.ndarray:
@@ -136,9 +132,22 @@ def test_only_small_gaps_count_as_covered():
 
 
 def test_values_of_blocks_are_interpolated_between_their_middles():
-    cells = between_blocks(np.array([[0.0, 10.0], [0.0, 10.0]]), 5, (10, 10))
+    cells = between_blocks(np.array([[0.0, 10.0], [0.0, 10.0]]), 5, np.arange(10), np.arange(10))
     assert cells[0, 2] == 0.0 and cells[9, 7] == 10.0
     assert np.allclose(cells[:, 4], 4.0)
+
+
+def test_the_trend_is_the_same_at_single_cells_and_over_rows():
+    heights = plain(70, slope=0.3).astype(np.float32)
+    heights[20:30, 20:30] += 8.0
+    trend = Trend(heights, 1.0)
+    row, column = np.divmod(np.arange(heights.size), heights.shape[1])
+    for whole, single in zip(trend.of_rows(0, 70), trend.at(row, column)):
+        assert np.array_equal(whole.ravel(), single)
+    rises = trend.of_rows(0, 70)
+    assert np.allclose(rises.east, 0.3, atol=0.02) and np.allclose(rises.north, 0.0, atol=0.02)
+    along = trend.along(row, column, 1, -1)
+    assert np.allclose(along, rises.north.ravel() - rises.east.ravel())
 
 
 @pytest.mark.parametrize("shape", [(1, 1), (1, 7), (7, 1), (2, 2)])

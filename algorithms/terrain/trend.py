@@ -1,0 +1,159 @@
+"""The trend of the terrain in a height grid: what walls and trees do not move."""
+
+from __future__ import annotations
+
+from typing import Callable, NamedTuple
+
+import numpy as np
+
+from ..threads import in_threads
+
+# Side in metres of the blocks whose median slope is the trend of the terrain.
+_BLOCK = 15.0
+# Differences of a block that suffice for its median, along each axis.
+_SAMPLES = 15
+
+
+class Rises(NamedTuple):
+    """What the terrain rises over one cell, in metres, at some cells.
+
+    Attributes
+    ----------
+    north, east : numpy.ndarray of float32
+        Towards north and east.
+    steepest : numpy.ndarray of float32
+        Towards where it is steepest.
+    roughness : numpy.ndarray of float32
+        How much single rises usually depart from that.
+    """
+
+    north: np.ndarray
+    east: np.ndarray
+    steepest: np.ndarray
+    roughness: np.ndarray
+
+
+class Trend:
+    """The slope of the terrain and its unevenness.
+
+    Within blocks of some metres the slope is the median of that between neighbours, which walls
+    and trees do not move, and the unevenness the median of what departs from it. Between the
+    middles of the blocks they are interpolated, for some cells at a time: grids as large as that
+    of the heights would cost more than all else.
+
+    Parameters
+    ----------
+    heights : numpy.ndarray of float32, shape (rows, columns)
+        Heights in metres without NaN.
+    size : float
+        Side of a cell in metres.
+    """
+
+    def __init__(self, heights: np.ndarray, size: float) -> None:
+        self._size, self._shape = size, heights.shape
+        self._block = max(round(_BLOCK / size), 3)
+        self._blocks = in_threads(lambda axis: self._of_axis(heights, axis), (0, 1))
+
+    def _of_axis(self, heights: np.ndarray, axis: int) -> np.ndarray | None:
+        """Return slope along an axis and departure from it, of each block (2, rows, columns)."""
+        from scipy import ndimage
+
+        if heights.shape[axis] == 1:
+            return None
+        slopes = np.diff(heights, axis=axis) / heights.dtype.type(self._size)
+        blocks = _sampled_blocks(slopes, self._block)
+        slope = np.median(blocks, axis=2)
+        departure = np.median(np.abs(blocks - slope[..., None]), axis=2)
+        smooth = (ndimage.median_filter(each, 3, mode="nearest") for each in (slope, departure))
+        return np.stack(list(smooth))
+
+    def of_rows(self, first: int, last: int) -> Rises:
+        """Return the rises at all cells of some rows, `last` not among them."""
+        rows, columns = np.arange(first, last), np.arange(self._shape[1])
+        shape = (len(rows), len(columns))
+        return self._rises(lambda each: between_blocks(each, self._block, rows, columns), shape)
+
+    def at(self, row: np.ndarray, column: np.ndarray) -> Rises:
+        """Return the rises at cells."""
+        return self._rises(lambda each: _at_places(each, self._block, row, column), row.shape)
+
+    def along(self, row: np.ndarray, column: np.ndarray, north: int, east: int) -> np.ndarray:
+        """Return what the terrain rises from cells to others, some cells farther north and east."""
+        rise = np.float32(0.0)
+        for cells, values in zip((north, east), self._blocks):
+            if cells and values is not None:
+                slope = _at_places(values[:1], self._block, row, column)[0]
+                rise = rise + cells * (np.float32(self._size) * slope)
+        return rise
+
+    def _rises(
+        self, interpolated: Callable[[np.ndarray], np.ndarray], shape: tuple[int, ...]
+    ) -> Rises:
+        slopes, roughness = [], np.zeros(shape, dtype=np.float32)
+        for axis in self._blocks:
+            if axis is None:  # a grid one cell wide has no slope across
+                slopes.append(np.zeros(shape, dtype=np.float32))
+                continue
+            slope, departure = interpolated(axis)
+            slopes.append(slope)
+            departure /= 2
+            roughness += departure
+        rises = (*slopes, np.hypot(*slopes), roughness)
+        return Rises(*(np.float32(self._size) * each for each in rises))
+
+
+def between_blocks(
+    values: np.ndarray, block: int, rows: np.ndarray, columns: np.ndarray
+) -> np.ndarray:
+    """Interpolate values at the middles of blocks bilinearly to cells.
+
+    Parameters
+    ----------
+    values : numpy.ndarray of float, shape (..., block rows, block columns)
+        A value of each block.
+    block : int
+        Cells along the side of a block.
+    rows, columns : numpy.ndarray of int
+        Which cells, counted from the first of the first block.
+
+    Returns
+    -------
+    numpy.ndarray of float, shape (..., rows, columns)
+    """
+    for axis, cells in ((-2, rows), (-1, columns)):
+        first, second, weight = _neighbours(cells, block, values.shape[axis], values.dtype)
+        weight = weight[:, None] if axis == -2 else weight
+        after = values.take(second, axis=axis)
+        after *= weight
+        values = values.take(first, axis=axis)
+        values *= 1 - weight
+        values += after
+    return values
+
+
+def _at_places(values: np.ndarray, block: int, row: np.ndarray, column: np.ndarray) -> np.ndarray:
+    """Interpolate as `between_blocks` to single cells."""
+    south, north, up = _neighbours(row, block, values.shape[-2], values.dtype)
+    west, east, right = _neighbours(column, block, values.shape[-1], values.dtype)
+    left_side = values[..., south, west] * (1 - up) + values[..., north, west] * up
+    right_side = values[..., south, east] * (1 - up) + values[..., north, east] * up
+    return left_side * (1 - right) + right_side * right
+
+
+def _neighbours(
+    cells: np.ndarray, block: int, count: int, kind: np.dtype
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the blocks whose middles lie on either side, and the weight of the second."""
+    place = np.clip((cells + 0.5) / block - 0.5, 0.0, count - 1.0)
+    first = np.minimum(place.astype(int), max(count - 2, 0))
+    return first, np.minimum(first + 1, count - 1), (place - first).astype(kind)
+
+
+def _sampled_blocks(grid: np.ndarray, block: int) -> np.ndarray:
+    """Return some cells of each block of a grid, shape (rows, columns, samples) of blocks."""
+    rows, columns = (-(-side // block) for side in grid.shape)
+    missing = rows * block - grid.shape[0], columns * block - grid.shape[1]
+    padded = np.pad(grid, [(0, each) for each in missing], mode="symmetric")
+    step = max(block // _SAMPLES, 1)
+    blocks = padded.reshape(rows, block, columns, block)[:, ::step, :, ::step]
+    return blocks.transpose(0, 2, 1, 3).reshape(rows, columns, -1)
