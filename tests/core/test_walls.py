@@ -134,7 +134,7 @@ def test_every_module_of_the_classifier_imports_without_laspy():
     # None in sys.modules makes an import fail, as if the package were not installed.
     code = (
         "import importlib, sys\n"
-        "for name in ('laspy', 'lazrs', 'copclib', 'rasterio', 'osgeo', 'tqdm'):\n"
+        "for name in ('laspy', 'lazrs', 'copclib', 'rasterio', 'osgeo', 'tqdm', 'distributed'):\n"
         "    sys.modules[name] = None\n"
         f"for name in {modules!r}:\n"
         "    importlib.import_module(name)\n"

@@ -1,0 +1,134 @@
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from surveys import bytes_of, cut, strip
+
+from bare_earth.algorithms import tiles as tiles_module
+from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.errors import BareEarthError
+from bare_earth.algorithms.filters.slope import SlopeFilter
+from bare_earth.algorithms.progress import Progress
+from bare_earth.algorithms.tiles import classify_tiles
+from bare_earth.algorithms.tiling import cluster as cluster_module
+from bare_earth.algorithms.tiling.cluster import Cluster
+
+pytest.importorskip("distributed")
+FAST = SlopeFilter(preset="whitebox")
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+@pytest.fixture(scope="module")
+def dask(tmp_path_factory):
+    """A scheduler and two workers, each in a process of its own: address and workers."""
+    folder = tmp_path_factory.mktemp("dask")
+    parent = str(Path(tiles_module.__file__).parents[2])
+    path = os.pathsep.join([parent, os.environ.get("PYTHONPATH", "")])
+    address = f"tcp://127.0.0.1:{free_port()}"
+    started = []
+
+    def start(*words):
+        with open(folder / f"{len(started)}.log", "wb") as log:
+            process = subprocess.Popen(
+                [sys.executable, "-m", *words],
+                env={**os.environ, "PYTHONPATH": path},
+                cwd=folder,
+                stdout=log,
+                stderr=log,
+            )
+        started.append(process)
+        return process
+
+    where = ["--host", "127.0.0.1", "--port", address.rpartition(":")[2]]
+    start("distributed.cli.dask_scheduler", *where, "--no-dashboard")
+    own = ["--no-dashboard", "--no-nanny", "--nthreads", "1", "--host", "127.0.0.1"]
+    workers = [start("distributed.cli.dask_worker", address, *own) for _ in range(2)]
+    try:
+        wait_for_workers(address, 2)
+        yield address, workers
+    finally:
+        for process in started:
+            process.kill()
+        for process in started:
+            process.wait()
+
+
+def wait_for_workers(address, count):
+    from distributed import Client
+
+    end = time.monotonic() + 30
+    while True:
+        try:
+            with Client(address, timeout="2s", set_as_default=False) as client:
+                client.wait_for_workers(count, timeout=20)
+            return
+        except OSError:
+            if time.monotonic() > end:
+                raise
+
+
+@pytest.fixture(scope="module")
+def survey(tmp_path_factory):
+    """Files, and the bytes that they become in threads of this process."""
+    folder = tmp_path_factory.mktemp("survey")
+    cut(folder / "in", strip(40_000, 900.0, 300.0), 16)
+    classify_tiles([folder / "in"], folder / "threads", FAST)
+    return folder / "in", bytes_of(folder / "threads")
+
+
+def test_a_cluster_gives_the_same_bytes(dask, survey, tmp_path):
+    folder, expected = survey
+    words = ["classify-tiles", folder, tmp_path / "out", "--scheduler", dask[0]]
+    assert main([*map(str, words), "--method", "slope", "--preset", "whitebox"]) == 0
+    assert bytes_of(tmp_path / "out") == expected
+
+
+def test_a_scheduler_that_is_not_there_is_told(survey, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(cluster_module, "_CONNECTING", "1s")
+    words = ["classify-tiles", survey[0], tmp_path / "out"]
+    address = f"tcp://127.0.0.1:{free_port()}"
+    assert main([*map(str, words), "--scheduler", address]) == 1
+    assert f"There is no Dask scheduler at {address}" in capsys.readouterr().err
+
+
+def test_workers_of_another_version_are_refused(dask, survey, tmp_path, monkeypatch):
+    import bare_earth
+
+    monkeypatch.setattr(bare_earth, "__version__", "99.9")
+    with pytest.raises(BareEarthError, match=r"has version .* and this computer 99\.9"):
+        classify_tiles([survey[0]], tmp_path / "out", FAST, workers=Cluster(dask[0]))
+
+
+@pytest.mark.skipif(os.name == "nt", reason="it kills by signals")
+def test_a_worker_that_is_killed_loses_nothing(dask, survey, tmp_path):
+    # The last test: it leaves the cluster with one worker.
+    address, workers = dask
+    folder, expected = survey
+
+    class Killer(Progress):
+        done = None
+
+        def info(self, text):
+            if ".laz:" in text and self.done is None:
+                workers[0].send_signal(signal.SIGKILL)
+                self.done = 0
+            elif self.done is not None:
+                self.done += 1
+
+    killer = Killer()
+    out = tmp_path / "out"
+    summary = classify_tiles([folder], out, FAST, progress=killer, workers=Cluster(address))
+    assert workers[0].wait() == -signal.SIGKILL and killer.done >= 14
+    assert not summary.failures and summary.done_count == 16
+    assert bytes_of(out) == expected
+    assert not [path for path in out.rglob("*") if ".part" in path.name]
