@@ -30,6 +30,10 @@ from .tiling.ground import blocks_of, label_ground
 from .tiling.memory import Resources
 from .tiling.streaming import Outcome, classify_parts, fits_in_memory
 
+# Bytes of a point, as the file has it, up to which all of it is kept: reading it again for what
+# does not change would take as long as the filter.
+_LONGEST_KEPT = 48
+
 
 @dataclass(frozen=True)
 class Summary:
@@ -175,9 +179,13 @@ def classify_file(
     resources = resources.now()
     scope = Scope(selection, area, method_of(parameters).reach(parameters))
     model = terrain if dtm or hillshade else None
-    count = read_layout(Path(source)).count
+    layout = read_layout(Path(source))
+    count, length = layout.count, layout.record_length
     if fits_in_memory(count, resources):
-        outcome = _in_memory(source, parameters, scope, resources, model, progress.part(0.0, 0.7))
+        keep = length <= _LONGEST_KEPT and fits_in_memory(count, resources, length)
+        cloud = read_cloud(source, progress.part(0.0, 0.2), keep_records=keep)
+        part = progress.part(0.2, 0.7)
+        outcome = _in_memory(cloud, parameters, scope, resources, model, part)
     else:
         _check_parts_do(target, output, count, progress)
         blocks, part = blocks_of(parameters), progress.part(0.0, 0.7)
@@ -196,7 +204,8 @@ def classify_file(
         if output.ground_only or output.height_above_ground:
             ground = classes == selection.to_class
             changes = output.changes(outcome.cloud, classes, ground, progress.part(0.85, 0.9))
-        write_changed(source, target, changes, progress.part(0.9, 1.0))
+        records = outcome.cloud.records
+        write_changed(source, target, changes, progress.part(0.9, 1.0), records)
     counts = outcome.class_counts
     written = [selection.to_class] if output.ground_only else np.flatnonzero(counts)
     return Summary(
@@ -210,16 +219,15 @@ def classify_file(
 
 
 def _in_memory(
-    source: Path,
+    cloud: PointCloud,
     parameters: ParameterSet,
     scope: Scope,
     resources: Resources,
     terrain: TerrainModel | None,
     progress: Progress,
 ) -> Outcome:
-    """Classify a file with all of its points in memory."""
-    cloud = read_cloud(source, progress.part(0.0, 0.2))
-    labels, inside, _ = _labels(cloud, parameters, scope, resources, progress.part(0.2, 1.0))
+    """Classify the points of a file that are all in memory."""
+    labels, inside, _ = _labels(cloud, parameters, scope, resources, progress)
     classes = _classes(cloud, scope.selection, labels, inside)
     ground = classes == scope.selection.to_class
     return Outcome(

@@ -10,7 +10,7 @@ import numpy as np
 from ..errors import BareEarthError
 from .extrabytes import ExtraDimension, place_dimension
 from .lasbytes import LasLayout, with_count, with_z_range
-from .records import FIRST_EXTENDED_FORMAT, check_class, read_records
+from .records import CHUNK, FIRST_EXTENDED_FORMAT, check_class, read_records
 
 _Z = slice(8, 12)
 # The key-point flag: in the byte of the class up to point format 5, in that of the flags from 6 on.
@@ -57,6 +57,8 @@ class Rewriting:
         The file as it is.
     changes : Changes
         What changes in its points.
+    records : numpy.ndarray of uint8, shape (n, record length), optional
+        Its points, if they were kept when it was read; they are changed.
 
     Attributes
     ----------
@@ -69,11 +71,16 @@ class Rewriting:
         If the file is not the one that the changes are for, or cannot hold them.
     """
 
-    def __init__(self, source: LasLayout, changes: Changes) -> None:
-        if any(len(column) != source.count for column in changes.columns()):
+    def __init__(
+        self, source: LasLayout, changes: Changes, records: np.ndarray | None = None
+    ) -> None:
+        read = (source.count, source.record_length) if records is None else records.shape
+        if read != (source.count, source.record_length) or any(
+            len(column) != source.count for column in changes.columns()
+        ):
             raise BareEarthError(f"{source.path} has changed while it was worked on. Run it again.")
         self.source = self.target = source
-        self._changes, self._place = changes, None
+        self._changes, self._place, self._records = changes, None, records
         if changes.kept is not None and not changes.kept.any():
             raise BareEarthError(f"None of the points of {source.path} is left to be written.")
         if changes.extra is not None:
@@ -105,7 +112,7 @@ class Rewriting:
             Share of the source that has been read.
         """
         start = 0
-        for old in read_records(self.source):
+        for old in self._sources():
             records = self.apply(old, start)
             classes = self.classes(records, start)
             end = start + len(old)
@@ -114,6 +121,12 @@ class Rewriting:
                 records, classes = records[kept], classes[kept]
             yield records, classes, end / self.source.count
             start = end
+
+    def _sources(self) -> Iterator[np.ndarray]:
+        if self._records is None:
+            return read_records(self.source)
+        starts = range(0, len(self._records), CHUNK)
+        return (self._records[start : start + CHUNK] for start in starts)
 
     def check_classes(self) -> None:
         """Refuse classes that the point format of the file has no room for."""

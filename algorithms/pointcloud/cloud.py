@@ -38,6 +38,8 @@ class PointCloud:
         LAS point format, 0 to 10.
     crs : Crs
         What is known of the coordinate reference system.
+    records : numpy.ndarray of uint8, shape (n, record length), optional
+        The points as the file has them, where they were kept to be written again.
     """
 
     path: Path
@@ -52,6 +54,7 @@ class PointCloud:
     withheld: np.ndarray
     point_format: int
     crs: Crs
+    records: np.ndarray | None = None
 
     @property
     def count(self) -> int:

@@ -14,15 +14,22 @@ from .backends import require
 from .cloud import PointCloud
 from .crs import Crs, read_crs, unit_name
 from .lasbytes import LasLayout, read_layout
+from .records import read_records
 from .sources import damage_told, damaged
 
 if TYPE_CHECKING:
     import laspy
 
 _CHUNK = 1_000_000
+_SMALL = {
+    "classification": np.uint8,
+    "return_number": np.uint8,
+    "number_of_returns": np.uint8,
+    "withheld": bool,
+}
 
 
-def read_cloud(path: Path, progress: Progress = SILENT) -> PointCloud:
+def read_cloud(path: Path, progress: Progress = SILENT, keep_records: bool = False) -> PointCloud:
     """Read the points of a LAS, LAZ or COPC file.
 
     Parameters
@@ -31,6 +38,8 @@ def read_cloud(path: Path, progress: Progress = SILENT) -> PointCloud:
         The file.
     progress : Progress
         Receives progress, and what is odd about the CRS.
+    keep_records : bool
+        Keep all that the file says of each point, so that it need not be read again to be written.
 
     Returns
     -------
@@ -46,6 +55,8 @@ def read_cloud(path: Path, progress: Progress = SILENT) -> PointCloud:
     """
     layout = read_layout(Path(path))
     require(*_packages(layout))
+    if keep_records:
+        return _with_records(layout, progress)
     cloud = _empty_cloud(layout, layout.count, read_crs(layout, progress))
     start = 0
     with _opened(layout) as reader:
@@ -56,6 +67,33 @@ def read_cloud(path: Path, progress: Progress = SILENT) -> PointCloud:
     if start != layout.count:
         raise damaged(layout.path)
     return cloud
+
+
+def _with_records(layout: LasLayout, progress: Progress) -> PointCloud:
+    import laspy
+
+    crs = read_crs(layout, progress)
+    records = np.empty((layout.count, layout.record_length), dtype=np.uint8)
+    start = 0
+    for part in read_records(layout, into=records):
+        start += len(part)
+        progress(start / layout.count)
+    with _opened(layout) as reader:
+        point_format = reader.header.point_format
+    points = laspy.PackedPointRecord.from_buffer(records, point_format)
+    return PointCloud(
+        path=layout.path,
+        # Where they stand among the records: a copy would be half as much again.
+        x=points["X"],
+        y=points["Y"],
+        z=points["Z"],
+        scale=layout.scale,
+        offset=layout.offset,
+        **{name: np.array(points[name]).astype(kind, copy=False) for name, kind in _SMALL.items()},
+        point_format=layout.point_format,
+        crs=crs,
+        records=records,
+    )
 
 
 def read_parts(path: Path, progress: Progress = SILENT) -> Iterator[PointCloud]:
@@ -265,7 +303,7 @@ def _empty_cloud(layout: LasLayout, count: int, crs: Crs) -> PointCloud:
 
 def _fill(cloud: PointCloud, where: slice, chunk: laspy.ScaleAwarePointRecord) -> None:
     cloud.x[where], cloud.y[where], cloud.z[where] = chunk["X"], chunk["Y"], chunk["Z"]
-    for name in ("classification", "return_number", "number_of_returns", "withheld"):
+    for name in _SMALL:
         getattr(cloud, name)[where] = np.asarray(chunk[name])
 
 

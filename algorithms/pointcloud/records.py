@@ -42,13 +42,24 @@ def check_class(path: object, point_format: int, value: int, what: str) -> None:
         )
 
 
-def read_records(layout: LasLayout, chunk: int = CHUNK) -> Iterator[np.ndarray]:
+def read_records(
+    layout: LasLayout, chunk: int = CHUNK, into: np.ndarray | None = None
+) -> Iterator[np.ndarray]:
     """Yield the points of a file as their bytes.
+
+    Parameters
+    ----------
+    layout : LasLayout
+        The file.
+    chunk : int
+        Most points to read at a time.
+    into : numpy.ndarray of uint8, shape (n, record length), optional
+        Where to keep all of them.
 
     Yields
     ------
     numpy.ndarray of uint8, shape (up to `chunk`, record length)
-        A writable array; the next one may reuse its memory.
+        A writable array: a part of `into`, or one whose memory the next may reuse.
 
     Raises
     ------
@@ -58,9 +69,11 @@ def read_records(layout: LasLayout, chunk: int = CHUNK) -> Iterator[np.ndarray]:
     with open_source(layout.path) as file:
         file.seek(layout.points_start)
         decompressor = _decompressor(layout, file) if layout.is_compressed else None
-        buffer = np.empty((min(chunk, layout.count), layout.record_length), dtype=np.uint8)
+        if into is None:
+            buffer = np.empty((min(chunk, layout.count), layout.record_length), dtype=np.uint8)
         for start in range(0, layout.count, chunk):
-            records = buffer[: min(chunk, layout.count - start)]
+            end = min(start + chunk, layout.count)
+            records = buffer[: end - start] if into is None else into[start:end]
             with damage_told(layout.path):
                 if decompressor is not None:
                     decompressor.decompress_many(records.reshape(-1))

@@ -74,7 +74,11 @@ def write_classified(
 
 
 def write_changed(
-    source: Path, target: Path, changes: Changes, progress: Progress = SILENT
+    source: Path,
+    target: Path,
+    changes: Changes,
+    progress: Progress = SILENT,
+    records: np.ndarray | None = None,
 ) -> None:
     """Write `source` anew with other values of its points.
 
@@ -91,6 +95,9 @@ def write_changed(
         What changes.
     progress : Progress
         Told what an output cannot hold.
+    records : numpy.ndarray of uint8, shape (n, record length), optional
+        The points of `source`, if they were kept when it was read (see `PointCloud`); they are
+        changed here.
 
     Raises
     ------
@@ -102,7 +109,7 @@ def write_changed(
     source, target = Path(source), Path(target)
     check_writable(target)
     layout = read_layout(source)
-    rewriting = Rewriting(layout, changes)
+    rewriting = Rewriting(layout, changes, records)
     if layout.is_compressed:
         require("lazrs")
     with replacing(target) as temporary:

@@ -64,10 +64,20 @@ class Outcome:
         self.area_ground_count += int(np.count_nonzero(is_area_ground))
 
 
-def fits_in_memory(count: int, resources: Resources) -> bool:
-    """Return whether a file of `count` points can be classified with all of them in memory."""
+def fits_in_memory(count: int, resources: Resources, record_length: int = 0) -> bool:
+    """Return whether a file of `count` points can be classified with all of them in memory.
+
+    Parameters
+    ----------
+    count : int
+        Points of the file.
+    resources : Resources
+        How much memory there is.
+    record_length : int
+        Bytes of each point that are to be kept besides, as the file has them.
+    """
     seen = _BYTES_A_POINT_SEEN * min(count, _MOST_SEEN)
-    return _BYTES_A_POINT_KEPT * count + seen <= resources.bytes
+    return (_BYTES_A_POINT_KEPT + record_length) * count + seen <= resources.bytes
 
 
 def classify_parts(

@@ -289,3 +289,18 @@ def test_without_an_area_it_is_all(file, scene):
     summary = classify_file(file, file.with_name("out.las"), SlopeFilter())
     assert summary.area_count == summary.selected_count == summary.point_count == scene[0].count
     assert summary.area_ground_count == summary.ground_count
+
+
+@pytest.mark.parametrize("target", ["out.las", "out.laz", "out.copc.laz"])
+@pytest.mark.parametrize("point_format", [1, 7])
+def test_the_file_is_the_same_whether_its_records_are_kept_or_read_again(
+    las, tmp_path, monkeypatch, point_format, target
+):
+    source = las.make("in.laz", version=4, point_format=point_format, extra=2)
+    selection = Selection(returns="all", from_classes=tuple(range(32)))
+    written = []
+    for longest in (0, 48):
+        monkeypatch.setattr(classification, "_LONGEST_KEPT", longest)
+        classify_file(source, tmp_path / target, SlopeFilter(), selection)
+        written.append((tmp_path / target).read_bytes())
+    assert written[0] == written[1]

@@ -1,3 +1,5 @@
+import dataclasses
+
 import laspy
 import numpy as np
 import pytest
@@ -33,6 +35,21 @@ def test_each_column_is_what_the_bytes_say(las, version, point_format, name):
     assert withheld.any() and not withheld.all()
     assert (cloud.count, cloud.point_format) == (60, point_format)
     assert (cloud.scale, cloud.offset) == (las.SCALE, las.OFFSET)
+
+
+@pytest.mark.parametrize("name", ["in.las", "in.laz"])
+@pytest.mark.parametrize("point_format", range(11))
+def test_with_its_records_a_cloud_is_the_same(las, point_format, name):
+    if name == "in.laz" and point_format in (4, 5, 9, 10):
+        pytest.skip("not every lazrs compresses waveforms")
+    path = las.make(name, version=4, point_format=point_format, extra=3)
+    cloud, kept = read_cloud(path), read_cloud(path, keep_records=True)
+    for field in dataclasses.fields(cloud):
+        if field.name != "records":
+            one, other = getattr(cloud, field.name), getattr(kept, field.name)
+            assert getattr(one, "dtype", None) == getattr(other, "dtype", None)
+            assert np.array_equal(one, other) if isinstance(one, np.ndarray) else one == other
+    np.testing.assert_array_equal(kept.records, las.split(path).records)
 
 
 def test_several_chunks_are_joined_in_order(las, monkeypatch):
