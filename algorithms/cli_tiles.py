@@ -20,7 +20,7 @@ def add_classify_tiles(
     from .filters import METHODS
     from .pointcloud.selection import Selection
     from .tiling.memory import Resources
-    from .tiling.options import TileOutput
+    from .tiling.options import TileInput, TileOutput
 
     parser = commands.add_parser(
         "classify-tiles",
@@ -40,9 +40,6 @@ def add_classify_tiles(
         help="the virtual point cloud of the results (default: classified.vpc in FOLDER)",
     )  # fmt: skip
     parser.add_argument(
-        "--recursive", action="store_true", help="take the files in folders of folders, too"
-    )
-    parser.add_argument(
         "--scheduler", metavar="ADDRESS",
         help="let the workers of this Dask scheduler do it, such as tcp://host:8786; without it,"
         " processes of this computer do",
@@ -58,6 +55,7 @@ def add_classify_tiles(
     groups = {
         "parameters": (f"{method.label} parameters", method.parameters),
         "selection": ("Which points, which classes", Selection),
+        "input": ("Files", TileInput),
         "output": ("Output", TileOutput),
         "resources": ("Threads and memory", Resources),
     }
@@ -74,28 +72,18 @@ def _classify_tiles(options: argparse.Namespace) -> int:
     from .tiling.cluster import Cluster
     from .tiling.workers import Processes
 
-    parameters, selection, output, resources = _chosen(options)
+    *policy, resources = _chosen(options)
     workers = Processes(resources)
     if options.scheduler:
         workers = Cluster(options.scheduler, resources)
     try:
         with _Terminal(options.verbose) as progress:
             summary = classify_tiles(
-                options.input,
-                options.output,
-                parameters,
-                selection,
-                output,
-                vpc=options.vpc,
-                recursive=options.recursive,
-                progress=progress,
-                workers=workers,
+                options.input, options.output, *policy, options.vpc, progress, workers
             )
     except (Cancelled, KeyboardInterrupt):
         text = "Cancelled; the tiles that are finished stay. Go on with --resume."
         print(f"bare-earth: {text}", file=sys.stderr)
         return _FAILED
     code = _tell(options, summary, f"{options.output}: {summary.text}")
-    for path, reason in summary.failures.items():
-        print(f"bare-earth: {path} is not classified. {reason}", file=sys.stderr)
     return _FAILED if summary.failures else code

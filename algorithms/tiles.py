@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Iterable, NamedTuple
 
@@ -21,7 +21,7 @@ from .progress import SILENT, Progress
 from .tiling.blocks import Blocks
 from .tiling.ground import blocks_of
 from .tiling.jobs import LabelJob, TileJob, TileSummary
-from .tiling.options import TileOutput
+from .tiling.options import TileInput, TileOutput
 from .tiling.record import folders_of, label_file, made_of, read_record, remove_record
 from .tiling.run import Run
 from .tiling.survey import (
@@ -55,7 +55,7 @@ class TilesSummary:
         Points of the classified files, and those of the target class.
     failures : dict of str to str
         Why the others are not, by their paths.
-    vpc : str or None
+    vpc : str
         The virtual point cloud of all that are.
     """
 
@@ -64,8 +64,8 @@ class TilesSummary:
     kept_count: int
     point_count: int
     ground_count: int
-    failures: dict[str, str] = field(default_factory=dict)
-    vpc: str | None = None
+    failures: dict[str, str]
+    vpc: str
 
     @property
     def text(self) -> str:
@@ -83,9 +83,9 @@ def classify_tiles(
     folder: Path,
     parameters: ParameterSet,
     selection: Selection = Selection(),
+    files: TileInput = TileInput(),
     output: TileOutput = TileOutput(),
     vpc: Path | None = None,
-    recursive: bool = False,
     progress: Progress = SILENT,
     workers: Workers | None = None,
     blocks: Blocks | None = None,
@@ -105,12 +105,12 @@ def classify_tiles(
         The parameters of one method; their type chooses the method.
     selection : Selection
         Which points take part, and what their classes become.
+    files : TileInput
+        Whether the folders in folders are searched, too.
     output : TileOutput
         The format, and whether tiles that are done are kept.
     vpc : Path, optional
         The virtual point cloud of the results; ``classified.vpc`` in the folder if not given.
-    recursive : bool
-        Whether the folders in folders are searched, too.
     progress : Progress
         Receives progress, and a line on each finished tile.
     workers : Workers, optional
@@ -121,14 +121,14 @@ def classify_tiles(
     Raises
     ------
     BareEarthError
-        If there is nothing to classify, or the outputs cannot be written.
+        If no file can be classified, or the outputs cannot be written.
     Cancelled
         If the user asked to stop; finished tiles stay, and nothing is half written.
     """
     folder, sources = Path(folder), [Path(each) for each in sources]
     vpc = folder / VPC_NAME if vpc is None else Path(vpc)
-    collection = open_collection(sources, recursive, progress.part(0.0, 0.02))
-    _check(collection, folder, vpc, sources if recursive else [])
+    collection = open_collection(sources, files.recursive, progress.part(0.0, 0.02))
+    _check(collection, folder, vpc, sources if files.recursive else [])
     targets = _targets(collection, folder, output.format)
     survey = Survey(parameters, selection, frame_of(collection), blocks or blocks_of(parameters))
     workers = Threads() if workers is None else workers
@@ -146,17 +146,21 @@ def classify_tiles(
         remove_leftovers(each)
     failures = {each.path: each.reason for each in collection.broken}
     failures = {**failures, **plan.failures, **run.failures}
+    failures = {str(path): failures[path] for path in sorted(failures)}
+    for path, reason in failures.items():
+        progress.warning(f"{path} is not classified. {reason}")
     done = sorted([*kept, *run.done])
-    if done:
-        write_vpc(vpc, [folder / each.name for each in done], progress.part(0.98, 1.0))
+    if not done:
+        raise BareEarthError(f"None of the {len(failures):,} tiles could be classified.")
+    write_vpc(vpc, [folder / each.name for each in done], progress.part(0.98, 1.0))
     return TilesSummary(
         tile_count=len(collection.tiles) + len(collection.broken),
         done_count=len(done),
         kept_count=len(kept),
         point_count=sum(each.point_count for each in done),
         ground_count=sum(each.ground_count for each in done),
-        failures={str(path): failures[path] for path in sorted(failures)},
-        vpc=str(vpc) if done else None,
+        failures=failures,
+        vpc=str(vpc),
     )
 
 

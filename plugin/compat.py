@@ -12,8 +12,10 @@ from qgis.core import (
     QgsProcessingAlgorithm,
     QgsProcessingContext,
     QgsProcessingParameterDefinition,
+    QgsProcessingParameterFile,
     QgsProcessingParameterFileDestination,
     QgsProcessingParameterNumber,
+    QgsProcessingUtils,
     QgsProviderRegistry,
     QgsRasterLayer,
 )
@@ -24,11 +26,15 @@ if hasattr(Qgis, "ProcessingParameterFlag"):
     NUMBER = Qgis.ProcessingNumberParameterType.Double
     INTEGER = Qgis.ProcessingNumberParameterType.Integer
     POLYGONS = Qgis.ProcessingSourceType.VectorPolygon
+    FILES = Qgis.ProcessingSourceType.File
+    FOLDER = Qgis.ProcessingFileParameterBehavior.Folder
 else:
     ADVANCED = QgsProcessingParameterDefinition.Flag.FlagAdvanced
     NUMBER = QgsProcessingParameterNumber.Type.Double
     INTEGER = QgsProcessingParameterNumber.Type.Integer
     POLYGONS = QgsProcessing.SourceType.TypeVectorPolygon
+    FILES = QgsProcessing.SourceType.TypeFile
+    FOLDER = QgsProcessingParameterFile.Behavior.Folder
 
 # Came with 3.26.
 HAS_POINT_CLOUD_OUTPUTS = hasattr(core, "QgsProcessingParameterPointCloudDestination")
@@ -43,6 +49,17 @@ def can_load(path: str) -> bool:
     """Return whether this build of QGIS can show a point cloud file as a layer."""
     providers = QgsProviderRegistry.instance().providerList()
     return "pdal" in providers or (path.lower().endswith(".copc.laz") and "copc" in providers)
+
+
+def load_virtual_point_cloud(path: str, name: str, context: QgsProcessingContext) -> bool:
+    """Show a .vpc file as a layer in the end; return whether this QGIS can (from 3.32 on)."""
+    if "vpc" not in QgsProviderRegistry.instance().providerList() or context.project() is None:
+        return False
+    details = QgsProcessingContext.LayerDetails(
+        name, context.project(), name, QgsProcessingUtils.LayerHint.PointCloud
+    )
+    context.addLayerToLoadOnCompletion(path, details)
+    return True
 
 
 def point_cloud_output(

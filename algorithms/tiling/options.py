@@ -43,6 +43,17 @@ class TileMethod(ParameterSet):
 
 
 @dataclass(frozen=True)
+class TileInput(ParameterSet):
+    """Which files are taken."""
+
+    recursive: bool = parameter(
+        False,
+        label="Take the files in folders of folders",
+        help="Searches a folder with all folders in it, instead of alone.",
+    )
+
+
+@dataclass(frozen=True)
 class TileOutput(ParameterSet):
     """How the tiles are written."""
 

@@ -1,6 +1,7 @@
 """The Processing algorithms, each a thin wrapper of the classifier."""
 
 from .assess import AssessAlgorithm
+from .classify_tiles import ClassifyTilesAlgorithm
 from .grid_minimum import GridMinimumAlgorithm
 from .height_above_ground import HeightAboveGroundAlgorithm
 from .model_key_points import ModelKeyPointsAlgorithm
@@ -13,6 +14,7 @@ ALGORITHMS = (
     TinDensificationAlgorithm,
     GridMinimumAlgorithm,
     SlopeFilterAlgorithm,
+    ClassifyTilesAlgorithm,
     TerrainModelAlgorithm,
     HeightAboveGroundAlgorithm,
     ModelKeyPointsAlgorithm,

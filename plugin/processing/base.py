@@ -42,9 +42,12 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         What the search of the toolbox finds it by.
     page : str
         Its page in the folder docs.
+    cancelled : str
+        What the log says after a cancel.
     """
 
     identifier = title = section = summary = about = page = ""
+    cancelled = "Cancelled; nothing was written."
     keywords: tuple[str, ...] = ()
 
     def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
@@ -191,7 +194,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
             with _errors_for_qgis():
                 results = self.compute(parameters, context, FeedbackProgress(feedback))
         except Cancelled:
-            feedback.pushInfo("Cancelled; nothing was written.")
+            feedback.pushInfo(self.cancelled)
         finally:
             if not results:
                 do_not_load(context, set(context.layersToLoadOnCompletion()) - before)

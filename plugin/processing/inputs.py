@@ -16,6 +16,8 @@ from qgis.core import (
     QgsProcessingContext,
     QgsProcessingParameterExtent,
     QgsProcessingParameterFeatureSource,
+    QgsProcessingParameterFile,
+    QgsProcessingParameterMultipleLayers,
     QgsProcessingParameterPointCloudLayer,
     QgsProcessingUtils,
     QgsProviderRegistry,
@@ -41,6 +43,16 @@ AREA_FIELDS = {
         " keep their class, but those near them help to judge. Empty: all points.",
     ),
 }
+
+
+# Of the fields of `add_clouds`.
+_FILES_LABEL, _FOLDER_LABEL = "Point clouds", "Folder of point clouds"
+_FOLDER_TEXT = "All .las, .laz and .copc.laz files in it are taken, too."
+FOLDER_HELP = (
+    f"<b>{_FILES_LABEL}</b>: .las, .laz and .copc.laz files, virtual point clouds (.vpc), or text"
+    " files (.txt) with a path a line. May be empty if a folder is given.\n"
+    f"<b>{_FOLDER_LABEL}</b>: {_FOLDER_TEXT}"
+)
 
 
 class PointCloudInput(QgsProcessingParameterPointCloudLayer):
@@ -94,6 +106,40 @@ def source_path(
                 f"{text} does not exist. Check the path." if text else "Choose a point cloud."
             )
     return _path_of(layer)
+
+
+def add_clouds(algorithm: QgsProcessingAlgorithm) -> None:
+    """Add fields for many files to a dialog: as a list, or as a folder."""
+    files = QgsProcessingParameterMultipleLayers("INPUT", _FILES_LABEL, compat.FILES, None, True)
+    folder = QgsProcessingParameterFile(
+        "INPUT_FOLDER", _FOLDER_LABEL, compat.FOLDER, "", None, True
+    )
+    folder.setHelp(_FOLDER_TEXT)
+    algorithm.addParameter(files)
+    algorithm.addParameter(folder)
+
+
+def clouds_of(
+    algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], context: QgsProcessingContext
+) -> list[Path]:
+    """Return what the fields of `add_clouds` hold: files, and folders of them.
+
+    Raises
+    ------
+    BareEarthError
+        If there is none, or one does not exist.
+    """
+    texts = algorithm.parameterAsFileList(parameters, "INPUT", context)
+    texts.append(algorithm.parameterAsString(parameters, "INPUT_FOLDER", context))
+    paths = []
+    for text in filter(None, texts):
+        path = _file(text)
+        if path is None:
+            raise BareEarthError(f"{text} does not exist. Check the path.")
+        paths.append(path)
+    if not paths:
+        raise BareEarthError("Choose point clouds, or a folder of them.")
+    return paths
 
 
 def ignored_filter(

@@ -31,7 +31,7 @@ from bare_earth.algorithms.tiling.blocks import GROUND, LOW, Blocks
 from bare_earth.algorithms.tiling.cloudstore import CloudStore, Part
 from bare_earth.algorithms.tiling.ground import label_ground
 from bare_earth.algorithms.tiling.memory import Resources
-from bare_earth.algorithms.tiling.options import TileMethod, TileOutput
+from bare_earth.algorithms.tiling.options import TileInput, TileMethod, TileOutput
 from bare_earth.algorithms.tiling.survey import Place, Survey, frame_of, grouped
 from bare_earth.algorithms.tiling.workers import Processes, Threads
 
@@ -177,7 +177,7 @@ def test_outputs_that_would_do_harm_are_refused(six, out, tmp_path):
     with pytest.raises(BareEarthError, match="same folder"):
         classify_tiles([six], six, FAST)
     with pytest.raises(BareEarthError, match="searched for inputs"):
-        classify_tiles([six], six / "out", FAST, recursive=True)
+        classify_tiles([six], six / "out", FAST, files=TileInput(recursive=True))
     with pytest.raises(BareEarthError, match=r"name it \.vpc"):
         classify_tiles([six], out, FAST, vpc=tmp_path / "a.json")
     with pytest.raises(BareEarthError, match="does not exist"):

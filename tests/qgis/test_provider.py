@@ -51,6 +51,15 @@ PARAMETERS = {
         "SLOPE_NORM", "CELL_SIZE", "SLOPE_TOLERANCE",
         *SHARED_PARAMETERS,
     ],
+    "bareearth:classifytiles": [
+        "INPUT", "INPUT_FOLDER",
+        "METHOD", "PRESET",
+        "FROM_CLASSES", "SEED_CLASSES", "TO_CLASS", "RETURNS", "OTHERS",
+        "LOW_NOISE_CLASS", "LOW_NOISE_DEPTH",
+        "RECURSIVE", "FORMAT", "RESUME",
+        "THREADS", "MEMORY",
+        "OUTPUT_FOLDER", "OUTPUT_VPC",
+    ],
     "bareearth:heightaboveground": ["INPUT", "GROUND_CLASSES", "OUTPUT_AS", "OUTPUT"],
     "bareearth:modelkeypoints": [
         "INPUT",
@@ -76,6 +85,15 @@ OUTPUTS = {
     "bareearth:tindensification": SHARED_OUTPUTS,
     "bareearth:gridminimum": SHARED_OUTPUTS,
     "bareearth:slopefilter": SHARED_OUTPUTS,
+    "bareearth:classifytiles": [
+        "OUTPUT_FOLDER",
+        "OUTPUT_VPC",
+        "TILE_COUNT",
+        "DONE_COUNT",
+        "KEPT_COUNT",
+        "POINT_COUNT",
+        "GROUND_COUNT",
+    ],
     "bareearth:heightaboveground": [
         "OUTPUT",
         "POINT_COUNT",

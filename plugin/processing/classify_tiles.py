@@ -1,0 +1,78 @@
+"""Ground classification of many files as one survey, in the toolbox."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from qgis.core import QgsProcessingOutputNumber as Number
+from qgis.core import QgsProcessingParameterFileDestination as File
+from qgis.core import QgsProcessingParameterFolderDestination as Folder
+
+from ...algorithms.pointcloud.selection import Selection
+from ...algorithms.tiling.memory import Resources
+from ...algorithms.tiling.options import TileInput, TileMethod, TileOutput
+from .. import compat
+from .base import BareEarthAlgorithm, command_line
+from .inputs import FOLDER_HELP, add_clouds, clouds_of
+
+_NUMBERS = {
+    "TILE_COUNT": "Tiles", "DONE_COUNT": "Classified tiles", "KEPT_COUNT": "Tiles kept",
+    "POINT_COUNT": "Points", "GROUND_COUNT": "Ground points",
+}  # fmt: skip
+
+
+class ClassifyTilesAlgorithm(BareEarthAlgorithm):
+    """Classify ground (many files)."""
+
+    identifier, page, section = "classifytiles", "classify-tiles", "Ground classification"
+    title = "Classify ground (many files)"
+    cancelled = "Cancelled; the tiles that are finished stay, and a later run can go on with them."
+    summary = "Finds the ground points of the many files of a survey, without seams between them."
+    about = (
+        "Classifies the ground points of many files, each as if all were one, and writes each anew"
+        " under its name. A virtual point cloud (.vpc) lists the results.\n"
+    ) + FOLDER_HELP
+    keywords = (
+        "lidar", "point cloud", "las", "laz", "copc", "vpc", "tiles", "batch", "survey", "folder",
+        "ground", "bare earth", "classification", "classify", "filter", "terrain",
+    )  # fmt: skip
+
+    def parameter_sets(self):
+        """Return method, points and classes, files, and what may be used."""
+        return TileMethod, Selection, TileInput, TileOutput, Resources
+
+    def initAlgorithm(self, configuration=None):
+        """Declare the fields of the dialog and the results."""
+        add_clouds(self)
+        self.add_declared()
+        self.addParameter(Folder("OUTPUT_FOLDER", "Folder of the classified point clouds"))
+        self.addParameter(File("OUTPUT_VPC", "Virtual point cloud", "*.vpc", None, True, False))
+        for name, label in _NUMBERS.items():
+            self.addOutput(Number(name, label))
+
+    def check(self, parameters, context):
+        """Refuse values that are not allowed, and files that are not there."""
+        super().check(parameters, context)
+        clouds_of(self, parameters, context)
+
+    def compute(self, parameters, context, progress):
+        """Classify the files."""
+        from ...algorithms.tiles import VPC_NAME, classify_tiles
+        from ...algorithms.tiling.workers import Threads
+
+        method, *policy, resources = chosen = self.chosen(parameters, context)
+        sources = clouds_of(self, parameters, context)
+        folder = Path(self.parameterAsFileOutput(parameters, "OUTPUT_FOLDER", context))
+        vpc = self.parameterAsFileOutput(parameters, "OUTPUT_VPC", context) or folder / VPC_NAME
+        words = [*map(str, sources), str(folder)]
+        progress.command(command_line("classify-tiles", words, chosen, {"vpc": str(vpc)}))
+        given = (sources, folder, method.parameters, *policy, Path(vpc))
+        summary = classify_tiles(*given, progress, Threads(resources))
+        progress.info(f"{summary.text}.")
+        compat.load_virtual_point_cloud(str(vpc), "Classified", context)
+        results = {name: getattr(summary, name.lower()) for name in _NUMBERS}
+        return {"OUTPUT_FOLDER": str(folder), "OUTPUT_VPC": str(vpc), **results}
+
+    def createInstance(self):
+        """Return another instance."""
+        return ClassifyTilesAlgorithm()
