@@ -228,17 +228,25 @@ def classify(points: Points, parameters: GridMinimum, progress: Progress = SILEN
     _tell_of_gaps(points, resolved, progress)
     cells = Cells.over(points, resolved.cell_size)
     progress(0.1)
-    heights = cells.minimum(points.z)
+    surface = _surface(cells, points.z, resolved, progress.part(0.1, 0.8))
+    tolerance = np.minimum(steepness(surface, cells.size), _STEEPEST)
+    tolerance *= resolved.slope_tolerance * cells.size
+    tolerance += resolved.ground_tolerance
+    return near_surface(points, cells, surface, tolerance, progress.part(0.8, 1.0))
+
+
+def _surface(
+    cells: Cells, z: np.ndarray, parameters: GridMinimum, progress: Progress
+) -> np.ndarray:
+    """Return the height of the ground in each cell."""
+    heights = cells.minimum(z)
     blocks = _Blocks.over(cells, _BLOCK)
     heights[_noise(heights, cells, blocks)] = np.nan
     progress(0.2)
     ground = heights.copy()
-    ground[_tall_objects(heights, blocks, resolved, progress.part(0.2, 0.5))] = np.nan
-    ground = _without_low_objects(ground, heights, cells.size, resolved, progress.part(0.5, 0.8))
-    surface = inpaint(ground, _RELAXATIONS)
-    rise = cells.size * _slope(surface, cells.size)
-    tolerance = resolved.ground_tolerance + resolved.slope_tolerance * rise
-    return near_surface(points, cells, surface, tolerance, progress.part(0.8, 1.0))
+    ground[_tall_objects(heights, blocks, parameters, progress.part(0.2, 0.6))] = np.nan
+    ground = _without_low_objects(ground, heights, cells.size, parameters, progress.part(0.6, 1.0))
+    return inpaint(ground, _RELAXATIONS)
 
 
 class _Blocks(NamedTuple):
@@ -361,7 +369,8 @@ def _tall_objects(
     thresholds, size = parameters.height_thresholds, blocks.size
     objects = raised_objects(lowest, size, thresholds, parameters.max_object_size, progress)
     surface = inpaint(np.where(objects, np.nan, lowest), _RELAXATIONS)
-    highest = surface + min(thresholds) + size * _slope(surface, size)
+    rise = size * np.minimum(steepness(surface, size), _STEEPEST)
+    highest = surface + min(thresholds) + rise
     above = heights > blocks.interpolated(highest, heights.shape)
     return above | blocks.repeated(objects, heights.shape)
 
@@ -387,8 +396,3 @@ def _without_low_objects(
     kept = relief.regrown(np.isfinite(ground), heights, parameters.final_height)
     progress(1.0)
     return np.where(kept, heights, np.nan)
-
-
-def _slope(surface: np.ndarray, size: float) -> np.ndarray:
-    """Return rise over run of a surface, no more than that of the steepest ground."""
-    return np.minimum(steepness(surface, size), _STEEPEST)

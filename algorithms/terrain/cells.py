@@ -9,8 +9,11 @@ import numpy as np
 
 from ..errors import BareEarthError
 from ..points import Points
+from ..progress import SILENT
+from ..threads import over_parts
 
 _MOST_CELLS = 200_000_000
+_POINTS_A_PART = 1 << 17
 # Side in metres of the blocks that are a gap in the survey where they have no point.
 _BLOCK = 10.0
 
@@ -27,7 +30,7 @@ class Cells:
         The row (from south) and column (from west) of the frame at which the grid begins.
     rows, columns : int
         Size of the grid.
-    index : numpy.ndarray of intp, shape (n,)
+    index : numpy.ndarray of int32, shape (n,)
         The cell of each point, in the flattened grid.
     """
 
@@ -47,16 +50,27 @@ class Cells:
         BareEarthError
             If they would not fit into memory.
         """
-        column, row = np.floor(points.x / size), np.floor(points.y / size)
-        first_row, first_column = int(row.min()), int(column.min())
-        rows, columns = int(row.max()) - first_row + 1, int(column.max()) - first_column + 1
+        first_row, first_column, last_row, last_column = (
+            int(np.floor(extreme / size))
+            for extreme in (points.y.min(), points.x.min(), points.y.max(), points.x.max())
+        )
+        rows, columns = last_row - first_row + 1, last_column - first_column + 1
         if rows * columns > _MOST_CELLS:
             raise BareEarthError(
                 f"The points spread over {columns * size:,.0f} x {rows * size:,.0f} m, too far for"
                 f" cells of {size:g} m. Remove points with stray coordinates, or cut the file."
             )
-        index = (row - first_row) * columns + (column - first_column)
-        return cls(size, first_row, first_column, rows, columns, index.astype(np.intp))
+        index = np.empty(points.count, dtype=np.int32)
+
+        def fill(part: slice) -> None:
+            row = np.floor(points.y[part] / size)
+            row -= first_row
+            row *= columns
+            row += np.floor(points.x[part] / size) - first_column
+            index[part] = row
+
+        over_parts(fill, points.count, _POINTS_A_PART, SILENT)
+        return cls(size, first_row, first_column, rows, columns, index)
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -40,8 +40,10 @@ def near_surface(
     numpy.ndarray of bool, shape (n,)
     """
     bounds = _bounds(surface - tolerance, surface + tolerance)
-    grids = np.pad(np.stack((surface, tolerance), axis=-1), ((1, 1), (1, 1), (0, 0)), mode="edge")
-    flat, width = grids.reshape(-1, 2), grids.shape[1]
+    width = cells.columns + 2
+    flat = np.empty(((cells.rows + 2) * width, 2))
+    for column, grid in enumerate((surface, tolerance)):
+        flat[:, column] = np.pad(grid, 1, mode="edge").ravel()
     near = np.empty(points.count, dtype=bool)
 
     def decide(part: slice) -> None:
