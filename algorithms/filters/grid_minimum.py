@@ -225,7 +225,8 @@ def classify(points: Points, parameters: GridMinimum, progress: Progress = SILEN
     resolved = parameters.resolve(points)
     if resolved != parameters:
         progress.info(_in_words(resolved))
-    _tell_of_gaps(points, resolved, progress)
+    if parameters.cell_size is not None or parameters.preset == "paper":
+        _tell_of_gaps(points, resolved, progress)
     cells = Cells.over(points, resolved.cell_size)
     progress(0.1)
     surface = _surface(cells, points.z, resolved, progress.part(0.1, 0.8))

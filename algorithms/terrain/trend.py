@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Callable, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -53,6 +53,12 @@ class Trend:
         self._size, self._shape = size, heights.shape
         self._block = max(round(_BLOCK / size), 3)
         self._blocks = in_threads(lambda axis: self._of_axis(heights, axis), (0, 1))
+        columns = np.arange(heights.shape[1])
+        # Between the columns once for all rows of a block.
+        self._across = [
+            None if each is None else _interpolated(each, columns, self._block, -1)
+            for each in self._blocks
+        ]
 
     def _of_axis(self, heights: np.ndarray, axis: int) -> np.ndarray | None:
         """Return slope along an axis and departure from it, of each block (2, rows, columns)."""
@@ -69,13 +75,20 @@ class Trend:
 
     def of_rows(self, first: int, last: int) -> Rises:
         """Return the rises at all cells of some rows, `last` not among them."""
-        rows, columns = np.arange(first, last), np.arange(self._shape[1])
-        shape = (len(rows), len(columns))
-        return self._rises(lambda each: between_blocks(each, self._block, rows, columns), shape)
+        rows = np.arange(first, last)
+        fields = [
+            None if each is None else _interpolated(each, rows, self._block, -2)
+            for each in self._across
+        ]
+        return self._rises(fields, (len(rows), self._shape[1]))
 
     def at(self, row: np.ndarray, column: np.ndarray) -> Rises:
         """Return the rises at cells."""
-        return self._rises(lambda each: _at_places(each, self._block, row, column), row.shape)
+        fields = [
+            None if each is None else _at_places(each, self._block, row, column)
+            for each in self._blocks
+        ]
+        return self._rises(fields, row.shape)
 
     def along(self, row: np.ndarray, column: np.ndarray, north: int, east: int) -> np.ndarray:
         """Return what the terrain rises from cells to others, some cells farther north and east."""
@@ -86,20 +99,19 @@ class Trend:
                 rise = rise + cells * (np.float32(self._size) * slope)
         return rise
 
-    def _rises(
-        self, interpolated: Callable[[np.ndarray], np.ndarray], shape: tuple[int, ...]
-    ) -> Rises:
-        slopes, roughness = [], np.zeros(shape, dtype=np.float32)
-        for axis in self._blocks:
-            if axis is None:  # a grid one cell wide has no slope across
+    def _rises(self, fields: list[np.ndarray | None], shape: tuple[int, ...]) -> Rises:
+        """Return the rises where slope and departure along both axes are known."""
+        size, slopes = np.float32(self._size), []
+        roughness = np.zeros(shape, dtype=np.float32)
+        for field in fields:
+            if field is None:  # a grid one cell wide has no slope across
                 slopes.append(np.zeros(shape, dtype=np.float32))
                 continue
-            slope, departure = interpolated(axis)
-            slopes.append(slope)
-            departure /= 2
-            roughness += departure
-        rises = (*slopes, np.hypot(*slopes), roughness)
-        return Rises(*(np.float32(self._size) * each for each in rises))
+            field *= size
+            slopes.append(field[0])
+            field[1] /= 2
+            roughness += field[1]
+        return Rises(*slopes, np.hypot(*slopes), roughness)
 
 
 def between_blocks(
@@ -120,14 +132,18 @@ def between_blocks(
     -------
     numpy.ndarray of float, shape (..., rows, columns)
     """
-    for axis, cells in ((-2, rows), (-1, columns)):
-        first, second, weight = _neighbours(cells, block, values.shape[axis], values.dtype)
-        weight = weight[:, None] if axis == -2 else weight
-        after = values.take(second, axis=axis)
-        after *= weight
-        values = values.take(first, axis=axis)
-        values *= 1 - weight
-        values += after
+    return _interpolated(_interpolated(values, columns, block, -1), rows, block, -2)
+
+
+def _interpolated(values: np.ndarray, cells: np.ndarray, block: int, axis: int) -> np.ndarray:
+    """Interpolate between the middles of blocks along an axis."""
+    first, second, weight = _neighbours(cells, block, values.shape[axis], values.dtype)
+    weight = weight[:, None] if axis == -2 else weight
+    after = values.take(second, axis=axis)
+    after *= weight
+    values = values.take(first, axis=axis)
+    values *= 1 - weight
+    values += after
     return values
 
 
@@ -135,9 +151,9 @@ def _at_places(values: np.ndarray, block: int, row: np.ndarray, column: np.ndarr
     """Interpolate as `between_blocks` to single cells."""
     south, north, up = _neighbours(row, block, values.shape[-2], values.dtype)
     west, east, right = _neighbours(column, block, values.shape[-1], values.dtype)
-    left_side = values[..., south, west] * (1 - up) + values[..., north, west] * up
-    right_side = values[..., south, east] * (1 - up) + values[..., north, east] * up
-    return left_side * (1 - right) + right_side * right
+    south_side = values[..., south, west] * (1 - right) + values[..., south, east] * right
+    north_side = values[..., north, west] * (1 - right) + values[..., north, east] * right
+    return south_side * (1 - up) + north_side * up
 
 
 def _neighbours(
