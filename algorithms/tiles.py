@@ -323,7 +323,7 @@ class _Plan:
         ]
         places = [each for each in places if not files[each].exists()]
         least = max((memory_of(survey, collection, [each]) for each in places), default=0)
-        workers.start(folder, least, max(len(places), len(tiles)))
+        workers.start(folder, least, len(places), len(tiles))
         groups = grouped(survey, collection, places, workers.at_once, workers.share.memory)
         return [
             LabelJob(

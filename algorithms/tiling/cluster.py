@@ -58,7 +58,7 @@ class Cluster(Workers):
         self._client: Client | None = None
         self._pool: Executor | None = None
 
-    def start(self, folder: Path, least: int, jobs: int) -> None:
+    def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
         """Connect, and check the workers.
 
         Raises

@@ -6,17 +6,19 @@ They run in a thread, in another process or on another computer that sees the sa
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, Iterator, NamedTuple
 
 import numpy as np
 
 from ..errors import BareEarthError, Cancelled
 from ..files import replacing
+from ..pointcloud.changes import Changes
 from ..pointcloud.cloud import PointCloud
 from ..pointcloud.collection import Tile
-from ..pointcloud.reading import read_cloud
+from ..pointcloud.reading import read_cloud, read_parts
+from ..pointcloud.selection import Tally
 from ..pointcloud.window import read_window
-from ..pointcloud.writing import write_classified
+from ..pointcloud.writing import write_changed
 from ..progress import Progress
 from ..threads import may_use
 from .blocks import GROUND, LOW
@@ -24,6 +26,7 @@ from .cloudstore import CloudStore, Part
 from .ground import label_ground
 from .memory import GIGABYTE, Resources
 from .record import Record, write_record
+from .streaming import fits_in_memory
 from .survey import Place, Survey, code
 
 _FAILURE = "no ground"
@@ -131,7 +134,7 @@ class LabelJob(NamedTuple):
                 )
                 continue
             if cloud.count:
-                selected = _selected(self.survey, cloud, part)
+                selected = selection.choose(cloud, Tally())
                 known = selection.known_ground(cloud, selected)
                 codes.append(self.survey.codes(cloud))
                 parts.append(Part(cloud, selected, known, np.isin(codes[-1], here)))
@@ -207,58 +210,88 @@ class TileJob(NamedTuple):
 
     def run(self, share: Share, progress: Progress) -> TileSummary:
         """Do it."""
-        selection = self.survey.selection
-        cloud = read_cloud(self.tile.path, _Quiet(progress.part(0.0, 0.35)))
-        # For what it says of the points: which take part is known from their labels.
-        selection.select(cloud, progress)
-        labels = self._labels(cloud)
-        low = labels == LOW if selection.low_noise_class else None
-        classes = selection.classes(cloud, labels == GROUND, low)
-        progress(0.4)
-        write_classified(self.tile.path, self.target, classes, progress.part(0.4, 1.0))
+        selection, path, tally = self.survey.selection, self.tile.path, Tally()
+        kept = _KeptLabels(self)
+        classes, start = np.zeros(self.tile.count, dtype=np.uint8), 0
+        for part in self._parts(share, _Quiet(progress.part(0.0, 0.4))):
+            if not start:
+                selection.check(part)
+            selection.choose(part, tally)
+            labels = kept.of(part)
+            end = start + part.count
+            if end > len(classes):
+                raise kept.changed()
+            classes[start:end] = selection.classes(part, labels == GROUND, labels == LOW)
+            start = end
+        selection.tell(tally, path, progress)
+        kept.check()
+        changes, rest = Changes(classification=classes), progress.part(0.4, 1.0)
+        write_changed(path, self.target, changes, rest, part.records)
         ground = int(np.count_nonzero(classes == selection.to_class))
-        summary = TileSummary(self.target.name, cloud.count, ground)
+        summary = TileSummary(self.target.name, len(classes), ground)
         write_record(self.target, self.record, summary._asdict())
         return summary
 
-    def _labels(self, cloud: PointCloud) -> np.ndarray:
-        """Return the label of each point.
+    def _parts(self, share: Share, progress: Progress) -> Iterator[PointCloud]:
+        """Yield the points: all at once, to be written without being read again, if they fit."""
+        count, length = self.tile.count, self.tile.record_length
+        if fits_in_memory(count, share.resources, length):
+            yield read_cloud(self.tile.path, progress, keep_records=True)
+        else:
+            yield from read_parts(self.tile.path, progress)
+
+
+class _KeptLabels:
+    """The labels of the points of a tile, as the blocks have them.
+
+    Parameters
+    ----------
+    job : TileJob
+        The tile.
+    """
+
+    def __init__(self, job: TileJob) -> None:
+        self._survey, self._path = job.survey, job.tile.path
+        self._failure, self._any_ground = "", False
+        self._left: dict[int, np.ndarray] = {}
+        for place, file in zip(job.places, job.files):
+            with np.load(file, allow_pickle=False) as kept:
+                if self._path.name in kept:
+                    self._left[code(place)] = kept[self._path.name]
+                    self._failure = self._failure or str(kept.get(_FAILURE, ""))
+
+    def of(self, part: PointCloud) -> np.ndarray:
+        """Return the labels of the next points, in file order.
 
         Raises
         ------
         BareEarthError
-            If none is ground, or there are points where the header says that there are none.
+            If there are points where the header says that there are none.
         """
-        codes, failure = self.survey.codes(cloud), ""
-        labels, found = np.zeros(cloud.count, dtype=np.uint8), 0
-        for place, file in zip(self.places, self.files):
-            here = np.flatnonzero(codes == code(place))
-            with np.load(file, allow_pickle=False) as kept:
-                values = kept[cloud.path.name] if cloud.path.name in kept else labels[:0]
-                if _FAILURE in kept and len(here):
-                    failure = str(kept[_FAILURE])
-            if len(values) != len(here):
+        codes, labels = self._survey.codes(part), np.zeros(part.count, dtype=np.uint8)
+        for each in np.unique(codes):
+            here, left = np.flatnonzero(codes == each), self._left.get(int(each))
+            if left is None:
                 raise BareEarthError(
-                    f"{cloud.path} changed while it was worked on. Classify it again."
+                    f"The header of {self._path} states a smaller extent than its points have."
+                    " Write the file anew with a program that corrects it."
                 )
-            labels[here] = values
-            found += len(here)
-        if found != cloud.count:
-            raise BareEarthError(
-                f"The header of {cloud.path} states a smaller extent than its points have. Write"
-                " the file anew with a program that corrects it."
-            )
-        if not (labels == GROUND).any():
-            raise BareEarthError(failure or f"No ground was found in {cloud.path}.")
+            if len(left) < len(here):
+                raise self.changed()
+            labels[here], self._left[int(each)] = left[: len(here)], left[len(here) :]
+        self._any_ground |= bool((labels == GROUND).any())
         return labels
 
+    def check(self) -> None:
+        """Refuse a tile of whose labels some are left, or none is ground."""
+        if any(map(len, self._left.values())):
+            raise self.changed()
+        if not self._any_ground:
+            raise BareEarthError(self._failure or f"No ground was found in {self._path}.")
 
-def _selected(survey: Survey, cloud: PointCloud, progress: Progress) -> np.ndarray:
-    """Return which points of a window take part: none where a whole file would be refused."""
-    try:
-        return survey.selection.select(cloud, progress)
-    except BareEarthError:  # told when the file itself is written
-        return np.zeros(cloud.count, dtype=bool)
+    def changed(self) -> BareEarthError:
+        """Return the error for a file that is not what it was."""
+        return BareEarthError(f"{self._path} changed while it was worked on. Classify it again.")
 
 
 class _Quiet(Progress):

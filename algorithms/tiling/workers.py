@@ -62,9 +62,9 @@ class Workers:
 
     def __init__(self, resources: Resources = Resources()) -> None:
         self.resources = resources
-        self.at_once, self.share = 1, Share(resources.thread_count, resources.bytes)
+        self.at_once, self.share = 1, Share(1, 0)
 
-    def start(self, folder: Path, least: int, jobs: int) -> None:
+    def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
         """Be ready for jobs.
 
         Parameters
@@ -73,12 +73,14 @@ class Workers:
             Of the output.
         least : int
             Bytes that the largest job needs.
-        jobs : int
-            How many there are at least.
+        blocks, tiles : int
+            How many are to be done.
         """
         threads, memory = self.resources.thread_count, self.resources.bytes
-        self.at_once = int(max(1, min(threads, memory // max(least, 1), jobs)))
-        self.share = Share(max(1, threads // self.at_once), memory // self.at_once)
+        self.at_once = int(max(1, min(threads, memory // max(least, 1), max(blocks, tiles))))
+        # Blocks take the time: where there are few, each may use the threads that would be idle.
+        together = max(1, min(self.at_once, blocks))
+        self.share = Share(max(1, threads // together), memory // self.at_once)
 
     def submit(self, job: Job) -> Running:
         """Begin a job."""
@@ -94,9 +96,9 @@ class Workers:
 class Threads(Workers):
     """Threads of this process."""
 
-    def start(self, folder: Path, least: int, jobs: int) -> None:
+    def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
         """Be ready for jobs."""
-        super().start(folder, least, jobs)
+        super().start(folder, least, blocks, tiles)
         self._stop, self._futures = threading.Event(), []
         self._pool = ThreadPoolExecutor(self.at_once, thread_name_prefix="tile")
 
@@ -117,11 +119,11 @@ class Threads(Workers):
 class Processes(Workers):
     """Processes of this computer, each begun anew ("spawn"): a fork of threads may hang."""
 
-    def start(self, folder: Path, least: int, jobs: int) -> None:
+    def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
         """Be ready for jobs."""
         import multiprocessing
 
-        super().start(folder, least, jobs)
+        super().start(folder, least, blocks, tiles)
         self._folder = folder
         self._context = multiprocessing.get_context("spawn")
         self._stop = self._context.Event()

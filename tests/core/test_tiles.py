@@ -344,13 +344,13 @@ def test_a_process_that_dies_loses_nothing(tmp_path, out):
 
 
 def test_a_job_that_fails_fails_its_tile_only(six, out, monkeypatch):
-    def failing(source, target, classes, progress):
+    def failing(source, *rest):
         if source.name == "4.laz":
             raise MemoryError
-        return write_classified(source, target, classes, progress)
+        return write_changed(source, *rest)
 
-    write_classified = jobs_module.write_classified
-    monkeypatch.setattr(jobs_module, "write_classified", failing)
+    write_changed = jobs_module.write_changed
+    monkeypatch.setattr(jobs_module, "write_changed", failing)
     summary = classify_tiles([six], out, FAST)
     assert summary.done_count == 5
     assert "not enough memory" in summary.failures[str(six / "4.laz")]
