@@ -10,8 +10,11 @@ import numpy as np
 
 from ..errors import BareEarthError
 from ..points import Frame, Points
+from ..progress import SILENT
+from ..threads import over_parts
 from .crs import Crs
 
+_POINTS_A_PART = 1 << 17
 # Share of the scale by which offsets may differ from a multiple of it: they are rounded numbers.
 _WHOLE = 0.01
 
@@ -62,15 +65,21 @@ class PointCloud:
         return len(self.x)
 
     @cached_property
-    def _minimum(self) -> tuple[int, int]:
+    def lowest(self) -> tuple[int, int]:
+        """The smallest x and y, as integers."""
         return int(self.x.min()), int(self.y.min())
+
+    @cached_property
+    def highest(self) -> tuple[int, int]:
+        """The largest x and y, as integers."""
+        return int(self.x.max()), int(self.y.max())
 
     @property
     def frame(self) -> Frame:
         """The local metres of `points`: their origin is the smallest x and the smallest y."""
         origin = tuple(
             minimum * scale + offset
-            for minimum, scale, offset in zip(self._minimum, self.scale, self.offset)
+            for minimum, scale, offset in zip(self.lowest, self.scale, self.offset)
         )
         return Frame(origin, self.crs.horizontal_unit, self.crs.vertical_unit, self.crs.wkt)
 
@@ -91,16 +100,34 @@ class PointCloud:
             If the CRS is not a projected one.
         """
         self.require_projected()
+        if isinstance(which, np.ndarray) and which.dtype == bool:
+            which = np.flatnonzero(which)
         origin = (*(self.frame if frame is None else frame).origin, 0.0)
         units = (self.crs.horizontal_unit, self.crs.horizontal_unit, self.crs.vertical_unit)
         return Points(
             *(
-                _metres(values[which], scale, offset - start, unit)
+                _metres(values, which, scale, offset - start, unit)
                 for values, scale, offset, start, unit in zip(
                     (self.x, self.y, self.z), self.scale, self.offset, origin, units
                 )
             )
         )
+
+    def bounds(self, frame: Frame) -> tuple[float, float, float, float]:
+        """Return smallest x and y, largest x and y in metres of a frame, as `points` has them."""
+        corners = np.array([self.lowest, self.highest])
+        west, east, south, north = (
+            float(metres)
+            for axis in (0, 1)
+            for metres in _metres(
+                corners[:, axis],
+                slice(None),
+                self.scale[axis],
+                self.offset[axis] - frame.origin[axis],
+                self.crs.horizontal_unit,
+            )
+        )
+        return west, south, east, north
 
     def require_projected(self) -> None:
         """Refuse coordinates in degrees, on which no distance can be measured.
@@ -119,7 +146,9 @@ class PointCloud:
             )
 
 
-def _metres(integers: np.ndarray, scale: float, offset: float, unit: float) -> np.ndarray:
+def _metres(
+    integers: np.ndarray, which: np.ndarray | slice, scale: float, offset: float, unit: float
+) -> np.ndarray:
     """Return coordinates in metres.
 
     The offset is added to the integers where it is a multiple of the scale: no digit is lost,
@@ -127,9 +156,17 @@ def _metres(integers: np.ndarray, scale: float, offset: float, unit: float) -> n
     """
     whole = float(np.rint(offset / scale))
     rest = offset - whole * scale
-    metres = integers.astype(np.float64)
-    metres += whole
-    metres *= scale * unit
-    if abs(rest) > _WHOLE * scale:
-        metres += rest * unit
+    if isinstance(which, slice):
+        integers, which = integers[which], None
+    metres = np.empty(len(integers) if which is None else len(which))
+
+    def convert(part: slice) -> None:
+        some = metres[part]
+        some[:] = integers[part] if which is None else integers[which[part]]
+        some += whole
+        some *= scale * unit
+        if abs(rest) > _WHOLE * scale:
+            some += rest * unit
+
+    over_parts(convert, len(metres), _POINTS_A_PART, SILENT)
     return metres

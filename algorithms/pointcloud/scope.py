@@ -49,13 +49,11 @@ class Scope:
         BareEarthError
             If nothing can be measured in the CRS, or the points cannot hold the class.
         """
-        corners = [pick(each) for pick in (np.min, np.max) for each in (part.x, part.y)]
-        low, high = tuple(map(int, corners[:2])), tuple(map(int, corners[2:]))
         if self._first is None:
             self.selection.check(part)
-            self._first, self.lowest, self.highest = part, low, high
-        self.lowest = tuple(map(min, low, self.lowest))
-        self.highest = tuple(map(max, high, self.highest))
+            self._first, self.lowest, self.highest = part, part.lowest, part.highest
+        self.lowest = tuple(map(min, part.lowest, self.lowest))
+        self.highest = tuple(map(max, part.highest, self.highest))
         inside, selected = self._choose(part, self.tally, progress)
         self.inside_count += int(np.count_nonzero(inside))
         self.wanted_count += int(np.count_nonzero(inside & selected))

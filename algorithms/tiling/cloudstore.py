@@ -81,14 +81,8 @@ class CloudStore:
         count = sum(int(np.count_nonzero(part.selected)) for part in self._parts)
         if count > blocks.most_points:
             return False
-        corners = [
-            part.cloud.points(np.array([values.argmin(), values.argmax()]), self._frame)
-            for part in self._parts
-            for values in (part.cloud.x, part.cloud.y)
-        ]
-        x, y = (np.concatenate([each[axis] for each in corners]) for axis in (0, 1))
-        low, high = min(x.min(), y.min()), max(x.max(), y.max())
-        return bool(low >= 0.0 and high < blocks.side)
+        bounds = np.array([part.cloud.bounds(self._frame) for part in self._parts])
+        return bool(bounds.min() >= 0.0 and bounds.max() < blocks.side)
 
     def _sort(self, side: float, progress: Progress) -> np.ndarray:
         """Sort the points of each file by leaves; return the codes of all leaves."""

@@ -111,7 +111,8 @@ def _job_maker(
     def job_of(block: Block, is_only: bool) -> Callable[[Progress], _Labelled]:
         def job(progress: Progress) -> _Labelled:
             contents = blocks.contents(block, store)
-            core = contents.wanted & block.holds(contents.points)
+            # The only block holds them all.
+            core = contents.wanted & (is_only or block.holds(contents.points))
             positions = contents.positions[core]
             notes = _Notes(progress, len(positions), is_only)
             labels = np.zeros(len(positions), dtype=np.uint8)
