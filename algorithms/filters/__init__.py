@@ -38,6 +38,8 @@ class Method(NamedTuple):
     takes_known_ground: bool = False
 
 
+# The most accurate one.
+DEFAULT_METHOD = "tin-densification"
 METHODS = {
     method.name: method
     for method in (

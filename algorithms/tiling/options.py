@@ -5,10 +5,8 @@ from __future__ import annotations
 import dataclasses
 from dataclasses import dataclass
 
-from ..filters import METHODS
+from ..filters import DEFAULT_METHOD, METHODS
 from ..parameters import ParameterSet, parameter
-
-_DEFAULT_METHOD = "tin-densification"
 
 
 @dataclass(frozen=True)
@@ -16,7 +14,7 @@ class TileMethod(ParameterSet):
     """The ground filter in short: its name, and a preset that each of them has."""
 
     method: str = parameter(
-        _DEFAULT_METHOD,
+        DEFAULT_METHOD,
         label="Method",
         choices={name: method.label for name, method in METHODS.items()},
         help="The ground filter. TIN densification is the most accurate.",

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scenes import village
 
-from bare_earth.algorithms import classification, cli
+from bare_earth.algorithms import classification
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.filters import METHODS
@@ -361,5 +361,19 @@ def test_known_ground_is_kept(file, out, scene, capsys):
 def test_all_subcommands_are_documented(capsys):
     assert run("--help") == 0
     text = capsys.readouterr().out
-    assert all(f"    {name} " in text for name in ("classify", "info", "assess"))
-    assert cli.__doc__
+    several = "classify", "classify-tiles", "info", "assess", "height", "key-points", "terrain"
+    names = (*several, "remove-off-terrain-objects")
+    assert all(f"    {name} " in text or f"    {name}\n" in text for name in names)
+    for name in names:
+        assert run(name, "--help") == 0
+        assert "--verbose" in capsys.readouterr().out
+
+
+def test_the_list_of_commands_loads_nothing_slow():
+    code = (
+        "import sys; from bare_earth.algorithms.cli import main; main(['--help']);"
+        " sys.exit(' '.join({'numpy', 'scipy', 'laspy', 'lazrs'} & set(sys.modules)) or 0)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert "classify-tiles" in done.stdout

@@ -236,7 +236,7 @@ def test_peer_that_never_ends_took_at_least_its_time():
 
 
 def test_profile_tells_parts_and_functions():
-    main = "thread (7): MainThread;main (bare_earth/algorithms/cli.py:23)"
+    main = "thread (7): MainThread;main (bare_earth/algorithms/cli/__init__.py:23)"
     stacks = [
         f"{main};read (bare_earth/algorithms/pointcloud/reading.py:25);fill (laspy/a.py:3) 30",
         f"{main};write (bare_earth/algorithms/pointcloud/writing.py:53);"

@@ -61,7 +61,9 @@ def test_the_imports_are_read_rightly(tmp_path):
     here = ROOT / "algorithms" / "filters" / "__init__.py"
     assert ".algorithms.parameters.ParameterSet" in _imports(here)
     assert ".algorithms.filters.tin_densification" in _imports(here)
-    assert ".algorithms.pointcloud.reading" in _imports(ROOT / "algorithms" / "cli.py")
+    assert ".algorithms.pointcloud.reading" in _imports(
+        ROOT / "algorithms" / "cli" / "comparing.py"
+    )
     assert "numpy" in _imports(here)
     assert len(SHIPPED) > 20
 

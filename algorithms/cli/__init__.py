@@ -1,0 +1,86 @@
+"""The `bare-earth` command."""
+
+from __future__ import annotations
+
+import argparse
+import signal
+import sys
+import traceback
+from typing import Sequence
+
+from ..errors import BareEarthError, Cancelled
+from . import classifying, comparing, products
+from .command import FAILED, USAGE
+from .options import UsageError
+
+_COMMANDS = (*classifying.COMMANDS, *comparing.COMMANDS, *products.COMMANDS)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; return its exit code: 0 done, 1 failed, 2 wrong usage."""
+    arguments = list(sys.argv[1:] if arguments is None else arguments)
+    _set_output_encoding()
+    signal.signal(signal.SIGTERM, _stop)
+    try:
+        options = _parser(arguments).parse_args(arguments)
+        return options.run(options)
+    except SystemExit as error:  # argparse has said what is wrong
+        return error.code if isinstance(error.code, int) else USAGE
+    except UsageError as error:
+        return _say(error, USAGE, arguments)
+    except BareEarthError as error:
+        return _say(error, FAILED, arguments)
+    except (Cancelled, KeyboardInterrupt):
+        return _say("Cancelled; nothing was written.", FAILED, [])
+    except MemoryError as error:
+        return _say("There is not enough memory for this file.", FAILED, arguments, error)
+    except BrokenPipeError:
+        return FAILED
+    except Exception as error:
+        text = f"Unexpected {type(error).__name__}: {error}. Run with --verbose and report it."
+        return _say(text, FAILED, arguments, error)
+
+
+def _stop(number: int, frame: object) -> None:
+    """End as Ctrl-C does, so that temporary files are removed."""
+    raise KeyboardInterrupt
+
+
+def _set_output_encoding() -> None:
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="replace")
+
+
+def _say(
+    what: object, code: int, arguments: Sequence[str], error: BaseException | None = None
+) -> int:
+    """Print one line on what went wrong; with --verbose, where it did."""
+    if "--verbose" in arguments and (error is not None or isinstance(what, BaseException)):
+        traceback.print_exc()
+    print(f"bare-earth: {what}", file=sys.stderr)
+    return code
+
+
+def _parser(arguments: Sequence[str]) -> argparse.ArgumentParser:
+    from ... import __version__
+
+    parser = argparse.ArgumentParser(
+        prog="bare-earth",
+        description="Classifies lidar points into ground and non-ground, and makes terrain models.",
+    )
+    parser.add_argument("--version", action="version", version=f"%(prog)s {__version__}")
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+    common = argparse.ArgumentParser(add_help=False)
+    common.add_argument(
+        "--verbose", action="store_true", help="say what is done, and where an error arose"
+    )
+    for each in _COMMANDS:
+        its_parser = commands.add_parser(
+            each.name, parents=[common], help=each.help, description=each.description
+        )
+        its_parser.set_defaults(run=each.run)
+        # Declarations of parameters load numpy: those of other commands are not needed.
+        if each.name in arguments:
+            each.add(its_parser, arguments)
+    return parser

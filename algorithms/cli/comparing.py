@@ -1,0 +1,80 @@
+"""The commands that write no point cloud: `info` and `assess`."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import Sequence
+
+from .command import DONE, Command
+from .options import add_input, add_json, add_parameters, chosen
+from .terminal import Terminal
+
+
+def _add_info(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
+    add_input(parser, "FILE")
+    add_json(parser, "")
+
+
+def _info(options: argparse.Namespace) -> int:
+    from ..pointcloud.reading import inspect
+
+    with Terminal(options.verbose) as progress:
+        description = inspect(options.input, progress)
+    if options.json:
+        print(json.dumps(description.as_dict()))
+    else:
+        print("\n".join(description.lines()))
+    return DONE
+
+
+def _add_assess(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
+    from ..assessment import AssessmentOptions
+
+    parser.add_argument("classified", metavar="CLASSIFIED", type=Path, help="the classified file")
+    parser.add_argument("reference", metavar="REFERENCE", type=Path, help="the reference")
+    add_json(parser, "")
+    parser.add_argument("--report", metavar="FILE", type=Path, help="write a report (.html)")
+    parser.add_argument(
+        "--error-map", metavar="FILE", type=Path,
+        help="write the share of wrong points in each cell, 0 to 1 (.tif)",
+    )  # fmt: skip
+    add_parameters(parser, AssessmentOptions)
+
+
+def _assess(options: argparse.Namespace) -> int:
+    from ..assessment import assess_files
+
+    (what,) = chosen(options)
+    with Terminal(options.verbose) as progress:
+        assessment = assess_files(
+            options.classified,
+            options.reference,
+            what,
+            report=options.report,
+            error_map=options.error_map,
+            progress=progress,
+        )
+    print(json.dumps(assessment.as_dict()) if options.json else "\n".join(assessment.lines()))
+    return DONE
+
+
+COMMANDS = (
+    Command(
+        "info",
+        "describe a file",
+        "Describes a point cloud file.",
+        _add_info,
+        _info,
+    ),
+    Command(
+        "assess",
+        "compare a classified file with a reference",
+        "Compares the ground (class 2) of a classified file with a reference that holds"
+        " the same points: type I error (ground rejected), type II error (other accepted), total"
+        " error and kappa, in percent.",
+        _add_assess,
+        _assess,
+    ),
+)

@@ -1,0 +1,96 @@
+"""Options made from declared parameters, and parameters made from options."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any, Sequence
+
+from ..errors import BareEarthError
+from ..parameters import Declaration, ParameterSet
+
+_NOT_USED = ("none", "automatic")
+
+
+class UsageError(BareEarthError):
+    """A value on the command line that is not allowed."""
+
+
+def add_input(parser: argparse.ArgumentParser, metavar: str = "INPUT") -> None:
+    """Add the argument that names the point cloud to read."""
+    parser.add_argument("input", metavar=metavar, type=Path, help="a .las, .laz or .copc.laz file")
+
+
+def add_output(parser: argparse.ArgumentParser) -> None:
+    """Add the argument that names the point cloud to write."""
+    parser.add_argument("output", metavar="OUTPUT", type=Path, help=".las, .laz or .copc.laz")
+
+
+def add_json(parser: argparse.ArgumentParser, what: str = "what was done ") -> None:
+    """Add the option to print something as JSON."""
+    parser.add_argument("--json", action="store_true", help=f"print {what}as JSON")
+
+
+def add_parameters(
+    parser: argparse.ArgumentParser, *declared: type[ParameterSet], titles: Sequence[str] = ()
+) -> None:
+    """Add an option for each declared parameter.
+
+    Parameters
+    ----------
+    parser : argparse.ArgumentParser
+        That of the command.
+    *declared : type
+        Sets of parameters; `chosen` returns them in this order.
+    titles : sequence of str, optional
+        Titles, one for each set, under which the help shows its options.
+    """
+    for place, each in enumerate(declared):
+        _add_options(parser.add_argument_group(titles[place]) if titles else parser, each)
+    parser.set_defaults(declared=declared)
+
+
+def chosen(options: argparse.Namespace) -> list[ParameterSet]:
+    """Return the sets of parameters that the parsed options give.
+
+    Raises
+    ------
+    UsageError
+        If a value is not allowed; it says which and why.
+    """
+    return [_from_options(each, options) for each in options.declared]
+
+
+def _add_options(parser: Any, declared: type[ParameterSet]) -> None:
+    for each in declared.declarations():
+        flag = "--" + each.name.replace("_", "-")
+        words = {"dest": each.name, "default": each.default, "help": _help_of(each)}
+        if each.kind == "boolean":
+            parser.add_argument(flag, action=argparse.BooleanOptionalAction, **words)
+        elif each.kind == "choice":
+            parser.add_argument(flag, choices=list(each.choices), **words)
+        elif each.kind in ("numbers", "integers"):
+            parser.add_argument(flag, nargs="*", metavar="N", **words)
+        else:
+            parser.add_argument(flag, metavar=each.unit or "N", **words)
+
+
+def _help_of(each: Declaration) -> str:
+    default = each.default
+    if isinstance(default, tuple):
+        default = " ".join(f"{value:g}" for value in default) or "none"
+    unit = f" {each.unit}" if each.unit and default is not None else ""
+    words = [each.help, f"(default: {each.empty if default is None else default}{unit})"]
+    words[1:1] = [f"{value}: {label}." for value, label in each.choices.items()]
+    return " ".join(words).replace("%", "%%")
+
+
+def _from_options(declared: type[ParameterSet], options: argparse.Namespace) -> ParameterSet:
+    values = {each.name: getattr(options, each.name) for each in declared.declarations()}
+    for each in declared.declarations():
+        if each.optional and str(values[each.name]).lower() in _NOT_USED:
+            values[each.name] = None
+    try:
+        return declared(**values)
+    except BareEarthError as error:
+        raise UsageError(str(error)) from error
