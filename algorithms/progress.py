@@ -49,4 +49,21 @@ class _Part(Progress):
         self._whole.warning(text)
 
 
+class Unsaid(Progress):
+    """Passes on how far a computation is, and none of its messages: they are told elsewhere.
+
+    Parameters
+    ----------
+    whole : Progress
+        Receives how far it is.
+    """
+
+    def __init__(self, whole: Progress) -> None:
+        self._whole = whole
+
+    def report(self, fraction: float) -> None:
+        """Pass it on."""
+        self._whole(fraction)
+
+
 SILENT = Progress()

@@ -19,7 +19,7 @@ from ..pointcloud.reading import read_cloud, read_parts
 from ..pointcloud.selection import Tally
 from ..pointcloud.window import read_window
 from ..pointcloud.writing import write_changed
-from ..progress import Progress
+from ..progress import Progress, Unsaid
 from ..threads import may_use
 from .blocks import GROUND, LOW
 from .cloudstore import CloudStore, Part
@@ -126,7 +126,7 @@ class LabelJob(NamedTuple):
         for number, source in enumerate(self.sources):
             start, end = (each / len(self.sources) for each in (number, number + 1))
             try:
-                part = _Quiet(progress.part(start, end))
+                part = Unsaid(progress.part(start, end))
                 cloud = read_window(source, window, part, trust_header=True)
             except BareEarthError as error:
                 progress.warning(
@@ -213,7 +213,7 @@ class TileJob(NamedTuple):
         selection, path, tally = self.survey.selection, self.tile.path, Tally()
         kept = _KeptLabels(self)
         classes, start = np.zeros(self.tile.count, dtype=np.uint8), 0
-        for part in self._parts(share, _Quiet(progress.part(0.0, 0.4))):
+        for part in self._parts(share, Unsaid(progress.part(0.0, 0.4))):
             if not start:
                 selection.check(part)
             selection.choose(part, tally)
@@ -292,16 +292,6 @@ class _KeptLabels:
     def changed(self) -> BareEarthError:
         """Return the error for a file that is not what it was."""
         return BareEarthError(f"{self._path} changed while it was worked on. Classify it again.")
-
-
-class _Quiet(Progress):
-    """Passes on progress, and no messages: what there is to tell of a file is told elsewhere."""
-
-    def __init__(self, whole: Progress) -> None:
-        self._whole = whole
-
-    def report(self, fraction: float) -> None:
-        self._whole(fraction)
 
 
 def attempt(job: LabelJob | TileJob, share: Share, progress: Progress) -> Outcome:

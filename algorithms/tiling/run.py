@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import collections
+import re
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, wait
 from pathlib import Path
 
@@ -165,19 +166,23 @@ class Run:
 
     def _hear(self, job: Job, outcome: Outcome) -> None:
         """Keep what a job told; of tiles not what only counts their points."""
-        name = job.tile.path.name if isinstance(job, TileJob) else ""
-        for message in outcome.messages:
-            if not name or message[0] == "warning":
-                self._heard.setdefault(message, []).append(name)
+        is_tile = isinstance(job, TileJob)
+        for kind, text in outcome.messages:
+            if is_tile and kind == "warning":
+                text = f"{job.tile.path.name}: {text}"
+            if not is_tile or kind == "warning":
+                self._heard.setdefault((kind, _without_numbers(text)), []).append(text)
 
     def _tell(self) -> None:
-        """Tell each message once."""
-        for (kind, text), names in self._heard.items():
-            if len(names) == 1:
-                text = f"{names[0]}: {text}" if names[0] else text
-            else:
-                text = f"{text.rstrip('.')} ({len(names)} times)."
-            getattr(self._progress, kind)(text)
+        """Tell each message once, and how many others differ in names and numbers only."""
+        for (kind, _), texts in self._heard.items():
+            more = f" (And {len(texts) - 1:,} times the like.)" if len(texts) > 1 else ""
+            getattr(self._progress, kind)(texts[0] + more)
+
+
+def _without_numbers(text: str) -> str:
+    """Return what messages have in common that differ in names of files and numbers."""
+    return re.sub(r"\S*\d\S*|\S+\.la[sz]\b\S*", "#", text)
 
 
 def _weight(job: Job) -> float:

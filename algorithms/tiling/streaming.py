@@ -13,7 +13,7 @@ from ..pointcloud.cloud import PointCloud
 from ..pointcloud.reading import read_parts
 from ..pointcloud.scope import Scope
 from ..points import Frame, Points
-from ..progress import SILENT, Progress
+from ..progress import SILENT, Progress, Unsaid
 from ..terrain.model import TerrainModel, vertices_of
 from .blocks import GROUND, LOW, Blocks
 from .ground import label_ground
@@ -139,7 +139,7 @@ def classify_parts(
         outcome = Outcome(spill.cloud, classification, frame)
         thinned = None if terrain is None else _Thinned(terrain, frame)
         start = taken = low_count = 0
-        for part in read_parts(source, _Unsaid(progress.part(0.8, 1.0))):
+        for part in read_parts(source, Unsaid(progress.part(0.8, 1.0))):
             inside, selected = scope.choose_again(part)
             labels = spill.labels_of(part, selected, taken)
             low = labels == LOW
@@ -175,16 +175,6 @@ def _check_terrain(spill: Spill, terrain: TerrainModel, resources: Resources) ->
             f" {needed / GIGABYTE:.0f} GB of memory. Give more memory, a larger cell size or an"
             " extent, or classify without a terrain model."
         )
-
-
-class _Unsaid(Progress):
-    """Passes on progress, but not what was told when the file was read for the first time."""
-
-    def __init__(self, whole: Progress) -> None:
-        self._whole = whole
-
-    def report(self, fraction: float) -> None:
-        self._whole(fraction)
 
 
 class _Thinned:

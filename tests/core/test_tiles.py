@@ -148,6 +148,21 @@ def test_processes_give_the_same_bytes_as_threads(many, out, las):
     assert sum(": " in each and "% ground" in each for each in heard.infos) == 16
 
 
+def test_messages_that_differ_in_names_and_numbers_only_are_told_once(tmp_path, out, las):
+    folder = cut(tmp_path / "in", strip(3000), 4)
+    for path in folder.iterdir():
+        cloud = laspy.read(path)
+        cloud.return_number[: 3 + int(path.stem)] = 0
+        cloud.write(str(path))
+    heard = las.Heard()
+    classify_tiles([folder], out, FAST, progress=heard, workers=Threads(Resources(threads=1)))
+    (told,) = (each for each in heard.warnings if "return number" in each)
+    assert told == (
+        "0.laz: 3 points have no return number: they are taken as single returns."
+        " (And 3 times the like.)"
+    )
+
+
 def test_tiles_larger_than_memory_give_the_same_bytes(many, out, monkeypatch):
     monkeypatch.setattr(reading_module, "_CHUNK", 700)
     asked = []
@@ -172,6 +187,16 @@ def test_blocks_are_read_in_groups_that_fit_into_memory(six):
     assert sorted(place for group in many for place in group) == sorted(places)
     assert len(grouped(survey, collection, places, 1, 0)) == 90
     assert len(grouped(survey, collection, places, 100, 1 << 40)) == 90
+
+
+def test_copc_files_of_which_only_parts_are_read_give_the_same(tmp_path, out):
+    integers, blocks = strip(5000, 150.0, 75.0), Blocks(40.0, 8.0)
+    folder = cut(tmp_path / "in", integers, 4)
+    classify_tiles([folder], tmp_path / "copc", FAST, output=TileOutput(format="copc.laz"))
+    classify_tiles([tmp_path / "copc" / "classified.vpc"], out, FAST, blocks=blocks)
+    found = points_of(finished(out))
+    whole = write(tmp_path / "whole.las", integers)
+    assert np.array_equal(found, whole_classes(whole, FAST, blocks=blocks))
 
 
 # What is written
