@@ -22,7 +22,7 @@ from .tiling.blocks import Blocks
 from .tiling.ground import blocks_of
 from .tiling.jobs import LabelJob, TileJob, TileSummary
 from .tiling.options import TileInput, TileOutput
-from .tiling.record import folders_of, label_file, made_of, read_record, remove_record
+from .tiling.record import folders_of, label_file, made_of, read_record, remove_record, state_of
 from .tiling.run import Run
 from .tiling.survey import (
     Place,
@@ -258,6 +258,8 @@ class _Plan:
         self.failures: dict[Path, str] = {}
         self._survey, self._collection, self._targets = survey, collection, targets
         self._sources: dict[Place, list[Path]] = {}
+        # As they are before any of them is read.
+        self._states = {each.path: state_of(each.path) for each in collection.tiles}
         self._todo: list[_Needs] = []
         for number, tile in enumerate(collection.tiles, start=1):
             try:
@@ -278,7 +280,8 @@ class _Plan:
 
     def _made_of(self, needs: _Needs) -> dict[str, Any]:
         path = needs.tile.path
-        return made_of(self._survey, path, needs.sources, self._targets[path])
+        sources = map(self._states.__getitem__, needs.sources)
+        return made_of(self._survey, path, sources, self._targets[path])
 
     def keep_done(self, resume: bool, progress: Progress) -> list[TileSummary]:
         """Take out the tiles that are done; return what became of them."""
@@ -309,7 +312,10 @@ class _Plan:
         survey, collection = self._survey, self._collection
         places = sorted({place for needs in self._todo for place in needs.places})
         labels = folders_of(folder)[2]
-        files = {each: label_file(survey, labels, each, self._sources[each]) for each in places}
+        files = {
+            each: label_file(survey, labels, each, map(self._states.get, self._sources[each]))
+            for each in places
+        }
         tiles = [
             TileJob(
                 survey,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from pathlib import Path
-from typing import Any, Iterable, Sequence
+from typing import Any, Iterable
 
 from ..errors import BareEarthError
 from ..files import replacing
@@ -23,7 +23,26 @@ def folders_of(folder: Path) -> tuple[Path, Path, Path]:
     return folder, folder / _FOLDER, folder / _FOLDER / _LABELS
 
 
-def made_of(survey: Survey, tile: Path, sources: Iterable[Path], target: Path) -> Record:
+# Path, size and time of a file: by them it is seen that it has changed.
+State = list
+
+
+def state_of(path: Path) -> State:
+    """Return by what it is seen that a file has changed.
+
+    Raises
+    ------
+    BareEarthError
+        If it is not there.
+    """
+    try:
+        status = path.stat()
+    except OSError as error:
+        raise BareEarthError(f"Cannot read {path}: {error.strerror or error}.") from error
+    return [str(path.resolve()), status.st_size, status.st_mtime_ns]
+
+
+def made_of(survey: Survey, tile: Path, sources: Iterable[State], target: Path) -> Record:
     """Return all that the classification of a tile depends on.
 
     Parameters
@@ -32,7 +51,7 @@ def made_of(survey: Survey, tile: Path, sources: Iterable[Path], target: Path) -
         Parameters, frame and blocks.
     tile : Path
         The input.
-    sources : iterable of Path
+    sources : iterable of State
         The files whose points matter for it.
     target : Path
         The output.
@@ -41,16 +60,16 @@ def made_of(survey: Survey, tile: Path, sources: Iterable[Path], target: Path) -
         **_settings(survey),
         "input": tile.name,
         "output": target.name,
-        "files": [_state(each) for each in sources],
+        "files": list(sources),
     }
 
 
-def label_file(survey: Survey, folder: Path, place: Place, sources: Sequence[Path]) -> Path:
+def label_file(survey: Survey, folder: Path, place: Place, sources: Iterable[State]) -> Path:
     """Return where the labels of a block are kept; the name tells all that they depend on."""
     content = {
         **_settings(survey),
         "place": list(place),
-        "files": [_state(each) for each in sources],
+        "files": list(sources),
     }
     digest = hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
     return folder / f"{place.column}_{place.row}_{digest[:20]}.npz"
@@ -70,15 +89,6 @@ def _settings(survey: Survey) -> dict[str, Any]:
         "units": [survey.frame.horizontal_unit, survey.frame.vertical_unit],
         "blocks": [blocks.side, blocks.buffer, blocks.most_points],
     }
-
-
-def _state(path: Path) -> list[Any]:
-    """Return by what it is seen that a file has changed."""
-    try:
-        status = path.stat()
-    except OSError as error:
-        raise BareEarthError(f"Cannot read {path}: {error.strerror or error}.") from error
-    return [str(path.resolve()), status.st_size, status.st_mtime_ns]
 
 
 def write_record(target: Path, record: Record, summary: dict[str, Any]) -> None:

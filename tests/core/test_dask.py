@@ -11,12 +11,13 @@ from surveys import bytes_of, cut, strip
 
 from bare_earth.algorithms import tiles as tiles_module
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.errors import BareEarthError
+from bare_earth.algorithms.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.progress import Progress
 from bare_earth.algorithms.tiles import classify_tiles
 from bare_earth.algorithms.tiling import cluster as cluster_module
 from bare_earth.algorithms.tiling.cluster import Cluster
+from bare_earth.algorithms.tiling.options import TileOutput
 
 pytest.importorskip("distributed")
 FAST = SlopeFilter(preset="whitebox")
@@ -107,6 +108,30 @@ def test_workers_of_another_version_are_refused(dask, survey, tmp_path, monkeypa
     monkeypatch.setattr(bare_earth, "__version__", "99.9")
     with pytest.raises(BareEarthError, match=r"has version .* and this computer 99\.9"):
         classify_tiles([survey[0]], tmp_path / "out", FAST, workers=Cluster(dask[0]))
+
+
+def test_a_cancel_leaves_the_finished_tiles(dask, survey, tmp_path):
+    class Impatient(Progress):
+        asked = None
+
+        def info(self, text):
+            if ".laz:" in text:
+                self.asked = time.monotonic()
+
+        def report(self, fraction):
+            if self.asked is not None:
+                raise Cancelled
+
+    folder, expected = survey
+    progress, out = Impatient(), tmp_path / "out"
+    with pytest.raises(Cancelled):
+        classify_tiles([folder], out, FAST, progress=progress, workers=Cluster(dask[0]))
+    assert time.monotonic() - progress.asked < 1.5
+    time.sleep(0.5)  # jobs that have begun run to their end
+    assert 1 <= len(bytes_of(out)) < 16
+    resume = TileOutput(resume=True)
+    summary = classify_tiles([folder], out, FAST, output=resume, workers=Cluster(dask[0]))
+    assert summary.kept_count >= 1 and bytes_of(out) == expected
 
 
 @pytest.mark.skipif(os.name == "nt", reason="it kills by signals")

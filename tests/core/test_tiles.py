@@ -455,6 +455,28 @@ def test_a_cancel_is_heard_within_a_second_and_finished_tiles_stay(kind, many, o
     assert bytes_of(out) == expected
 
 
+def test_blocks_labelled_before_a_cancel_are_not_labelled_again(many, out, monkeypatch):
+    labelled = []
+
+    def noted(job, file, *rest):
+        labelled.append(file)
+        write_labels(job, file, *rest)
+
+    write_labels = jobs_module.LabelJob._write
+    monkeypatch.setattr(jobs_module.LabelJob, "_write", noted)
+    run = dict(blocks=Blocks(50.0, 10.0), output=RESUME)
+    one = Threads(Resources(threads=1))
+    with pytest.raises(Cancelled):
+        classify_tiles([many[0]], out, FAST, progress=Impatient(), workers=one, **run)
+    waiting = set((out / ".bare-earth" / "labels").iterdir())
+    assert waiting and waiting <= set(labelled)
+    labelled.clear()
+    classify_tiles([many[0]], out, FAST, workers=Threads(), **run)
+    assert labelled and waiting.isdisjoint(labelled)
+    assert bytes_of(out) == many[1]  # with this filter the blocks do not matter
+    assert not (out / ".bare-earth" / "labels").exists()
+
+
 def test_methods_in_short_have_the_presets_of_all():
     for name in METHODS:
         for preset in TileMethod.declarations()[1].choices:

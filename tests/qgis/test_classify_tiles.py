@@ -4,7 +4,7 @@ import shlex
 import laspy
 import numpy as np
 import pytest
-from qgis.core import QgsProcessingException, QgsProviderRegistry
+from qgis.core import QgsPointCloudLayer, QgsProcessingException, QgsProviderRegistry
 from support import Log, write_scene
 
 NAME = "bareearth:classifytiles"
@@ -58,6 +58,9 @@ def test_a_folder_is_classified_and_the_log_says_how_to_repeat_it(tiles, folder,
     assert "0.laz: 25,600 points" in log.text and "4 of 4 tiles are classified" in log.text
     loaded = str(out / "classified.vpc") in context.layersToLoadOnCompletion()
     assert loaded == ("vpc" in QgsProviderRegistry.instance().providerList())
+    if loaded:
+        layer = QgsPointCloudLayer(results["OUTPUT_VPC"], "Classified", "vpc")
+        assert layer.isValid() and layer.crs().authid() == "EPSG:25832"
     before = {path.name: path.read_bytes() for path in out.glob("*.laz")}
     command = next(shlex.split(line) for line in log.said if line.startswith("bare-earth "))
     assert main(command[1:]) == 0
