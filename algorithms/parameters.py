@@ -143,6 +143,23 @@ def parameter(
     return dataclasses.field(default=default, metadata={_KEY: declaration})
 
 
+def parameter_of(declared: type[ParameterSet], name: str, **differently: Any) -> Any:
+    """Declare a field as another set does, but for what is given `differently`.
+
+    Parameters
+    ----------
+    declared : type
+        The other `ParameterSet`.
+    name : str
+        Its field.
+    **differently
+        Attributes of the `Declaration` that are not those of the other.
+    """
+    declaration = next(each for each in declared.declarations() if each.name == name)
+    declaration = dataclasses.replace(declaration, **differently)
+    return dataclasses.field(default=declaration.default, metadata={_KEY: declaration})
+
+
 def _kind_of(default: Any) -> str:
     if isinstance(default, bool):
         return "boolean"

@@ -13,38 +13,26 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
 from ..errors import BareEarthError
-from ..parameters import ParameterSet, parameter
+from ..parameters import ParameterSet, parameter, parameter_of
 from ..points import Points
 from ..progress import SILENT, Progress
-from ..terrain.cells import Cells, spacing
-from ..terrain.densification import DensificationRules, accepted, bounding
+from ..terrain.cells import Cells
+from ..terrain.densification import DensificationRules, densified
 from ..terrain.gradient import steepness
 from ..terrain.ground_cells import ground_cells
 from ..terrain.inpaint import inpaint
+from ..terrain.lowest_points import LowestPoints, lowest_heights
 from ..terrain.model_key_points import ModelKeyPoints, model_key_points
 from ..terrain.near_surface import near_surface
-from ..terrain.objects import Regions, bounded_regions, raised_objects
-from ..terrain.outliers import low_outliers
 
 # Side of the cells whose lowest points may become vertices of the TIN.
 _CELL = 1.0
-_OUTLIER_SLOPE = 5.0
-# Metres between the virtual points round the survey.
-_RING_SPACING = 5.0
-# Heights in metres of the drops that bound an object, the tall ones first.
-_OBJECT_HEIGHTS = (5.0, 4.5, 2.0)
 # Metres over which the final surface is smoothed to take its slope.
 _FACET_SMOOTHING = 0.7
-# How many times the iteration distance a candidate may lie off the seeds' smooth surface: no facet
-# comes as close to those farther away.
-_REACHABLE = 3.0
-# With more vertices in the 3 x 3 cells round a candidate its triangle is too small to take it.
-_MOST_VERTICES_ROUND = 4
 # Metres: no larger building is expected where none is seen, or looked for.
 _USUAL_BUILDING, _LARGEST_BUILDING = 48.0, 150.0
 # Metres beyond which points do not matter: so many times the largest building, but at least this.
@@ -188,32 +176,14 @@ class TinDensification(ParameterSet):
         help="Of the ground, keep only the points that a terrain model needs: those whose TIN lies"
         " within the two tolerances below of every other ground point.",
     )
-    key_point_tolerance_above: float = parameter(
-        0.15,
-        label="Key points: tolerance above",
-        unit="m",
-        minimum=0.0,
-        maximum=100.0,
-        advanced=True,
-        help="How far ground may lie above the TIN of the key points.",
+    key_point_tolerance_above: float = parameter_of(
+        ModelKeyPoints, "tolerance_above", label="Key points: tolerance above", advanced=True
     )
-    key_point_tolerance_below: float = parameter(
-        0.15,
-        label="Key points: tolerance below",
-        unit="m",
-        minimum=0.0,
-        maximum=100.0,
-        advanced=True,
-        help="How far ground may lie below the TIN of the key points.",
+    key_point_tolerance_below: float = parameter_of(
+        ModelKeyPoints, "tolerance_below", label="Key points: tolerance below", advanced=True
     )
-    key_point_grid_size: float = parameter(
-        20.0,
-        label="Key points: grid size",
-        unit="m",
-        minimum=0.1,
-        maximum=10000.0,
-        advanced=True,
-        help="Every cell of this size that has ground keeps at least one point.",
+    key_point_grid_size: float = parameter_of(
+        ModelKeyPoints, "grid_size", label="Key points: grid size", advanced=True
     )
 
     def resolve(self, points: Points) -> TinDensification:
@@ -224,9 +194,9 @@ class TinDensification(ParameterSet):
         points : Points
             The whole survey: its blocks must all be classified with the same values.
         """
-        return self._resolved(_Survey(points))
+        return self._resolved(LowestPoints(points, _CELL))
 
-    def _resolved(self, survey: _Survey) -> TinDensification:
+    def _resolved(self, survey: LowestPoints) -> TinDensification:
         preset = PRESETS[self.preset]
         names = ("max_building_size", "iteration_angle", "iteration_distance")
         empty = {name: getattr(preset, name) for name in names if getattr(self, name) is None}
@@ -240,58 +210,6 @@ def reach(parameters: TinDensification) -> float:
     """Return the metres beyond which a point does not matter for another."""
     size = parameters.max_building_size or PRESETS[parameters.preset].max_building_size or 0.0
     return max(_LEAST_REACH, _REACH_BUILDINGS * size)
-
-
-class _Survey:
-    """The lowest points of a survey, on cells for the seeds and on cells for objects.
-
-    Attributes
-    ----------
-    spacing : float
-        Mean distance between points in metres.
-    cells : Cells
-        Those whose lowest points may become vertices.
-    lowest : numpy.ndarray of intp
-        The lowest point of each occupied cell.
-    heights : numpy.ndarray of float64, shape (rows, columns)
-        Their heights, without low outliers; NaN where there is none.
-    """
-
-    def __init__(self, points: Points) -> None:
-        self._points = points
-        self.spacing = spacing(points)
-        self.cells = Cells.over(points, _CELL)
-        self.lowest = self.cells.lowest_points(points)
-        heights = np.full(self.cells.rows * self.cells.columns, np.nan)
-        heights[self.cells.index[self.lowest]] = points.z[self.lowest]
-        self.heights = self._without_outliers(heights.reshape(self.cells.shape), _CELL)
-
-    @staticmethod
-    def _without_outliers(heights: np.ndarray, size: float) -> np.ndarray:
-        heights[low_outliers(heights, size, _OUTLIER_SLOPE)] = np.nan
-        return heights
-
-    @cached_property
-    def _wide(self) -> tuple[Cells, np.ndarray]:
-        """Cells wide enough to be without gaps, which would break the rims of objects."""
-        if self.spacing <= _CELL:
-            return self.cells, self.heights
-        cells = Cells.over(self._points, self.spacing)
-        return cells, self._without_outliers(cells.minimum(self._points.z), cells.size)
-
-    @cached_property
-    def tall(self) -> Regions:
-        """The regions between the drops of tall objects."""
-        cells, heights = self._wide
-        return bounded_regions(heights, cells.size, _OBJECT_HEIGHTS[0])
-
-    def objects(self, max_size: float, progress: Progress) -> np.ndarray:
-        """Return which of `cells` belong to tall objects bounded by drops all round."""
-        wide, heights = self._wide
-        found = raised_objects(
-            heights, wide.size, _OBJECT_HEIGHTS, max_size, progress, first=self.tall
-        )
-        return wide.resampled(found, self.cells)
 
 
 def classify(
@@ -330,7 +248,7 @@ def classify(
     Cancelled
         If the user asked to stop.
     """
-    survey = _Survey(points)
+    survey = LowestPoints(points, _CELL)
     progress(0.1)
     resolved = parameters._resolved(survey)
     if resolved != parameters:
@@ -343,15 +261,17 @@ def classify(
     first = lowest.take(seeds)
     if known_ground is not None and known_ground.any():
         known = points.take(known_ground)
-        first = first.and_also(known.take(_thinned(known)))
+        first = first.and_also(known.take(Cells.over(known, _CELL).lowest_points(known)))
     if not first.count:
         raise BareEarthError(
             "No point can be taken for ground with certainty. Check the maximum building size and"
             " the selection of points."
         )
     waiting = lowest.take(~seeds & np.isfinite(heights).ravel()[cells.index[survey.lowest]])
-    vertices = _densified(first, waiting, survey, resolved, progress.part(0.7, 0.8))
-    surface = inpaint(_lowest(cells, vertices))
+    vertices = densified(
+        first, waiting, cells, survey.spacing, _rules(resolved), progress.part(0.7, 0.8)
+    )
+    surface = inpaint(lowest_heights(cells, vertices))
     found = near_surface(
         points, cells, surface, _tolerance(surface, resolved), progress.part(0.8, 0.95)
     )
@@ -371,11 +291,6 @@ def _rules(parameters: TinDensification) -> DensificationRules:
     return DensificationRules(**{name: getattr(parameters, name) for name in names})
 
 
-def _thinned(points: Points) -> np.ndarray:
-    """Return the index of the lowest point of each cell."""
-    return Cells.over(points, _CELL).lowest_points(points)
-
-
 def _key_points(
     points: Points, ground: np.ndarray, parameters: TinDensification, progress: Progress
 ) -> np.ndarray:
@@ -390,66 +305,6 @@ def _key_points(
     key = np.zeros(points.count, dtype=bool)
     key[ground] = model_key_points(points.take(ground), closeness, progress)
     return key
-
-
-def _densified(
-    first: Points,
-    waiting: Points,
-    survey: _Survey,
-    parameters: TinDensification,
-    progress: Progress,
-) -> Points:
-    """Return the first vertices and those that join them."""
-    cells = survey.cells
-    surface = inpaint(_lowest(cells, first))
-    slope = cells.at(steepness(surface, cells.size), waiting.x, waiting.y)
-    distance = np.abs(waiting.z - cells.at(surface, waiting.x, waiting.y))
-    reachable = _REACHABLE * parameters.iteration_distance * np.hypot(1.0, slope)
-    holding = _holding(cells, first)
-    in_gap = _counts_round(holding)[cells.of(waiting)] <= _MOST_VERTICES_ROUND
-    waiting = waiting.take(in_gap & (distance <= reachable))
-    progress(0.1)
-    reach = math.ceil(max(survey.spacing / cells.size, 1.0))
-    needed = bounding(holding, _holding(cells, waiting), reach)
-    seeds = first.take(needed[cells.of(first)]).and_also(_ring(cells, surface))
-    joined = accepted(seeds, waiting, _rules(parameters), first.count, progress.part(0.1, 1.0))
-    return first.and_also(waiting.take(joined))
-
-
-def _holding(cells: Cells, points: Points) -> np.ndarray:
-    """Return which cells hold one of some points."""
-    holding = np.zeros(cells.shape, dtype=bool)
-    holding[cells.of(points)] = True
-    return holding
-
-
-def _counts_round(mask: np.ndarray) -> np.ndarray:
-    """Return how many of the 3 x 3 cells round each cell a mask holds."""
-    padded = np.pad(mask.astype(np.int8), 1)
-    rows = padded[:-2] + padded[1:-1] + padded[2:]
-    return rows[:, :-2] + rows[:, 1:-1] + rows[:, 2:]
-
-
-def _lowest(cells: Cells, points: Points) -> np.ndarray:
-    """Return the lowest height of some points in each cell; NaN where there is none."""
-    lowest = np.full(cells.shape, np.inf)
-    np.minimum.at(lowest, cells.of(points), points.z)
-    lowest[np.isinf(lowest)] = np.nan
-    return lowest
-
-
-def _ring(cells: Cells, surface: np.ndarray) -> Points:
-    """Return virtual points round all cells.
-
-    Without them, ground beyond the hull of the seeds would have no triangle to be judged by.
-    """
-    south, west = cells.first_row * cells.size, cells.first_column * cells.size
-    height, width = cells.rows * cells.size, cells.columns * cells.size
-    x = west + width * np.linspace(0.0, 1.0, max(int(width / _RING_SPACING), 1) + 1)
-    y = south + height * np.linspace(0.0, 1.0, max(int(height / _RING_SPACING), 1) + 1)
-    ring_x = np.concatenate((x, x, np.full(len(y), west), np.full(len(y), west + width)))
-    ring_y = np.concatenate((np.full(len(x), south), np.full(len(x), south + height), y, y))
-    return Points(ring_x, ring_y, cells.at(surface, ring_x, ring_y))
 
 
 def _tolerance(surface: np.ndarray, parameters: TinDensification) -> np.ndarray:

@@ -15,7 +15,19 @@ import numpy as np
 
 from ..points import Points
 from ..progress import Progress
+from .cells import Cells
+from .gradient import steepness
+from .inpaint import inpaint
+from .lowest_points import lowest_heights
 from .tin import Tin
+
+# Metres between the virtual points round the survey.
+_RING_SPACING = 5.0
+# How many times the iteration distance a candidate may lie off the seeds' smooth surface: no facet
+# comes as close to those farther away.
+_REACHABLE = 3.0
+# With more vertices in the 3 x 3 cells round a candidate its triangle is too small to take it.
+_MOST_VERTICES_ROUND = 4
 
 _MOST_ROUNDS = 8
 # Rounds that add less than this share of the vertices are not worth a triangulation.
@@ -50,7 +62,76 @@ class DensificationRules:
     noise_distance: float
 
 
-def accepted(
+def densified(
+    first: Points,
+    waiting: Points,
+    cells: Cells,
+    spacing: float,
+    rules: DensificationRules,
+    progress: Progress,
+) -> Points:
+    """Return the first vertices and the candidates that join them.
+
+    Only candidates in gaps between vertices are looked at, and only the vertices are triangulated
+    that may bound a triangle in which one lies.
+
+    Parameters
+    ----------
+    first, waiting : Points
+        The first vertices, and the candidates.
+    cells : Cells
+        Cells that hold one of them each, as a rule.
+    spacing : float
+        Mean distance in metres between the points of the survey.
+    rules : DensificationRules
+        Which candidates join.
+    progress : Progress
+        Receives progress.
+    """
+    surface = inpaint(lowest_heights(cells, first))
+    slope = cells.at(steepness(surface, cells.size), waiting.x, waiting.y)
+    distance = np.abs(waiting.z - cells.at(surface, waiting.x, waiting.y))
+    reachable = _REACHABLE * rules.iteration_distance * np.hypot(1.0, slope)
+    holding = _holding(cells, first)
+    in_gap = _counts_round(holding)[cells.of(waiting)] <= _MOST_VERTICES_ROUND
+    waiting = waiting.take(in_gap & (distance <= reachable))
+    progress(0.1)
+    reach = math.ceil(max(spacing / cells.size, 1.0))
+    needed = _bounding(holding, _holding(cells, waiting), reach)
+    seeds = first.take(needed[cells.of(first)]).and_also(_ring(cells, surface))
+    joined = _accepted(seeds, waiting, rules, first.count, progress.part(0.1, 1.0))
+    return first.and_also(waiting.take(joined))
+
+
+def _holding(cells: Cells, points: Points) -> np.ndarray:
+    """Return which cells hold one of some points."""
+    holding = np.zeros(cells.shape, dtype=bool)
+    holding[cells.of(points)] = True
+    return holding
+
+
+def _counts_round(mask: np.ndarray) -> np.ndarray:
+    """Return how many of the 3 x 3 cells round each cell a mask holds."""
+    padded = np.pad(mask.astype(np.int8), 1)
+    rows = padded[:-2] + padded[1:-1] + padded[2:]
+    return rows[:, :-2] + rows[:, 1:-1] + rows[:, 2:]
+
+
+def _ring(cells: Cells, surface: np.ndarray) -> Points:
+    """Return virtual points round all cells.
+
+    Without them, ground beyond the hull of the seeds would have no triangle to be judged by.
+    """
+    south, west = cells.first_row * cells.size, cells.first_column * cells.size
+    height, width = cells.rows * cells.size, cells.columns * cells.size
+    x = west + width * np.linspace(0.0, 1.0, max(int(width / _RING_SPACING), 1) + 1)
+    y = south + height * np.linspace(0.0, 1.0, max(int(height / _RING_SPACING), 1) + 1)
+    ring_x = np.concatenate((x, x, np.full(len(y), west), np.full(len(y), west + width)))
+    ring_y = np.concatenate((np.full(len(x), south), np.full(len(x), south + height), y, y))
+    return Points(ring_x, ring_y, cells.at(surface, ring_x, ring_y))
+
+
+def _accepted(
     seeds: Points,
     candidates: Points,
     rules: DensificationRules,
@@ -90,7 +171,7 @@ def accepted(
     return joined
 
 
-def bounding(vertices: np.ndarray, waiting: np.ndarray, reach: int) -> np.ndarray:
+def _bounding(vertices: np.ndarray, waiting: np.ndarray, reach: int) -> np.ndarray:
     """Return the vertices that may bound a triangle in which a candidate lies.
 
     A triangulation of these alone has the same triangles there: those near candidates, and those

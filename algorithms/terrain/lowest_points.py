@@ -1,0 +1,96 @@
+"""The lowest points of a survey, on cells for vertices of a TIN and on cells for objects."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+
+from ..points import Points
+from ..progress import Progress
+from .cells import Cells, spacing
+from .objects import Regions, bounded_regions, raised_objects
+from .outliers import low_outliers
+
+_OUTLIER_SLOPE = 5.0
+# Heights in metres of the drops that bound an object, the tall ones first.
+_OBJECT_HEIGHTS = (5.0, 4.5, 2.0)
+
+
+class LowestPoints:
+    """The lowest points of a survey.
+
+    Parameters
+    ----------
+    points : Points
+        All of them.
+    size : float
+        Side in metres of the cells whose lowest points are wanted.
+
+    Attributes
+    ----------
+    spacing : float
+        Mean distance between points in metres.
+    cells : Cells
+        Those whose lowest points are wanted.
+    lowest : numpy.ndarray of intp
+        The lowest point of each occupied cell.
+    heights : numpy.ndarray of float64, shape (rows, columns)
+        Their heights, without low outliers; NaN where there is none.
+    """
+
+    def __init__(self, points: Points, size: float) -> None:
+        self._points = points
+        self.spacing = spacing(points)
+        self.cells = Cells.over(points, size)
+        self.lowest = self.cells.lowest_points(points)
+        heights = np.full(self.cells.rows * self.cells.columns, np.nan)
+        heights[self.cells.index[self.lowest]] = points.z[self.lowest]
+        self.heights = self._without_outliers(heights.reshape(self.cells.shape), size)
+
+    @staticmethod
+    def _without_outliers(heights: np.ndarray, size: float) -> np.ndarray:
+        heights[low_outliers(heights, size, _OUTLIER_SLOPE)] = np.nan
+        return heights
+
+    @cached_property
+    def _wide(self) -> tuple[Cells, np.ndarray]:
+        """Cells wide enough to be without gaps, which would break the rims of objects."""
+        if self.spacing <= self.cells.size:
+            return self.cells, self.heights
+        cells = Cells.over(self._points, self.spacing)
+        return cells, self._without_outliers(cells.minimum(self._points.z), cells.size)
+
+    @cached_property
+    def tall(self) -> Regions:
+        """The regions between the drops of tall objects."""
+        cells, heights = self._wide
+        return bounded_regions(heights, cells.size, _OBJECT_HEIGHTS[0])
+
+    def objects(self, max_size: float, progress: Progress) -> np.ndarray:
+        """Return which of `cells` belong to tall objects bounded by drops all round."""
+        wide, heights = self._wide
+        found = raised_objects(
+            heights, wide.size, _OBJECT_HEIGHTS, max_size, progress, first=self.tall
+        )
+        return wide.resampled(found, self.cells)
+
+
+def lowest_heights(cells: Cells, points: Points) -> np.ndarray:
+    """Return the lowest height of points that lie over some cells in each; NaN where none is.
+
+    Parameters
+    ----------
+    cells : Cells
+        Of other points.
+    points : Points
+        Within the grid.
+
+    Returns
+    -------
+    numpy.ndarray of float64, shape (rows, columns)
+    """
+    lowest = np.full(cells.shape, np.inf)
+    np.minimum.at(lowest, cells.of(points), points.z)
+    lowest[np.isinf(lowest)] = np.nan
+    return lowest
