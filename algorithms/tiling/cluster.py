@@ -14,7 +14,7 @@ from ..errors import BareEarthError
 from ..pointcloud.backends import require
 from .jobs import Outcome, Share, attempt
 from .memory import Resources, free_memory
-from .workers import Job, JobProgress, Running, Workers
+from .workers import SCHEDULER_GONE, Job, JobProgress, Running, Workers
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -133,16 +133,26 @@ class Cluster(Workers):
         return facts
 
     def submit(self, job: Job) -> Running:
-        """Begin a job."""
-        # As a function without arguments: Dask would look into these for results of other jobs.
-        future = self._pool.submit(functools.partial(_on_cluster, job, self.share))
-        self.at_once = self._room()
+        """Begin a job.
+
+        Raises
+        ------
+        BareEarthError
+            If the scheduler is gone.
+        """
+        try:
+            # As a function without arguments: Dask would look into these for results of others.
+            future = self._pool.submit(functools.partial(_on_cluster, job, self.share))
+            self.at_once = self._room()
+        except OSError as error:
+            raise BareEarthError(SCHEDULER_GONE) from error
         return Running(future, JobProgress(threading.Event()))
 
     def stop(self) -> None:
         """Take back the jobs that have not begun, and leave the scheduler."""
-        if self._pool is not None:
-            self._pool.shutdown(wait=False)
+        with contextlib.suppress(OSError):  # the scheduler is gone
+            if self._pool is not None:
+                self._pool.shutdown(wait=False)
         if self._client is not None:
             self._client.close()
 

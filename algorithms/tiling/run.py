@@ -10,7 +10,7 @@ from pathlib import Path
 from ..errors import BareEarthError
 from ..progress import Progress
 from .jobs import LabelJob, Outcome, TileJob, TileSummary
-from .workers import Job, Running, Workers
+from .workers import SCHEDULER_GONE, Job, Running, Workers
 
 _POLL = 0.1
 # Labelling a point takes so many times as long as reading and writing it.
@@ -117,9 +117,7 @@ class Run:
             self._suspects.pop()
             outcome = Outcome(None, failure=_DIED)
         except CancelledError as error:
-            raise BareEarthError(
-                "The scheduler is gone. Start it again, and go on with --resume."
-            ) from error
+            raise BareEarthError(SCHEDULER_GONE) from error
         except Exception as error:
             # A cluster gave the job up.
             failure = f"It could not be done: {error or type(error).__name__}."

@@ -21,6 +21,8 @@ from .record import folders_of
 # Seconds that jobs get to stop by themselves when the user cancels.
 _PATIENCE = 0.7
 
+SCHEDULER_GONE = "The scheduler is gone. Start it again, and go on with --resume."
+
 Job = Union[LabelJob, TileJob]
 
 
