@@ -233,7 +233,8 @@ def classify(points: Points, parameters: GridMinimum, progress: Progress = SILEN
     tolerance = np.minimum(steepness(surface, cells.size), _STEEPEST)
     tolerance *= resolved.slope_tolerance * cells.size
     tolerance += resolved.ground_tolerance
-    return near_surface(points, cells, surface, tolerance, progress.part(0.8, 1.0))
+    lower, upper = surface - tolerance, surface + tolerance
+    return near_surface(points, cells, lower, upper, progress.part(0.8, 1.0))
 
 
 def _surface(

@@ -276,7 +276,8 @@ def _on_many_scales(points: Points, parameters: SlopeFilter, progress: Progress)
     surface = inpaint(lowest)
     rise = parameters.slope_tolerance * steepness(surface, cells.size)
     tolerance = parameters.height_threshold + rise
-    return near_surface(points, cells, surface, tolerance, progress.part(0.6, 1.0))
+    lower, upper = surface - tolerance, surface + tolerance
+    return near_surface(points, cells, lower, upper, progress.part(0.6, 1.0))
 
 
 def _objects(

@@ -151,22 +151,33 @@ class TinDensification(ParameterSet):
         " angle of mere noise is large.",
     )
     ground_tolerance: float = parameter(
-        0.4,
-        label="Ground tolerance",
+        0.18,
+        label="Ground tolerance above",
         unit="m",
         minimum=0.0,
         maximum=10.0,
         advanced=True,
-        help="Points within this height of the final TIN are ground, in level terrain.",
+        help="Points no higher above the final surface are ground, in level terrain. More takes in"
+        " grass and low bushes.",
+    )
+    ground_tolerance_below: float = parameter(
+        0.6,
+        label="Ground tolerance below",
+        unit="m",
+        minimum=0.0,
+        maximum=10.0,
+        advanced=True,
+        help="Points no deeper below the final surface are ground, in level terrain: it lies"
+        " through the lowest points, and is smooth where they are not.",
     )
     slope_tolerance: float = parameter(
-        1.2,
+        1.4,
         label="Ground tolerance on slopes",
         unit="m",
         minimum=0.0,
         maximum=10.0,
         advanced=True,
-        help="What a slope of 45 degrees adds to the ground tolerance, less in proportion on"
+        help="What a slope of 45 degrees adds to both ground tolerances, less in proportion on"
         " gentler slopes.",
     )
     only_key_points: bool = parameter(
@@ -272,9 +283,10 @@ def classify(
         first, waiting, cells, survey.spacing, _rules(resolved), progress.part(0.7, 0.8)
     )
     surface = inpaint(lowest_heights(cells, vertices))
-    found = near_surface(
-        points, cells, surface, _tolerance(surface, resolved), progress.part(0.8, 0.95)
-    )
+    rise = _tolerated_rise(surface, resolved)
+    lower = surface - resolved.ground_tolerance_below - rise
+    upper = surface + resolved.ground_tolerance + rise
+    found = near_surface(points, cells, lower, upper, progress.part(0.8, 0.95))
     return _key_points(points, found, resolved, progress.part(0.95, 1.0))
 
 
@@ -307,12 +319,12 @@ def _key_points(
     return key
 
 
-def _tolerance(surface: np.ndarray, parameters: TinDensification) -> np.ndarray:
-    """Return how far from the surface ground may lie, at each cell.
+def _tolerated_rise(surface: np.ndarray, parameters: TinDensification) -> np.ndarray:
+    """Return what the slope adds to the tolerances at each cell.
 
-    The slope is that of the smoothed surface: between single lowest points it is too uneven.
+    It is that of the smoothed surface: between single lowest points it is too uneven.
     """
     from scipy import ndimage
 
     smooth = ndimage.gaussian_filter(surface, _FACET_SMOOTHING / _CELL, mode="nearest")
-    return parameters.ground_tolerance + parameters.slope_tolerance * steepness(smooth, _CELL)
+    return parameters.slope_tolerance * steepness(smooth, _CELL)

@@ -15,11 +15,11 @@ _POINTS_A_PART = 1 << 17
 def near_surface(
     points: Points,
     cells: Cells,
-    surface: np.ndarray,
-    tolerance: np.ndarray,
+    lower: np.ndarray,
+    upper: np.ndarray,
     progress: Progress = SILENT,
 ) -> np.ndarray:
-    """Return which points lie no farther above or below a surface than a tolerance.
+    """Return which points lie between two surfaces, those of the ground less and more a tolerance.
 
     Both are interpolated bilinearly between the centres of the cells. Most points are decided by
     the least and the greatest of both round their cell; only the others need that.
@@ -30,8 +30,8 @@ def near_surface(
         The points over which `cells` were made.
     cells : Cells
         The grid.
-    surface, tolerance : numpy.ndarray of float64, shape (rows, columns)
-        Heights, and distances from them, in metres.
+    lower, upper : numpy.ndarray of float64, shape (rows, columns)
+        Heights in metres.
     progress : Progress
         Receives progress.
 
@@ -39,22 +39,22 @@ def near_surface(
     -------
     numpy.ndarray of bool, shape (n,)
     """
-    bounds = _bounds(surface - tolerance, surface + tolerance)
+    bounds = _bounds(lower, upper)
     width = cells.columns + 2
     flat = np.empty(((cells.rows + 2) * width, 2))
-    for column, grid in enumerate((surface, tolerance)):
+    for column, grid in enumerate((lower, upper)):
         flat[:, column] = np.pad(grid, 1, mode="edge").ravel()
     near = np.empty(points.count, dtype=bool)
 
     def decide(part: slice) -> None:
         z = points.z[part]
-        lower, sure_lower, sure_upper, upper = bounds[cells.index[part]].T
-        sure = (z >= sure_lower) & (z <= sure_upper)
-        open_ = np.flatnonzero(~sure & (z >= lower) & (z <= upper))
+        least, sure_least, sure_most, most = bounds[cells.index[part]].T
+        sure = (z >= sure_least) & (z <= sure_most)
+        open_ = np.flatnonzero(~sure & (z >= least) & (z <= most))
         north = points.y[part][open_] / cells.size - (cells.first_row - 0.5)
         east = points.x[part][open_] / cells.size - (cells.first_column - 0.5)
-        height, allowed = _bilinear(flat, width, north, east)
-        sure[open_] = np.abs(z[open_] - height) <= allowed
+        least, most = _bilinear(flat, width, north, east)
+        sure[open_] = (z[open_] >= least) & (z[open_] <= most)
         near[part] = sure
 
     over_parts(decide, points.count, _POINTS_A_PART, progress)
