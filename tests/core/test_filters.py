@@ -4,11 +4,13 @@ import numpy as np
 import pytest
 from scenes import village
 
+from bare_earth.algorithms.assessment import compare
 from bare_earth.algorithms.errors import Cancelled
 from bare_earth.algorithms.filters import METHODS, method_of
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.points import Points
 from bare_earth.algorithms.progress import Progress
+from benchmarks import data
 
 PARAMETERS = [
     *(method.parameters() for method in METHODS.values()),
@@ -34,3 +36,19 @@ def test_a_cancel_ends_the_classification(parameters):
 
     with pytest.raises(Cancelled):
         method_of(parameters).classify(village()[0], parameters, Stop())
+
+
+@pytest.mark.skipif(not data.isprs(), reason="the ISPRS samples are not here")
+@pytest.mark.parametrize(
+    ("method", "most_error", "least_kappa"),
+    [("tin-densification", 2.9, 90.0), ("grid-minimum", 4.0, 86.5), ("slope", 3.9, 86.5)],
+)
+def test_the_isprs_samples_come_out_as_measured(method, most_error, least_kappa):
+    found = []
+    for path in data.isprs():
+        cloud, reference = data.load(path)
+        points = cloud.points(np.arange(cloud.count))
+        ground = METHODS[method].classify(points, METHODS[method].parameters())
+        found.append(compare(ground, reference))
+    assert np.mean([each.total_error for each in found]) <= most_error
+    assert np.mean([each.kappa for each in found]) >= least_kappa

@@ -4,12 +4,10 @@ import numpy as np
 import pytest
 from scenes import error, scatter, surveyed, village
 
-from bare_earth.algorithms.assessment import compare
 from bare_earth.algorithms.errors import BareEarthError
 from bare_earth.algorithms.filters.grid_minimum import PRESETS, GridMinimum, classify
 from bare_earth.algorithms.points import Points
 from bare_earth.algorithms.progress import Progress
-from benchmarks import data
 
 
 class Log(Progress):
@@ -204,14 +202,3 @@ def test_stray_coordinates_are_refused_with_a_sentence():
     many = Points(*(np.concatenate((each, np.zeros(50000))) for each in points))
     with pytest.raises(BareEarthError, match="stray coordinates"):
         classify(many, GridMinimum(cell_size=0.01))
-
-
-@pytest.mark.skipif(not data.isprs(), reason="the ISPRS samples are not here")
-def test_the_isprs_samples_come_out_as_measured():
-    figures = []
-    for path in data.isprs():
-        cloud, reference = data.load(path)
-        points = cloud.points(np.arange(cloud.count))
-        figures.append(compare(classify(points, GridMinimum()), reference))
-    assert np.mean([each.total_error for each in figures]) <= 4.6
-    assert np.mean([each.kappa for each in figures]) >= 85.0

@@ -6,14 +6,12 @@ import numpy as np
 import pytest
 from scenes import error, scatter, surveyed, village
 
-from bare_earth.algorithms.assessment import compare
 from bare_earth.algorithms.errors import BareEarthError
 from bare_earth.algorithms.filters.slope import SlopeFilter, classify
 from bare_earth.algorithms.points import Points
 from bare_earth.algorithms.progress import Progress
 from bare_earth.algorithms.terrain.low_clusters import low_clusters
 from bare_earth.algorithms.terrain.neighbourhood import Neighbourhood
-from benchmarks import data
 
 CLASSIC = SlopeFilter(preset="whitebox")
 
@@ -214,17 +212,6 @@ def test_one_stray_point_does_not_stop_the_classic_filter():
     points = Points(*(np.append(each, value) for each, value in zip(points, (5e3, 5e3, 0.0))))
     parameters = CLASSIC.resolve(points)
     assert np.array_equal(classify(points, parameters), by_brute_force(points, parameters))
-
-
-@pytest.mark.skipif(not data.isprs(), reason="the ISPRS samples are not here")
-def test_the_isprs_samples_come_out_as_measured():
-    figures = []
-    for path in data.isprs():
-        cloud, reference = data.load(path)
-        points = cloud.points(np.arange(cloud.count))
-        figures.append(compare(classify(points, SlopeFilter()), reference))
-    assert np.mean([each.total_error for each in figures]) <= 4.5
-    assert np.mean([each.kappa for each in figures]) >= 85.0
 
 
 def test_presets_by_terrain_give_what_is_left_empty_and_city_sees_a_large_hall():
