@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import os
+import signal
+
 import laspy
 import numpy as np
+
+from bare_earth.algorithms.tiling.jobs import TileJob
 
 SCALE = (0.01, 0.01, 0.01)
 ORIGIN = (500_000.0, 5_700_000.0, 0.0)
@@ -68,3 +73,12 @@ def finished(folder):
 def bytes_of(folder):
     """Return what the classified files of a folder hold."""
     return {path.name: path.read_bytes() for path in finished(folder)}
+
+
+class DeadlyJob(TileJob):
+    """Kills the process that works on it, if it is that of one tile."""
+
+    def run(self, share, progress):
+        if self.tile.path.name == "3.laz":
+            os.kill(os.getpid(), signal.SIGKILL)
+        return super().run(share, progress)

@@ -10,7 +10,7 @@ from pathlib import Path
 import laspy
 import numpy as np
 import pytest
-from surveys import bytes_of, cut, finished, points_of, strip, write
+from surveys import DeadlyJob, bytes_of, cut, finished, points_of, strip, write
 
 from bare_earth.algorithms import tiles as tiles_module
 from bare_earth.algorithms.classification import classify_file
@@ -402,6 +402,15 @@ def test_a_process_that_dies_loses_nothing(many, out):
     assert killed and not summary.failures and summary.done_count == 16
     assert bytes_of(out) == expected
     assert not [path for path in out.rglob("*") if ".part." in path.name]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="it kills by signals")
+def test_a_tile_that_kills_its_process_fails_alone(six, out, monkeypatch):
+    monkeypatch.setattr(tiles_module, "TileJob", DeadlyJob)
+    summary = classify_tiles([six], out, FAST, workers=Processes(Resources(threads=2)))
+    assert list(summary.failures) == [str(six / "3.laz")]
+    assert "ended unexpectedly" in summary.failures[str(six / "3.laz")]
+    assert summary.done_count == 5 and len(finished(out)) == 5
 
 
 def test_a_job_that_fails_fails_its_tile_only(six, out, monkeypatch):
