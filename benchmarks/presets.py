@@ -74,7 +74,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Print the table of each method."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.presets", description=__doc__)
     parser.add_argument("--method", nargs="+", choices=list(METHODS), default=list(METHODS))
-    parser.add_argument("--data", nargs="+", default=(), help="on these instead")
+    parser.add_argument("--data", nargs="+", default=(), help="every preset on these instead")
     options = parser.parse_args(arguments)
     for method in options.method:
         presets = next(
@@ -85,8 +85,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
         print(f"\n{method}\n")
         print("| Preset | Measured on | Total error | Kappa | Automatic: total error | Kappa |")
         print("|---|---|---|---|---|---|")
-        found = rows(method, [each for each in presets if each in MEANT_FOR], options.data)
-        for row in sorted(found, key=lambda row: list(MEANT_FOR).index(row.preset)):
+        wanted = [each for each in presets if each in MEANT_FOR or options.data]
+        found = rows(method, [each for each in wanted if each != AUTOMATIC], options.data)
+        for row in sorted(found, key=lambda row: wanted.index(row.preset)):
             print(row.text(), flush=True)
 
 
