@@ -8,6 +8,7 @@ from pathlib import Path
 import laspy
 import numpy as np
 import pytest
+from realdata import real
 
 from bare_earth.algorithms import classification
 from bare_earth.algorithms.classification import classify_file
@@ -105,11 +106,9 @@ def test_the_same_bytes_in_memory_and_on_disk(small, las, tmp_path, parameters, 
     assert heard[1].fractions[-1] == 1.0 and heard[1].fractions == sorted(heard[1].fractions)
 
 
-@pytest.mark.parametrize("name", ["isprs/samp52.laz", "real/ahn3_urban.laz"])
+@pytest.mark.parametrize("name", ["isprs/samp52.laz", "real/ign_pf8.las"])
 def test_real_points_give_the_same_bytes_in_memory_and_on_disk(name, tmp_path):
-    source = Path("/work/shared/data") / name
-    if not source.is_file():
-        pytest.skip("the real data are not here")
+    source = real(name)
     results = [
         run(source, tmp_path / str(each.memory), GridMinimum(), each, rasters=("dtm",))
         for each in (MUCH, LITTLE)

@@ -10,6 +10,7 @@ from pathlib import Path
 import laspy
 import numpy as np
 import pytest
+from realdata import real
 from surveys import DeadlyJob, bytes_of, cut, finished, points_of, strip, write
 
 from bare_earth.algorithms import tiles as tiles_module
@@ -37,7 +38,6 @@ from bare_earth.algorithms.tiling.options import TileInput, TileMethod, TileOutp
 from bare_earth.algorithms.tiling.survey import Place, Survey, frame_of, grouped
 from bare_earth.algorithms.tiling.workers import Processes, Threads
 
-REAL = Path("/work/shared/data")
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
 BLOCKS = Blocks(80.0, 30.0, most_points=2500)
 FAST = SlopeFilter(preset="whitebox")
@@ -106,11 +106,9 @@ def test_tiles_get_the_labels_of_one_file_with_all_points(parameters, tmp_path, 
         assert summary.point_count == len(integers)
 
 
-@pytest.mark.parametrize("name", ["isprs/samp52.laz", "real/ahn3_urban.laz"])
+@pytest.mark.parametrize("name", ["isprs/samp52.laz", "real/ign_pf8.las"])
 def test_real_tiles_get_the_labels_of_the_file_they_were_cut_from(name, tmp_path, out):
-    if not (REAL / name).is_file():
-        pytest.skip("the real data are not here")
-    las = laspy.read(REAL / name)
+    las = laspy.read(real(name))
     x, y = np.asarray(las.x), np.asarray(las.y)
     near = (x < x.min() + 130) & (y < y.min() + 130)
     integers = np.column_stack([np.round(each * 100) for each in (x, y, np.asarray(las.z))])
