@@ -29,6 +29,7 @@ from ..terrain.morphology import erosion
 from ..terrain.near_surface import near_surface
 from ..terrain.neighbourhood import Neighbourhood
 from ..terrain.outliers import low_outliers
+from ..terrain.standing_above import stands_above
 
 # Metres between points up to which the automatic radius and cells are the least.
 _DENSE = 2.5
@@ -243,15 +244,14 @@ def _in_words(parameters: SlopeFilter) -> str:
 def _on_one_scale(points: Points, parameters: SlopeFilter, progress: Progress) -> np.ndarray:
     """Return the ground mask of the classic filter: every point against all its neighbours."""
     neighbourhood = Neighbourhood(points, parameters.search_radius, parameters.min_neighbours)
-    heights = points.z
-    if parameters.slope_norm:
-        eroded = neighbourhood.minimum(points.z, progress.part(0.0, 0.4))
-        opened = neighbourhood.maximum(eroded, progress.part(0.4, 0.8))
-        # Where a neighbourhood grew it may not contain the point itself from the other's view.
-        heights = points.z - np.minimum(opened, points.z)
     slope = math.tan(math.radians(parameters.slope_threshold))
-    above = neighbourhood.stands_above(
-        heights, parameters.height_threshold, slope, progress.part(0.8, 1.0)
+    above = stands_above(
+        neighbourhood,
+        points.z,
+        parameters.height_threshold,
+        slope,
+        parameters.slope_norm,
+        progress,
     )
     progress(1.0)
     return ~above

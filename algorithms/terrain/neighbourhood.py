@@ -14,6 +14,7 @@ import numpy as np
 
 from ..points import Points
 from ..progress import SILENT, Progress
+from ..threads import over_parts
 from .cells import Cells
 from .morphology import erosion
 
@@ -22,12 +23,12 @@ _POINTS_A_CELL = 2.0
 _MOST_CELLS_A_RADIUS = 16
 _MOST_CELLS_A_POINT = 4
 # Work on this many points at a time: their arrays fit into the processor's cache.
-_POINTS_A_STEP = 200_000
+_POINTS_A_STEP = 50_000
 _PAIRS_A_STEP = 2_000_000
 _GROWN_A_STEP = 20_000
 # Bounds of cells are widened by this much, so that rounding never skips a point; points themselves
 # are compared without it.
-_ROUNDING = 1e-6
+ROUNDING = 1e-6
 
 
 class Neighbourhood:
@@ -47,41 +48,93 @@ class Neighbourhood:
     def __init__(self, points: Points, radius: float, at_least: int = 0) -> None:
         self._x, self._y, self._radius = points.x, points.y, radius
         cells = Cells.over(points, _cell_size(points, radius))
-        self._reach = math.ceil(radius / cells.size + _ROUNDING)
+        self._reach = math.ceil(radius / cells.size + ROUNDING)
         # A margin as wide as the reach: no offset from a cell leaves the grid.
-        self._shape = cells.rows + 2 * self._reach, cells.columns + 2 * self._reach
-        row, self._cell = np.divmod(cells.index, cells.columns)
-        self._cell += (row + self._reach) * self._shape[1] + self._reach
-        counts = np.bincount(self._cell, minlength=self._shape[0] * self._shape[1])
-        self._occupied = np.flatnonzero(counts)
-        self._start = np.concatenate(((0), np.cumsum(counts)), axis=None)
+        self.shape = cells.rows + 2 * self._reach, cells.columns + 2 * self._reach
+        row, self.cell = np.divmod(cells.index, cells.columns)
+        self.cell += (row + self._reach) * self.shape[1] + self._reach
+        self.cell_size = cells.size
         self._set_offsets(radius / cells.size, cells.size)
-        self._grown, self._grown_radius = self._find_grown(counts, at_least)
+        self._grown, self._grown_radius = self._find_grown(at_least)
 
-    def minimum(self, values: np.ndarray, progress: Progress = SILENT) -> np.ndarray:
-        """Return the lowest of `values` (n,) among each point and its neighbours, shape (n,)."""
-        table = _Table(self, values)
-        inner = np.full(len(table.lowest), np.inf)
-        if self._inner >= 0.0:
-            inner = erosion(table.lowest.reshape(self._shape), self._inner).ravel()
-        best = np.minimum(table.values, inner[self._cell[table.order]])
-        for cells in self._bands(progress):
-            for offset in self._rim:
-                lower = cells[table.lowest[cells + offset] < inner[cells]]
-                if len(lower):
-                    self._lower(table, lower, lower + offset, best)
+    @property
+    def same_radius(self) -> bool:
+        """Whether the radius is the same for all points: none had too few neighbours."""
+        return not len(self._grown)
+
+    def lowest(self, values: np.ndarray) -> np.ndarray:
+        """Return the lowest of `values` (n,) in each cell, shape `shape`; inf where none is."""
+        lowest = np.full(self.shape[0] * self.shape[1], np.inf)
+        np.minimum.at(lowest, self.cell, values)
+        return lowest.reshape(self.shape)
+
+    def minimum(
+        self,
+        values: np.ndarray,
+        progress: Progress = SILENT,
+        at: np.ndarray | None = None,
+        among: np.ndarray | None = None,
+        start: np.ndarray | None = None,
+    ) -> np.ndarray:
+        """Return the lowest value among points and their neighbours.
+
+        Parameters
+        ----------
+        values : numpy.ndarray of float, shape (n,)
+            One for each point.
+        progress : Progress
+            Receives progress.
+        at : numpy.ndarray of int, shape (k,), optional
+            For which points; for all if it is not given. Their radius must be the same.
+        among : numpy.ndarray of int, optional
+            Which neighbours count, if not all.
+        start : numpy.ndarray of float, shape (k,), optional
+            What the result does not exceed: the values of the points if it is not given.
+
+        Returns
+        -------
+        numpy.ndarray of float, shape (k,)
+        """
+        table = _Table(self, values, among)
+        if at is None:
+            at = np.arange(len(values))
+        order = np.argsort(self.cell[at], kind="stable")
+        at, best = at[order], (values[at] if start is None else start)[order]
+        if self.inner >= 0.0:
+            lowest = erosion(table.lowest.reshape(self.shape), self.inner).ravel()
+            best = np.minimum(best, lowest[self.cell[at]])
+
+        def fill(part: slice) -> None:
+            self._lower(table, at[part], best[part])
+
+        over_parts(fill, len(at), _POINTS_A_STEP, progress)
         result = np.empty_like(best)
-        result[table.order] = best
+        result[order] = best
         for point, neighbour in self._grown_pairs():
             np.minimum.at(result, point, values[neighbour])
         return result
 
-    def maximum(self, values: np.ndarray, progress: Progress = SILENT) -> np.ndarray:
-        """Return the highest of `values` (n,) among each point and its neighbours, shape (n,)."""
-        return -self.minimum(-values, progress)
+    def maximum(
+        self,
+        values: np.ndarray,
+        progress: Progress = SILENT,
+        at: np.ndarray | None = None,
+        among: np.ndarray | None = None,
+        start: np.ndarray | None = None,
+    ) -> np.ndarray:
+        """Return the highest value among points and their neighbours; see `minimum`."""
+        start = None if start is None else -start
+        return -self.minimum(-values, progress, at, among, start)
 
     def stands_above(
-        self, values: np.ndarray, height: float, slope: float, progress: Progress = SILENT
+        self,
+        values: np.ndarray,
+        height: float,
+        slope: float,
+        progress: Progress = SILENT,
+        at: np.ndarray | None = None,
+        own: np.ndarray | None = None,
+        below: np.ndarray | None = None,
     ) -> np.ndarray:
         """Return which points stand far above one of their neighbours.
 
@@ -93,110 +146,137 @@ class Neighbourhood:
             The difference of height that counts: this or more.
         slope : float
             The rise over run that counts: more than this. Both must be met by one neighbour.
+        progress : Progress
+            Receives progress.
+        at : numpy.ndarray of int, shape (k,), optional
+            Which points are asked for; all if it is not given. Their radius must be the same.
+        own : numpy.ndarray of float, shape (k,), optional
+            Their heights, if they are not those in `values`.
+        below : numpy.ndarray of bool, shape (n,), optional
+            Receives True for each neighbour that one of them stands above.
 
         Returns
         -------
-        numpy.ndarray of bool, shape (n,)
+        numpy.ndarray of bool, shape (k,)
         """
-        table = _Table(self, values)
-        reach = self._reach + math.sqrt(2.0)
-        around = erosion(table.lowest.reshape(self._shape), reach).ravel()
-        least = height - _ROUNDING
-        found = np.zeros(len(values), dtype=bool)
-        active = np.flatnonzero(table.values - around[self._cell[table.order]] >= least)
-        for first in range(0, len(active), _POINTS_A_STEP):
-            point = active[first : first + _POINTS_A_STEP]
-            cell = self._cell[table.order[point]]
-            for offset, nearest in zip(self._offsets, self._nearest):
-                allowed = max(height, slope * nearest) - _ROUNDING
-                high = table.values[point] - table.lowest[cell + offset] >= allowed
-                if high.any():
-                    limits = height, slope, allowed
-                    self._above(table, point[high], cell[high] + offset, limits, found)
-                    left = ~found[point]
-                    point, cell = point[left], cell[left]
-            progress(first / len(active))
-        result = np.empty_like(found)
-        result[table.order] = found
+        everywhere = at is None
+        if everywhere:
+            at = np.arange(len(values))
+        own = values[at] if own is None else own
+        table = _Table(self, values, None if everywhere else self.near(at))
+        around = erosion(table.lowest.reshape(self.shape), self.outer).ravel()
+        active = np.flatnonzero(own - around[self.cell[at]] >= height - ROUNDING)
+        active = active[np.argsort(self.cell[at[active]], kind="stable")]
+        found = np.zeros(len(at), dtype=bool)
+
+        def fill(part: slice) -> None:
+            which = active[part]
+            found[which] = self._above(table, at[which], own[which], height, slope, below)
+
+        over_parts(fill, len(active), _POINTS_A_STEP, progress)
         for point, neighbour in self._grown_pairs():
             rise = values[point] - values[neighbour]
             far = rise > slope * self._distance(point, neighbour)
-            result[point[far & (rise >= height)]] = True
-        return result
+            found[point[far & (rise >= height)]] = True
+        return found
+
+    def near(self, at: np.ndarray) -> np.ndarray:
+        """Return which points may be neighbours of some (k,), as indices in ascending order."""
+        far = np.ones(self.shape, dtype=np.int8)
+        far.ravel()[self.cell[at]] = 0
+        return np.flatnonzero(erosion(far, self.outer).ravel()[self.cell] == 0)
 
     def _set_offsets(self, radius: float, size: float) -> None:
         """Find which cells a disc round any place in a cell can touch; `radius` is in cells."""
         row, column = np.mgrid[-self._reach : self._reach + 1, -self._reach : self._reach + 1]
         row, column = row.ravel(), column.ravel()
         nearest = np.hypot(*(np.maximum(np.abs(each) - 1, 0) for each in (row, column)))
-        touched = np.flatnonzero(nearest <= radius + _ROUNDING)
+        touched = np.flatnonzero(nearest <= radius + ROUNDING)
         touched = touched[np.lexsort((np.hypot(row, column)[touched], nearest[touched]))]
-        offset = row * self._shape[1] + column
-        # Two cells whose centres are closer than this are within the radius from end to end.
-        self._inner = math.floor((radius - math.sqrt(2.0)) / _ROUNDING - 1.0) * _ROUNDING
-        rim = touched[np.hypot(row, column)[touched] >= self._inner - _ROUNDING]
+        offset = row * self.shape[1] + column
+        # Two cells whose centres are closer than this are within the radius from end to end, and
+        # two whose centres are farther apart than that nowhere.
+        self.inner = math.floor((radius - math.sqrt(2.0)) / ROUNDING - 1.0) * ROUNDING
+        self.outer = self._reach + math.sqrt(2.0)
+        rim = touched[np.hypot(row, column)[touched] >= self.inner - ROUNDING]
         self._offsets, self._nearest = offset[touched], nearest[touched] * size
         self._rim = offset[rim]
 
-    def _bands(self, progress: Progress) -> Iterator[np.ndarray]:
-        """Yield the occupied cells in parts that hold about as many points as a step."""
-        done = self._start[self._occupied]
-        for first in range(0, len(self._x), _POINTS_A_STEP):
-            progress(first / len(self._x))
-            edges = np.searchsorted(done, (first, first + _POINTS_A_STEP))
-            yield self._occupied[edges[0] : edges[1]]
+    def _lower(self, table: _Table, point: np.ndarray, best: np.ndarray) -> None:
+        """Lower `best` of some points by what lies within the radius in the cells on the rim.
 
-    def _lower(
-        self, table: _Table, cells: np.ndarray, others: np.ndarray, best: np.ndarray
-    ) -> None:
-        """Lower `best` of the points in each of `cells` by what lies in the cell in `others`."""
-        count = self._start[cells + 1] - self._start[cells]
-        point = _ranges(self._start[cells], count)
-        other = np.repeat(others, count)
-        closer = table.lowest[other] < best[point]
-        point, other = point[closer], other[closer]
-        neighbour, end = self._start[other], self._start[other + 1]
-        # From the lowest point of the other cell upwards, until one lies within the radius.
-        while len(point):
-            inside = table.distance(point, neighbour) <= self._radius
-            best[point[inside]] = table.values[neighbour[inside]]
-            neighbour = neighbour + 1
-            left = np.flatnonzero(~inside & (neighbour < end))
-            left = left[table.values[neighbour[left]] < best[point[left]]]
-            point, neighbour, end = point[left], neighbour[left], end[left]
+        The points come in the order of their cells.
+        """
+        x, y, cell = self._x[point], self._y[point], self.cell[point]
+        first = np.flatnonzero(np.diff(cell, prepend=-1))
+        cells, count = cell[first], np.diff(first, append=len(cell))
+        highest = np.maximum.reduceat(best, first)
+        for offset in self._rim:
+            lower = np.flatnonzero(table.lowest[cells + offset] < highest)
+            which = _ranges(first[lower], count[lower])
+            other = np.repeat(cells[lower] + offset, count[lower])
+            closer = table.lowest[other] < best[which]
+            which, other = which[closer], other[closer]
+            neighbour, end = table.start[other], table.start[other + 1]
+            # From the lowest point of the other cell upwards, until one lies within the radius.
+            while len(which):
+                distance = _length(x[which] - table.x[neighbour], y[which] - table.y[neighbour])
+                inside = distance <= self._radius
+                best[which[inside]] = table.values[neighbour[inside]]
+                neighbour = neighbour + 1
+                left = np.flatnonzero(~inside & (neighbour < end))
+                left = left[table.values[neighbour[left]] < best[which[left]]]
+                which, neighbour, end = which[left], neighbour[left], end[left]
 
     def _above(
         self,
         table: _Table,
         point: np.ndarray,
-        other: np.ndarray,
-        limits: tuple[float, float, float],
-        found: np.ndarray,
-    ) -> None:
-        """Mark in `found` the points that stand above one in their cell of `other`."""
-        height, slope, allowed = limits
-        neighbour, end = self._start[other], self._start[other + 1]
-        while len(point):
-            rise = table.values[point] - table.values[neighbour]
-            distance = table.distance(point, neighbour)
-            above = (distance <= self._radius) & (rise >= height) & (rise > slope * distance)
-            found[point[above]] = True
-            neighbour = neighbour + 1
-            left = np.flatnonzero(~above & (neighbour < end) & (rise >= allowed))
-            point, neighbour, end = point[left], neighbour[left], end[left]
+        own: np.ndarray,
+        height: float,
+        slope: float,
+        below: np.ndarray | None,
+    ) -> np.ndarray:
+        """Return which of some points stand above a neighbour."""
+        x, y, cell = self._x[point], self._y[point], self.cell[point]
+        found = np.zeros(len(point), dtype=bool)
+        asked = np.arange(len(point))
+        for offset, nearest in zip(self._offsets, self._nearest):
+            allowed = max(height, slope * nearest) - ROUNDING
+            other = cell[asked] + offset
+            high = np.flatnonzero(own[asked] - table.lowest[other] >= allowed)
+            if not len(high):
+                continue
+            which, other = asked[high], other[high]
+            neighbour, end = table.start[other], table.start[other + 1]
+            while len(which):
+                rise = own[which] - table.values[neighbour]
+                distance = _length(x[which] - table.x[neighbour], y[which] - table.y[neighbour])
+                above = (distance <= self._radius) & (rise >= height) & (rise > slope * distance)
+                found[which[above]] = True
+                if below is None:
+                    go_on = ~above
+                else:
+                    below[table.point[neighbour[above]]] = go_on = True
+                neighbour = neighbour + 1
+                left = np.flatnonzero(go_on & (neighbour < end) & (rise >= allowed))
+                which, neighbour, end = which[left], neighbour[left], end[left]
+            if below is None:
+                asked = asked[~found[asked]]
+        return found
 
-    def _find_grown(self, counts: np.ndarray, at_least: int) -> tuple[np.ndarray, np.ndarray]:
+    def _find_grown(self, at_least: int) -> tuple[np.ndarray, np.ndarray]:
         """Return the points with too few neighbours, and the radius of each that has enough."""
-
-        from scipy.spatial import cKDTree
-
         at_least = min(at_least, len(self._x) - 1)
         nothing = np.empty(0, dtype=np.intp), np.empty(0)
         if at_least < 1:
             return nothing
-        doubtful = np.flatnonzero(counts[self._cell] <= at_least)
-        if self._inner < 0.0:
-            doubtful = np.arange(len(self._x))
+        # Here, as it takes longer to load than a million points to classify.
+        from scipy.spatial import cKDTree
+
+        doubtful = np.arange(len(self._x))
+        if self.inner >= 0.0:
+            doubtful = np.flatnonzero(np.bincount(self.cell)[self.cell] <= at_least)
         if not len(doubtful):
             return nothing
         self._tree = cKDTree(np.column_stack((self._x, self._y)))
@@ -220,7 +300,7 @@ class Neighbourhood:
             part = slice(first, first + _GROWN_A_STEP)
             point, radius = self._grown[part], self._grown_radius[part]
             neighbours = self._tree.query_ball_point(
-                np.column_stack((self._x[point], self._y[point])), radius * (1.0 + _ROUNDING)
+                np.column_stack((self._x[point], self._y[point])), radius * (1.0 + ROUNDING)
             )
             count = np.fromiter(map(len, neighbours), dtype=np.intp, count=len(point))
             neighbour = np.concatenate([np.asarray(each, dtype=np.intp) for each in neighbours])
@@ -235,16 +315,21 @@ class Neighbourhood:
 class _Table:
     """Points in the order of their cells and, within a cell, of their values."""
 
-    def __init__(self, neighbourhood: Neighbourhood, values: np.ndarray) -> None:
-        self.order = np.lexsort((values, neighbourhood._cell))
-        self.x, self.y = neighbourhood._x[self.order], neighbourhood._y[self.order]
-        self.values = values[self.order]
-        self.lowest = np.full(len(neighbourhood._start) - 1, np.inf)
-        occupied = neighbourhood._occupied
-        self.lowest[occupied] = self.values[neighbourhood._start[occupied]]
-
-    def distance(self, point: np.ndarray, other: np.ndarray) -> np.ndarray:
-        return _length(self.x[point] - self.x[other], self.y[point] - self.y[other])
+    def __init__(
+        self, neighbourhood: Neighbourhood, values: np.ndarray, among: np.ndarray | None
+    ) -> None:
+        cell, x, y = neighbourhood.cell, neighbourhood._x, neighbourhood._y
+        if among is not None:
+            cell, values, x, y = cell[among], values[among], x[among], y[among]
+        order = np.lexsort((values, cell))
+        self.x, self.y, self.values = x[order], y[order], values[order]
+        self.point = order if among is None else among[order]
+        cells = neighbourhood.shape[0] * neighbourhood.shape[1]
+        counts = np.bincount(cell, minlength=cells)
+        self.start = np.concatenate(((0), np.cumsum(counts)), axis=None)
+        occupied = np.flatnonzero(counts)
+        self.lowest = np.full(cells, np.inf)
+        self.lowest[occupied] = self.values[self.start[occupied]]
 
 
 def _length(x: np.ndarray, y: np.ndarray) -> np.ndarray:
