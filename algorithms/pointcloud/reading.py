@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     import laspy
 
 _CHUNK = 1_000_000
+# So many at a time keep several processors busy; more would let a cancel wait for over a second.
+_KEPT_CHUNK = 2_000_000
 _SMALL = {
     "classification": np.uint8,
     "return_number": np.uint8,
@@ -75,7 +77,7 @@ def _with_records(layout: LasLayout, progress: Progress) -> PointCloud:
     crs = read_crs(layout, progress)
     records = np.empty((layout.count, layout.record_length), dtype=np.uint8)
     start = 0
-    for part in read_records(layout, into=records):
+    for part in read_records(layout, _KEPT_CHUNK, records):
         start += len(part)
         progress(start / layout.count)
     with _opened(layout) as reader:
