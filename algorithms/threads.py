@@ -9,10 +9,9 @@ from __future__ import annotations
 import contextlib
 import os
 import threading
-from concurrent.futures import ThreadPoolExecutor
-from typing import Callable, Iterable, Iterator, TypeVar
+from typing import Callable, Iterable, Iterator, Sequence, TypeVar
 
-from .progress import Progress
+from .progress import SILENT, Progress
 
 _Item = TypeVar("_Item")
 _Result = TypeVar("_Result")
@@ -46,8 +45,8 @@ def may_use(count: int) -> Iterator[None]:
 def in_threads(function: Callable[[_Item], _Result], items: Iterable[_Item]) -> list[_Result]:
     """Return the results of a function for each item, in their order.
 
-    The calls run in as many threads as the calling thread may use, each in one itself; in the
-    calling thread where that is 1.
+    The calls run in as many threads as the calling thread may use, itself among them, each in one
+    itself.
 
     Parameters
     ----------
@@ -62,11 +61,7 @@ def in_threads(function: Callable[[_Item], _Result], items: Iterable[_Item]) -> 
         What the first call that failed raised; calls that have not begun are left out then.
     """
     items = list(items)
-    count = min(workers(), len(items))
-    if count <= 1:
-        return [function(item) for item in items]
-    with ThreadPoolExecutor(count, thread_name_prefix="strip") as pool:
-        return list(pool.map(function, items))
+    return _Shared(function, items).results(SILENT)
 
 
 def over_parts(
@@ -85,8 +80,69 @@ def over_parts(
     progress : Progress
         Receives progress, from the calling thread.
     """
-    at_once = 4 * workers() * part
-    for start in range(0, count, at_once):
-        end = min(start + at_once, count)
-        in_threads(function, (slice(at, min(at + part, end)) for at in range(start, end, part)))
-        progress(end / count)
+    _Shared(function, parts_of(count, part)).results(progress)
+
+
+def parts_of(count: int, part: int) -> list[slice]:
+    """Return the slices that cut a range of some length into parts."""
+    return [slice(start, min(start + part, count)) for start in range(0, count, part)]
+
+
+class _Shared:
+    """Calls that several threads take one after the other, the calling thread among them.
+
+    No pool: to make one anew for each step would take longer than many of the steps.
+    """
+
+    def __init__(self, function: Callable[[_Item], _Result], items: Sequence[_Item]) -> None:
+        self._function, self._items = function, items
+        self._next = iter(range(len(items)))
+        self._lock = threading.Lock()
+        self._results: list = [None] * len(items)
+        self._failures: dict[int, BaseException] = {}
+
+    def results(self, progress: Progress) -> list[_Result]:
+        """Make the calls; return what they returned, or raise what the first to fail raised."""
+        others = [
+            threading.Thread(target=self._help, name="strip", daemon=True)
+            for _ in range(min(workers(), len(self._items)) - 1)
+        ]
+        for each in others:
+            each.start()
+        try:
+            with may_use(1):
+                for number in self._numbers():
+                    self._call(number)
+                    progress((number + 1) / len(self._items))
+        finally:
+            self._end()
+            for each in others:
+                each.join()
+        if self._failures:
+            raise self._failures[min(self._failures)]
+        return self._results
+
+    def _help(self) -> None:
+        for number in self._numbers():
+            self._call(number)
+
+    def _call(self, number: int) -> None:
+        try:
+            self._results[number] = self._function(self._items[number])
+        except BaseException as error:
+            self._failures[number] = error
+            self._end()
+
+    def _numbers(self) -> Iterator[int]:
+        """Yield the numbers of calls that nobody has begun yet."""
+        while True:
+            with self._lock:
+                number = next(self._next, None)
+            if number is None:
+                return
+            yield number
+
+    def _end(self) -> None:
+        """Let no call begin any more."""
+        with self._lock:
+            self._next = iter(())

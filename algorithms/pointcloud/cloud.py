@@ -5,16 +5,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import NamedTuple, Sequence
 
 import numpy as np
 
 from ..errors import BareEarthError
 from ..points import Frame, Points
 from ..progress import SILENT
-from ..threads import over_parts
+from ..threads import in_threads, over_parts, parts_of
 from .crs import Crs
 
 _POINTS_A_PART = 1 << 17
+# Times as many points as are wanted that may be read with them.
+_LOOSE = 4
 # Share of the scale by which offsets may differ from a multiple of it: they are rounded numbers.
 _WHOLE = 0.01
 
@@ -67,12 +70,25 @@ class PointCloud:
     @cached_property
     def lowest(self) -> tuple[int, int]:
         """The smallest x and y, as integers."""
-        return int(self.x.min()), int(self.y.min())
+        return self._extremes[0]
 
     @cached_property
     def highest(self) -> tuple[int, int]:
         """The largest x and y, as integers."""
-        return int(self.x.max()), int(self.y.max())
+        return self._extremes[1]
+
+    @cached_property
+    def _extremes(self) -> tuple[tuple[int, int], tuple[int, int]]:
+        """The smallest x and y, and the largest."""
+
+        def extremes(part: slice) -> list[tuple[int, int]]:
+            # Among records they are far apart: together once, not twice.
+            x, y = (np.ascontiguousarray(each[part]) for each in (self.x, self.y))
+            return [(int(x.min()), int(y.min())), (int(x.max()), int(y.max()))]
+
+        found = np.array(in_threads(extremes, parts_of(self.count, _POINTS_A_PART)))
+        lowest, highest = found[:, 0].min(axis=0), found[:, 1].max(axis=0)
+        return tuple(lowest.tolist()), tuple(highest.tolist())
 
     @property
     def frame(self) -> Frame:
@@ -102,32 +118,36 @@ class PointCloud:
         self.require_projected()
         if isinstance(which, np.ndarray) and which.dtype == bool:
             which = np.flatnonzero(which)
-        origin = (*(self.frame if frame is None else frame).origin, 0.0)
-        units = (self.crs.horizontal_unit, self.crs.horizontal_unit, self.crs.vertical_unit)
-        return Points(
-            *(
-                _metres(values, which, scale, offset - start, unit)
-                for values, scale, offset, start, unit in zip(
-                    (self.x, self.y, self.z), self.scale, self.offset, origin, units
-                )
-            )
-        )
+        axes = self._axes(self.frame if frame is None else frame)
+        is_slice = isinstance(which, slice)
+        columns = [each[which] if is_slice else each for each in (self.x, self.y, self.z)]
+        count = len(columns[0]) if is_slice else len(which)
+        metres = Points(*(np.empty(count) for _ in axes))
+
+        def convert(part: slice) -> None:
+            picked = _picked(columns, part if is_slice else which[part])
+            for axis, integers, target in zip(axes, picked, metres):
+                axis.convert(integers, target[part])
+
+        over_parts(convert, count, _POINTS_A_PART, SILENT)
+        return metres
 
     def bounds(self, frame: Frame) -> tuple[float, float, float, float]:
         """Return smallest x and y, largest x and y in metres of a frame, as `points` has them."""
-        corners = np.array([self.lowest, self.highest])
-        west, east, south, north = (
-            float(metres)
-            for axis in (0, 1)
-            for metres in _metres(
-                corners[:, axis],
-                slice(None),
-                self.scale[axis],
-                self.offset[axis] - frame.origin[axis],
-                self.crs.horizontal_unit,
-            )
-        )
-        return west, south, east, north
+        corners = np.empty((2, 2))
+        for axis, lowest_and_highest, target in zip(
+            self._axes(frame), zip(self.lowest, self.highest), corners.T
+        ):
+            axis.convert(np.array(lowest_and_highest), target)
+        return tuple(corners.ravel().tolist())
+
+    def _axes(self, frame: Frame) -> list[_Axis]:
+        origin = (*frame.origin, 0.0)
+        units = (self.crs.horizontal_unit, self.crs.horizontal_unit, self.crs.vertical_unit)
+        return [
+            _Axis.of(scale, offset - start, unit)
+            for scale, offset, start, unit in zip(self.scale, self.offset, origin, units)
+        ]
 
     def require_projected(self) -> None:
         """Refuse coordinates in degrees, on which no distance can be measured.
@@ -146,27 +166,48 @@ class PointCloud:
             )
 
 
-def _metres(
-    integers: np.ndarray, which: np.ndarray | slice, scale: float, offset: float, unit: float
-) -> np.ndarray:
-    """Return coordinates in metres.
+class _Axis(NamedTuple):
+    """How integers become metres.
 
     The offset is added to the integers where it is a multiple of the scale: no digit is lost,
     wherever the survey lies.
+
+    Attributes
+    ----------
+    whole : float
+        Added to the integers.
+    scale : float
+        Metres in one of them.
+    rest : float
+        Metres added at last.
     """
-    whole = float(np.rint(offset / scale))
-    rest = offset - whole * scale
-    if isinstance(which, slice):
-        integers, which = integers[which], None
-    metres = np.empty(len(integers) if which is None else len(which))
 
-    def convert(part: slice) -> None:
-        some = metres[part]
-        some[:] = integers[part] if which is None else integers[which[part]]
-        some += whole
-        some *= scale * unit
-        if abs(rest) > _WHOLE * scale:
-            some += rest * unit
+    whole: float
+    scale: float
+    rest: float
 
-    over_parts(convert, len(metres), _POINTS_A_PART, SILENT)
-    return metres
+    @classmethod
+    def of(cls, scale: float, offset: float, unit: float) -> _Axis:
+        """Return the axis of a scale and an offset in units of so many metres."""
+        whole = float(np.rint(offset / scale))
+        rest = offset - whole * scale
+        return cls(whole, scale * unit, rest * unit if abs(rest) > _WHOLE * scale else 0.0)
+
+    def convert(self, integers: np.ndarray, metres: np.ndarray) -> None:
+        """Write the metres of integers into an array."""
+        metres[:] = integers
+        metres += self.whole
+        metres *= self.scale
+        if self.rest:
+            metres += self.rest
+
+
+def _picked(columns: Sequence[np.ndarray], which: np.ndarray | slice) -> list[np.ndarray]:
+    """Return the values of some columns at some places."""
+    if isinstance(which, np.ndarray):
+        first, last = int(which.min()), int(which.max())
+        # Mostly they stand close together, in order: what lies between is read in one go.
+        if last - first < _LOOSE * len(which):
+            near, places = slice(first, last + 1), (which - first).astype(np.intp)
+            return [np.ascontiguousarray(each[near]).take(places) for each in columns]
+    return [each[which] for each in columns]

@@ -9,7 +9,10 @@ from ..progress import SILENT, Progress
 from ..threads import over_parts
 from .cells import Cells
 
-_POINTS_A_PART = 1 << 17
+_POINTS_A_PART = 1 << 16
+# Metres by which single precision may be wrong, of heights up to 16 km: what it leaves in doubt is
+# looked at again.
+_IN_DOUBT = np.float32(0.005)
 
 
 def near_surface(
@@ -47,15 +50,17 @@ def near_surface(
     near = np.empty(points.count, dtype=bool)
 
     def decide(part: slice) -> None:
-        z = points.z[part]
-        least, sure_least, sure_most, most = bounds[cells.index[part]].T
+        z = points.z[part].astype(np.float32)
+        least, sure_least, sure_most, most = bounds.take(cells.index[part], axis=0).T
+        open_ = (z >= least) & (z <= most)
         sure = (z >= sure_least) & (z <= sure_most)
-        open_ = np.flatnonzero(~sure & (z >= least) & (z <= most))
-        north = points.y[part][open_] / cells.size - (cells.first_row - 0.5)
-        east = points.x[part][open_] / cells.size - (cells.first_column - 0.5)
-        least, most = _bilinear(flat, width, north, east)
-        sure[open_] = (z[open_] >= least) & (z[open_] <= most)
+        open_ = np.flatnonzero(open_ & ~sure) + part.start
         near[part] = sure
+        north = points.y.take(open_) / cells.size - (cells.first_row - 0.5)
+        east = points.x.take(open_) / cells.size - (cells.first_column - 0.5)
+        least, most = _bilinear(flat, width, north, east)
+        z = points.z.take(open_)
+        near[open_] = (z >= least) & (z <= most)
 
     over_parts(decide, points.count, _POINTS_A_PART, progress)
     return near
@@ -68,11 +73,13 @@ def _bilinear(
     row, column = north.astype(np.intp), east.astype(np.intp)
     corner = row * width + column
     north, east = (north - row)[:, None], (east - column)[:, None]
-    west = flat[corner]
-    south_side = west + (flat[corner + 1] - west) * east
-    west = flat[corner + width]
-    north_side = west + (flat[corner + width + 1] - west) * east
-    values = south_side + (north_side - south_side) * north
+
+    def between(west: np.ndarray) -> np.ndarray:
+        value = flat.take(west, axis=0)
+        return value + (flat.take(west + 1, axis=0) - value) * east
+
+    south_side = between(corner)
+    values = south_side + (between(corner + width) - south_side) * north
     return values[:, 0], values[:, 1]
 
 
@@ -86,17 +93,11 @@ def _bounds(lower: np.ndarray, upper: np.ndarray) -> np.ndarray:
         cells so, and the same two from above.
     """
     bounds = np.empty((lower.size, 4), dtype=np.float32)
-    for column, (which, grid, towards) in enumerate(
-        (
-            (np.minimum, lower, -np.inf),
-            (np.maximum, lower, np.inf),
-            (np.minimum, upper, -np.inf),
-            (np.maximum, upper, np.inf),
-        )
-    ):
-        # Rounded away from what it bounds, single precision decides nothing wrongly.
-        rounded = np.nextafter(grid.astype(np.float32), np.float32(towards))
-        bounds[:, column] = _extreme(which, rounded).ravel()
+    for first, grid in ((0, lower), (2, upper)):
+        grid = grid.astype(np.float32)
+        bounds[:, first] = _extreme(np.minimum, grid).ravel()
+        bounds[:, first + 1] = _extreme(np.maximum, grid).ravel()
+    bounds += _IN_DOUBT * np.array([-1, 1, -1, 1], dtype=np.float32)
     return bounds
 
 

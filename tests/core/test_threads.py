@@ -1,9 +1,18 @@
 import threading
 import time
 
+import numpy as np
 import pytest
 
-from bare_earth.algorithms.threads import available_cpus, in_threads, may_use, workers
+from bare_earth.algorithms.errors import Cancelled
+from bare_earth.algorithms.progress import SILENT, Progress
+from bare_earth.algorithms.threads import (
+    available_cpus,
+    in_threads,
+    may_use,
+    over_parts,
+    workers,
+)
 
 
 def test_a_computation_may_use_one_thread_unless_told_otherwise():
@@ -29,7 +38,7 @@ def test_results_come_in_the_order_of_the_items():
         results = in_threads(late, range(4))
     assert [item for item, _, _ in results] == [0, 1, 2, 3]
     assert {count for _, count, _ in results} == {1}
-    assert threading.get_ident() not in {ident for _, _, ident in results}
+    assert len({ident for _, _, ident in results}) == 4
 
 
 @pytest.mark.parametrize("count", [1, 3])
@@ -41,6 +50,36 @@ def test_the_first_failure_passes_on(count):
 
     with may_use(count), pytest.raises(ValueError, match="2"):
         in_threads(fail, range(8))
+
+
+@pytest.mark.parametrize("count", [1, 3])
+def test_parts_cover_a_range_once(count):
+    seen = np.zeros(1001, dtype=int)
+
+    def see(part):
+        seen[part] += 1
+
+    with may_use(count):
+        over_parts(see, len(seen), 10, SILENT)
+    assert (seen == 1).all()
+
+
+@pytest.mark.parametrize("count", [1, 3])
+def test_a_cancel_between_parts_ends_the_threads(count):
+    class Stopped(Progress):
+        def report(self, fraction):
+            raise Cancelled
+
+    begun = []
+
+    def late(part):
+        begun.append(part)
+        time.sleep(0.01)
+
+    with may_use(count), pytest.raises(Cancelled):
+        over_parts(late, 1000, 1, Stopped())
+    assert len(begun) <= 2 * count
+    assert not [each for each in threading.enumerate() if each.name == "strip"]
 
 
 def test_there_is_a_cpu():
