@@ -96,15 +96,15 @@ class Cells:
         Of points equally low in one cell that with the smallest x, then y, is taken: the choice
         must not depend on the order of the points.
         """
-        lowest = self.minimum(points.z).ravel()
-        which = np.flatnonzero(points.z == lowest[self.index])
-        found = np.full(lowest.size, -1, dtype=np.intp)
-        found[self.index[which]] = which
-        # Only where two are equally low their order could matter.
-        tied = np.unique(self.index[which[found[self.index[which]] != which]])
-        which = which[np.isin(self.index[which], tied)]
-        order = np.lexsort((-points.y[which], -points.x[which]))
-        found[self.index[which[order]]] = which[order]  # the last one stays
+        which = np.flatnonzero(points.z == self.minimum(points.z).ravel()[self.index])
+        cell = self.index[which]
+        for values in (points.x, points.y):
+            least = np.full(self.rows * self.columns, np.inf)
+            np.minimum.at(least, cell, values[which])
+            first = values[which] == least[cell]
+            which, cell = which[first], cell[first]
+        found = np.full(self.rows * self.columns, -1, dtype=np.intp)
+        found[cell] = which  # the last one of points that are all the same
         return found[found >= 0]
 
     @cached_property

@@ -37,6 +37,20 @@ def test_of_points_equally_low_the_choice_does_not_depend_on_their_order():
         assert each.x[chosen] == 0.2
 
 
+def test_of_points_equally_low_those_with_the_smallest_x_then_y_are_chosen():
+    random = np.random.default_rng(3)
+    x, y = random.integers(0, 30, (2, 4000)) / 10.0  # several at one place
+    points = Points(x, y, random.integers(0, 3, 4000) / 10.0)
+    cells = Cells.over(points, 1.0)
+    first = {}
+    for place in np.lexsort((points.y, points.x, points.z)):
+        first.setdefault(cells.index[place], place)
+    chosen, expected = (
+        points.take(each) for each in (cells.lowest_points(points), list(first.values()))
+    )
+    assert sorted(zip(*chosen)) == sorted(zip(*expected))
+
+
 def test_a_grid_is_interpolated_exactly_where_it_is_a_plane():
     points = _points()
     cells = Cells.over(points, 1.0)
