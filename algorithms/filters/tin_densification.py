@@ -268,21 +268,20 @@ def classify(
     objects = survey.objects(resolved.max_building_size, progress.part(0.1, 0.25))
     radius = resolved.max_building_size / 2.0
     ground = ground_cells(heights, _CELL, objects, radius, progress=progress.part(0.25, 0.7))
-    lowest, seeds = points.take(survey.lowest), ground.ravel()[cells.index[survey.lowest]]
-    first = lowest.take(seeds)
+    lowest, cell = survey.lowest, cells.index[survey.lowest]
+    seeds = ground.ravel()[cell]
+    first, waiting = lowest[seeds], lowest[~seeds & np.isfinite(heights).ravel()[cell]]
     if known_ground is not None and known_ground.any():
-        known = points.take(known_ground)
-        first = first.and_also(known.take(Cells.over(known, _CELL).lowest_points(known)))
-    if not first.count:
+        first = np.concatenate((first, _lowest_of(points, np.flatnonzero(known_ground))))
+    if not len(first):
         raise BareEarthError(
             "No point can be taken for ground with certainty. Check the maximum building size and"
             " the selection of points."
         )
-    waiting = lowest.take(~seeds & np.isfinite(heights).ravel()[cells.index[survey.lowest]])
     vertices = densified(
-        first, waiting, cells, survey.spacing, _rules(resolved), progress.part(0.7, 0.8)
+        points, first, waiting, cells, survey.spacing, _rules(resolved), progress.part(0.7, 0.8)
     )
-    surface = inpaint(lowest_heights(cells, vertices))
+    surface = inpaint(lowest_heights(cells, points, vertices))
     rise = _tolerated_rise(surface, resolved)
     lower = surface - resolved.ground_tolerance_below - rise
     upper = surface + resolved.ground_tolerance + rise
@@ -296,6 +295,12 @@ def _in_words(parameters: TinDensification) -> str:
         f" {parameters.max_building_size:g} m, iteration angle {parameters.iteration_angle:g} deg,"
         f" iteration distance {parameters.iteration_distance:g} m."
     )
+
+
+def _lowest_of(points: Points, which: np.ndarray) -> np.ndarray:
+    """Return the indices of the lowest of some points in each cell."""
+    some = points.take(which)
+    return which[Cells.over(some, _CELL).lowest_points(some)]
 
 
 def _rules(parameters: TinDensification) -> DensificationRules:

@@ -19,6 +19,7 @@ from .cells import Cells
 from .gradient import steepness
 from .inpaint import inpaint
 from .lowest_points import lowest_heights
+from .morphology import within_square
 from .tin import Tin
 
 # Metres between the virtual points round the survey.
@@ -63,13 +64,14 @@ class DensificationRules:
 
 
 def densified(
-    first: Points,
-    waiting: Points,
+    points: Points,
+    first: np.ndarray,
+    waiting: np.ndarray,
     cells: Cells,
     spacing: float,
     rules: DensificationRules,
     progress: Progress,
-) -> Points:
+) -> np.ndarray:
     """Return the first vertices and the candidates that join them.
 
     Only candidates in gaps between vertices are looked at, and only the vertices are triangulated
@@ -77,37 +79,46 @@ def densified(
 
     Parameters
     ----------
-    first, waiting : Points
-        The first vertices, and the candidates.
+    points : Points
+        All points.
+    first, waiting : numpy.ndarray of int
+        Indices of the first vertices, and of the candidates.
     cells : Cells
-        Cells that hold one of them each, as a rule.
+        Those of the points; each holds one vertex or candidate, as a rule.
     spacing : float
         Mean distance in metres between the points of the survey.
     rules : DensificationRules
         Which candidates join.
     progress : Progress
         Receives progress.
+
+    Returns
+    -------
+    numpy.ndarray of int
+        Indices of points.
     """
-    surface = inpaint(lowest_heights(cells, first))
-    slope = cells.at(steepness(surface, cells.size), waiting.x, waiting.y)
-    distance = np.abs(waiting.z - cells.at(surface, waiting.x, waiting.y))
-    reachable = _REACHABLE * rules.iteration_distance * np.hypot(1.0, slope)
-    holding = _holding(cells, first)
-    in_gap = _counts_round(holding)[cells.of(waiting)] <= _MOST_VERTICES_ROUND
-    waiting = waiting.take(in_gap & (distance <= reachable))
+    heights = lowest_heights(cells, points, first)
+    surface, holding = inpaint(heights), np.isfinite(heights)
+    in_gap = _counts_round(holding) <= _MOST_VERTICES_ROUND
+    waiting = waiting[in_gap.ravel()[cells.index[waiting]]]
+    candidates = points.take(waiting)
+    slope = cells.at(steepness(surface, cells.size), candidates.x, candidates.y)
+    distance = np.abs(candidates.z - cells.at(surface, candidates.x, candidates.y))
+    reachable = distance <= _REACHABLE * rules.iteration_distance * np.hypot(1.0, slope)
+    waiting, candidates = waiting[reachable], candidates.take(reachable)
     progress(0.1)
     reach = math.ceil(max(spacing / cells.size, 1.0))
     needed = _bounding(holding, _holding(cells, waiting), reach)
-    seeds = first.take(needed[cells.of(first)]).and_also(_ring(cells, surface))
-    joined = _accepted(seeds, waiting, rules, first.count, progress.part(0.1, 1.0))
-    return first.and_also(waiting.take(joined))
+    seeds = points.take(first[needed.ravel()[cells.index[first]]]).and_also(_ring(cells, surface))
+    joined = _accepted(seeds, candidates, rules, len(first), progress.part(0.1, 1.0))
+    return np.concatenate((first, waiting[joined]))
 
 
-def _holding(cells: Cells, points: Points) -> np.ndarray:
+def _holding(cells: Cells, which: np.ndarray) -> np.ndarray:
     """Return which cells hold one of some points."""
-    holding = np.zeros(cells.shape, dtype=bool)
-    holding[cells.of(points)] = True
-    return holding
+    holding = np.zeros(cells.rows * cells.columns, dtype=bool)
+    holding[cells.index[which]] = True
+    return holding.reshape(cells.shape)
 
 
 def _counts_round(mask: np.ndarray) -> np.ndarray:
@@ -190,15 +201,13 @@ def _bounding(vertices: np.ndarray, waiting: np.ndarray, reach: int) -> np.ndarr
     """
     from scipy import ndimage
 
-    def spread(mask: np.ndarray, cells: int) -> np.ndarray:
-        return ndimage.maximum_filter(mask.view(np.uint8), 2 * cells + 1, mode="constant") > 0
-
-    gaps, count = ndimage.label(~spread(vertices, reach), np.ones((3, 3)))
-    near = spread(waiting, reach + 1)
+    gaps, count = ndimage.label(~within_square(np.maximum, vertices, reach), np.ones((3, 3)))
+    near = within_square(np.maximum, waiting, reach + 1)
     wanted = np.zeros(count + 1, dtype=bool)
-    wanted[np.unique(gaps[near])] = True
+    wanted[gaps[near]] = True
     wanted[0] = False
-    return vertices & (spread(waiting, 2 * reach) | spread(wanted[gaps], 3 * reach))
+    round_gaps = within_square(np.maximum, wanted[gaps], 3 * reach)
+    return vertices & (within_square(np.maximum, waiting, 2 * reach) | round_gaps)
 
 
 def _round(tin: Tin, candidates: Points, rules: DensificationRules) -> np.ndarray:

@@ -97,8 +97,10 @@ def ground_cells(
     filled = inpaint(heights).astype(np.float32)
     first, limit = _standing_out(filled, size, largest_window, allowance, progress.part(0.0, 0.7))
     surface = inpaint(np.where(known & ~first & ~objects, heights, np.nan))
-    slope = np.hypot(*_smooth_gradient(surface, size, _SLOPE_SMOOTHING))
-    raised = objects | (np.minimum(slope, _LARGEST_SLOPE) < limit)
+    raised = objects.copy()
+    which = limit > 0.0
+    slope = np.hypot(*(each[which] for each in _smooth_gradient(surface, size, _SLOPE_SMOOTHING)))
+    raised[which] |= np.minimum(slope, _LARGEST_SLOPE) < limit[which]
     progress(0.8)
     surface = inpaint(np.where(known & ~raised, heights, np.nan))
     progress(0.85)
@@ -125,13 +127,13 @@ def _standing_out(
     largest = max(round(largest_window / size), 1)
     for radius in range(1, largest + 1):
         opened = opening(last, radius)
+        last -= opened
         # As unsigned numbers, differences do not overflow.
-        cut = (last - opened).view(np.uint16).ravel()
-        last = opened
+        cut, last = last.view(np.uint16).ravel(), opened
         metres = radius * size
         level = allowance.base + allowance.per_radius * metres
         # Most cells lose too little to stand out on any slope.
-        which = np.flatnonzero(cut > min(_FIRST_SLOPE * metres, level) / step)
+        which = np.flatnonzero(cut > int(min(_FIRST_SLOPE * metres, level) / step))
         lost = cut[which] * np.float32(step)
         first[which[lost > _FIRST_SLOPE * metres]] = True
         slope = (lost - np.float32(level)) / np.float32(max(allowance.per_slope * metres, 1e-6))
@@ -162,13 +164,12 @@ def _gentle_regions(
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
-    north, east = _smooth_gradient(surface, size, _TREND_SMOOTHING)
-    sides = [_steps(filled, north, 0, size, allowance), _steps(filled, east, 1, size, allowance)]
+    slopes = _smooth_gradient(surface, size, _TREND_SMOOTHING)
+    sides = [
+        _steps(filled, raised, slope, axis, size, allowance) for axis, slope in enumerate(slopes)
+    ]
     one, other, sign = (np.concatenate(each) for each in zip(*sides))
-    # Only pairs of which one at least is raised matter.
     up = raised.ravel()
-    matters = up[one] | up[other]
-    one, other, sign = one[matters], other[matters], sign[matters]
     cells = np.flatnonzero(up)
     region = np.full(up.size, -1, dtype=np.int64)
     region[cells] = np.arange(len(cells))
@@ -191,9 +192,14 @@ def _gentle_regions(
 
 
 def _steps(
-    filled: np.ndarray, slope: np.ndarray, axis: int, size: float, allowance: Allowance
+    filled: np.ndarray,
+    raised: np.ndarray,
+    slope: np.ndarray,
+    axis: int,
+    size: float,
+    allowance: Allowance,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Compare neighbouring cells along an axis.
+    """Compare neighbouring cells along an axis, of which one at least is raised.
 
     Returns
     -------
@@ -202,11 +208,14 @@ def _steps(
     sign : numpy.ndarray of int8
         1 where the other is higher by a step, -1 where it is lower, else 0.
     """
-    index = np.arange(filled.size).reshape(filled.shape)
     ahead = tuple(slice(1, None) if each == axis else slice(None) for each in (0, 1))
     behind = tuple(slice(None, -1) if each == axis else slice(None) for each in (0, 1))
-    trend = slope[behind] * size
-    rise = filled[ahead] - filled[behind] - trend
+    matters = np.zeros(filled.shape, dtype=bool)
+    np.logical_or(raised[ahead], raised[behind], out=matters[behind])
+    one = np.flatnonzero(matters)
+    other = one + (filled.shape[1] if axis == 0 else 1)
+    trend = slope.ravel()[one] * size
+    rise = filled.ravel()[other] - filled.ravel()[one] - trend
     allowed = allowance.gentle_step + np.abs(trend)
     sign = (rise > allowed).astype(np.int8) - (rise < -allowed).astype(np.int8)
-    return index[behind].ravel(), index[ahead].ravel(), sign.ravel()
+    return one, other, sign

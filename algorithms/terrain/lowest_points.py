@@ -76,21 +76,23 @@ class LowestPoints:
         return wide.resampled(found, self.cells)
 
 
-def lowest_heights(cells: Cells, points: Points) -> np.ndarray:
-    """Return the lowest height of points that lie over some cells in each; NaN where none is.
+def lowest_heights(cells: Cells, points: Points, which: np.ndarray) -> np.ndarray:
+    """Return the lowest height in each cell of some points; NaN where none of them is.
 
     Parameters
     ----------
     cells : Cells
-        Of other points.
+        Those of the points.
     points : Points
-        Within the grid.
+        All points.
+    which : numpy.ndarray of int
+        Indices of those that count.
 
     Returns
     -------
     numpy.ndarray of float64, shape (rows, columns)
     """
-    lowest = np.full(cells.shape, np.inf)
-    np.minimum.at(lowest, cells.of(points), points.z)
+    lowest = np.full(cells.rows * cells.columns, np.inf)
+    np.minimum.at(lowest, cells.index[which], points.z[which])
     lowest[np.isinf(lowest)] = np.nan
-    return lowest
+    return lowest.reshape(cells.shape)

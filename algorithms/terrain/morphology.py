@@ -63,6 +63,47 @@ def erosion(grid: np.ndarray, radius: float) -> np.ndarray:
     return _extreme(np.minimum, np.pad(grid, _reach(radius), mode="edge"), radius)
 
 
+def within_square(which: np.ufunc, grid: np.ndarray, reach: int) -> np.ndarray:
+    """Return the extreme of a grid within a square round each cell.
+
+    Parameters
+    ----------
+    which : numpy.ufunc
+        `numpy.minimum` or `numpy.maximum`.
+    grid : numpy.ndarray of bool, int or float, shape (rows, columns)
+        Beyond it there is nothing.
+    reach : int
+        Half the side of the square: it is `2 * reach + 1` cells long.
+
+    Returns
+    -------
+    numpy.ndarray of the same type, shape (rows, columns)
+    """
+    rows = len(grid)
+    result = np.empty_like(grid)
+    strip = max(_CELLS_A_STRIP // grid.shape[1], 2 * reach)
+
+    def fill(first: int) -> None:
+        last, before = min(first + strip, rows), min(first, reach)
+        part = _spread(which, grid[first - before : last + reach], reach)
+        result[first:last] = _spread(which, part[before:][: last - first].T, reach).T
+
+    in_threads(fill, range(0, rows, strip))
+    return result
+
+
+def _spread(which: np.ufunc, grid: np.ndarray, reach: int) -> np.ndarray:
+    """Return the extreme of so many rows before and after each, in steps that double."""
+    done = 0
+    while done < reach:
+        step = min(done + 1, reach - done)  # farther ones would miss some cells at the border
+        spread = grid.copy(order="K")
+        which(spread[step:], grid[:-step], out=spread[step:])
+        which(spread[:-step], grid[step:], out=spread[:-step])
+        grid, done = spread, done + step
+    return grid
+
+
 def _reach(radius: float) -> int:
     return int(round(radius, 6))  # one that is whole but for rounding is whole
 

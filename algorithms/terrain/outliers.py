@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .inpaint import inpaint
+from .morphology import within_square
 
 
 def low_outliers(grid: np.ndarray, size: float, slope: float) -> np.ndarray:
@@ -31,9 +32,6 @@ def low_outliers(grid: np.ndarray, size: float, slope: float) -> np.ndarray:
     Pingel, T., Clarke, K., McBride, W. (2013): An improved simple morphological filter for the
     terrain classification of airborne LIDAR data. ISPRS Journal 77, section 2.2.
     """
-    # Not at the start of QGIS, which loads this module, and where scipy may be missing.
-    from scipy import ndimage
-
     filled = inpaint(grid)
-    closed = ndimage.grey_closing(filled, size=(3, 3), mode="nearest")
+    closed = within_square(np.minimum, within_square(np.maximum, filled, 1), 1)
     return np.isfinite(grid) & (closed - filled > slope * size)

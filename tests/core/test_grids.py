@@ -5,10 +5,12 @@ import pytest
 from scipy import ndimage
 
 from bare_earth.algorithms.points import Points
+from bare_earth.algorithms.terrain import morphology
 from bare_earth.algorithms.terrain.cells import Cells
 from bare_earth.algorithms.terrain.inpaint import inpaint
-from bare_earth.algorithms.terrain.morphology import erosion, opening
+from bare_earth.algorithms.terrain.morphology import erosion, opening, within_square
 from bare_earth.algorithms.terrain.outliers import low_outliers
+from bare_earth.algorithms.threads import may_use
 
 
 def _points(count=500, seed=0):
@@ -70,6 +72,26 @@ def test_the_opening_agrees_with_that_of_scipy(radius):
     inside = (slice(int(radius), -int(radius)),) * 2
     opened = ndimage.grey_opening(np.pad(grid, int(radius), mode="edge"), footprint=disc)
     assert np.array_equal(opening(grid, radius)[inside], opened[inside][inside])
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (1, 9), (9, 1), (37, 52)])
+@pytest.mark.parametrize("reach", [1, 2, 3, 6, 7])
+def test_the_extreme_within_a_square_agrees_with_that_of_scipy(shape, reach):
+    grid = np.random.default_rng(1).normal(size=shape)
+    side = 2 * reach + 1
+    lowest = ndimage.minimum_filter(grid, side, mode="nearest")
+    assert np.array_equal(within_square(np.minimum, grid, reach), lowest)
+    spread = ndimage.maximum_filter((grid > 1.5).astype(np.uint8), side, mode="constant")
+    assert np.array_equal(within_square(np.maximum, grid > 1.5, reach), spread)
+
+
+def test_strips_and_threads_do_not_change_the_extremes(monkeypatch):
+    grid = np.random.default_rng(1).normal(size=(90, 40))
+    expected = opening(grid, 4), within_square(np.maximum, grid, 3)
+    monkeypatch.setattr(morphology, "_CELLS_A_STRIP", 500)
+    with may_use(2):
+        assert np.array_equal(opening(grid, 4), expected[0])
+        assert np.array_equal(within_square(np.maximum, grid, 3), expected[1])
 
 
 def test_a_radius_whole_but_for_rounding_is_whole():
