@@ -24,6 +24,7 @@ from .pointcloud.writing import check_writable, is_copc, write_changed
 from .progress import SILENT, Progress
 from .terrain.model import TerrainModel, write_terrain_model
 from .terrain.raster import check_raster_output
+from .threads import may_use
 from .tiling.blocks import GROUND, LOW
 from .tiling.cloudstore import CloudStore, Part
 from .tiling.ground import blocks_of, label_ground
@@ -103,7 +104,8 @@ def classify(
         If the user asked to stop.
     """
     scope = Scope(selection, area, method_of(parameters).reach(parameters))
-    labels, inside, selected = _labels(cloud, parameters, scope, resources, progress)
+    with may_use(resources.thread_count):
+        labels, inside, selected = _labels(cloud, parameters, scope, resources, progress)
     return _classes(cloud, selection, labels, inside), selected & inside
 
 
@@ -179,17 +181,8 @@ def classify_file(
     resources = resources.now()
     scope = Scope(selection, area, method_of(parameters).reach(parameters))
     model = terrain if dtm or hillshade else None
-    layout = read_layout(Path(source))
-    count, length = layout.count, layout.record_length
-    if fits_in_memory(count, resources):
-        keep = length <= _LONGEST_KEPT and fits_in_memory(count, resources, length)
-        cloud = read_cloud(source, progress.part(0.0, 0.2), keep_records=keep)
-        part = progress.part(0.2, 0.7)
-        outcome = _in_memory(cloud, parameters, scope, resources, model, part)
-    else:
-        _check_parts_do(target, output, count, progress)
-        blocks, part = blocks_of(parameters), progress.part(0.0, 0.7)
-        outcome = classify_parts(source, target, parameters, scope, blocks, resources, model, part)
+    with may_use(resources.thread_count):
+        outcome = _outcome(source, target, parameters, scope, resources, model, output, progress)
     with contextlib.ExitStack() as outputs:
         # All outputs or none: the rasters get their names after the cloud is written.
         rasters = [
@@ -216,6 +209,29 @@ def classify_file(
         area_ground_count=outcome.area_ground_count,
         class_counts={int(value): int(counts[value]) for value in written},
     )
+
+
+def _outcome(
+    source: Path,
+    target: Path,
+    parameters: ParameterSet,
+    scope: Scope,
+    resources: Resources,
+    terrain: TerrainModel | None,
+    output: Output,
+    progress: Progress,
+) -> Outcome:
+    """Classify the points of a file, in memory if they fit."""
+    layout = read_layout(Path(source))
+    count, length = layout.count, layout.record_length
+    if fits_in_memory(count, resources):
+        keep = length <= _LONGEST_KEPT and fits_in_memory(count, resources, length)
+        cloud = read_cloud(source, progress.part(0.0, 0.2), keep_records=keep)
+        part = progress.part(0.2, 0.7)
+        return _in_memory(cloud, parameters, scope, resources, terrain, part)
+    _check_parts_do(target, output, count, progress)
+    blocks, part = blocks_of(parameters), progress.part(0.0, 0.7)
+    return classify_parts(source, target, parameters, scope, blocks, resources, terrain, part)
 
 
 def _in_memory(

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Iterator
 import numpy as np
 
 from ..progress import SILENT, Progress
+from ..threads import over_parts
 from .backends import require
 from .cloud import PointCloud
 from .crs import Crs, read_crs, unit_name
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 _CHUNK = 1_000_000
 # So many at a time keep several processors busy; more would let a cancel wait for over a second.
 _KEPT_CHUNK = 2_000_000
+_POINTS_A_PART = 1 << 17
 _SMALL = {
     "classification": np.uint8,
     "return_number": np.uint8,
@@ -83,6 +85,13 @@ def _with_records(layout: LasLayout, progress: Progress) -> PointCloud:
     with _opened(layout) as reader:
         point_format = reader.header.point_format
     points = laspy.PackedPointRecord.from_buffer(records, point_format)
+    small = {name: np.empty(layout.count, dtype=kind) for name, kind in _SMALL.items()}
+
+    def copy(part: slice) -> None:
+        for name, column in small.items():
+            column[part] = points[name][part]
+
+    over_parts(copy, layout.count, _POINTS_A_PART, SILENT)
     return PointCloud(
         path=layout.path,
         # Where they stand among the records: a copy would be half as much again.
@@ -91,7 +100,7 @@ def _with_records(layout: LasLayout, progress: Progress) -> PointCloud:
         z=points["Z"],
         scale=layout.scale,
         offset=layout.offset,
-        **{name: np.array(points[name]).astype(kind, copy=False) for name, kind in _SMALL.items()},
+        **small,
         point_format=layout.point_format,
         crs=crs,
         records=records,
