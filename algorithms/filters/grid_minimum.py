@@ -9,6 +9,7 @@ what it leaves open is ours, see docs/grid-minimum.md.
 from __future__ import annotations
 
 import dataclasses
+import functools
 import math
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -276,12 +277,15 @@ class _Blocks(NamedTuple):
 
     def lowest(self, heights: np.ndarray) -> np.ndarray:
         """Return the lowest height in each block; NaN where there is none."""
-        rows, columns = (
-            -(-(first + count) // self.side) for first, count in zip(self.first, heights.shape)
-        )
-        padded = np.full((rows * self.side, columns * self.side), np.inf)
+        shape = [
+            -(-(first + count) // self.side) * self.side
+            for first, count in zip(self.first, heights.shape)
+        ]
+        padded = np.full(shape, np.inf)
         padded[self._cells(heights.shape)] = np.where(np.isnan(heights), np.inf, heights)
-        lowest = padded.reshape(rows, self.side, columns, self.side).min(axis=(1, 3))
+        # Slices, as numpy is slow at minima over axes so short.
+        rows = functools.reduce(np.minimum, (padded[at :: self.side] for at in range(self.side)))
+        lowest = functools.reduce(np.minimum, (rows[:, at :: self.side] for at in range(self.side)))
         lowest[np.isinf(lowest)] = np.nan
         return lowest
 
@@ -392,8 +396,8 @@ def _without_low_objects(
     inside = covered(np.isfinite(heights))
     for done in range(_FINAL_PASSES):
         relief = Relief(ground, size, inside)
-        low = relief.regions(parameters.final_height).raised(parameters.max_object_size)
-        ground[low | relief.rims(parameters.final_height, _RIM_ROUGHNESS)] = np.nan
+        regions, rims = relief.regions_and_rims(parameters.final_height, _RIM_ROUGHNESS)
+        ground[regions.raised(parameters.max_object_size) | rims] = np.nan
         progress((done + 1) / (_FINAL_PASSES + 1))
     kept = relief.regrown(np.isfinite(ground), heights, parameters.final_height)
     progress(1.0)

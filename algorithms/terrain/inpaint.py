@@ -7,6 +7,7 @@ import numpy as np
 _RELAXATIONS = 12
 # Share of unknown cells above which computing all is faster than picking them out.
 _MANY = 0.15
+_QUARTER, _THREE_QUARTERS = np.float32(0.25), np.float32(0.75)
 
 
 def inpaint(grid: np.ndarray, relaxations: int = _RELAXATIONS) -> np.ndarray:
@@ -29,40 +30,59 @@ def inpaint(grid: np.ndarray, relaxations: int = _RELAXATIONS) -> np.ndarray:
         Known cells as they were; all zero if no cell is known.
     """
     known = np.isfinite(grid)
+    filled = np.array(grid, dtype=np.float64)
     if known.all():
-        return np.array(grid, dtype=np.float64)
+        return filled
     if not known.any():
         return np.zeros(grid.shape)
+    # Beside a height of the place, single precision is better than a tenth of a millimetre.
+    level = float(filled[known].mean())
+    beside = _filled((filled - level).astype(np.float32), known, relaxations)
+    return np.where(known, filled, beside + level)
+
+
+def _filled(grid: np.ndarray, known: np.ndarray, relaxations: int) -> np.ndarray:
+    """Return a grid (float32) of which some cells are known, with the others filled."""
+    if known.all():
+        return grid
     if min(grid.shape) <= 1 and max(grid.shape) <= 2:
         return np.where(known, grid, grid[known].mean())
-    filled = np.where(known, grid, _finer(inpaint(_coarser(grid, known), relaxations), grid.shape))
-    padded = np.pad(filled, 1, mode="edge")
-    relax = _relax_all if np.count_nonzero(~known) > _MANY * known.size else _relax_some
-    relax(padded, ~known, relaxations)
-    return padded[1:-1, 1:-1].copy()
+    coarse = _filled(*_coarser(grid, known), relaxations)
+    unknown = ~known
+    if np.count_nonzero(unknown) > _MANY * known.size:
+        padded = np.pad(np.where(known, grid, _finer(coarse, grid.shape)), 1, mode="edge")
+        _relax_all(padded, unknown, relaxations)
+    else:
+        row, column = np.nonzero(unknown)
+        padded = np.pad(grid, 1, mode="edge")
+        padded[row + 1, column + 1] = _finer_at(coarse, row, column)
+        _pad_again(padded)
+        _relax_some(padded, row, column, relaxations)
+    return padded[1:-1, 1:-1]
 
 
 def _relax_all(padded: np.ndarray, unknown: np.ndarray, relaxations: int) -> None:
     """Set the unknown cells to the mean of their neighbours, again and again."""
-    inner, mean = padded[1:-1, 1:-1], np.empty(unknown.shape)
+    inner, mean = padded[1:-1, 1:-1], np.empty(unknown.shape, dtype=padded.dtype)
     for _ in range(relaxations):
         np.add(padded[1:-1, :-2], padded[1:-1, 2:], out=mean)
         mean += padded[:-2, 1:-1]
         mean += padded[2:, 1:-1]
-        mean *= 0.25
+        mean *= _QUARTER
         np.copyto(inner, mean, where=unknown)
         _pad_again(padded)
 
 
-def _relax_some(padded: np.ndarray, unknown: np.ndarray, relaxations: int) -> None:
-    """Do as `_relax_all` where the unknown cells are few."""
-    row, column = np.nonzero(unknown)
+def _relax_some(padded: np.ndarray, row: np.ndarray, column: np.ndarray, relaxations: int) -> None:
+    """Do as `_relax_all` where the unknown cells are few, given by their places."""
     width = padded.shape[1]
     place = (row + 1) * width + column + 1
     flat = padded.ravel()
     for _ in range(relaxations):
-        mean = flat[place - 1] + flat[place + 1] + flat[place - width] + flat[place + width]
-        flat[place] = 0.25 * mean
+        mean = flat.take(place - 1)
+        for offset in (1, -width, width):
+            mean += flat.take(place + offset)
+        flat[place] = _QUARTER * mean
         _pad_again(padded)
 
 
@@ -71,27 +91,48 @@ def _pad_again(padded: np.ndarray) -> None:
     padded[:, 0], padded[:, -1] = padded[:, 1], padded[:, -2]
 
 
-def _coarser(grid: np.ndarray, known: np.ndarray) -> np.ndarray:
-    """Return the mean of the known ones of each 2 x 2 cells; NaN where none is."""
-    rows, columns = (-(-side // 2) for side in grid.shape)
-    values, counts = np.zeros((2 * rows, 2 * columns)), np.zeros((2 * rows, 2 * columns))
-    values[: grid.shape[0], : grid.shape[1]] = np.where(known, grid, 0.0)
-    counts[: grid.shape[0], : grid.shape[1]] = known
-    total, count = (
-        each[0::2, 0::2] + each[0::2, 1::2] + each[1::2, 0::2] + each[1::2, 1::2]
-        for each in (values, counts)
-    )
-    with np.errstate(invalid="ignore"):
-        return np.where(count > 0, total / np.maximum(count, 1.0), np.nan)
+def _coarser(grid: np.ndarray, known: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the mean of the known ones of each 2 x 2 cells, and where there is one."""
+    total, count = np.where(known, grid, np.float32(0.0)), known.astype(np.uint8)
+    for axis in (0, 1):
+        total, count = _pairs(total, axis), _pairs(count, axis)
+    return total / np.maximum(count, 1), count > 0
+
+
+def _pairs(grid: np.ndarray, axis: int) -> np.ndarray:
+    """Return the sums of two rows or columns each; an odd one at the end is by itself."""
+    first, second = ((grid[start::2] if axis == 0 else grid[:, start::2]) for start in (0, 1))
+    pairs = first.copy()
+    pairs[: second.shape[0], : second.shape[1]] += second
+    return pairs
 
 
 def _finer(coarse: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
     """Interpolate bilinearly to cells of half the size."""
     padded = np.pad(coarse, 1, mode="edge")
-    rows = np.empty((2 * coarse.shape[0], padded.shape[1]))
-    rows[0::2] = 0.75 * padded[1:-1] + 0.25 * padded[:-2]
-    rows[1::2] = 0.75 * padded[1:-1] + 0.25 * padded[2:]
-    fine = np.empty((rows.shape[0], 2 * coarse.shape[1]))
-    fine[:, 0::2] = 0.75 * rows[:, 1:-1] + 0.25 * rows[:, :-2]
-    fine[:, 1::2] = 0.75 * rows[:, 1:-1] + 0.25 * rows[:, 2:]
+    rows = np.empty((2 * coarse.shape[0], padded.shape[1]), dtype=coarse.dtype)
+    fine = np.empty((rows.shape[0], 2 * coarse.shape[1]), dtype=coarse.dtype)
+    near, far = _THREE_QUARTERS * padded[1:-1], _QUARTER * padded
+    np.add(near, far[:-2], out=rows[0::2])
+    np.add(near, far[2:], out=rows[1::2])
+    near, far = _THREE_QUARTERS * rows[:, 1:-1], _QUARTER * rows
+    np.add(near, far[:, :-2], out=fine[:, 0::2])
+    np.add(near, far[:, 2:], out=fine[:, 1::2])
     return fine[: shape[0], : shape[1]]
+
+
+def _finer_at(coarse: np.ndarray, row: np.ndarray, column: np.ndarray) -> np.ndarray:
+    """Do as `_finer` for single cells."""
+    width = coarse.shape[1]
+    # The coarse cell in which it lies, and the next one on its side of the middle.
+    own_row, own_column = row >> 1, column >> 1
+    next_row = np.clip(own_row + 2 * (row & 1) - 1, 0, coarse.shape[0] - 1)
+    next_column = np.clip(own_column + 2 * (column & 1) - 1, 0, width - 1)
+
+    def between(of_row: np.ndarray) -> np.ndarray:
+        start = of_row * width
+        return _THREE_QUARTERS * coarse.take(start + own_column) + _QUARTER * coarse.take(
+            start + next_column
+        )
+
+    return _THREE_QUARTERS * between(own_row) + _QUARTER * between(next_row)

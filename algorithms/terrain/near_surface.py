@@ -6,7 +6,7 @@ import numpy as np
 
 from ..points import Points
 from ..progress import SILENT, Progress
-from ..threads import over_parts
+from ..threads import in_threads, over_parts
 from .cells import Cells
 
 _POINTS_A_PART = 1 << 16
@@ -93,21 +93,24 @@ def _bounds(lower: np.ndarray, upper: np.ndarray) -> np.ndarray:
         cells so, and the same two from above.
     """
     bounds = np.empty((lower.size, 4), dtype=np.float32)
-    for first, grid in ((0, lower), (2, upper)):
-        grid = grid.astype(np.float32)
-        bounds[:, first] = _extreme(np.minimum, grid).ravel()
-        bounds[:, first + 1] = _extreme(np.maximum, grid).ravel()
-    bounds += _IN_DOUBT * np.array([-1, 1, -1, 1], dtype=np.float32)
+
+    def fill(column: int) -> None:
+        grid = (lower if column < 2 else upper).astype(np.float32)
+        if column % 2:
+            bounds[:, column] = (_extreme(np.maximum, grid) + _IN_DOUBT).ravel()
+        else:
+            bounds[:, column] = (_extreme(np.minimum, grid) - _IN_DOUBT).ravel()
+
+    in_threads(fill, range(4))
     return bounds
 
 
 def _extreme(which: np.ufunc, grid: np.ndarray) -> np.ndarray:
     """Return the minimum or the maximum of the 3 x 3 cells round each cell."""
-    result = grid
-    for axis in (0, 1):
-        inner = np.swapaxes(result, 0, axis)
-        spread = inner.copy()
-        which(spread[1:], inner[:-1], out=spread[1:])
-        which(spread[:-1], inner[1:], out=spread[:-1])
-        result = np.swapaxes(spread, 0, axis)
+    rows = grid.copy()
+    which(rows[1:], grid[:-1], out=rows[1:])
+    which(rows[:-1], grid[1:], out=rows[:-1])
+    result = rows.copy()
+    which(result[:, 1:], rows[:, :-1], out=result[:, 1:])
+    which(result[:, :-1], rows[:, 1:], out=result[:, :-1])
     return result

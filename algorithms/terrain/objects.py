@@ -137,33 +137,44 @@ class Relief:
         self._inside = np.pad(inside, self._step)
         self._heights = np.pad(surface, self._step, constant_values=np.nan).ravel()
 
-    def rims(self, threshold: float, roughness_factor: float = 1.0) -> np.ndarray:
-        """Return which cells are higher than one of their eight neighbours by too much.
+    def regions(self, threshold: float) -> Regions:
+        """Return the regions between the rims of a threshold.
+
+        Rim cells belong to the region that they are level with, like the edge of a roof; those
+        that are level with none, like a thin tree, form regions of their own.
 
         Parameters
         ----------
         threshold : float
-            Height in metres that is too much on level and even ground; the rise of the terrain
-            between the two cells is added.
+            By how many metres a cell must be higher than one of its eight neighbours to be a rim,
+            on level and even ground; the rise of the terrain between the two and its usual
+            unevenness are added.
+        """
+        return self._regions(*self._steps(threshold))
+
+    def regions_and_rims(
+        self, threshold: float, roughness_factor: float
+    ) -> tuple[Regions, np.ndarray]:
+        """Return the `regions`, and which cells are rims if more unevenness is allowed.
+
+        Parameters
+        ----------
+        threshold : float
+            As for `regions`.
         roughness_factor : float
-            How many times the usual unevenness of the terrain is added as well.
+            How many times the usual unevenness of the terrain is added for the rims.
 
         Returns
         -------
+        Regions
         numpy.ndarray of bool, shape (rows, columns)
         """
-        return self._unframed(self._rims(self._steps(threshold, roughness_factor)))
+        steps, large = self._steps(threshold, (1.0, roughness_factor))
+        return self._regions(steps), self._unframed(self._rims(large))
 
-    def regions(self, threshold: float) -> Regions:
-        """Return the regions between the rims of a threshold in metres (see `rims`).
-
-        Rim cells belong to the region that they are level with, like the edge of a roof; those
-        that are level with none, like a thin tree, form regions of their own.
-        """
-
+    def _regions(self, steps: list[_Steps]) -> Regions:
         from scipy import ndimage
 
-        steps = self._steps(threshold)
         rim = self._rims(steps)
         regions, count = ndimage.label(self._inside & ~rim)
         flat = regions.ravel()
@@ -187,7 +198,7 @@ class Relief:
         candidates : numpy.ndarray of bool, shape (rows, columns)
             Cells that may be a pit; those that touch are one patch, however uneven.
         threshold : float
-            Least height in metres of the rise round it (see `rims`).
+            Least height in metres of the rise round it (see `regions`).
         max_size : float
             Largest width (shorter side) of a pit, in metres.
 
@@ -200,7 +211,7 @@ class Relief:
 
         patches, count = ndimage.label(np.pad(candidates, self._step), np.ones((3, 3)))
         patches[(patches == 0) & self._inside] = count + 1
-        border = self._border(patches.ravel(), count + 2, self._steps(threshold))
+        border = self._border(patches.ravel(), count + 2, *self._steps(threshold))
         patches = Regions(self._unframed(patches), border, self._size, self._step)
         return patches.sunken(max_size) & candidates
 
@@ -214,7 +225,7 @@ class Relief:
         heights : numpy.ndarray of float, shape (rows, columns)
             Lowest heights, those of cells that may grow back included; NaN where there is none.
         threshold : float
-            As for `rims`; a cell is compared with the mean of its kept neighbours.
+            As for `regions`; a cell is compared with the mean of its kept neighbours.
 
         Returns
         -------
@@ -243,28 +254,40 @@ class Relief:
     def _unframed(self, grid: np.ndarray) -> np.ndarray:
         return grid[self._step : -self._step, self._step : -self._step]
 
-    def _steps(self, threshold: float, roughness_factor: float = 1.0) -> list[_Steps]:
-        """Return the steps to the neighbours in four directions."""
-        steps, width = [], self._inside.shape[1]
-        for row, column in _DIRECTIONS:
-            row, column = row * self._step, column * self._step
-            offset = row * width + column
-            sign = np.empty(self._heights.size - offset, dtype=np.int8)
-            steps.append(_Steps(row, column, offset, sign))
+    def _steps(
+        self, threshold: float, roughness_factors: Sequence[float] = (1.0,)
+    ) -> list[list[_Steps]]:
+        """Return the steps to the neighbours in four directions, for each factor."""
+        width = self._inside.shape[1]
+        directions = [(row * self._step, column * self._step) for row, column in _DIRECTIONS]
+        offsets = [row * width + column for row, column in directions]
+        steps = [
+            [
+                _Steps(*direction, offset, np.empty(self._heights.size - offset, dtype=np.int8))
+                for direction, offset in zip(directions, offsets)
+            ]
+            for _ in roughness_factors
+        ]
         strip = max(_CELLS_A_STRIP // width, 1)
 
         def fill(first: int) -> None:
             trend = self._trend_of_rows(first, min(first + strip, len(self._inside)))
-            for each in steps:
-                self._compare(each, first * width, trend, threshold, roughness_factor)
+            for same_direction in zip(*steps):
+                self._compare(same_direction, first * width, trend, threshold, roughness_factors)
 
         in_threads(fill, range(0, len(self._inside), strip))
         return steps
 
     def _compare(
-        self, step: _Steps, start: int, trend: Rises, threshold: float, roughness_factor: float
+        self,
+        steps: Sequence[_Steps],
+        start: int,
+        trend: Rises,
+        threshold: float,
+        roughness_factors: Sequence[float],
     ) -> None:
         """Fill in the signs of one direction for the cells from `start` on that a trend is of."""
+        step = steps[0]
         end = min(start + trend.north.size, step.sign.size)
         if end <= start:
             return
@@ -274,11 +297,12 @@ class Relief:
             rise -= np.float32(step.row) * north
         if step.column:
             rise -= np.float32(step.column) * east
-        allowed = steepest + np.float32(roughness_factor) * roughness
-        allowed *= np.float32(np.hypot(step.row, step.column))
-        allowed += np.float32(threshold)
-        higher = (rise > allowed).view(np.int8)
-        np.subtract(higher, (rise < -allowed).view(np.int8), out=step.sign[start:end])
+        for each, factor in zip(steps, roughness_factors):
+            allowed = steepest + np.float32(factor) * roughness
+            allowed *= np.float32(np.hypot(step.row, step.column))
+            allowed += np.float32(threshold)
+            higher = (rise > allowed).view(np.int8)
+            np.subtract(higher, (rise < -allowed).view(np.int8), out=each.sign[start:end])
 
     def _trend_of_rows(self, first: int, last: int) -> Rises:
         """Return the trend at each cell of some rows with their frame, where it is 0."""

@@ -7,11 +7,12 @@ from typing import NamedTuple
 import numpy as np
 
 from ..threads import in_threads
+from .gradient import length
 
 # Side in metres of the blocks whose median slope is the trend of the terrain.
 _BLOCK = 15.0
 # Differences of a block that suffice for its median, along each axis.
-_SAMPLES = 15
+_SAMPLES = 7
 
 
 class Rises(NamedTuple):
@@ -111,7 +112,7 @@ class Trend:
             slopes.append(field[0])
             field[1] /= 2
             roughness += field[1]
-        return Rises(*slopes, np.hypot(*slopes), roughness)
+        return Rises(*slopes, length(*slopes), roughness)
 
 
 def between_blocks(

@@ -99,10 +99,10 @@ def test_touching_candidates_are_one_pit_however_uneven():
 def test_a_rim_is_the_higher_of_two_cells_that_differ_by_more_than_slope_and_threshold():
     heights = plain(slope=0.5)
     heights[:, 30:] += 2.0
-    rims = relief(heights).rims(1.0)
+    rims = relief(heights).regions_and_rims(1.0, 1.0)[1]
     assert np.array_equal(np.flatnonzero(rims.all(axis=0)), [30])
     assert rims.sum() == 60
-    assert not relief(heights).rims(3.0).any()
+    assert not relief(heights).regions_and_rims(3.0, 1.0)[1].any()
 
 
 def test_cells_level_with_the_ground_grow_back_and_others_do_not():
