@@ -9,7 +9,6 @@ what it leaves open is ours, see docs/grid-minimum.md.
 from __future__ import annotations
 
 import dataclasses
-import functools
 import math
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -20,12 +19,12 @@ from ..errors import BareEarthError
 from ..parameters import ParameterSet, parameter
 from ..points import Points
 from ..progress import SILENT, Progress
+from ..terrain.cell_blocks import CellBlocks
 from ..terrain.cells import Cells
 from ..terrain.gradient import steepness
 from ..terrain.inpaint import inpaint
 from ..terrain.near_surface import near_surface
 from ..terrain.objects import Relief, covered, raised_objects
-from ..terrain.trend import between_blocks
 
 # Points that a cell should hold on average: with fewer, gaps break the rims.
 _POINTS_PER_CELL = 1.0
@@ -181,11 +180,14 @@ class GridMinimum(ParameterSet):
         GridMinimum
             Equal to this one if nothing was empty.
         """
+        return self._resolved(_counting_cells(points, self))
+
+    def _resolved(self, cells: Cells) -> GridMinimum:
         preset = PRESETS[self.preset]
         names = ("cell_size", "height_thresholds", "final_height", "max_object_size")
         empty = {name: getattr(preset, name) for name in names if getattr(self, name) is None}
         if "cell_size" in empty and self.preset != "paper":
-            empty["cell_size"] *= _multiple(_density(points, preset.cell_size), preset.cell_size)
+            empty["cell_size"] *= _multiple(_density(cells), preset.cell_size)
         return dataclasses.replace(self, **empty)
 
 
@@ -223,12 +225,14 @@ def classify(points: Points, parameters: GridMinimum, progress: Progress = SILEN
     Cancelled
         If the user asked to stop.
     """
-    resolved = parameters.resolve(points)
+    cells = _counting_cells(points, parameters)
+    resolved = parameters._resolved(cells)
     if resolved != parameters:
         progress.info(_in_words(resolved))
     if parameters.cell_size is not None or parameters.preset == "paper":
-        _tell_of_gaps(points, resolved, progress)
-    cells = Cells.over(points, resolved.cell_size)
+        _tell_of_gaps(_density(cells), resolved, progress)
+    if cells.size != resolved.cell_size:
+        cells = Cells.over(points, resolved.cell_size)
     progress(0.1)
     surface = _surface(cells, points.z, resolved, progress.part(0.1, 0.8))
     tolerance = np.minimum(steepness(surface, cells.size), _STEEPEST)
@@ -243,64 +247,13 @@ def _surface(
 ) -> np.ndarray:
     """Return the height of the ground in each cell."""
     heights = cells.minimum(z)
-    blocks = _Blocks.over(cells, _BLOCK)
+    blocks = CellBlocks.over(cells, _BLOCK)
     heights[_noise(heights, cells, blocks)] = np.nan
     progress(0.2)
     ground = heights.copy()
     ground[_tall_objects(heights, blocks, parameters, progress.part(0.2, 0.6))] = np.nan
     ground = _without_low_objects(ground, heights, cells.size, parameters, progress.part(0.6, 1.0))
     return inpaint(ground, _RELAXATIONS)
-
-
-class _Blocks(NamedTuple):
-    """Square blocks of cells, anchored at (0, 0) of the points' frame.
-
-    Attributes
-    ----------
-    size : float
-        Side of a block in metres.
-    side : int
-        Side of a block in cells.
-    first : tuple of int
-        Row and column of the first cell within its block.
-    """
-
-    size: float
-    side: int
-    first: tuple[int, int]
-
-    @classmethod
-    def over(cls, cells: Cells, size: float, least: int = 2) -> _Blocks:
-        """Return blocks of about a size in metres, at least some cells wide."""
-        side = max(round(size / cells.size), least)
-        return cls(side * cells.size, side, (cells.first_row % side, cells.first_column % side))
-
-    def lowest(self, heights: np.ndarray) -> np.ndarray:
-        """Return the lowest height in each block; NaN where there is none."""
-        shape = [
-            -(-(first + count) // self.side) * self.side
-            for first, count in zip(self.first, heights.shape)
-        ]
-        padded = np.full(shape, np.inf)
-        padded[self._cells(heights.shape)] = np.where(np.isnan(heights), np.inf, heights)
-        # Slices, as numpy is slow at minima over axes so short.
-        rows = functools.reduce(np.minimum, (padded[at :: self.side] for at in range(self.side)))
-        lowest = functools.reduce(np.minimum, (rows[:, at :: self.side] for at in range(self.side)))
-        lowest[np.isinf(lowest)] = np.nan
-        return lowest
-
-    def repeated(self, values: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
-        """Return the value of its block for each cell of a grid of some shape."""
-        repeated = np.repeat(np.repeat(values, self.side, axis=0), self.side, axis=1)
-        return repeated[self._cells(shape)]
-
-    def interpolated(self, values: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
-        """Return values of blocks, interpolated to each cell of a grid of some shape."""
-        rows, columns = (np.arange(first, first + count) for first, count in zip(self.first, shape))
-        return between_blocks(values, self.side, rows, columns)
-
-    def _cells(self, shape: tuple[int, int]) -> tuple[slice, ...]:
-        return tuple(slice(first, first + count) for first, count in zip(self.first, shape))
 
 
 def _in_words(parameters: GridMinimum) -> str:
@@ -312,10 +265,9 @@ def _in_words(parameters: GridMinimum) -> str:
     )
 
 
-def _tell_of_gaps(points: Points, parameters: GridMinimum, progress: Progress) -> None:
-    """Warn of cells that are too small for the points."""
+def _tell_of_gaps(density: float, parameters: GridMinimum, progress: Progress) -> None:
+    """Warn of cells that are too small for the points per square metre."""
     size = parameters.cell_size
-    density = _density(points, size)
     multiple = _multiple(density, size)
     if multiple > 1:
         progress.warning(
@@ -329,20 +281,26 @@ def _multiple(density: float, size: float) -> int:
     return max(math.ceil(math.sqrt(_POINTS_PER_CELL / density) / size - _NEARLY), 1)
 
 
-def _density(points: Points, size: float) -> float:
-    """Return the median number of points per square metre, of blocks within the survey."""
+def _counting_cells(points: Points, parameters: GridMinimum) -> Cells:
+    """Return cells to count the points in: those of the filter, unless they are far too small."""
+    size = parameters.cell_size or PRESETS[parameters.preset].cell_size
+    if float(np.ptp(points.x)) * float(np.ptp(points.y)) > size**2 * points.count:
+        size = max(_DENSITY_BLOCK, 4.0 * size)
+    return Cells.over(points, size)
 
+
+def _density(cells: Cells) -> float:
+    """Return the median number of points per square metre, of blocks within the survey."""
     from scipy import ndimage
 
-    blocks = Cells.over(points, max(_DENSITY_BLOCK, 4.0 * size))
-    counts = np.bincount(blocks.index, minlength=blocks.rows * blocks.columns)
-    counts = counts.reshape(blocks.shape)
+    blocks = CellBlocks.over(cells, _DENSITY_BLOCK, least=1)
+    counts = blocks.total(cells.counts)
     within = ndimage.binary_erosion(counts > 0, np.ones((3, 3)))
     usual = counts[within] if within.any() else counts[counts > 0]
     return float(np.median(usual)) / blocks.size**2
 
 
-def _noise(heights: np.ndarray, cells: Cells, blocks: _Blocks) -> np.ndarray:
+def _noise(heights: np.ndarray, cells: Cells, blocks: CellBlocks) -> np.ndarray:
     """Return the cells of narrow pits far below the usual lowest points around.
 
     A gap in the canopy, a yard or a street between roofs is a pit too, but has others as low near
@@ -351,7 +309,7 @@ def _noise(heights: np.ndarray, cells: Cells, blocks: _Blocks) -> np.ndarray:
 
     from scipy import ndimage
 
-    around = _Blocks.over(cells, _NOISE_WIDTH)
+    around = CellBlocks.over(cells, _NOISE_WIDTH)
     usual = ndimage.median_filter(inpaint(around.lowest(heights)), 5, mode="nearest")
     below = heights < around.interpolated(usual, heights.shape) - _NOISE_DEPTH
     if not below.any():
@@ -364,7 +322,7 @@ def _noise(heights: np.ndarray, cells: Cells, blocks: _Blocks) -> np.ndarray:
 
 
 def _tall_objects(
-    heights: np.ndarray, blocks: _Blocks, parameters: GridMinimum, progress: Progress
+    heights: np.ndarray, blocks: CellBlocks, parameters: GridMinimum, progress: Progress
 ) -> np.ndarray:
     """Return the cells of what the passes of the height thresholds find.
 

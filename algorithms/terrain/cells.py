@@ -14,6 +14,7 @@ from ..threads import over_parts
 
 _MOST_CELLS = 200_000_000
 _POINTS_A_PART = 1 << 17
+_POINTS_A_COUNT = 1 << 20
 # Side in metres of the blocks that are a gap in the survey where they have no point.
 _BLOCK = 10.0
 
@@ -106,6 +107,16 @@ class Cells:
         found = np.full(self.rows * self.columns, -1, dtype=np.intp)
         found[cell] = which  # the last one of points that are all the same
         return found[found >= 0]
+
+    @cached_property
+    def counts(self) -> np.ndarray:
+        """Number of points in each cell; int32, shape (rows, columns)."""
+        counts = np.zeros(self.rows * self.columns, dtype=np.int32)
+        for first in range(0, len(self.index), _POINTS_A_COUNT):
+            # In steps, as bincount takes 8 bytes for each.
+            step = np.bincount(self.index[first : first + _POINTS_A_COUNT])
+            counts[: len(step)] += step
+        return counts.reshape(self.shape)
 
     @cached_property
     def occupied(self) -> np.ndarray:
