@@ -121,7 +121,7 @@ def _labels(
     inside, selected = scope.choose(cloud, progress.part(0.0, 0.05))
     scope.tell(progress)
     progress(0.1)
-    blocks = blocks_of(parameters)
+    blocks = blocks_of(parameters, scope.extent)
     part = Part(cloud, selected, selection.known_ground(cloud, selected), inside)
     store = CloudStore([part], cloud.frame, blocks, progress.part(0.1, 0.2))
     depth = selection.low_noise_depth if selection.low_noise_class else None
@@ -230,8 +230,8 @@ def _outcome(
         part = progress.part(0.2, 0.7)
         return _in_memory(cloud, parameters, scope, resources, terrain, part)
     _check_parts_do(target, output, count, progress)
-    blocks, part = blocks_of(parameters), progress.part(0.0, 0.7)
-    return classify_parts(source, target, parameters, scope, blocks, resources, terrain, part)
+    part = progress.part(0.0, 0.7)
+    return classify_parts(source, target, parameters, scope, resources, terrain, part)
 
 
 def _in_memory(

@@ -27,6 +27,7 @@ from .tiling.run import Run
 from .tiling.survey import (
     Place,
     Survey,
+    extent_of,
     frame_of,
     grouped,
     memory_of,
@@ -130,7 +131,8 @@ def classify_tiles(
     collection = open_collection(sources, files.recursive, progress.part(0.0, 0.02))
     _check(collection, folder, vpc, sources if files.recursive else [])
     targets = _targets(collection, folder, output.format)
-    survey = Survey(parameters, selection, frame_of(collection), blocks or blocks_of(parameters))
+    blocks = blocks or blocks_of(parameters, extent_of(collection))
+    survey = Survey(parameters, selection, frame_of(collection), blocks)
     workers = Threads() if workers is None else workers
     plan = _Plan(survey, collection, targets, progress)
     _make_folders(folder, output.resume)

@@ -17,7 +17,12 @@ import numpy as np
 from ..points import Points
 
 _SIDE, _STEP, _REACHES = 1000.0, 100.0, 4.0
-_MOST_POINTS = 8_000_000
+_MOST_POINTS = 10_000_000
+# A survey of up to so many blocks across, each larger than else by this factor at most, is cut
+# evenly: a narrow rest would cost as much as its buffer. Sides are multiples of ten metres.
+_FEW, _LARGER, _ROUND = 3, 1.125, 10.0
+# An extent may be wrong by so much of the ten metres.
+_WRONG = 0.01
 # How often a block may be quartered: leaves of an eighth of a block are also how points are kept.
 _LEVELS = 3
 
@@ -153,9 +158,21 @@ class Blocks:
     most_points: int = _MOST_POINTS
 
     @classmethod
-    def of(cls, reach: float) -> Blocks:
-        """Return the blocks for a filter to which points within `reach` metres matter."""
-        return cls(max(_SIDE, _STEP * math.ceil(_REACHES * reach / _STEP)), reach)
+    def of(cls, reach: float, extent: float = math.inf) -> Blocks:
+        """Return the blocks for a filter to which points within `reach` metres matter.
+
+        Parameters
+        ----------
+        reach : float
+            Metres.
+        extent : float
+            Larger of the two sides of the survey, in metres.
+        """
+        side = max(_SIDE, _STEP * math.ceil(_REACHES * reach / _STEP))
+        if side - _WRONG * _ROUND <= extent <= _FEW * _LARGER * side:
+            fitting = extent / math.ceil(extent / (_LARGER * side))
+            side = _ROUND * (math.floor(fitting / _ROUND + _WRONG) + 1)
+        return cls(side, reach)
 
     @property
     def leaf_side(self) -> float:

@@ -30,9 +30,9 @@ class _Labelled(NamedTuple):
     notes: _Notes
 
 
-def blocks_of(parameters: ParameterSet) -> Blocks:
-    """Return the blocks in which a method filters a survey."""
-    return Blocks.of(method_of(parameters).reach(parameters))
+def blocks_of(parameters: ParameterSet, extent: float) -> Blocks:
+    """Return the blocks in which a method filters a survey, whose longer side is so many metres."""
+    return Blocks.of(method_of(parameters).reach(parameters), extent)
 
 
 def label_ground(

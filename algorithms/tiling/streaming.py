@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -15,8 +16,8 @@ from ..pointcloud.scope import Scope
 from ..points import Frame, Points
 from ..progress import SILENT, Progress, Unsaid
 from ..terrain.model import TerrainModel, vertices_of
-from .blocks import GROUND, LOW, Blocks
-from .ground import label_ground
+from .blocks import GROUND, LOW
+from .ground import blocks_of, label_ground
 from .memory import GIGABYTE, Resources
 from .spill import Spill
 
@@ -85,7 +86,6 @@ def classify_parts(
     target: Path,
     parameters: ParameterSet,
     scope: Scope,
-    blocks: Blocks,
     resources: Resources = Resources(),
     terrain: TerrainModel | None = None,
     progress: Progress = SILENT,
@@ -100,8 +100,6 @@ def classify_parts(
         Those of one method.
     scope : Scope
         Which points are to be classified, and which take part.
-    blocks : Blocks
-        How the survey is cut.
     resources : Resources
         Threads and memory.
     terrain : TerrainModel, optional
@@ -123,7 +121,8 @@ def classify_parts(
         If the user asked to stop.
     """
     selection = scope.selection
-    with Spill(target, blocks.leaf_side) as spill:
+    # How large the blocks are is known when all points are; their leaves need not be the same.
+    with Spill(target, blocks_of(parameters, math.inf).leaf_side) as spill:
         for part in read_parts(source, progress.part(0.0, 0.3)):
             inside, selected = scope.choose(part)
             known = selection.known_ground(part, selected)
@@ -132,6 +131,7 @@ def classify_parts(
         frame = spill.finish(scope.lowest)
         if terrain is not None:
             _check_terrain(spill, terrain, resources)
+        blocks = blocks_of(parameters, scope.extent)
         depth = selection.low_noise_depth if selection.low_noise_class else None
         fewer = _for_blocks(resources)
         label_ground(spill, parameters, blocks, depth, fewer, progress.part(0.3, 0.8))

@@ -111,6 +111,13 @@ def frame_of(collection: Collection) -> Frame:
     return Frame(origin, crs.horizontal_unit, crs.vertical_unit, crs.wkt)
 
 
+def extent_of(collection: Collection) -> float:
+    """Return the longer side, in metres, of the area that all files take up by their headers."""
+    lowest = np.min([tile.minimum[:2] for tile in collection.tiles], axis=0)
+    highest = np.max([tile.maximum[:2] for tile in collection.tiles], axis=0)
+    return float((highest - lowest).max()) * collection.crs.horizontal_unit
+
+
 def places_of(survey: Survey, tile: Tile, progress: Progress = SILENT) -> list[Place]:
     """Return the blocks that may hold points of a tile, from south to north.
 

@@ -44,9 +44,9 @@ def small(monkeypatch):
     """Make parts and blocks small, so that a small file has many."""
     monkeypatch.setattr(reading, "_CHUNK", 1700)
     monkeypatch.setattr(spill, "_GAP", 50)
-    monkeypatch.setattr(
-        classification, "blocks_of", lambda parameters: Blocks(80.0, 30.0, most_points=2500)
-    )
+    for module in (classification, streaming):
+        blocks = Blocks(80.0, 30.0, most_points=2500)
+        monkeypatch.setattr(module, "blocks_of", lambda parameters, extent, blocks=blocks: blocks)
 
 
 def write(path, count=9000, east=EAST, stray=(), seed=3, shape=(160.0, 90.0), first=0.0):

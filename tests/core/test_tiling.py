@@ -64,14 +64,39 @@ def labels_of(parts, parameters, blocks, threads=1, depth=1.0, known=None, progr
 
 
 def test_blocks_are_a_kilometre_or_four_times_the_reach():
-    assert Blocks.of(100.0) == Blocks(1000.0, 100.0) == blocks_of(TinDensification())
+    assert Blocks.of(100.0) == Blocks(1000.0, 100.0) == blocks_of(TinDensification(), 300.0)
     assert Blocks.of(251.0) == Blocks(1100.0, 251.0)
-    assert blocks_of(TinDensification(max_building_size=300)).buffer == 600
-    assert blocks_of(TinDensification(preset="city")).buffer == 240
-    assert blocks_of(GridMinimum(max_object_size=200)) == Blocks(1600.0, 400.0)
-    assert blocks_of(SlopeFilter(preset="whitebox")).buffer == pytest.approx(6.02)
-    assert blocks_of(SlopeFilter(preset="whitebox", min_neighbours=5)).buffer == 100
-    assert blocks_of(SlopeFilter(preset="city")).buffer == 250
+
+    def of(parameters):
+        return blocks_of(parameters, 20_000.0)
+
+    assert of(TinDensification(max_building_size=300)).buffer == 600
+    assert of(TinDensification(preset="city")).buffer == 240
+    assert of(GridMinimum(max_object_size=200)) == Blocks(1600.0, 400.0)
+    assert of(SlopeFilter(preset="whitebox")).buffer == pytest.approx(6.02)
+    assert of(SlopeFilter(preset="whitebox", min_neighbours=5)).buffer == 100
+    assert of(SlopeFilter(preset="city")).buffer == 250
+
+
+@pytest.mark.parametrize(
+    ("extent", "side"),
+    [
+        (0.0, 1000.0),
+        (999.8, 1000.0),
+        (1000.0, 1010.0),
+        (1117.5, 1120.0),
+        (1130.0, 570.0),
+        (2009.99, 1010.0),
+        (3375.0, 1130.0),
+        (3376.0, 1000.0),
+        (1e6, 1000.0),
+    ],
+)
+def test_a_survey_a_little_larger_than_a_block_has_no_narrow_rest(extent, side):
+    assert Blocks.of(100.0, extent).side == side
+    # A header that is wrong by its rounding makes no other blocks.
+    for wrong in (extent - 1e-3, extent + 1e-3):
+        assert Blocks.of(100.0, wrong).side == side or extent == 3375.0
 
 
 def test_what_a_box_needs_is_whole_blocks_and_their_buffer():
@@ -143,7 +168,7 @@ def test_small_blocks_change_hardly_any_label_of_real_points(parameters):
         *(each[last].astype(np.int64) for each in (cloud.x, cloud.y, cloud.z)), cloud.offset,
         cloud.scale[0],
     )  # fmt: skip
-    reach = blocks_of(parameters).buffer
+    reach = blocks_of(parameters, 0.0).buffer
     # Blocks choose what is left empty for themselves: here only the cut is to matter.
     parameters = parameters.resolve(cloud.points(slice(None)))
     whole, cut = (labels_of([cloud], parameters, Blocks(side, reach)) for side in (1000.0, 125.0))
