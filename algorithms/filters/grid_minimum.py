@@ -234,12 +234,16 @@ def classify(points: Points, parameters: GridMinimum, progress: Progress = SILEN
     if cells.size != resolved.cell_size:
         cells = Cells.over(points, resolved.cell_size)
     progress(0.1)
-    surface = _surface(cells, points.z, resolved, progress.part(0.1, 0.8))
-    tolerance = np.minimum(steepness(surface, cells.size), _STEEPEST)
-    tolerance *= resolved.slope_tolerance * cells.size
-    tolerance += resolved.ground_tolerance
-    lower, upper = surface - tolerance, surface + tolerance
-    return near_surface(points, cells, lower, upper, progress.part(0.8, 1.0))
+    limits = _limits(_surface(cells, points.z, resolved, progress.part(0.1, 0.8)), resolved)
+    return near_surface(points, cells, limits, progress.part(0.8, 1.0))
+
+
+def _limits(surface: np.ndarray, parameters: GridMinimum) -> np.ndarray:
+    """Return between which heights points are ground, shape (rows, columns, 2)."""
+    tolerance = np.minimum(steepness(surface, parameters.cell_size), _STEEPEST)
+    tolerance *= parameters.slope_tolerance * parameters.cell_size
+    tolerance += parameters.ground_tolerance
+    return np.stack((surface - tolerance, surface + tolerance), axis=-1)
 
 
 def _surface(
@@ -294,7 +298,7 @@ def _density(cells: Cells) -> float:
     from scipy import ndimage
 
     blocks = CellBlocks.over(cells, _DENSITY_BLOCK, least=1)
-    counts = blocks.total(cells.counts)
+    counts = blocks.total(cells.counts())
     within = ndimage.binary_erosion(counts > 0, np.ones((3, 3)))
     usual = counts[within] if within.any() else counts[counts > 0]
     return float(np.median(usual)) / blocks.size**2

@@ -276,8 +276,8 @@ def _on_many_scales(points: Points, parameters: SlopeFilter, progress: Progress)
     surface = inpaint(lowest)
     rise = parameters.slope_tolerance * steepness(surface, cells.size)
     tolerance = parameters.height_threshold + rise
-    lower, upper = surface - tolerance, surface + tolerance
-    return near_surface(points, cells, lower, upper, progress.part(0.6, 1.0))
+    limits = np.stack((surface - tolerance, surface + tolerance), axis=-1)
+    return near_surface(points, cells, limits, progress.part(0.6, 1.0))
 
 
 def _objects(

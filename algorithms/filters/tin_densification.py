@@ -285,7 +285,8 @@ def classify(
     rise = _tolerated_rise(surface, resolved)
     lower = surface - resolved.ground_tolerance_below - rise
     upper = surface + resolved.ground_tolerance + rise
-    found = near_surface(points, cells, lower, upper, progress.part(0.8, 0.95))
+    limits = np.stack((lower, upper), axis=-1)
+    found = near_surface(points, cells, limits, progress.part(0.8, 0.95))
     return _key_points(points, found, resolved, progress.part(0.95, 1.0))
 
 

@@ -108,9 +108,8 @@ class Cells:
         found[cell] = which  # the last one of points that are all the same
         return found[found >= 0]
 
-    @cached_property
     def counts(self) -> np.ndarray:
-        """Number of points in each cell; int32, shape (rows, columns)."""
+        """Return the number of points in each cell; int32, shape (rows, columns)."""
         counts = np.zeros(self.rows * self.columns, dtype=np.int32)
         for first in range(0, len(self.index), _POINTS_A_COUNT):
             # In steps, as bincount takes 8 bytes for each.

@@ -16,16 +16,13 @@ _IN_DOUBT = np.float32(0.005)
 
 
 def near_surface(
-    points: Points,
-    cells: Cells,
-    lower: np.ndarray,
-    upper: np.ndarray,
-    progress: Progress = SILENT,
+    points: Points, cells: Cells, limits: np.ndarray, progress: Progress = SILENT
 ) -> np.ndarray:
     """Return which points lie between two surfaces, those of the ground less and more a tolerance.
 
-    Both are interpolated bilinearly between the centres of the cells. Most points are decided by
-    the least and the greatest of both round their cell; only the others need that.
+    Both are interpolated bilinearly between the centres of the cells, and level beyond the
+    outermost. Most points are decided by the least and the greatest of both round their cell; only
+    the others need that.
 
     Parameters
     ----------
@@ -33,8 +30,8 @@ def near_surface(
         The points over which `cells` were made.
     cells : Cells
         The grid.
-    lower, upper : numpy.ndarray of float64, shape (rows, columns)
-        Heights in metres.
+    limits : numpy.ndarray of float64, shape (rows, columns, 2)
+        Heights in metres of the lower and of the upper surface.
     progress : Progress
         Receives progress.
 
@@ -42,11 +39,7 @@ def near_surface(
     -------
     numpy.ndarray of bool, shape (n,)
     """
-    bounds = _bounds(lower, upper)
-    width = cells.columns + 2
-    flat = np.empty(((cells.rows + 2) * width, 2))
-    for column, grid in enumerate((lower, upper)):
-        flat[:, column] = np.pad(grid, 1, mode="edge").ravel()
+    bounds = _bounds(limits)
     near = np.empty(points.count, dtype=bool)
 
     def decide(part: slice) -> None:
@@ -56,9 +49,9 @@ def near_surface(
         sure = (z >= sure_least) & (z <= sure_most)
         open_ = np.flatnonzero(open_ & ~sure) + part.start
         near[part] = sure
-        north = points.y.take(open_) / cells.size - (cells.first_row - 0.5)
-        east = points.x.take(open_) / cells.size - (cells.first_column - 0.5)
-        least, most = _bilinear(flat, width, north, east)
+        north = points.y.take(open_) / cells.size - (cells.first_row + 0.5)
+        east = points.x.take(open_) / cells.size - (cells.first_column + 0.5)
+        least, most = _bilinear(limits, north, east)
         z = points.z.take(open_)
         near[open_] = (z >= least) & (z <= most)
 
@@ -67,24 +60,34 @@ def near_surface(
 
 
 def _bilinear(
-    flat: np.ndarray, width: int, north: np.ndarray, east: np.ndarray
+    grids: np.ndarray, north: np.ndarray, east: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Interpolate two grids side by side (cells, 2) between the four cells round each place."""
-    row, column = north.astype(np.intp), east.astype(np.intp)
-    corner = row * width + column
-    north, east = (north - row)[:, None], (east - column)[:, None]
+    """Interpolate two grids (rows, columns, 2) at places counted from the first centre."""
+    rows, columns, _ = grids.shape
+    flat = grids.reshape(-1, 2)
+    south, up = _lower(north, rows)
+    west, right = _lower(east, columns)
+    next_row, next_column = min(rows - 1, 1) * columns, min(columns - 1, 1)
 
-    def between(west: np.ndarray) -> np.ndarray:
-        value = flat.take(west, axis=0)
-        return value + (flat.take(west + 1, axis=0) - value) * east
+    def between(corner: np.ndarray) -> np.ndarray:
+        value = flat.take(corner, axis=0)
+        return value + (flat.take(corner + next_column, axis=0) - value) * right
 
+    corner = south * columns + west
     south_side = between(corner)
-    values = south_side + (between(corner + width) - south_side) * north
+    values = south_side + (between(corner + next_row) - south_side) * up
     return values[:, 0], values[:, 1]
 
 
-def _bounds(lower: np.ndarray, upper: np.ndarray) -> np.ndarray:
-    """Return the extremes of two grids round each cell.
+def _lower(place: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the lower of the centres on either side of a place, and how far on it lies."""
+    place = np.clip(place, 0.0, count - 1.0)
+    lower = np.minimum(place.astype(np.intp), max(count - 2, 0))
+    return lower, (place - lower)[:, None]
+
+
+def _bounds(limits: np.ndarray) -> np.ndarray:
+    """Return the extremes of two surfaces round each cell.
 
     Returns
     -------
@@ -92,10 +95,11 @@ def _bounds(lower: np.ndarray, upper: np.ndarray) -> np.ndarray:
         What no point near the surface is below, what it may be below only if it lies between the
         cells so, and the same two from above.
     """
-    bounds = np.empty((lower.size, 4), dtype=np.float32)
+    rows, columns, _ = limits.shape
+    bounds = np.empty((rows * columns, 4), dtype=np.float32)
 
     def fill(column: int) -> None:
-        grid = (lower if column < 2 else upper).astype(np.float32)
+        grid = limits[..., column // 2].astype(np.float32)
         if column % 2:
             bounds[:, column] = (_extreme(np.maximum, grid) + _IN_DOUBT).ravel()
         else:
