@@ -27,9 +27,8 @@ from ..terrain.inpaint import inpaint
 from ..terrain.low_clusters import low_clusters
 from ..terrain.morphology import erosion
 from ..terrain.near_surface import near_surface
-from ..terrain.neighbourhood import Neighbourhood
 from ..terrain.outliers import low_outliers
-from ..terrain.standing_above import stands_above
+from ..terrain.standing_above import Rule, stands_above
 
 # Metres between points up to which the automatic radius and cells are the least.
 _DENSE = 2.5
@@ -243,16 +242,13 @@ def _in_words(parameters: SlopeFilter) -> str:
 
 def _on_one_scale(points: Points, parameters: SlopeFilter, progress: Progress) -> np.ndarray:
     """Return the ground mask of the classic filter: every point against all its neighbours."""
-    neighbourhood = Neighbourhood(points, parameters.search_radius, parameters.min_neighbours)
-    slope = math.tan(math.radians(parameters.slope_threshold))
-    above = stands_above(
-        neighbourhood,
-        points.z,
+    rule = Rule(
+        parameters.search_radius,
         parameters.height_threshold,
-        slope,
+        math.tan(math.radians(parameters.slope_threshold)),
         parameters.slope_norm,
-        progress,
     )
+    above = stands_above(points, rule, parameters.min_neighbours, progress)
     progress(1.0)
     return ~above
 

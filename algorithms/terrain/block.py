@@ -1,0 +1,422 @@
+"""Which points of a block stand far above a neighbour: by cell, and exactly where that is in doubt.
+
+Heights are counted in small whole steps first. What the lowest step of each cell says of all points
+of a cell decides nearly all of them, at the cost of a few erosions of a grid. The others are
+compared point by point, in full precision, with those neighbours only that can still matter.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from ..points import Points
+from .cells import Cells
+from .morphology import erosion
+
+# So small that a cell holds few points, unless a disc or the plane had too many of them.
+_POINTS_A_CELL = 1.0
+_MOST_CELLS_A_RADIUS = 48
+_MOST_CELLS_A_POINT = 4
+# Metres of a step, unless that makes more than fit into 16 bits with room for sums of two.
+_STEP, _MOST_STEPS = 0.01, 32_000
+_EMPTY = 32_767
+# Discs whose lowest cell is compared grow by this factor.
+_DISC_STEP = math.sqrt(2.0)
+# Offsets of cells that are looked up at a time.
+_OFFSETS_A_STEP = 8
+# If more than so many of all cells divided by the radius in cells are asked for, it costs less to
+# find what is lowest in the discs of all cells.
+_MANY = 0.5
+# Cells, steps and metres by which bounds are widened, so that rounding never decides; points
+# themselves are compared without it.
+_ROUNDING = 1e-5
+
+
+class Rule(NamedTuple):
+    """When a point stands far above a neighbour.
+
+    Attributes
+    ----------
+    radius : float
+        Metres; points at exactly this distance are neighbours.
+    height : float
+        The difference of height in metres that counts: this or more.
+    slope : float
+        The rise over run that counts: more than this. Both must be met by one neighbour.
+    top_hat : bool
+        Whether heights are compared above the opening of the heights by the neighbourhood, that
+        is the highest erosion among the neighbours (white top-hat).
+    """
+
+    radius: float
+    height: float
+    slope: float
+    top_hat: bool
+
+
+class Block:
+    """Points in the order of their cells and, within a cell, of their heights.
+
+    Parameters
+    ----------
+    points : Points
+        Those asked for, their neighbours, the neighbours of these and theirs.
+    rule : Rule
+        What is asked.
+    """
+
+    def __init__(self, points: Points, rule: Rule) -> None:
+        self._rule, self._size = rule, _cell_size(points, rule.radius)
+        # Cells whose centres are closer than the one are within the radius from end to end, and
+        # those whose centres are farther apart than the other nowhere.
+        self._inner = rule.radius / self._size - math.sqrt(2.0) - _ROUNDING
+        self._outer = rule.radius / self._size + math.sqrt(2.0) + _ROUNDING
+        self._sort(points)
+        self._set_offsets()
+        self._set_bounds()
+
+    def stands_above(self, asked: np.ndarray) -> np.ndarray:
+        """Return which points stand far above a neighbour.
+
+        Parameters
+        ----------
+        asked : numpy.ndarray of bool, shape (n,)
+            The points asked for.
+
+        Returns
+        -------
+        numpy.ndarray of bool, shape (n,)
+            False where it is not asked.
+        """
+        asked = asked[self._order]
+        above = asked & (self._level >= self._enough.take(self._cell))
+        doubtful = np.flatnonzero(
+            asked & ~above & (self._level > self._too_little.take(self._cell))
+        )
+        if len(doubtful):
+            above[doubtful] = self._exactly(doubtful)
+        result = np.empty_like(above)
+        result[self._order] = above
+        return result
+
+    def _sort(self, points: Points) -> None:
+        x, y, z = points
+        self._reach = reach = math.ceil(self._rule.radius / self._size + _ROUNDING)
+        cell = ((y - y.min()) / self._size).astype(np.int64) + reach
+        column = ((x - x.min()) / self._size).astype(np.int64) + reach
+        # A margin as wide as the reach: no offset from a cell leaves the grid.
+        self._shape = int(cell.max()) + 1 + reach, int(column.max()) + 1 + reach
+        cell *= self._shape[1]
+        cell += column
+        self._base, range_ = float(z.min()), float(np.ptp(z))
+        height = z - self._base
+        fine = (height * ((2**32 - 1) / max(range_, 1.0))).astype(np.int64)
+        order = np.argsort((cell << 32) + fine)
+        sorted_cell, sorted_z = cell[order], z[order]
+        if np.any((np.diff(sorted_z) < 0.0) & (np.diff(sorted_cell) == 0)):
+            order = np.lexsort((z, cell))  # some heights are all but equal
+            sorted_cell, sorted_z = cell[order], z[order]
+        self._order, self._cell = order, sorted_cell
+        self._x, self._y, self._z = x[order], y[order], sorted_z
+        self._step = max(_STEP, range_ / _MOST_STEPS)
+        self._level = (height[order] / self._step).astype(np.int16)
+        self._table = _Table(self._cell, self._level, self._shape)
+
+    def _set_offsets(self) -> None:
+        """Find which cells a disc round any place in a cell can touch."""
+        side = np.arange(-self._reach, self._reach + 1)
+        row, column = np.repeat(side, len(side)), np.tile(side, len(side))
+        nearest = np.hypot(*(np.maximum(np.abs(each) - 1, 0) for each in (row, column)))
+        nearest *= self._size
+        touched = np.flatnonzero(nearest <= self._rule.radius + _ROUNDING * self._size)
+        touched = touched[np.argsort(nearest[touched], kind="stable")]
+        offset = row * self._shape[1] + column
+        self._offsets, self._nearest = offset[touched], nearest[touched]
+        # What is lowest is most likely found first where the disc ends.
+        between = np.hypot(row, column)[touched]
+        rim = np.flatnonzero(between > self._inner)
+        outermost = np.abs(between[rim] - self._rule.radius / self._size + 0.5)
+        self._rim = self._offsets[rim[np.argsort(outermost, kind="stable")]]
+
+    def _set_bounds(self) -> None:
+        """Find from which steps on it is certain that a point stands above, and up to which not.
+
+        The erosion and the opening at any point of a cell lie within the steps from low to high.
+        """
+        rule, lowest = self._rule, self._table.lowest.reshape(self._shape)
+        empty = lowest == _EMPTY
+        if rule.top_hat:
+            eroded = erosion(lowest, self._outer)
+            self._eroded_high = np.full(self._shape, _MOST_STEPS, dtype=np.int16)
+            self._low = eroded
+            if self._inner >= 0.0:
+                self._eroded_high = erosion(lowest, self._inner)
+                self._low = _dilation(eroded, empty, self._inner)
+            self._high = _dilation(self._eroded_high, empty, self._outer)
+            self._eroded_high[empty] = -1
+        else:
+            self._low = np.zeros(self._shape, dtype=np.int16)
+            self._high = np.full(self._shape, -1, dtype=np.int16)
+        # Of the lowest point of a cell: so many steps above the opening or more, and fewer than.
+        self._least = np.maximum(lowest - self._high - 1, 0)
+        most = lowest - self._low + 1
+        self._least[empty] = most[empty] = _EMPTY
+        wanted = math.ceil(rule.height / self._step - _ROUNDING)
+        least = erosion(self._least, self._outer)
+        self._too_little = least.astype(np.int32) + self._low + (wanted - 2)
+        self._enough = self._certain(most) + self._high + 1
+
+    def _certain(self, most: np.ndarray) -> np.ndarray:
+        """Return from which steps above the opening on any point of a cell stands above another."""
+        certain = np.full(self._shape, 2 * _EMPTY, dtype=np.int32)
+        radius, rule = self._inner, self._rule
+        while radius >= 0.0:
+            # Between centres; two points of the cells lie at most a diagonal farther apart.
+            farthest = (radius + math.sqrt(2.0)) * self._size
+            allowed = max(rule.height, rule.slope * farthest)
+            steps = min(math.ceil(allowed / self._step + _ROUNDING), 2 * _EMPTY)
+            np.minimum(certain, erosion(most, radius) + np.int32(steps), out=certain)
+            if allowed == rule.height:
+                break  # smaller discs allow no less
+            radius = (radius + math.sqrt(2.0)) / _DISC_STEP - math.sqrt(2.0)
+        return certain
+
+    def _exactly(self, at: np.ndarray) -> np.ndarray:
+        """Return the answer for some points (k,), in ascending order."""
+        found = np.zeros(len(at), dtype=bool)
+        asked = np.arange(len(at))
+        if not self._rule.top_hat:
+            self._opened = np.zeros(len(self._z))
+            self._compare(at, asked, found)
+            return found
+        self._eroded, self._opened = (np.full(len(self._z), np.nan) for _ in range(2))
+        cell = self._cell[at]
+        certain = (self._enough.take(cell) - self._high.take(cell) - 1) * self._step + _ROUNDING
+        needed = (self._too_little.take(cell) - self._low.take(cell) + 1) * self._step - _ROUNDING
+        # Where the opening is lower than this, it does not matter by how much.
+        self._open(at, self._z[at] - certain)
+        own = self._z[at] - self._opened[at]
+        found |= ~(own < certain)
+        asked, matters, enough = self._compare(at, np.flatnonzero(~found & (own >= needed)), found)
+        if len(asked):
+            self._open(matters, enough)
+            self._compare(at, asked, found)
+        return found
+
+    def _open(self, at: np.ndarray, enough: np.ndarray) -> None:
+        """Find the opening at some points (k,), unless it does not exceed `enough` (k,)."""
+        cell = self._cell[at]
+        best = np.maximum(self._metres(self._low.take(cell)) - _ROUNDING, enough)
+        # The erosion of a neighbour matters if it exceeds what is known of the opening.
+        least = np.full(self._shape[0] * self._shape[1], _EMPTY, dtype=np.int16)
+        np.minimum.at(least, cell, self._steps(best))
+        least = erosion(least.reshape(self._shape), self._outer)
+        which = np.flatnonzero((self._eroded_high >= least).take(self._cell))
+        self._erode(which)
+        steps = self._steps(self._eroded[which])
+        left = np.flatnonzero(steps >= least.take(self._cell[which]))
+        which, steps = which[left], steps[left]
+        order = np.lexsort((-self._eroded[which], self._cell[which]))
+        which, steps = which[order], steps[order]
+        table = _Table(self._cell[which], -steps, self._shape)
+        lowest = -best
+        self._lower(table, which, -self._eroded[which], at, lowest, -1)
+        raised = np.flatnonzero(lowest < -best)
+        self._opened[at[raised]] = -lowest[raised]
+
+    def _erode(self, at: np.ndarray) -> None:
+        """Find the erosion at some points, in ascending order, where it is not known yet."""
+        at = at[np.isnan(self._eroded[at])]
+        best = self._z[at]
+        self._lower(self._table, None, self._z, at, best)
+        self._eroded[at] = best
+
+    def _lower(
+        self,
+        table: _Table,
+        point: np.ndarray | None,
+        values: np.ndarray,
+        at: np.ndarray,
+        best: np.ndarray,
+        sign: int = 1,
+    ) -> None:
+        """Lower `best` (k,) to the least value of a neighbour.
+
+        Parameters
+        ----------
+        table : _Table
+            Where the values of each cell are, and how low they are in steps.
+        point : numpy.ndarray of int, shape (m,), optional
+            Which points have the values, if not all.
+        values : numpy.ndarray of float, shape (m,)
+            In the order of the cells and, within a cell, ascending.
+        at : numpy.ndarray of int, shape (k,)
+            For which points, in ascending order.
+        best : numpy.ndarray of float, shape (k,)
+            What is known to be the least.
+        sign : int
+            1 if the values are heights, -1 if they are heights negated.
+        """
+        if not len(at):
+            return
+        cell, offsets = self._cell[at], self._offsets
+        if len(at) * self._inner > _MANY * len(table.lowest):
+            offsets = self._rim
+            np.minimum(best, table.within(values, self._inner).take(cell), out=best)
+        limit = sign * self._steps(sign * best)
+        for group in range(0, len(offsets), _OFFSETS_A_STEP):
+            hits, others = [], []
+            for offset in offsets[group : group + _OFFSETS_A_STEP]:
+                other = cell + offset
+                hit = np.flatnonzero(table.lowest.take(other) <= limit)
+                hits.append(hit)
+                others.append(other[hit])
+            which, other = np.concatenate(hits), np.concatenate(others)
+            neighbour, last = table.start[other], table.start[other + 1]
+            # From the lowest value of the other cell upwards, until one lies within the radius.
+            while len(which):
+                value = values[neighbour]
+                left = np.flatnonzero(value < best[which])
+                which, neighbour, last, value = (
+                    each[left] for each in (which, neighbour, last, value)
+                )
+                near = self._distance(at[which], neighbour if point is None else point[neighbour])
+                near = near <= self._rule.radius
+                lower = which[near]
+                np.minimum.at(best, lower, value[near])
+                limit[lower] = sign * self._steps(sign * best[lower])
+                neighbour = neighbour + 1
+                left = np.flatnonzero(~near & (neighbour < last))
+                which, neighbour, last = which[left], neighbour[left], last[left]
+
+    def _compare(
+        self, at: np.ndarray, asked: np.ndarray, found: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Find which points whose opening is known stand above a neighbour.
+
+        Parameters
+        ----------
+        at : numpy.ndarray of int, shape (k,)
+            The points.
+        asked : numpy.ndarray of int
+            For which of them to find out.
+        found : numpy.ndarray of bool, shape (k,)
+            Receives True for those that certainly do.
+
+        Returns
+        -------
+        asked : numpy.ndarray of int
+            Those that may do so, depending on the opening at other points.
+        matters : numpy.ndarray of int
+            These other points, in ascending order.
+        enough : numpy.ndarray of float
+            How high the opening must be there to matter.
+        """
+        rule = self._rule
+        zero = 0.0 if rule.top_hat else self._base
+        point = at[asked]
+        own = self._z[point] - self._opened[point]
+        allowed = np.maximum(rule.height, rule.slope * self._nearest)
+        fewest = np.floor(np.minimum(allowed / self._step, 32_000.0) - _ROUNDING).astype(np.int16)
+        most = (np.floor((own - zero) / self._step) + 1.0).astype(np.int16)
+        allowed -= _ROUNDING
+        sure = np.zeros(len(point), dtype=bool)
+        left = np.arange(len(point))
+        maybe = []
+        for group in range(0, len(self._offsets), _OFFSETS_A_STEP):
+            part = slice(group, group + _OFFSETS_A_STEP)
+            left = left[~sure[left]]
+            cell = self._cell[point[left], None] + self._offsets[part]
+            hit = np.flatnonzero(self._least.take(cell) <= most[left, None] - fewest[part])
+            if not len(hit):
+                continue
+            which, offset = np.divmod(hit, cell.shape[1])
+            which, other, least = left[which], cell.ravel()[hit], allowed[part][offset]
+            neighbour, last = self._table.start[other], self._table.start[other + 1]
+            high = self._metres(self._high.take(other) + 1.0) + _ROUNDING
+            low = self._metres(self._low.take(other)) - _ROUNDING
+            while len(which):
+                z, opened, mine = self._z[neighbour], self._opened[neighbour], own[which]
+                distance = self._distance(point[which], neighbour)
+                far = np.where(distance <= rule.radius, rule.slope * distance, np.inf)
+                unknown = np.isnan(opened)
+                rise = mine - (z - np.where(unknown, low, opened))
+                sure[which[(rise >= rule.height) & (rise > far)]] = True
+                rise = mine - np.maximum(z - high, 0.0)
+                may = unknown & (rise >= rule.height) & (rise > far) & ~sure[which]
+                needed = z[may] - mine[may] + np.maximum(rule.height, far[may]) - _ROUNDING
+                maybe.append((which[may], neighbour[may], needed))
+                neighbour = neighbour + 1
+                go = np.flatnonzero(~sure[which] & (neighbour < last) & (rise - zero >= least))
+                which, neighbour, last, high, low, least = (
+                    each[go] for each in (which, neighbour, last, high, low, least)
+                )
+        found[asked[sure]] = True
+        possible = np.zeros(len(point), dtype=bool)
+        enough = np.full(len(self._z), np.inf)
+        for which, neighbour, least in maybe:
+            left = ~sure[which]
+            possible[which[left]] = True
+            np.minimum.at(enough, neighbour[left], least[left])
+        matters = np.flatnonzero(enough < np.inf)
+        return asked[possible], matters, enough[matters]
+
+    def _distance(self, point: np.ndarray, other: np.ndarray) -> np.ndarray:
+        x, y = self._x[point] - self._x[other], self._y[point] - self._y[other]
+        return np.sqrt(x * x + y * y)
+
+    def _metres(self, steps: np.ndarray) -> np.ndarray:
+        return self._base + self._step * steps
+
+    def _steps(self, heights: np.ndarray) -> np.ndarray:
+        """Return in which step heights lie."""
+        steps = np.floor((heights - self._base) / self._step)
+        return np.clip(steps, -1, _MOST_STEPS + 1).astype(np.int16)
+
+
+class _Table:
+    """Where the points of each cell begin, and how low the first one is in steps."""
+
+    def __init__(self, cell: np.ndarray, steps: np.ndarray, shape: tuple[int, int]) -> None:
+        self._shape, cells = shape, shape[0] * shape[1]
+        self.start = np.zeros(cells + 1, dtype=np.int32)
+        np.cumsum(np.bincount(cell, minlength=cells), out=self.start[1:])
+        self._first = np.flatnonzero(np.diff(cell, prepend=-1))
+        self._cells = cell[self._first]
+        self.lowest = np.full(cells, _EMPTY, dtype=np.int16)
+        self.lowest[self._cells] = steps[self._first]
+        self._within = None
+
+    def within(self, values: np.ndarray, radius: float) -> np.ndarray:
+        """Return the lowest value in a disc of cells round each, shape (rows, columns)."""
+        if self._within is None:
+            lowest = np.full(self._shape, np.inf)
+            lowest.ravel()[self._cells] = values[self._first]
+            self._within = erosion(lowest, radius)
+        return self._within
+
+
+def _ranges(start: np.ndarray, count: np.ndarray) -> np.ndarray:
+    """Return start[0], start[0] + 1, ... (count[0] of them), start[1], ... in one array."""
+    before = np.cumsum(count) - count
+    return np.arange(int(count.sum())) + np.repeat(start - before, count)
+
+
+def _dilation(grid: np.ndarray, empty: np.ndarray, radius: float) -> np.ndarray:
+    """Return the maximum within a disc round each cell, of those that are not empty."""
+    negative = -grid
+    negative[empty] = _EMPTY
+    return -erosion(negative, radius)
+
+
+def _cell_size(points: Points, radius: float) -> float:
+    """Return a size of cells that hold few points each, but are not too many a disc."""
+    coarse = Cells.over(points, max(radius, 1.0))
+    density = points.count / (np.count_nonzero(coarse.occupied) * coarse.size**2)
+    wanted = min(math.sqrt(_POINTS_A_CELL / density), radius)
+    most = max(_MOST_CELLS_A_POINT * points.count, 1_000_000)
+    least = math.sqrt(coarse.rows * coarse.columns / most) * coarse.size
+    return max(wanted, radius / _MOST_CELLS_A_RADIUS, least)
