@@ -25,7 +25,7 @@ from ..terrain.densification import DensificationRules, densified
 from ..terrain.gradient import steepness
 from ..terrain.ground_cells import ground_cells
 from ..terrain.inpaint import inpaint
-from ..terrain.lowest_points import LowestPoints, lowest_heights
+from ..terrain.lowest_points import LowestPoints
 from ..terrain.model_key_points import ModelKeyPoints, model_key_points
 from ..terrain.near_surface import near_surface
 
@@ -281,7 +281,7 @@ def classify(
     vertices = densified(
         points, first, waiting, cells, survey.spacing, _rules(resolved), progress.part(0.7, 0.8)
     )
-    surface = inpaint(lowest_heights(cells, points, vertices))
+    surface = inpaint(vertices)
     rise = _tolerated_rise(surface, resolved)
     lower = surface - resolved.ground_tolerance_below - rise
     upper = surface + resolved.ground_tolerance + rise

@@ -72,7 +72,7 @@ def densified(
     rules: DensificationRules,
     progress: Progress,
 ) -> np.ndarray:
-    """Return the first vertices and the candidates that join them.
+    """Return the heights of the first vertices and of the candidates that join them.
 
     Only candidates in gaps between vertices are looked at, and only the vertices are triangulated
     that may bound a triangle in which one lies.
@@ -94,16 +94,16 @@ def densified(
 
     Returns
     -------
-    numpy.ndarray of int
-        Indices of points.
+    numpy.ndarray of float64, shape (rows, columns)
+        The lowest height of the vertices in each cell; NaN where there is none.
     """
     heights = lowest_heights(cells, points, first)
     surface, holding = inpaint(heights), np.isfinite(heights)
     in_gap = _counts_round(holding) <= _MOST_VERTICES_ROUND
     waiting = waiting[in_gap.ravel()[cells.index[waiting]]]
     candidates = points.take(waiting)
-    slope = cells.at(steepness(surface, cells.size), candidates.x, candidates.y)
     distance = np.abs(candidates.z - cells.at(surface, candidates.x, candidates.y))
+    slope = cells.at(steepness(surface, cells.size), candidates.x, candidates.y)
     reachable = distance <= _REACHABLE * rules.iteration_distance * np.hypot(1.0, slope)
     waiting, candidates = waiting[reachable], candidates.take(reachable)
     progress(0.1)
@@ -111,7 +111,8 @@ def densified(
     needed = _bounding(holding, _holding(cells, waiting), reach)
     seeds = points.take(first[needed.ravel()[cells.index[first]]]).and_also(_ring(cells, surface))
     joined = _accepted(seeds, candidates, rules, len(first), progress.part(0.1, 1.0))
-    return np.concatenate((first, waiting[joined]))
+    np.fmin.at(heights.ravel(), cells.index[waiting[joined]], candidates.z[joined])
+    return heights
 
 
 def _holding(cells: Cells, which: np.ndarray) -> np.ndarray:
