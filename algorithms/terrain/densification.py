@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -105,14 +106,41 @@ def densified(
     distance = np.abs(candidates.z - cells.at(surface, candidates.x, candidates.y))
     slope = cells.at(steepness(surface, cells.size), candidates.x, candidates.y)
     reachable = distance <= _REACHABLE * rules.iteration_distance * np.hypot(1.0, slope)
-    waiting, candidates = waiting[reachable], candidates.take(reachable)
+    waiting = waiting[reachable]
     progress(0.1)
     reach = math.ceil(max(spacing / cells.size, 1.0))
-    needed = _bounding(holding, _holding(cells, waiting), reach)
-    seeds = points.take(first[needed.ravel()[cells.index[first]]]).and_also(_ring(cells, surface))
-    joined = _accepted(seeds, candidates, rules, len(first), progress.part(0.1, 1.0))
-    np.fmin.at(heights.ravel(), cells.index[waiting[joined]], candidates.z[joined])
+    survey = _Survey(points, cells, _ring(cells, surface), reach)
+    joined = _joined(survey, first, waiting, rules, progress.part(0.1, 1.0))
+    np.fmin.at(heights.ravel(), cells.index[joined], points.z[joined])
     return heights
+
+
+class _Survey(NamedTuple):
+    """What the TIN of each round is made of.
+
+    Attributes
+    ----------
+    points : Points
+        All points.
+    cells : Cells
+        Those of the points.
+    ring : Points
+        Vertices round all cells (see `_ring`).
+    reach : int
+        Cells over which vertices are next to each other.
+    """
+
+    points: Points
+    cells: Cells
+    ring: Points
+    reach: int
+
+    def tin_round(self, vertices: np.ndarray, waiting: np.ndarray) -> Tin:
+        """Return the TIN of the vertices that may bound triangles in which candidates lie."""
+        holding = (_holding(self.cells, each) for each in (vertices, waiting))
+        needed = _bounding(*holding, self.reach).ravel()
+        bounding = self.points.take(vertices[needed[self.cells.index[vertices]]])
+        return Tin(*bounding.and_also(self.ring))
 
 
 def _holding(cells: Cells, which: np.ndarray) -> np.ndarray:
@@ -143,44 +171,30 @@ def _ring(cells: Cells, surface: np.ndarray) -> Points:
     return Points(ring_x, ring_y, cells.at(surface, ring_x, ring_y))
 
 
-def _accepted(
-    seeds: Points,
-    candidates: Points,
+def _joined(
+    survey: _Survey,
+    first: np.ndarray,
+    waiting: np.ndarray,
     rules: DensificationRules,
-    all_count: int,
     progress: Progress,
 ) -> np.ndarray:
-    """Return which candidates join the TIN of the seeds, round by round.
-
-    Parameters
-    ----------
-    seeds : Points
-        The first vertices, as many as bound the triangles in which candidates lie.
-    candidates : Points
-        Points that may become vertices.
-    rules : DensificationRules
-        Which of them do.
-    all_count : int
-        Vertices of the whole surface, of which `seeds` may be a part: a round that adds few in
-        comparison is the last.
-    progress : Progress
-        Receives progress.
-
-    Returns
-    -------
-    numpy.ndarray of bool, shape (candidates,)
-    """
-    vertices = seeds
-    joined = np.zeros(candidates.count, dtype=bool)
+    """Return the indices of the candidates that join the first vertices, round by round."""
+    vertices = first
     for round_ in range(_MOST_ROUNDS):
-        waiting = np.flatnonzero(~joined)
-        new = waiting[_round(Tin(*vertices), candidates.take(waiting), rules)]
-        joined[new] = True
-        if len(new) <= _LEAST_SHARE * all_count:
+        tin = survey.tin_round(vertices, waiting)
+        triangle = tin.locate(survey.points.x[waiting], survey.points.y[waiting])
+        waiting, triangle = waiting[triangle >= 0], triangle[triangle >= 0]
+        candidates = survey.points.take(waiting)
+        new, mirrored = _round(tin, triangle, candidates, rules)
+        vertices = np.concatenate((vertices, waiting[new]))
+        if len(new) <= _LEAST_SHARE * len(first):
             break
-        vertices = vertices.and_also(candidates.take(new))
+        # The others lie in the same triangle as before, which did not take them.
+        changed = mirrored | tin.lost(triangle, candidates.x[new], candidates.y[new])
+        changed[new] = False
+        waiting = waiting[changed]
         progress((round_ + 1) / _MOST_ROUNDS)
-    return joined
+    return vertices[len(first) :]
 
 
 def _bounding(vertices: np.ndarray, waiting: np.ndarray, reach: int) -> np.ndarray:
@@ -211,14 +225,20 @@ def _bounding(vertices: np.ndarray, waiting: np.ndarray, reach: int) -> np.ndarr
     return vertices & (within_square(np.maximum, waiting, 2 * reach) | round_gaps)
 
 
-def _round(tin: Tin, candidates: Points, rules: DensificationRules) -> np.ndarray:
-    """Return the indices of the candidates to add, at most one of each triangle."""
-    triangle = tin.locate(candidates.x, candidates.y)
-    which = np.flatnonzero(triangle >= 0)
-    triangle = triangle[which]
-    points = candidates.take(which)
-    distance, angle, longest = _distance_and_angle(tin, triangle, points, rules)
-    allowed = np.full(len(which), math.radians(rules.iteration_angle))
+def _round(
+    tin: Tin, triangle: np.ndarray, points: Points, rules: DensificationRules
+) -> tuple[np.ndarray, np.ndarray]:
+    """Judge candidates by the triangles in which they lie.
+
+    Returns
+    -------
+    new : numpy.ndarray of intp
+        Indices of the candidates to add, at most one of each triangle.
+    mirrored : numpy.ndarray of bool, shape (candidates,)
+        Candidates that were judged in another triangle, as their own is too steep.
+    """
+    distance, angle, longest, mirrored = _distance_and_angle(tin, triangle, points, rules)
+    allowed = np.full(len(triangle), math.radians(rules.iteration_angle))
     if rules.reduce_angle_edge:
         allowed *= np.minimum(longest / rules.reduce_angle_edge, 1.0)
     fits = (distance <= rules.noise_distance) | (
@@ -231,13 +251,16 @@ def _round(tin: Tin, candidates: Points, rules: DensificationRules) -> np.ndarra
     fitting = fitting[order]
     first = np.ones(len(fitting), dtype=bool)
     first[1:] = np.diff(triangle[fitting]) != 0
-    return which[fitting[first]]
+    return fitting[first], mirrored
 
 
 def _distance_and_angle(
     tin: Tin, triangle: np.ndarray, points: Points, rules: DensificationRules
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return distance to the facet, largest angle at its corners (rad), and its longest edge."""
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Return distance to the facet, largest angle at its corners (rad), and its longest edge.
+
+    Last, of which points the mirror image was judged.
+    """
     corners = tin.triangles[triangle]
     x, y, z = tin.x[corners], tin.y[corners], tin.z[corners]
     normal, longest = _facets(x, y, z)
@@ -259,7 +282,7 @@ def _distance_and_angle(
         axis=1
     )
     angle = np.arcsin(np.clip(distance / np.maximum(reach, 1e-9), 0.0, 1.0))
-    return distance, angle, longest
+    return distance, angle, longest, steep
 
 
 def _facets(

@@ -112,6 +112,34 @@ class Tin:
                 height[part] = np.where(total > 0.0, weighted / total, corners.mean(axis=1))
         return height
 
+    def lost(self, triangles: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Return which triangles are lost when more vertices join: their circles hold one.
+
+        Parameters
+        ----------
+        triangles : numpy.ndarray of int, shape (q,)
+            Rows of `triangles`.
+        x, y : numpy.ndarray of float, shape (n,)
+            The new vertices in metres, at least one.
+
+        Returns
+        -------
+        numpy.ndarray of bool, shape (q,)
+            True where one lies within the circumcircle, or on it.
+        """
+        # Not at the start of QGIS, which loads this module, and where scipy may be missing.
+        from scipy.spatial import cKDTree
+
+        corners = self.triangles[triangles]
+        cx, cy = self._x[corners], self._y[corners]
+        ux, uy, vx, vy = (each[:, k] - each[:, 0] for k in (1, 2) for each in (cx, cy))
+        u, v = ux**2 + uy**2, vx**2 + vy**2
+        double_area = 2.0 * np.maximum(ux * vy - uy * vx, 1e-12)
+        to_centre = np.column_stack((vy * u - uy * v, ux * v - vx * u)) / double_area[:, None]
+        centre = np.column_stack((cx[:, 0], cy[:, 0])) + to_centre
+        new = cKDTree(np.column_stack((x - self._origin[0], y - self._origin[1])))
+        return new.query(centre)[0] <= np.hypot(*to_centre.T) * (1.0 + 1e-9) + 1e-6
+
     def _near(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Return a vertex near each query: in the same strip of x, next in y."""
         strip = np.searchsorted(self._strip_edges, x, side="right")

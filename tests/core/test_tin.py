@@ -79,3 +79,18 @@ def test_a_stray_vertex_far_away_does_not_slow_the_walk():
     tin = Tin(np.append(x, 1.0e6), np.append(y, 1.0e6), np.append(z, 0.0))
     assert (tin.locate(x, y) >= 0).all()
     assert len(np.unique(tin._near(x, y))) > 15_000
+
+
+def test_the_triangles_lost_to_new_vertices_are_those_that_a_new_triangulation_does_not_have():
+    random = np.random.default_rng(4)
+    x, y = random.uniform(0.0, 100.0, (2, 400))
+    new_x, new_y = random.uniform(10.0, 90.0, (2, 15))
+    tin = Tin(x, y, np.zeros(400))
+    more = Tin(np.append(x, new_x), np.append(y, new_y), np.zeros(415))
+
+    def corners(each):
+        return [frozenset(zip(each.x[three], each.y[three])) for three in each.triangles]
+
+    expected = [three not in set(corners(more)) for three in corners(tin)]
+    assert 15 < sum(expected) < 200
+    assert tin.lost(np.arange(len(tin.triangles)), new_x, new_y).tolist() == expected
