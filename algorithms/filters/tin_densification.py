@@ -28,11 +28,16 @@ from ..terrain.inpaint import inpaint
 from ..terrain.lowest_points import LowestPoints
 from ..terrain.model_key_points import ModelKeyPoints, model_key_points
 from ..terrain.near_surface import near_surface
+from ..threads import in_threads
 
 # Side of the cells whose lowest points may become vertices of the TIN.
 _CELL = 1.0
 # Metres over which the final surface is smoothed to take its slope.
 _FACET_SMOOTHING = 0.7
+# Rows next to a cell that have a part in its slope then.
+_SMOOTHING_REACH = math.ceil(4.0 * _FACET_SMOOTHING / _CELL) + 1
+# Cells that are worked on at a time: they stay in the processor's cache.
+_CELLS_A_STRIP = 1 << 16
 # Metres: no larger building is expected where none is seen, or looked for.
 _USUAL_BUILDING, _LARGEST_BUILDING = 48.0, 150.0
 # Metres beyond which points do not matter: so many times the largest building, but at least this.
@@ -282,10 +287,7 @@ def classify(
         points, first, waiting, cells, survey.spacing, _rules(resolved), progress.part(0.7, 0.8)
     )
     surface = inpaint(vertices)
-    rise = _tolerated_rise(surface, resolved)
-    lower = surface - resolved.ground_tolerance_below - rise
-    upper = surface + resolved.ground_tolerance + rise
-    limits = np.stack((lower, upper), axis=-1)
+    limits = _limits(surface, resolved)
     found = near_surface(points, cells, limits, progress.part(0.8, 0.95))
     return _key_points(points, found, resolved, progress.part(0.95, 1.0))
 
@@ -325,12 +327,26 @@ def _key_points(
     return key
 
 
-def _tolerated_rise(surface: np.ndarray, parameters: TinDensification) -> np.ndarray:
-    """Return what the slope adds to the tolerances at each cell.
+def _limits(surface: np.ndarray, parameters: TinDensification) -> np.ndarray:
+    """Return between which heights points are ground, shape (rows, columns, 2).
 
-    It is that of the smoothed surface: between single lowest points it is too uneven.
+    The slope that adds to the tolerances is that of the smoothed surface: between single lowest
+    points it is too uneven.
     """
     from scipy import ndimage
 
-    smooth = ndimage.gaussian_filter(surface, _FACET_SMOOTHING / _CELL, mode="nearest")
-    return parameters.slope_tolerance * steepness(smooth, _CELL)
+    rows, columns = surface.shape
+    limits = np.empty((rows, columns, 2))
+    strip = max(_CELLS_A_STRIP // columns, _SMOOTHING_REACH)
+
+    def fill(first: int) -> None:
+        last, before = min(first + strip, rows), min(first, _SMOOTHING_REACH)
+        part = surface[first - before : last + _SMOOTHING_REACH]
+        smooth = ndimage.gaussian_filter(part, _FACET_SMOOTHING / _CELL, mode="nearest")
+        inside = slice(before, before + last - first)
+        rise = parameters.slope_tolerance * steepness(smooth, _CELL)[inside]
+        limits[first:last, :, 0] = part[inside] - parameters.ground_tolerance_below - rise
+        limits[first:last, :, 1] = part[inside] + parameters.ground_tolerance + rise
+
+    in_threads(fill, range(0, rows, strip))
+    return limits

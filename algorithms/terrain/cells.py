@@ -97,12 +97,20 @@ class Cells:
         Of points equally low in one cell that with the smallest x, then y, is taken: the choice
         must not depend on the order of the points.
         """
-        which = np.flatnonzero(points.z == self.minimum(points.z).ravel()[self.index])
+        lowest = self.minimum(points.z).ravel()
+        is_lowest = np.empty(points.count, dtype=bool)
+
+        def compare(part: slice) -> None:
+            np.equal(points.z[part], lowest[self.index[part]], out=is_lowest[part])
+
+        over_parts(compare, points.count, _POINTS_A_PART, SILENT)
+        which = np.flatnonzero(is_lowest)
         cell = self.index[which]
         for values in (points.x, points.y):
-            least = np.full(self.rows * self.columns, np.inf)
-            np.minimum.at(least, cell, values[which])
-            first = values[which] == least[cell]
+            those = values[which]
+            least = np.full(lowest.size, np.inf)
+            np.minimum.at(least, cell, those)
+            first = those == least[cell]
             which, cell = which[first], cell[first]
         found = np.full(self.rows * self.columns, -1, dtype=np.intp)
         found[cell] = which  # the last one of points that are all the same

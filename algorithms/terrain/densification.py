@@ -17,7 +17,6 @@ import numpy as np
 from ..points import Points
 from ..progress import Progress
 from .cells import Cells
-from .gradient import steepness
 from .inpaint import inpaint
 from .lowest_points import lowest_heights
 from .morphology import within_square
@@ -104,7 +103,7 @@ def densified(
     waiting = waiting[in_gap.ravel()[cells.index[waiting]]]
     candidates = points.take(waiting)
     distance = np.abs(candidates.z - cells.at(surface, candidates.x, candidates.y))
-    slope = cells.at(steepness(surface, cells.size), candidates.x, candidates.y)
+    slope = _steepness_at(cells, surface, candidates)
     reachable = distance <= _REACHABLE * rules.iteration_distance * np.hypot(1.0, slope)
     waiting = waiting[reachable]
     progress(0.1)
@@ -113,6 +112,14 @@ def densified(
     joined = _joined(survey, first, waiting, rules, progress.part(0.1, 1.0))
     np.fmin.at(heights.ravel(), cells.index[joined], points.z[joined])
     return heights
+
+
+def _steepness_at(cells: Cells, surface: np.ndarray, points: Points) -> np.ndarray:
+    """Return how steep a surface over cells is at some points, rise over run."""
+    step, (x, y, _) = cells.size, points
+    north = cells.at(surface, x, y + step) - cells.at(surface, x, y - step)
+    east = cells.at(surface, x + step, y) - cells.at(surface, x - step, y)
+    return np.hypot(north, east) / (2.0 * step)
 
 
 class _Survey(NamedTuple):

@@ -20,7 +20,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..progress import SILENT, Progress
-from .gradient import gradient
 from .inpaint import inpaint
 from .morphology import in_steps, opening
 
@@ -97,10 +96,10 @@ def ground_cells(
     filled = inpaint(heights).astype(np.float32)
     first, limit = _standing_out(filled, size, largest_window, allowance, progress.part(0.0, 0.7))
     surface = inpaint(np.where(known & ~first & ~objects, heights, np.nan))
+    smooth, which = _smooth(surface, size, _SLOPE_SMOOTHING), np.flatnonzero(limit > 0.0)
+    slope = np.hypot(*(_slope_at(smooth, axis, which, size) for axis in (0, 1)))
     raised = objects.copy()
-    which = limit > 0.0
-    slope = np.hypot(*(each[which] for each in _smooth_gradient(surface, size, _SLOPE_SMOOTHING)))
-    raised[which] |= np.minimum(slope, _LARGEST_SLOPE) < limit[which]
+    raised.ravel()[which] |= np.minimum(slope, _LARGEST_SLOPE) < limit.ravel()[which]
     progress(0.8)
     surface = inpaint(np.where(known & ~raised, heights, np.nan))
     progress(0.85)
@@ -143,14 +142,38 @@ def _standing_out(
     return first.reshape(filled.shape), limit.reshape(filled.shape)
 
 
-def _smooth_gradient(
-    surface: np.ndarray, size: float, smoothing: float
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return the slope of a smoothed surface towards north and east."""
+def _smooth(surface: np.ndarray, size: float, smoothing: float) -> np.ndarray:
+    """Return a surface smoothed over so many metres."""
     from scipy import ndimage
 
-    smooth = ndimage.gaussian_filter(surface, smoothing / size, mode="nearest")
-    return gradient(smooth, size)
+    return ndimage.gaussian_filter(surface, smoothing / size, mode="nearest")
+
+
+def _slope_at(surface: np.ndarray, axis: int, cells: np.ndarray, size: float) -> np.ndarray:
+    """Return the slope of a surface along an axis, rise over run, at some cells.
+
+    Parameters
+    ----------
+    surface : numpy.ndarray of float, shape (rows, columns)
+        Heights in metres without NaN.
+    axis : int
+        0 towards north, 1 towards east.
+    cells : numpy.ndarray of intp
+        Indices into the flattened grid.
+    size : float
+        Side of a cell in metres.
+
+    Returns
+    -------
+    numpy.ndarray of float64, shape (cells,)
+        Central differences, one-sided at the border.
+    """
+    place = np.divmod(cells, surface.shape[1])[axis]
+    ahead, back = place < surface.shape[axis] - 1, place > 0
+    offset = surface.shape[1] if axis == 0 else 1
+    flat = surface.ravel()
+    rise = flat[cells + offset * ahead] - flat[cells - offset * back]
+    return rise / (np.maximum(ahead.astype(np.int8) + back, 1) * size)
 
 
 def _gentle_regions(
@@ -164,10 +187,8 @@ def _gentle_regions(
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
-    slopes = _smooth_gradient(surface, size, _TREND_SMOOTHING)
-    sides = [
-        _steps(filled, raised, slope, axis, size, allowance) for axis, slope in enumerate(slopes)
-    ]
+    smooth = _smooth(surface, size, _TREND_SMOOTHING)
+    sides = [_steps(filled, raised, smooth, axis, size, allowance) for axis in (0, 1)]
     one, other, sign = (np.concatenate(each) for each in zip(*sides))
     up = raised.ravel()
     cells = np.flatnonzero(up)
@@ -194,7 +215,7 @@ def _gentle_regions(
 def _steps(
     filled: np.ndarray,
     raised: np.ndarray,
-    slope: np.ndarray,
+    smooth: np.ndarray,
     axis: int,
     size: float,
     allowance: Allowance,
@@ -214,7 +235,7 @@ def _steps(
     np.logical_or(raised[ahead], raised[behind], out=matters[behind])
     one = np.flatnonzero(matters)
     other = one + (filled.shape[1] if axis == 0 else 1)
-    trend = slope.ravel()[one] * size
+    trend = _slope_at(smooth, axis, one, size) * size
     rise = filled.ravel()[other] - filled.ravel()[one] - trend
     allowed = allowance.gentle_step + np.abs(trend)
     sign = (rise > allowed).astype(np.int8) - (rise < -allowed).astype(np.int8)
