@@ -28,6 +28,8 @@ from ..terrain.objects import Relief, covered, raised_objects
 
 # Points that a cell should hold on average: with fewer, gaps break the rims.
 _POINTS_PER_CELL = 1.0
+# Metres, of which cells are a multiple where points are sparse.
+_CELL_STEP = 0.5
 # Cells smaller than that by so small a share of themselves are not made larger.
 _NEARLY = 0.05
 # Least side in metres of the blocks that the density is counted in.
@@ -54,7 +56,7 @@ class Preset(NamedTuple):
     label : str
         As in the dialog.
     cell_size : float
-        Least cell size in metres; grows where points are sparse, but in the paper's preset.
+        Least cell size in metres; larger where points are sparse, but in the paper's preset.
     height_thresholds : tuple of float
         In metres.
     final_height, max_object_size : float
@@ -69,12 +71,12 @@ class Preset(NamedTuple):
 
 
 PRESETS = {
-    "automatic": Preset("Automatic", 0.5, (5.0, 4.5, 2.0), 0.3, 40.0),
-    "flat": Preset("Flat land, fields", 0.5, (5.0, 4.5, 2.0), 0.25, 40.0),
+    "automatic": Preset("Automatic", 1.0, (5.0, 4.5, 2.0), 0.3, 40.0),
+    "flat": Preset("Flat land, fields", 1.0, (5.0, 4.5, 2.0), 0.25, 40.0),
     "hilly": Preset("Hilly land, forest", 1.0, (5.0, 4.5, 2.0), 0.3, 25.0),
-    "steep": Preset("Steep or rugged terrain", 0.5, (5.0, 4.5, 2.0), 0.5, 25.0),
-    "town": Preset("Town", 0.5, (5.0, 4.5, 2.0), 0.3, 60.0),
-    "city": Preset("City, large halls", 0.5, (5.0, 4.5, 2.0), 0.3, 120.0),
+    "steep": Preset("Steep or rugged terrain", 1.0, (5.0, 4.5, 2.0), 0.5, 25.0),
+    "town": Preset("Town", 1.0, (5.0, 4.5, 2.0), 0.3, 60.0),
+    "city": Preset("City, large halls", 1.0, (5.0, 4.5, 2.0), 0.3, 120.0),
     "paper": Preset("The paper's values", 0.5, (5.0, 4.5, 2.0), 0.3, 40.0),
 }
 
@@ -101,9 +103,9 @@ class GridMinimum(ParameterSet):
         maximum=100.0,
         kind="number",
         empty="automatic",
-        help="Side of the square cells whose lowest points are compared. 0.5 m suits 7 to 9"
-        " points/m2. Empty: from the preset; where such a cell would hold less than a point, a"
-        " multiple.",
+        help="Side of the square cells whose lowest points are compared. Smaller ones follow finer"
+        " terrain, if they hold a point, and hold more rims of low plants. Empty: from the preset;"
+        " where such a cell would hold less than a point, more.",
     )
     height_thresholds: tuple[float, ...] | None = parameter(
         None,
@@ -187,7 +189,8 @@ class GridMinimum(ParameterSet):
         names = ("cell_size", "height_thresholds", "final_height", "max_object_size")
         empty = {name: getattr(preset, name) for name in names if getattr(self, name) is None}
         if "cell_size" in empty and self.preset != "paper":
-            empty["cell_size"] *= _multiple(_density(cells), preset.cell_size)
+            large_enough = _CELL_STEP * _multiple(_density(cells), _CELL_STEP)
+            empty["cell_size"] = max(preset.cell_size, large_enough)
         return dataclasses.replace(self, **empty)
 
 
