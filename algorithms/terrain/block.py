@@ -14,7 +14,7 @@ import numpy as np
 
 from ..points import Points
 from .cells import Cells
-from .morphology import erosion
+from .morphology import erosion, within_square
 
 # So small that a cell holds few points, unless a disc or the plane had too many of them.
 _POINTS_A_CELL = 1.0
@@ -70,10 +70,8 @@ class Block:
 
     def __init__(self, points: Points, rule: Rule) -> None:
         self._rule, self._size = rule, _cell_size(points, rule.radius)
-        # Cells whose centres are closer than the one are within the radius from end to end, and
-        # those whose centres are farther apart than the other nowhere.
+        # Cells whose centres are closer than this are within the radius from end to end.
         self._inner = rule.radius / self._size - math.sqrt(2.0) - _ROUNDING
-        self._outer = rule.radius / self._size + math.sqrt(2.0) + _ROUNDING
         self._sort(points)
         self._set_offsets()
         self._set_bounds()
@@ -123,7 +121,7 @@ class Block:
         self._x, self._y, self._z = x[order], y[order], sorted_z
         self._step = max(_STEP, range_ / _MOST_STEPS)
         self._level = (height[order] / self._step).astype(np.int16)
-        self._table = _Table(self._cell, self._level, self._shape)
+        self._table = self._tabulated(self._cell, self._level, self._z)
 
     def _set_offsets(self) -> None:
         """Find which cells a disc round any place in a cell can touch."""
@@ -149,14 +147,20 @@ class Block:
         rule, lowest = self._rule, self._table.lowest.reshape(self._shape)
         empty = lowest == _EMPTY
         if rule.top_hat:
-            eroded = erosion(lowest, self._outer)
+            eroded = self._around(lowest)
             self._eroded_high = np.full(self._shape, _MOST_STEPS, dtype=np.int16)
-            self._low = eroded
+            self._low = eroded.copy()
             if self._inner >= 0.0:
                 self._eroded_high = erosion(lowest, self._inner)
-                self._low = _dilation(eroded, empty, self._inner)
-            self._high = _dilation(self._eroded_high, empty, self._outer)
+                negative = -eroded
+                negative[empty] = _EMPTY
+                self._low = -erosion(negative, self._inner)
+            negative = -self._eroded_high
+            negative[empty] = _EMPTY
+            self._high = -self._around(negative)
             self._eroded_high[empty] = -1
+            eroded[empty] = -_EMPTY
+            self._eroded_low = eroded
         else:
             self._low = np.zeros(self._shape, dtype=np.int16)
             self._high = np.full(self._shape, -1, dtype=np.int16)
@@ -164,10 +168,23 @@ class Block:
         self._least = np.maximum(lowest - self._high - 1, 0)
         most = lowest - self._low + 1
         self._least[empty] = most[empty] = _EMPTY
-        wanted = math.ceil(rule.height / self._step - _ROUNDING)
-        least = erosion(self._least, self._outer)
-        self._too_little = least.astype(np.int32) + self._low + (wanted - 2)
+        self._too_little = self._impossible() + self._low - 1
         self._enough = self._certain(most) + self._high + 1
+
+    def _impossible(self) -> np.ndarray:
+        """Return up to which steps above the opening no point of a cell stands above another."""
+        impossible = np.full(self._shape, 2 * _EMPTY, dtype=np.int32)
+        radius, rule = self._rule.radius, self._rule
+        while True:
+            # Nearer neighbours are looked at with smaller discs.
+            nearest = radius / _DISC_STEP if radius > self._size else 0.0
+            allowed = max(rule.height, rule.slope * nearest)
+            steps = min(math.ceil(allowed / self._step - _ROUNDING), 2 * _EMPTY)
+            least = self._around(self._least, radius)
+            np.minimum(impossible, least + np.int32(steps - 1), out=impossible)
+            if allowed == rule.height:
+                return impossible
+            radius = nearest
 
     def _certain(self, most: np.ndarray) -> np.ndarray:
         """Return from which steps above the opening on any point of a cell stands above another."""
@@ -196,24 +213,37 @@ class Block:
         cell = self._cell[at]
         certain = (self._enough.take(cell) - self._high.take(cell) - 1) * self._step + _ROUNDING
         needed = (self._too_little.take(cell) - self._low.take(cell) + 1) * self._step - _ROUNDING
+        low = self._not_below(at)
+        left = np.flatnonzero(self._z[at] - low >= needed)
+        at_, certain, needed, low = at[left], certain[left], needed[left], low[left]
         # Where the opening is lower than this, it does not matter by how much.
-        self._open(at, self._z[at] - certain)
-        own = self._z[at] - self._opened[at]
-        found |= ~(own < certain)
-        asked, matters, enough = self._compare(at, np.flatnonzero(~found & (own >= needed)), found)
+        self._open(at_, np.maximum(low, self._z[at_] - certain))
+        own = self._z[at_] - self._opened[at_]
+        found[left] = ~(own < certain)
+        asked = left[(own < certain) & (own >= needed)]
+        asked, matters, enough = self._compare(at, asked, found)
         if len(asked):
-            self._open(matters, enough)
+            cell = self._cell[matters]
+            self._open(matters, np.maximum(self._metres(self._low.take(cell)) - _ROUNDING, enough))
             self._compare(at, asked, found)
         return found
+
+    def _not_below(self, at: np.ndarray) -> np.ndarray:
+        """Return what the opening at some points (k,) is not below, by the cells of neighbours."""
+        eroded = self._eroded_low.ravel()
+        values = -(self._metres(eroded.take(self._cell)) - _ROUNDING)
+        table = _Table(self._table.start, -eroded, values)
+        best = _ROUNDING - self._metres(self._low.take(self._cell[at]))
+        self._lower(table, at, best, -1)
+        return -best
 
     def _open(self, at: np.ndarray, enough: np.ndarray) -> None:
         """Find the opening at some points (k,), unless it does not exceed `enough` (k,)."""
         cell = self._cell[at]
-        best = np.maximum(self._metres(self._low.take(cell)) - _ROUNDING, enough)
-        # The erosion of a neighbour matters if it exceeds what is known of the opening.
+        # The erosion of a neighbour matters if it exceeds that.
         least = np.full(self._shape[0] * self._shape[1], _EMPTY, dtype=np.int16)
-        np.minimum.at(least, cell, self._steps(best))
-        least = erosion(least.reshape(self._shape), self._outer)
+        np.minimum.at(least, cell, self._steps(enough))
+        least = self._around(least.reshape(self._shape))
         which = np.flatnonzero((self._eroded_high >= least).take(self._cell))
         self._erode(which)
         steps = self._steps(self._eroded[which])
@@ -221,38 +251,26 @@ class Block:
         which, steps = which[left], steps[left]
         order = np.lexsort((-self._eroded[which], self._cell[which]))
         which, steps = which[order], steps[order]
-        table = _Table(self._cell[which], -steps, self._shape)
-        lowest = -best
-        self._lower(table, which, -self._eroded[which], at, lowest, -1)
-        raised = np.flatnonzero(lowest < -best)
+        table = self._tabulated(self._cell[which], -steps, -self._eroded[which], which)
+        lowest = -enough
+        self._lower(table, at, lowest, -1)
+        raised = np.flatnonzero(lowest < -enough)
         self._opened[at[raised]] = -lowest[raised]
 
     def _erode(self, at: np.ndarray) -> None:
         """Find the erosion at some points, in ascending order, where it is not known yet."""
         at = at[np.isnan(self._eroded[at])]
         best = self._z[at]
-        self._lower(self._table, None, self._z, at, best)
+        self._lower(self._table, at, best)
         self._eroded[at] = best
 
-    def _lower(
-        self,
-        table: _Table,
-        point: np.ndarray | None,
-        values: np.ndarray,
-        at: np.ndarray,
-        best: np.ndarray,
-        sign: int = 1,
-    ) -> None:
+    def _lower(self, table: _Table, at: np.ndarray, best: np.ndarray, sign: int = 1) -> None:
         """Lower `best` (k,) to the least value of a neighbour.
 
         Parameters
         ----------
         table : _Table
-            Where the values of each cell are, and how low they are in steps.
-        point : numpy.ndarray of int, shape (m,), optional
-            Which points have the values, if not all.
-        values : numpy.ndarray of float, shape (m,)
-            In the order of the cells and, within a cell, ascending.
+            The values.
         at : numpy.ndarray of int, shape (k,)
             For which points, in ascending order.
         best : numpy.ndarray of float, shape (k,)
@@ -265,7 +283,7 @@ class Block:
         cell, offsets = self._cell[at], self._offsets
         if len(at) * self._inner > _MANY * len(table.lowest):
             offsets = self._rim
-            np.minimum(best, table.within(values, self._inner).take(cell), out=best)
+            np.minimum(best, self._within(table).take(cell), out=best)
         limit = sign * self._steps(sign * best)
         for group in range(0, len(offsets), _OFFSETS_A_STEP):
             hits, others = [], []
@@ -278,12 +296,14 @@ class Block:
             neighbour, last = table.start[other], table.start[other + 1]
             # From the lowest value of the other cell upwards, until one lies within the radius.
             while len(which):
-                value = values[neighbour]
+                value = table.values[neighbour]
                 left = np.flatnonzero(value < best[which])
                 which, neighbour, last, value = (
                     each[left] for each in (which, neighbour, last, value)
                 )
-                near = self._distance(at[which], neighbour if point is None else point[neighbour])
+                near = self._distance(
+                    at[which], neighbour if table.point is None else table.point[neighbour]
+                )
                 near = near <= self._rule.radius
                 lower = which[near]
                 np.minimum.at(best, lower, value[near])
@@ -364,6 +384,33 @@ class Block:
         matters = np.flatnonzero(enough < np.inf)
         return asked[possible], matters, enough[matters]
 
+    def _tabulated(
+        self,
+        cell: np.ndarray,
+        steps: np.ndarray,
+        values: np.ndarray,
+        point: np.ndarray | None = None,
+    ) -> _Table:
+        cells = self._shape[0] * self._shape[1]
+        start = np.zeros(cells + 1, dtype=np.int32)
+        np.cumsum(np.bincount(cell, minlength=cells), out=start[1:])
+        first = np.flatnonzero(np.diff(cell, prepend=-1))
+        lowest = np.full(cells, _EMPTY, dtype=np.int16)
+        lowest[cell[first]] = steps[first]
+        return _Table(start, lowest, values, point)
+
+    def _within(self, table: _Table) -> np.ndarray:
+        """Return the least value in the cells that are within the radius from end to end."""
+        least = np.full(self._shape, np.inf)
+        occupied = np.flatnonzero(table.lowest != _EMPTY)
+        least.ravel()[occupied] = table.values[table.start[occupied]]
+        return erosion(least, self._inner)
+
+    def _around(self, grid: np.ndarray, radius: float | None = None) -> np.ndarray:
+        """Return the minimum of a grid over the cells that a disc round each cell can touch."""
+        radius = self._rule.radius if radius is None else radius
+        return within_square(np.minimum, erosion(grid, radius / self._size + _ROUNDING), 1)
+
     def _distance(self, point: np.ndarray, other: np.ndarray) -> np.ndarray:
         x, y = self._x[point] - self._x[other], self._y[point] - self._y[other]
         return np.sqrt(x * x + y * y)
@@ -377,39 +424,25 @@ class Block:
         return np.clip(steps, -1, _MOST_STEPS + 1).astype(np.int16)
 
 
-class _Table:
-    """Where the points of each cell begin, and how low the first one is in steps."""
+class _Table(NamedTuple):
+    """Values in the order of their cells and, within a cell, ascending.
 
-    def __init__(self, cell: np.ndarray, steps: np.ndarray, shape: tuple[int, int]) -> None:
-        self._shape, cells = shape, shape[0] * shape[1]
-        self.start = np.zeros(cells + 1, dtype=np.int32)
-        np.cumsum(np.bincount(cell, minlength=cells), out=self.start[1:])
-        self._first = np.flatnonzero(np.diff(cell, prepend=-1))
-        self._cells = cell[self._first]
-        self.lowest = np.full(cells, _EMPTY, dtype=np.int16)
-        self.lowest[self._cells] = steps[self._first]
-        self._within = None
+    Attributes
+    ----------
+    start : numpy.ndarray of int, shape (cells + 1,)
+        Where those of each cell begin.
+    lowest : numpy.ndarray of int16, shape (cells,)
+        How low the first one of each cell is in steps.
+    values : numpy.ndarray of float, shape (m,)
+        The values.
+    point : numpy.ndarray of int, shape (m,), optional
+        Which points have them, if not all.
+    """
 
-    def within(self, values: np.ndarray, radius: float) -> np.ndarray:
-        """Return the lowest value in a disc of cells round each, shape (rows, columns)."""
-        if self._within is None:
-            lowest = np.full(self._shape, np.inf)
-            lowest.ravel()[self._cells] = values[self._first]
-            self._within = erosion(lowest, radius)
-        return self._within
-
-
-def _ranges(start: np.ndarray, count: np.ndarray) -> np.ndarray:
-    """Return start[0], start[0] + 1, ... (count[0] of them), start[1], ... in one array."""
-    before = np.cumsum(count) - count
-    return np.arange(int(count.sum())) + np.repeat(start - before, count)
-
-
-def _dilation(grid: np.ndarray, empty: np.ndarray, radius: float) -> np.ndarray:
-    """Return the maximum within a disc round each cell, of those that are not empty."""
-    negative = -grid
-    negative[empty] = _EMPTY
-    return -erosion(negative, radius)
+    start: np.ndarray
+    lowest: np.ndarray
+    values: np.ndarray
+    point: np.ndarray | None = None
 
 
 def _cell_size(points: Points, radius: float) -> float:

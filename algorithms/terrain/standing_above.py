@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import Iterator
 
 import numpy as np
 
 from ..points import Points
 from ..progress import SILENT, Progress
-from ..threads import in_threads, workers
+from ..threads import over_parts
 from .block import Block, Rule
 from .neighbourhood import Neighbourhood
 
@@ -55,40 +54,42 @@ def stands_above(
         if not neighbourhood.same_radius:
             return _everywhere(neighbourhood, points.z, rule, progress)
     above = np.zeros(points.count, dtype=bool)
-
-    def fill(part: tuple[np.ndarray, np.ndarray]) -> None:
-        which, asked = part
-        found = Block(points.take(which), rule).stands_above(asked)
-        above[which[asked]] = found[asked]
-
-    blocks = _blocks(points, rule.radius)
-    done = 0
-    while True:
-        parts = [part for _, part in zip(range(workers()), blocks)]
-        if not parts:
-            return above
-        in_threads(fill, parts)
-        done += sum(int(np.count_nonzero(asked)) for _, asked in parts)
-        progress(done / points.count)
-
-
-def _blocks(points: Points, radius: float) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """Yield points (k,) near a block as indices, and which of them belong to it (k,).
-
-    Every point belongs to one block.
-    """
-    reach = _REACH * radius * (1.0 + _ROUNDING)
+    done = 0.0
     sides = math.sqrt(points.count / _POINTS_A_BLOCK)
-    for south, north in _intervals(points.y, sides, radius):
-        strip = np.flatnonzero((points.y >= south - reach) & (points.y < north + reach))
-        x, y = points.x[strip], points.y[strip]
-        inside = (y >= south) & (y < north)
-        sides = np.count_nonzero(inside) / _POINTS_A_BLOCK
-        for west, east in _intervals(x, sides, radius):
-            near = np.flatnonzero((x >= west - reach) & (x < east + reach))
-            asked = inside[near] & (x[near] >= west) & (x[near] < east)
+    for interval in _intervals(points.y, sides, rule.radius):
+        strip = _Strip(points, rule, *interval)
+        share = strip.count / points.count
+        strip.mark(above, progress.part(done, done + share))
+        done += share
+    return above
+
+
+class _Strip:
+    """The points from one y up to another, with those that matter for them."""
+
+    def __init__(self, points: Points, rule: Rule, south: float, north: float) -> None:
+        self._points, self._rule = points, rule
+        self._reach = _REACH * rule.radius * (1.0 + _ROUNDING)
+        beyond = (points.y < south - self._reach) | (points.y >= north + self._reach)
+        self._near = np.flatnonzero(~beyond)
+        self._x, y = points.x[self._near], points.y[self._near]
+        self._asked = (y >= south) & (y < north)
+        self.count = int(np.count_nonzero(self._asked))
+
+    def mark(self, above: np.ndarray, progress: Progress) -> None:
+        """Set `above` (n,) to True for the points of the strip that stand above a neighbour."""
+        blocks = _intervals(self._x, self.count / _POINTS_A_BLOCK, self._rule.radius)
+
+        def fill(part: slice) -> None:
+            (west, east), x = blocks[part.start], self._x
+            near = np.flatnonzero((x >= west - self._reach) & (x < east + self._reach))
+            asked = self._asked[near] & (x[near] >= west) & (x[near] < east)
             if asked.any():
-                yield strip[near], asked
+                which = self._near[near]
+                found = Block(self._points.take(which), self._rule).stands_above(asked)
+                above[which[found]] = True
+
+        over_parts(fill, len(blocks), 1, progress)
 
 
 def _intervals(values: np.ndarray, count: float, radius: float) -> list[tuple[float, float]]:
