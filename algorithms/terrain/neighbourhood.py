@@ -62,21 +62,8 @@ class Neighbourhood:
         """Whether the radius is the same for all points: none had too few neighbours."""
         return not len(self._grown)
 
-    def lowest(self, values: np.ndarray) -> np.ndarray:
-        """Return the lowest of `values` (n,) in each cell, shape `shape`; inf where none is."""
-        lowest = np.full(self.shape[0] * self.shape[1], np.inf)
-        np.minimum.at(lowest, self.cell, values)
-        return lowest.reshape(self.shape)
-
-    def minimum(
-        self,
-        values: np.ndarray,
-        progress: Progress = SILENT,
-        at: np.ndarray | None = None,
-        among: np.ndarray | None = None,
-        start: np.ndarray | None = None,
-    ) -> np.ndarray:
-        """Return the lowest value among points and their neighbours.
+    def minimum(self, values: np.ndarray, progress: Progress = SILENT) -> np.ndarray:
+        """Return the lowest value among each point and its neighbours.
 
         Parameters
         ----------
@@ -84,57 +71,34 @@ class Neighbourhood:
             One for each point.
         progress : Progress
             Receives progress.
-        at : numpy.ndarray of int, shape (k,), optional
-            For which points; for all if it is not given. Their radius must be the same.
-        among : numpy.ndarray of int, optional
-            Which neighbours count, if not all.
-        start : numpy.ndarray of float, shape (k,), optional
-            What the result does not exceed: the values of the points if it is not given.
 
         Returns
         -------
-        numpy.ndarray of float, shape (k,)
+        numpy.ndarray of float, shape (n,)
         """
-        table = _Table(self, values, among)
-        if at is None:
-            at = np.arange(len(values))
-        order = np.argsort(self.cell[at], kind="stable")
-        at, best = at[order], (values[at] if start is None else start)[order]
+        table = _Table(self, values)
+        order = np.argsort(self.cell, kind="stable")
+        best = values[order]
         if self.inner >= 0.0:
             lowest = erosion(table.lowest.reshape(self.shape), self.inner).ravel()
-            best = np.minimum(best, lowest[self.cell[at]])
+            best = np.minimum(best, lowest[self.cell[order]])
 
         def fill(part: slice) -> None:
-            self._lower(table, at[part], best[part])
+            self._lower(table, order[part], best[part])
 
-        over_parts(fill, len(at), _POINTS_A_STEP, progress)
+        over_parts(fill, len(order), _POINTS_A_STEP, progress)
         result = np.empty_like(best)
         result[order] = best
         for point, neighbour in self._grown_pairs():
             np.minimum.at(result, point, values[neighbour])
         return result
 
-    def maximum(
-        self,
-        values: np.ndarray,
-        progress: Progress = SILENT,
-        at: np.ndarray | None = None,
-        among: np.ndarray | None = None,
-        start: np.ndarray | None = None,
-    ) -> np.ndarray:
-        """Return the highest value among points and their neighbours; see `minimum`."""
-        start = None if start is None else -start
-        return -self.minimum(-values, progress, at, among, start)
+    def maximum(self, values: np.ndarray, progress: Progress = SILENT) -> np.ndarray:
+        """Return the highest value among each point and its neighbours; see `minimum`."""
+        return -self.minimum(-values, progress)
 
     def stands_above(
-        self,
-        values: np.ndarray,
-        height: float,
-        slope: float,
-        progress: Progress = SILENT,
-        at: np.ndarray | None = None,
-        own: np.ndarray | None = None,
-        below: np.ndarray | None = None,
+        self, values: np.ndarray, height: float, slope: float, progress: Progress = SILENT
     ) -> np.ndarray:
         """Return which points stand far above one of their neighbours.
 
@@ -148,30 +112,20 @@ class Neighbourhood:
             The rise over run that counts: more than this. Both must be met by one neighbour.
         progress : Progress
             Receives progress.
-        at : numpy.ndarray of int, shape (k,), optional
-            Which points are asked for; all if it is not given. Their radius must be the same.
-        own : numpy.ndarray of float, shape (k,), optional
-            Their heights, if they are not those in `values`.
-        below : numpy.ndarray of bool, shape (n,), optional
-            Receives True for each neighbour that one of them stands above.
 
         Returns
         -------
-        numpy.ndarray of bool, shape (k,)
+        numpy.ndarray of bool, shape (n,)
         """
-        everywhere = at is None
-        if everywhere:
-            at = np.arange(len(values))
-        own = values[at] if own is None else own
-        table = _Table(self, values, None if everywhere else self.near(at))
+        table = _Table(self, values)
         around = erosion(table.lowest.reshape(self.shape), self.outer).ravel()
-        active = np.flatnonzero(own - around[self.cell[at]] >= height - ROUNDING)
-        active = active[np.argsort(self.cell[at[active]], kind="stable")]
-        found = np.zeros(len(at), dtype=bool)
+        active = np.flatnonzero(values - around[self.cell] >= height - ROUNDING)
+        active = active[np.argsort(self.cell[active], kind="stable")]
+        found = np.zeros(len(values), dtype=bool)
 
         def fill(part: slice) -> None:
             which = active[part]
-            found[which] = self._above(table, at[which], own[which], height, slope, below)
+            found[which] = self._above(table, which, values[which], height, slope)
 
         over_parts(fill, len(active), _POINTS_A_STEP, progress)
         for point, neighbour in self._grown_pairs():
@@ -179,12 +133,6 @@ class Neighbourhood:
             far = rise > slope * self._distance(point, neighbour)
             found[point[far & (rise >= height)]] = True
         return found
-
-    def near(self, at: np.ndarray) -> np.ndarray:
-        """Return which points may be neighbours of some (k,), as indices in ascending order."""
-        far = np.ones(self.shape, dtype=np.int8)
-        far.ravel()[self.cell[at]] = 0
-        return np.flatnonzero(erosion(far, self.outer).ravel()[self.cell] == 0)
 
     def _set_offsets(self, radius: float, size: float) -> None:
         """Find which cells a disc round any place in a cell can touch; `radius` is in cells."""
@@ -235,7 +183,6 @@ class Neighbourhood:
         own: np.ndarray,
         height: float,
         slope: float,
-        below: np.ndarray | None,
     ) -> np.ndarray:
         """Return which of some points stand above a neighbour."""
         x, y, cell = self._x[point], self._y[point], self.cell[point]
@@ -254,15 +201,10 @@ class Neighbourhood:
                 distance = _length(x[which] - table.x[neighbour], y[which] - table.y[neighbour])
                 above = (distance <= self._radius) & (rise >= height) & (rise > slope * distance)
                 found[which[above]] = True
-                if below is None:
-                    go_on = ~above
-                else:
-                    below[table.point[neighbour[above]]] = go_on = True
                 neighbour = neighbour + 1
-                left = np.flatnonzero(go_on & (neighbour < end) & (rise >= allowed))
+                left = np.flatnonzero(~above & (neighbour < end) & (rise >= allowed))
                 which, neighbour, end = which[left], neighbour[left], end[left]
-            if below is None:
-                asked = asked[~found[asked]]
+            asked = asked[~found[asked]]
         return found
 
     def _find_grown(self, at_least: int) -> tuple[np.ndarray, np.ndarray]:
@@ -315,15 +257,10 @@ class Neighbourhood:
 class _Table:
     """Points in the order of their cells and, within a cell, of their values."""
 
-    def __init__(
-        self, neighbourhood: Neighbourhood, values: np.ndarray, among: np.ndarray | None
-    ) -> None:
+    def __init__(self, neighbourhood: Neighbourhood, values: np.ndarray) -> None:
         cell, x, y = neighbourhood.cell, neighbourhood._x, neighbourhood._y
-        if among is not None:
-            cell, values, x, y = cell[among], values[among], x[among], y[among]
         order = np.lexsort((values, cell))
         self.x, self.y, self.values = x[order], y[order], values[order]
-        self.point = order if among is None else among[order]
         cells = neighbourhood.shape[0] * neighbourhood.shape[1]
         counts = np.bincount(cell, minlength=cells)
         self.start = np.concatenate(((0), np.cumsum(counts)), axis=None)
