@@ -10,8 +10,11 @@ from bare_earth.algorithms.errors import BareEarthError
 from bare_earth.algorithms.filters.slope import SlopeFilter, classify
 from bare_earth.algorithms.points import Points
 from bare_earth.algorithms.progress import Progress
+from bare_earth.algorithms.terrain import standing_above
+from bare_earth.algorithms.terrain.block import Block
 from bare_earth.algorithms.terrain.low_clusters import low_clusters
 from bare_earth.algorithms.terrain.neighbourhood import Neighbourhood
+from bare_earth.algorithms.threads import may_use
 
 CLASSIC = SlopeFilter(preset="whitebox")
 
@@ -74,6 +77,44 @@ def test_brute_force_agrees_on_houses_trees_and_noise():
     for radius in (2.0, 10.0):
         parameters = CLASSIC.resolve(points)
         parameters = dataclasses.replace(parameters, search_radius=radius)
+        assert np.array_equal(classify(points, parameters), by_brute_force(points, parameters))
+
+
+@pytest.mark.parametrize("radius", [0.5, 1.0])
+def test_the_classic_filter_gives_the_same_in_blocks_and_in_threads(radius, monkeypatch):
+    points, _ = village(size=60.0)
+    points = points.take(np.random.default_rng(3).permutation(points.count))
+    parameters = dataclasses.replace(CLASSIC.resolve(points), search_radius=radius)
+    whole = classify(points, parameters)
+    assert 0.5 < whole.mean() < 0.95
+    built = []
+
+    def counted(*arguments):
+        built.append(arguments)
+        return Block(*arguments)
+
+    monkeypatch.setattr(standing_above, "_POINTS_A_BLOCK", 500)
+    monkeypatch.setattr(standing_above, "Block", counted)
+    assert np.array_equal(classify(points, parameters), whole)
+    assert len(built) >= 9
+    with may_use(3):
+        assert np.array_equal(classify(points, parameters), whole)
+
+
+@pytest.mark.parametrize("depth", [3e2, 3e4])
+def test_brute_force_agrees_where_an_outlier_makes_the_steps_of_height_coarse(depth):
+    points, _ = village(size=30.0)
+    points.z[7] -= depth
+    parameters = CLASSIC.resolve(points)
+    assert np.array_equal(classify(points, parameters), by_brute_force(points, parameters))
+
+
+def test_brute_force_agrees_on_heights_that_differ_by_less_than_a_step():
+    random = np.random.default_rng(5)
+    x, y = np.round(random.uniform(0.0, 6.0, (2, 900)), 1)
+    points = Points(x, y, random.choice([0.0, 0.004, 1.0 - 1e-12, 1.0, 1.0 + 1e-12, 1.004], 900))
+    for top_hat in (True, False):
+        parameters = dataclasses.replace(CLASSIC.resolve(points), slope_norm=top_hat)
         assert np.array_equal(classify(points, parameters), by_brute_force(points, parameters))
 
 
