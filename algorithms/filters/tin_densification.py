@@ -21,7 +21,7 @@ from ..parameters import ParameterSet, parameter, parameter_of
 from ..points import Points
 from ..progress import SILENT, Progress
 from ..terrain.cells import Cells
-from ..terrain.densification import DensificationRules, densified
+from ..terrain.densification import DensificationRules, densified, with_lower
 from ..terrain.gradient import steepness
 from ..terrain.ground_cells import ground_cells
 from ..terrain.inpaint import inpaint
@@ -273,21 +273,21 @@ def classify(
     objects = survey.objects(resolved.max_building_size, progress.part(0.1, 0.25))
     radius = resolved.max_building_size / 2.0
     ground = ground_cells(heights, _CELL, objects, radius, progress=progress.part(0.25, 0.7))
-    lowest, cell = survey.lowest, cells.index[survey.lowest]
-    seeds = ground.ravel()[cell]
-    first, waiting = lowest[seeds], lowest[~seeds & np.isfinite(heights).ravel()[cell]]
+    seeds = ground.ravel()[survey.cell]
+    first = survey.lowest[seeds]
+    waiting = survey.lowest[~seeds & np.isfinite(heights).ravel()[survey.cell]]
+    heights = np.where(ground, heights, np.nan)
     if known_ground is not None and known_ground.any():
-        first = np.concatenate((first, _lowest_of(points, np.flatnonzero(known_ground))))
+        known = _lowest_of(points, np.flatnonzero(known_ground))
+        first, heights = np.append(first, known), with_lower(heights, cells, points, known)
     if not len(first):
         raise BareEarthError(
             "No point can be taken for ground with certainty. Check the maximum building size and"
             " the selection of points."
         )
-    vertices = densified(
-        points, first, waiting, cells, survey.spacing, _rules(resolved), progress.part(0.7, 0.8)
-    )
-    surface = inpaint(vertices)
-    limits = _limits(surface, resolved)
+    rules, part = _rules(resolved), progress.part(0.7, 0.8)
+    vertices = densified(points, first, waiting, heights, cells, survey.spacing, rules, part)
+    limits = _limits(inpaint(vertices), resolved)
     found = near_surface(points, cells, limits, progress.part(0.8, 0.95))
     return _key_points(points, found, resolved, progress.part(0.95, 1.0))
 

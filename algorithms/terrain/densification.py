@@ -18,7 +18,6 @@ from ..points import Points
 from ..progress import Progress
 from .cells import Cells
 from .inpaint import inpaint
-from .lowest_points import lowest_heights
 from .morphology import within_square
 from .tin import Tin
 
@@ -67,6 +66,7 @@ def densified(
     points: Points,
     first: np.ndarray,
     waiting: np.ndarray,
+    heights: np.ndarray,
     cells: Cells,
     spacing: float,
     rules: DensificationRules,
@@ -83,6 +83,8 @@ def densified(
         All points.
     first, waiting : numpy.ndarray of int
         Indices of the first vertices, and of the candidates.
+    heights : numpy.ndarray of float64, shape (rows, columns)
+        The lowest height of the first vertices in each cell; NaN where there is none.
     cells : Cells
         Those of the points; each holds one vertex or candidate, as a rule.
     spacing : float
@@ -95,9 +97,8 @@ def densified(
     Returns
     -------
     numpy.ndarray of float64, shape (rows, columns)
-        The lowest height of the vertices in each cell; NaN where there is none.
+        `heights` with the candidates that join.
     """
-    heights = lowest_heights(cells, points, first)
     surface, holding = inpaint(heights), np.isfinite(heights)
     in_gap = _counts_round(holding) <= _MOST_VERTICES_ROUND
     waiting = waiting[in_gap.ravel()[cells.index[waiting]]]
@@ -110,8 +111,14 @@ def densified(
     reach = math.ceil(max(spacing / cells.size, 1.0))
     survey = _Survey(points, cells, _ring(cells, surface), reach)
     joined = _joined(survey, first, waiting, rules, progress.part(0.1, 1.0))
-    np.fmin.at(heights.ravel(), cells.index[joined], points.z[joined])
-    return heights
+    return with_lower(heights, cells, points, joined)
+
+
+def with_lower(heights: np.ndarray, cells: Cells, points: Points, which: np.ndarray) -> np.ndarray:
+    """Return a grid of lowest heights (NaN where there is none) with some more points."""
+    lowest = heights.ravel().copy()
+    np.fmin.at(lowest, cells.index[which], points.z[which])
+    return lowest.reshape(heights.shape)
 
 
 def _steepness_at(cells: Cells, surface: np.ndarray, points: Points) -> np.ndarray:

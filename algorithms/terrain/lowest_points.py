@@ -35,6 +35,8 @@ class LowestPoints:
         Those whose lowest points are wanted.
     lowest : numpy.ndarray of intp
         The lowest point of each occupied cell.
+    cell : numpy.ndarray of int32
+        That cell, in the flattened grid.
     heights : numpy.ndarray of float64, shape (rows, columns)
         Their heights, without low outliers; NaN where there is none.
     """
@@ -44,8 +46,9 @@ class LowestPoints:
         self.spacing = spacing(points)
         self.cells = Cells.over(points, size)
         self.lowest = self.cells.lowest_points(points)
+        self.cell = self.cells.index[self.lowest]
         heights = np.full(self.cells.rows * self.cells.columns, np.nan)
-        heights[self.cells.index[self.lowest]] = points.z[self.lowest]
+        heights[self.cell] = points.z[self.lowest]
         self.heights = self._without_outliers(heights.reshape(self.cells.shape), size)
 
     @staticmethod
@@ -74,25 +77,3 @@ class LowestPoints:
             heights, wide.size, _OBJECT_HEIGHTS, max_size, progress, first=self.tall
         )
         return wide.resampled(found, self.cells)
-
-
-def lowest_heights(cells: Cells, points: Points, which: np.ndarray) -> np.ndarray:
-    """Return the lowest height in each cell of some points; NaN where none of them is.
-
-    Parameters
-    ----------
-    cells : Cells
-        Those of the points.
-    points : Points
-        All points.
-    which : numpy.ndarray of int
-        Indices of those that count.
-
-    Returns
-    -------
-    numpy.ndarray of float64, shape (rows, columns)
-    """
-    lowest = np.full(cells.rows * cells.columns, np.inf)
-    np.minimum.at(lowest, cells.index[which], points.z[which])
-    lowest[np.isinf(lowest)] = np.nan
-    return lowest.reshape(cells.shape)

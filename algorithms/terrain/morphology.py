@@ -29,10 +29,12 @@ def in_steps(grid: np.ndarray) -> tuple[np.ndarray, float]:
     step : float
         Metres of a step: a centimetre, or more if the others span more than 650 m.
     """
-    few = int(_NEARLY_ALL * grid.size)
-    low, high = np.partition(grid.ravel(), (few, grid.size - 1 - few))[[few, grid.size - 1 - few]]
-    low = max(float(low) - _BEYOND, float(grid.min()))
-    high = min(float(high) + _BEYOND, float(grid.max()))
+    low, high = float(grid.min()), float(grid.max())
+    if high - low > _BEYOND:
+        few = int(_NEARLY_ALL * grid.size)
+        ends = (few, grid.size - 1 - few)
+        nearly_lowest, nearly_highest = np.partition(grid.ravel(), ends)[list(ends)].tolist()
+        low, high = max(nearly_lowest - _BEYOND, low), min(nearly_highest + _BEYOND, high)
     step = max(_STEP, (high - low) / _MOST_STEPS)
     steps = np.rint((np.clip(grid, low, high) - low) / step) - _MOST_STEPS // 2
     return steps.astype(np.int16), step
