@@ -85,12 +85,6 @@ class Cells:
         lowest[np.isinf(lowest)] = np.nan
         return lowest.reshape(self.shape)
 
-    def of(self, points: Points) -> tuple[np.ndarray, np.ndarray]:
-        """Return row and column of the cell of each of some points, which lie over the grid."""
-        row = np.floor(points.y / self.size).astype(np.intp) - self.first_row
-        column = np.floor(points.x / self.size).astype(np.intp) - self.first_column
-        return row, column
-
     def lowest_points(self, points: Points) -> np.ndarray:
         """Return the index of the lowest point of each occupied cell, in the order of the cells.
 
