@@ -2,6 +2,13 @@
 
 from __future__ import annotations
 
+import time
+from typing import Iterator
+
+# What a piece of a long step is to take, in seconds: a cancel waits for its end.
+_PIECE_SECONDS = 0.4
+_FIRST_PIECE, _LEAST_PIECE = 500_000, 100_000
+
 
 class Progress:
     """Receives how far a computation is and what it noticed; this base class ignores both.
@@ -64,6 +71,27 @@ class Unsaid(Progress):
     def report(self, fraction: float) -> None:
         """Pass it on."""
         self._whole(fraction)
+
+
+def paced(count: int, most: int) -> Iterator[slice]:
+    """Yield the pieces of a range, each as long as the pace of the last one lets it be.
+
+    Parameters
+    ----------
+    count : int
+        Length of the range, in points.
+    most : int
+        No piece is longer.
+    """
+    start, size = 0, _FIRST_PIECE
+    while start < count:
+        piece = slice(start, min(start + min(size, most), count))
+        begun = time.perf_counter()
+        yield piece
+        took = max(time.perf_counter() - begun, 1e-9)
+        fitting = int((piece.stop - start) * _PIECE_SECONDS / took)
+        # No more than twice as many: the first ones may have been quick for once.
+        start, size = piece.stop, min(max(fitting, _LEAST_PIECE), 2 * size)
 
 
 SILENT = Progress()

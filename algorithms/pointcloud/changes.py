@@ -8,9 +8,10 @@ from typing import Iterator
 import numpy as np
 
 from ..errors import BareEarthError
+from ..progress import paced
 from .extrabytes import ExtraDimension, place_dimension
 from .lasbytes import LasLayout, with_count, with_z_range
-from .records import CHUNK, FIRST_EXTENDED_FORMAT, check_class, read_records
+from .records import FIRST_EXTENDED_FORMAT, MOST_KEPT, check_class, read_records
 
 _Z = slice(8, 12)
 # The key-point flag: in the byte of the class up to point format 5, in that of the flags from 6 on.
@@ -125,8 +126,7 @@ class Rewriting:
     def _sources(self) -> Iterator[np.ndarray]:
         if self._records is None:
             return read_records(self.source)
-        starts = range(0, len(self._records), CHUNK)
-        return (self._records[start : start + CHUNK] for start in starts)
+        return (self._records[piece] for piece in paced(len(self._records), MOST_KEPT))
 
     def check_classes(self) -> None:
         """Refuse classes that the point format of the file has no room for."""

@@ -15,15 +15,13 @@ from .backends import require
 from .cloud import PointCloud
 from .crs import Crs, read_crs, unit_name
 from .lasbytes import LasLayout, read_layout
-from .records import read_records
+from .records import MOST_KEPT, read_records
 from .sources import damage_told, damaged
 
 if TYPE_CHECKING:
     import laspy
 
-_CHUNK = 1_000_000
-# So many at a time keep several processors busy; more would let a cancel wait for over a second.
-_KEPT_CHUNK = 2_000_000
+_CHUNK = 500_000
 _POINTS_A_PART = 1 << 17
 _SMALL = {
     "classification": np.uint8,
@@ -79,7 +77,7 @@ def _with_records(layout: LasLayout, progress: Progress) -> PointCloud:
     crs = read_crs(layout, progress)
     records = np.empty((layout.count, layout.record_length), dtype=np.uint8)
     start = 0
-    for part in read_records(layout, _KEPT_CHUNK, records):
+    for part in read_records(layout, MOST_KEPT, records):
         start += len(part)
         progress(start / layout.count)
     with _opened(layout) as reader:

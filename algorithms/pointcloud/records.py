@@ -7,10 +7,12 @@ from typing import BinaryIO, Iterator
 import numpy as np
 
 from ..errors import BareEarthError
+from ..progress import paced
 from .lasbytes import LASZIP, LasLayout, Vlr, new_vlr
 from .sources import damage_told, damaged, open_source
 
-CHUNK = 1_000_000
+# Most points at a time: where they go through a buffer, and where all of them are in memory.
+_MOST, MOST_KEPT = 1_000_000, 8_000_000
 _BLOCK = 1 << 24
 FIRST_EXTENDED_FORMAT = 6
 _LARGEST_LEGACY_CLASS = 31
@@ -43,7 +45,7 @@ def check_class(path: object, point_format: int, value: int, what: str) -> None:
 
 
 def read_records(
-    layout: LasLayout, chunk: int = CHUNK, into: np.ndarray | None = None
+    layout: LasLayout, most: int = _MOST, into: np.ndarray | None = None
 ) -> Iterator[np.ndarray]:
     """Yield the points of a file as their bytes.
 
@@ -51,14 +53,14 @@ def read_records(
     ----------
     layout : LasLayout
         The file.
-    chunk : int
-        Most points to read at a time.
+    most : int
+        Most points to read at a time; fewer where that takes long.
     into : numpy.ndarray of uint8, shape (n, record length), optional
         Where to keep all of them.
 
     Yields
     ------
-    numpy.ndarray of uint8, shape (up to `chunk`, record length)
+    numpy.ndarray of uint8, shape (up to `most`, record length)
         A writable array: a part of `into`, or one whose memory the next may reuse.
 
     Raises
@@ -70,10 +72,9 @@ def read_records(
         file.seek(layout.points_start)
         decompressor = _decompressor(layout, file) if layout.is_compressed else None
         if into is None:
-            buffer = np.empty((min(chunk, layout.count), layout.record_length), dtype=np.uint8)
-        for start in range(0, layout.count, chunk):
-            end = min(start + chunk, layout.count)
-            records = buffer[: end - start] if into is None else into[start:end]
+            buffer = np.empty((min(most, layout.count), layout.record_length), dtype=np.uint8)
+        for piece in paced(layout.count, most):
+            records = buffer[: piece.stop - piece.start] if into is None else into[piece]
             with damage_told(layout.path):
                 if decompressor is not None:
                     decompressor.decompress_many(records.reshape(-1))

@@ -4,8 +4,9 @@ import time
 import numpy as np
 import pytest
 
+from bare_earth.algorithms import progress as progress_module
 from bare_earth.algorithms.errors import Cancelled
-from bare_earth.algorithms.progress import SILENT, Progress
+from bare_earth.algorithms.progress import SILENT, Progress, paced
 from bare_earth.algorithms.threads import (
     available_cpus,
     in_threads,
@@ -80,6 +81,19 @@ def test_a_cancel_between_parts_ends_the_threads(count):
         over_parts(late, 1000, 1, Stopped())
     assert len(begun) <= 2 * count
     assert not [each for each in threading.enumerate() if each.name == "strip"]
+
+
+def test_pieces_are_as_long_as_the_pace_lets_them_be(monkeypatch):
+    now, seen = [0.0], []
+    monkeypatch.setattr(progress_module.time, "perf_counter", lambda: now[0])
+    for piece in paced(5_000_000, 2_000_000):
+        seen.append(piece)
+        # A tenth of a second each, until the machine has other things to do.
+        now[0] += 0.1 if piece.stop <= 3_000_000 else (piece.stop - piece.start) / 500_000
+    assert [each.start for each in seen[1:]] == [each.stop for each in seen[:-1]]
+    lengths = [each.stop - each.start for each in seen]
+    assert lengths[:3] == [500_000, 1_000_000, 2_000_000]
+    assert sum(lengths) == 5_000_000 and abs(lengths[-2] - 200_000) < 10
 
 
 def test_there_is_a_cpu():
