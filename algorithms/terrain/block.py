@@ -8,7 +8,7 @@ compared point by point, in full precision, with those neighbours only that can 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Callable, NamedTuple
 
 import numpy as np
 
@@ -66,13 +66,19 @@ class Block:
         Those asked for, their neighbours, the neighbours of these and theirs.
     rule : Rule
         What is asked.
+    alive : callable
+        Is called several times a second; what it raises ends the work.
     """
 
-    def __init__(self, points: Points, rule: Rule) -> None:
+    def __init__(
+        self, points: Points, rule: Rule, alive: Callable[[], None] = lambda: None
+    ) -> None:
+        self._alive = alive
         self._rule, self._size = rule, _cell_size(points, rule.radius)
         # Cells whose centres are closer than this are within the radius from end to end.
         self._inner = rule.radius / self._size - math.sqrt(2.0) - _ROUNDING
         self._sort(points)
+        alive()
         self._set_offsets()
         self._set_bounds()
 
@@ -185,6 +191,7 @@ class Block:
             if allowed == rule.height:
                 return impossible
             radius = nearest
+            self._alive()
 
     def _certain(self, most: np.ndarray) -> np.ndarray:
         """Return from which steps above the opening on any point of a cell stands above another."""
@@ -199,6 +206,7 @@ class Block:
             if allowed == rule.height:
                 break  # smaller discs allow no less
             radius = (radius + math.sqrt(2.0)) / _DISC_STEP - math.sqrt(2.0)
+            self._alive()
         return certain
 
     def _exactly(self, at: np.ndarray) -> np.ndarray:
@@ -244,8 +252,10 @@ class Block:
         least = np.full(self._shape[0] * self._shape[1], _EMPTY, dtype=np.int16)
         np.minimum.at(least, cell, self._steps(enough))
         least = self._around(least.reshape(self._shape))
+        self._alive()
         which = np.flatnonzero((self._eroded_high >= least).take(self._cell))
         self._erode(which)
+        self._alive()
         steps = self._steps(self._eroded[which])
         left = np.flatnonzero(steps >= least.take(self._cell[which]))
         which, steps = which[left], steps[left]
@@ -286,6 +296,7 @@ class Block:
             np.minimum(best, self._within(table).take(cell), out=best)
         limit = sign * self._steps(sign * best)
         for group in range(0, len(offsets), _OFFSETS_A_STEP):
+            self._alive()
             hits, others = [], []
             for offset in offsets[group : group + _OFFSETS_A_STEP]:
                 other = cell + offset
@@ -347,6 +358,7 @@ class Block:
         left = np.arange(len(point))
         maybe = []
         for group in range(0, len(self._offsets), _OFFSETS_A_STEP):
+            self._alive()
             part = slice(group, group + _OFFSETS_A_STEP)
             left = left[~sure[left]]
             cell = self._cell[point[left], None] + self._offsets[part]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import threading
 
 import numpy as np
 
@@ -79,6 +80,7 @@ class _Strip:
     def mark(self, above: np.ndarray, progress: Progress) -> None:
         """Set `above` (n,) to True for the points of the strip that stand above a neighbour."""
         blocks = _intervals(self._x, self.count / _POINTS_A_BLOCK, self._rule.radius)
+        caller = threading.get_ident()
 
         def fill(part: slice) -> None:
             (west, east), x = blocks[part.start], self._x
@@ -86,7 +88,13 @@ class _Strip:
             asked = self._asked[near] & (x[near] >= west) & (x[near] < east)
             if asked.any():
                 which = self._near[near]
-                found = Block(self._points.take(which), self._rule).stands_above(asked)
+
+                def alive() -> None:
+                    # Progress is for the calling thread only.
+                    if threading.get_ident() == caller:
+                        progress(part.start / len(blocks))
+
+                found = Block(self._points.take(which), self._rule, alive).stands_above(asked)
                 above[which[found]] = True
 
         over_parts(fill, len(blocks), 1, progress)
