@@ -48,6 +48,7 @@ class Report:
             "contestants": self._notes(),
             "goals": self._goals(),
             "ratios": self._ratios(),
+            "added": self._added(),
             "absolute": self._absolute(),
             "exponents": self._exponents(),
             "sizing": self._sizing(),
@@ -89,6 +90,17 @@ class Report:
             for each in self._contestants
         ]
         return table(["Time, as a multiple of reading and writing", *_heads(tiles)], rows)
+
+    def _added(self) -> list[str]:
+        """Return the seconds that each contestant takes beside reading and writing."""
+        tiles = [each for each in self._results.tiles if self._results.costs(each.name, FLOOR)]
+        rows = []
+        for each in self._contestants:
+            if each.name != FLOOR:
+                found = [self._results.added(tile.name, each.name) for tile in tiles]
+                cells = [_ranged(one, 1) if one else NONE for one in found]
+                rows.append([_label(each), *cells])
+        return table(["Seconds beside reading and writing", *_heads(tiles)], rows)
 
     def _ratio(self, tile: Tile, contestant: Contestant) -> str:
         found = self._results.ratio(tile.name, contestant.name)

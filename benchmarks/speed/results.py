@@ -91,6 +91,17 @@ class Results:
             ]
         )
 
+    def added(self, tile: str, contestant: str) -> Spread | None:
+        """Return the seconds more than the floor of the same round."""
+        floor = self.costs(tile, FLOOR)
+        return spread(
+            [
+                cost.wall - floor[number].wall
+                for number, cost in self.costs(tile, contestant).items()
+                if number in floor
+            ]
+        )
+
     def largest(self, *contestants: str) -> Tile | None:
         """Return the largest tile that all of these finished."""
         done = [
