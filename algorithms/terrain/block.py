@@ -223,10 +223,10 @@ class Block:
         needed = (self._too_little.take(cell) - self._low.take(cell) + 1) * self._step - _ROUNDING
         low = self._not_below(at)
         left = np.flatnonzero(self._z[at] - low >= needed)
-        at_, certain, needed, low = at[left], certain[left], needed[left], low[left]
+        certain, needed, point = certain[left], needed[left], at[left]
         # Where the opening is lower than this, it does not matter by how much.
-        self._open(at_, np.maximum(low, self._z[at_] - certain))
-        own = self._z[at_] - self._opened[at_]
+        self._open(point, np.maximum(low[left], self._z[point] - certain))
+        own = self._z[point] - self._opened[point]
         found[left] = ~(own < certain)
         asked = left[(own < certain) & (own >= needed)]
         asked, matters, enough = self._compare(at, asked, found)

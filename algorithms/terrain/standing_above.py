@@ -15,7 +15,7 @@ from .neighbourhood import Neighbourhood
 
 # Blocks of about so many points: their tables fit into the processor's cache, and they are done in
 # less than a second.
-_POINTS_A_BLOCK = 250_000
+_POINTS_A_BLOCK = 400_000
 # Heights above the opening depend on points so many radii away, and with them the answer.
 _REACH = 3.0
 # A block is so many radii wide or more, or most of the points looked at would lie round it.
