@@ -13,13 +13,12 @@ from typing import Callable, NamedTuple
 import numpy as np
 
 from ..points import Points
-from .cells import Cells
 from .morphology import erosion, within_square
+from .neighbourhood import cell_size
 
 # So small that a cell holds few points, unless a disc or the plane had too many of them.
 _POINTS_A_CELL = 1.0
 _MOST_CELLS_A_RADIUS = 48
-_MOST_CELLS_A_POINT = 4
 # Metres of a step, unless that makes more than fit into 16 bits with room for sums of two.
 _STEP, _MOST_STEPS = 0.01, 32_000
 _EMPTY = 32_767
@@ -74,7 +73,8 @@ class Block:
         self, points: Points, rule: Rule, alive: Callable[[], None] = lambda: None
     ) -> None:
         self._alive = alive
-        self._rule, self._size = rule, _cell_size(points, rule.radius)
+        self._rule = rule
+        self._size = cell_size(points, rule.radius, _POINTS_A_CELL, _MOST_CELLS_A_RADIUS)
         # Cells whose centres are closer than this are within the radius from end to end.
         self._inner = rule.radius / self._size - math.sqrt(2.0) - _ROUNDING
         self._sort(points)
@@ -455,13 +455,3 @@ class _Table(NamedTuple):
     lowest: np.ndarray
     values: np.ndarray
     point: np.ndarray | None = None
-
-
-def _cell_size(points: Points, radius: float) -> float:
-    """Return a size of cells that hold few points each, but are not too many a disc."""
-    coarse = Cells.over(points, max(radius, 1.0))
-    density = points.count / (np.count_nonzero(coarse.occupied) * coarse.size**2)
-    wanted = min(math.sqrt(_POINTS_A_CELL / density), radius)
-    most = max(_MOST_CELLS_A_POINT * points.count, 1_000_000)
-    least = math.sqrt(coarse.rows * coarse.columns / most) * coarse.size
-    return max(wanted, radius / _MOST_CELLS_A_RADIUS, least)

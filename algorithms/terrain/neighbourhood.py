@@ -47,7 +47,8 @@ class Neighbourhood:
 
     def __init__(self, points: Points, radius: float, at_least: int = 0) -> None:
         self._x, self._y, self._radius = points.x, points.y, radius
-        cells = Cells.over(points, _cell_size(points, radius))
+        size = cell_size(points, radius, _POINTS_A_CELL, _MOST_CELLS_A_RADIUS)
+        cells = Cells.over(points, size)
         self._reach = math.ceil(radius / cells.size + ROUNDING)
         # A margin as wide as the reach: no offset from a cell leaves the grid.
         self.shape = cells.rows + 2 * self._reach, cells.columns + 2 * self._reach
@@ -279,11 +280,11 @@ def _ranges(start: np.ndarray, count: np.ndarray) -> np.ndarray:
     return np.arange(int(count.sum())) + np.repeat(start - before, count)
 
 
-def _cell_size(points: Points, radius: float) -> float:
-    """Return a size of cells that hold a few points each, neither too many nor too few a disc."""
+def cell_size(points: Points, radius: float, wanted: float, most_a_radius: int) -> float:
+    """Return a size of cells that hold `wanted` points each, but are not too many a radius."""
     coarse = Cells.over(points, max(radius, 1.0))
     density = points.count / (np.count_nonzero(coarse.occupied) * coarse.size**2)
-    wanted = min(math.sqrt(_POINTS_A_CELL / density), radius)
+    size = min(math.sqrt(wanted / density), radius)
     most = max(_MOST_CELLS_A_POINT * points.count, 1_000_000)
     least = math.sqrt(coarse.rows * coarse.columns / most) * coarse.size
-    return max(wanted, radius / _MOST_CELLS_A_RADIUS, least)
+    return max(size, radius / most_a_radius, least)
