@@ -73,7 +73,7 @@ class Preset(NamedTuple):
 PRESETS = {
     "automatic": Preset("Automatic", 1.0, (5.0, 4.5, 2.0), 0.3, 40.0),
     "flat": Preset("Flat land, fields", 1.0, (5.0, 4.5, 2.0), 0.25, 40.0),
-    "hilly": Preset("Hilly land, forest", 1.0, (5.0, 4.5, 2.0), 0.3, 25.0),
+    "hilly": Preset("Hilly land, forest", 2.0, (5.0, 4.5, 2.0), 0.3, 25.0),
     "steep": Preset("Steep or rugged terrain", 1.0, (5.0, 4.5, 2.0), 0.5, 25.0),
     "town": Preset("Town", 1.0, (5.0, 4.5, 2.0), 0.3, 60.0),
     "city": Preset("City, large halls", 1.0, (5.0, 4.5, 2.0), 0.3, 120.0),
