@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import math
 import threading
+from typing import Callable
 
 import numpy as np
 
 from ..points import Points
 from ..progress import SILENT, Progress
 from ..threads import over_parts
-from .block import Block, Rule
+from .cell_bounds import CellBounds, Rule
 from .neighbourhood import Neighbourhood
+from .point_comparison import PointComparison
 
 # Blocks of about so many points: their tables fit into the processor's cache, and they are done in
 # less than a second.
@@ -94,10 +96,21 @@ class _Strip:
                     if threading.get_ident() == caller:
                         progress(part.start / len(blocks))
 
-                found = Block(self._points.take(which), self._rule, alive).stands_above(asked)
+                found = _of_block(self._points.take(which), self._rule, asked, alive)
                 above[which[found]] = True
 
         over_parts(fill, len(blocks), 1, progress)
+
+
+def _of_block(
+    points: Points, rule: Rule, asked: np.ndarray, alive: Callable[[], None]
+) -> np.ndarray:
+    """Return which of the points asked for (n,) stand above a neighbour: by cell, then exactly."""
+    bounds = CellBounds(points, rule, alive)
+    above, doubtful = bounds.decide(asked)
+    if len(doubtful):
+        above[doubtful] = PointComparison(bounds, alive).stands_above(doubtful)
+    return bounds.points.as_given(above)
 
 
 def _intervals(values: np.ndarray, count: float, radius: float) -> list[tuple[float, float]]:

@@ -11,7 +11,7 @@ from bare_earth.algorithms.filters.slope import SlopeFilter, classify
 from bare_earth.algorithms.points import Points
 from bare_earth.algorithms.progress import Progress
 from bare_earth.algorithms.terrain import standing_above
-from bare_earth.algorithms.terrain.block import Block
+from bare_earth.algorithms.terrain.cell_bounds import CellBounds
 from bare_earth.algorithms.terrain.low_clusters import low_clusters
 from bare_earth.algorithms.terrain.neighbourhood import Neighbourhood
 from bare_earth.algorithms.threads import may_use
@@ -91,10 +91,10 @@ def test_the_classic_filter_gives_the_same_in_blocks_and_in_threads(radius, monk
 
     def counted(*arguments):
         built.append(arguments)
-        return Block(*arguments)
+        return CellBounds(*arguments)
 
     monkeypatch.setattr(standing_above, "_POINTS_A_BLOCK", 500)
-    monkeypatch.setattr(standing_above, "Block", counted)
+    monkeypatch.setattr(standing_above, "CellBounds", counted)
     assert np.array_equal(classify(points, parameters), whole)
     assert len(built) >= 9
     with may_use(3):
