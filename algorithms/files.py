@@ -7,6 +7,7 @@ import errno
 import itertools
 import os
 import re
+import sys
 from pathlib import Path
 from typing import Container, Iterator
 
@@ -15,6 +16,8 @@ from .errors import BareEarthError
 _numbers = itertools.count()
 _TEMPORARY = re.compile(r"\.(\d+)-\d+\.part\.")
 
+# What a system says of a file that another process has locked.
+_LOCKED = (errno.EACCES, errno.EAGAIN, errno.EDEADLK)
 _REASONS = {
     errno.ENOSPC: "the disk is full. Free some space or choose another folder",
     errno.EDQUOT: "your disk quota is used up. Free some space or choose another folder",
@@ -74,6 +77,52 @@ def replacing(target: Path) -> Iterator[Path]:
     finally:
         with contextlib.suppress(OSError):
             temporary.unlink()
+
+
+@contextlib.contextmanager
+def alone_in(folder: Path) -> Iterator[None]:
+    """Let no other run work in a folder while the block does.
+
+    The lock is the operating system's: it ends with the process, however that ends. Where the
+    file system has no locks, nothing is refused.
+
+    Parameters
+    ----------
+    folder : Path
+        It must exist, and be one that only such runs write into; `lock` in it is the file.
+
+    Raises
+    ------
+    BareEarthError
+        If another run works in it, or nothing can be written there.
+    """
+    path = folder / "lock"
+    with contextlib.ExitStack() as opened:
+        try:
+            file = opened.enter_context(open(path, "ab"))
+        except OSError as error:
+            raise describe_write_error(path, error) from error
+        try:
+            _lock(file.fileno())
+        except OSError as error:
+            if error.errno in _LOCKED:
+                raise BareEarthError(
+                    f"Another run writes into {folder.parent}. Wait until it ends, or choose"
+                    " another folder."
+                ) from error
+        yield
+
+
+def _lock(number: int) -> None:
+    """Lock an open file, or fail at once if it is locked."""
+    if sys.platform == "win32":
+        import msvcrt
+
+        msvcrt.locking(number, msvcrt.LK_NBLCK, 1)
+    else:
+        import fcntl
+
+        fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
 def remove_leftovers(folder: Path, processes: Container[int] | None = None) -> None:

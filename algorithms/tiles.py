@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Iterable, NamedTuple
 
 from .errors import BareEarthError
-from .files import check_output, describe_write_error, remove_leftovers
+from .files import alone_in, check_output, describe_write_error, remove_leftovers
 from .parameters import ParameterSet
 from .pointcloud.collection import Collection, Tile, open_collection
 from .pointcloud.records import check_class
@@ -135,17 +135,19 @@ def classify_tiles(
     survey = Survey(parameters, selection, frame_of(collection), blocks)
     workers = Threads() if workers is None else workers
     plan = _Plan(survey, collection, targets, progress)
-    _make_folders(folder, output.resume)
-    kept = plan.keep_done(output.resume, progress)
-    labels, tiles = plan.jobs(folder, workers)
-    run = Run(labels, tiles, workers, progress.part(0.05, 0.98))
-    try:
-        run.work()
-    finally:
-        workers.stop()
-    shutil.rmtree(folders_of(folder)[2], ignore_errors=True)
-    for each in folders_of(folder):
-        remove_leftovers(each)
+    _, records, _ = folders = folders_of(folder)
+    _make(folder, records)
+    with alone_in(records):
+        _clear(folder, labels=not output.resume)
+        _make(*folders)
+        kept = plan.keep_done(output.resume, progress)
+        labels, tiles = plan.jobs(folder, workers)
+        run = Run(labels, tiles, workers, progress.part(0.05, 0.98))
+        try:
+            run.work()
+        finally:
+            workers.stop()
+        _clear(folder, labels=True)
     failures = {each.path: each.reason for each in collection.broken}
     failures = {**failures, **plan.failures, **run.failures}
     failures = {str(path): failures[path] for path in sorted(failures)}
@@ -214,17 +216,20 @@ def _targets(collection: Collection, folder: Path, format: str) -> dict[Path, Pa
     return targets
 
 
-def _make_folders(folder: Path, resume: bool) -> None:
-    """Make the folders of the output, and remove what a killed run left there."""
-    folders = folders_of(folder)
-    if not resume:
-        shutil.rmtree(folders[2], ignore_errors=True)
+def _make(folder: Path, *within: Path) -> None:
+    """Make the folder of the output, and others within it."""
     try:
-        for each in folders:
+        for each in (folder, *within):
             each.mkdir(exist_ok=True)
     except OSError as error:
         raise describe_write_error(folder, error) from error
-    for each in folders:
+
+
+def _clear(folder: Path, labels: bool) -> None:
+    """Remove what a killed run left in the folders of the output, and all labels if wanted."""
+    if labels:
+        shutil.rmtree(folders_of(folder)[2], ignore_errors=True)
+    for each in folders_of(folder):
         remove_leftovers(each)
 
 

@@ -489,6 +489,22 @@ def test_blocks_labelled_before_a_cancel_are_not_labelled_again(many, out, monke
     assert not (out / ".bare-earth" / "labels").exists()
 
 
+def test_a_second_run_into_the_same_folder_is_refused_and_the_first_goes_on(six, tmp_path):
+    refused = []
+
+    class Second(Progress):
+        def report(self, fraction):
+            if fraction > 0.1 and not refused:
+                with pytest.raises(BareEarthError, match="Another run writes into") as error:
+                    classify_tiles([six], tmp_path / "out", FAST)
+                refused.append(error)
+
+    first = classify_tiles([six], tmp_path / "out", FAST, progress=Second())
+    assert refused and first.done_count == 6
+    again = classify_tiles([six], tmp_path / "out", FAST, output=RESUME)
+    assert again.kept_count == 6
+
+
 def test_methods_in_short_have_the_presets_of_all():
     for name in METHODS:
         for preset in TileMethod.declarations()[1].choices:
