@@ -199,7 +199,7 @@ def test_one_height_threshold_is_a_list_too():
 
 
 def test_stray_coordinates_are_refused_with_a_sentence():
-    points = Points(np.array([0.0, 1e9]), np.array([0.0, 1.0]), np.zeros(2))
+    points = Points(np.array([0.0, 1e9]), np.array([0.0, 1e9]), np.zeros(2))
     many = Points(*(np.concatenate((each, np.zeros(50000))) for each in points))
     with pytest.raises(BareEarthError, match="stray coordinates"):
         classify(many, GridMinimum(cell_size=0.01))
