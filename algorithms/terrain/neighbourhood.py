@@ -15,7 +15,7 @@ import numpy as np
 from ..points import Points
 from ..progress import SILENT, Progress
 from ..threads import over_parts
-from .cells import Cells
+from .cells import Cells, lower_at
 from .morphology import erosion
 
 # Few enough to look through, many enough that a disc does not have many more cells than points.
@@ -91,7 +91,7 @@ class Neighbourhood:
         result = np.empty_like(best)
         result[order] = best
         for point, neighbour in self._grown_pairs():
-            np.minimum.at(result, point, values[neighbour])
+            lower_at(result, point, values[neighbour])
         return result
 
     def maximum(self, values: np.ndarray, progress: Progress = SILENT) -> np.ndarray:

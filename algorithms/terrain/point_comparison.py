@@ -11,6 +11,7 @@ from typing import Callable, Iterator
 import numpy as np
 
 from .cell_bounds import CellBounds
+from .cells import lower_at
 from .sorted_points import EMPTY, ROUNDING, Table
 
 # Offsets of cells that are looked up at a time.
@@ -90,7 +91,7 @@ class PointComparison:
         bounds, points = self._bounds, self._points
         # The erosion of a neighbour matters if it exceeds that.
         least = np.full(points.shape[0] * points.shape[1], EMPTY, dtype=np.int16)
-        np.minimum.at(least, points.cell[at], points.steps(enough))
+        lower_at(least, points.cell[at], points.steps(enough))
         least = points.around(least.reshape(points.shape))
         self._alive()
         which = np.flatnonzero((bounds.eroded_high >= least).take(points.cell))
@@ -158,7 +159,7 @@ class PointComparison:
                 )
                 near = near <= self._rule.radius
                 lower = which[near]
-                np.minimum.at(best, lower, value[near])
+                lower_at(best, lower, value[near])
                 limit[lower] = sign * points.steps(sign * best[lower])
                 neighbour = neighbour + 1
                 left = np.flatnonzero(~near & (neighbour < last))
@@ -199,7 +200,7 @@ class PointComparison:
         for which, neighbour, least in maybe:
             left = ~sure[which]
             possible[which[left]] = True
-            np.minimum.at(enough, neighbour[left], least[left])
+            lower_at(enough, neighbour[left], least[left])
         matters = np.flatnonzero(enough < np.inf)
         return asked[possible], matters, enough[matters]
 

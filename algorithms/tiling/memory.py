@@ -40,9 +40,9 @@ class Resources(ParameterSet):
         maximum=100_000.0,
         empty="half of what is free",
         advanced=True,
-        help="About how much a run may take. A file that needs more is read twice, with its points in"
-        " a temporary file in the folder of the output meanwhile; of many files, fewer blocks are"
-        " in work at the same time. The result does not depend on it.",
+        help="About how much a run may take. A file that needs more is read twice, with its points"
+        " in a temporary file in the folder of the output meanwhile; of many files, fewer blocks"
+        " are in work at the same time. The result does not depend on it.",
     )
 
     @property

@@ -5,8 +5,9 @@ import pytest
 from scipy import ndimage
 
 from bare_earth.algorithms.points import Points
+from bare_earth.algorithms.terrain import cells as cells_module
 from bare_earth.algorithms.terrain import morphology
-from bare_earth.algorithms.terrain.cells import Cells
+from bare_earth.algorithms.terrain.cells import Cells, lower_at
 from bare_earth.algorithms.terrain.inpaint import inpaint
 from bare_earth.algorithms.terrain.morphology import erosion, opening, within_square
 from bare_earth.algorithms.terrain.outliers import low_outliers
@@ -29,6 +30,17 @@ def test_the_minimum_of_each_cell_and_its_point_agree_with_a_loop():
     assert {tuple(cell): minimum[tuple(cell)] for cell in np.argwhere(cells.occupied)} == expected
     lowest = cells.lowest_points(points)
     assert sorted(points.z[lowest]) == sorted(expected.values())
+
+
+@pytest.mark.parametrize("has_fast_at", [True, False])
+def test_the_least_of_many_values_stays_at_each_place(monkeypatch, has_fast_at):
+    monkeypatch.setattr(cells_module, "_HAS_FAST_AT", has_fast_at)
+    random = np.random.default_rng(4)
+    index, values = random.integers(0, 40, 3000), random.integers(-9, 9, 3000) / 4.0
+    target = np.where(np.arange(50) % 2, np.inf, -1.5)
+    expected = [min([target[at], *values[index == at]]) for at in range(50)]
+    lower_at(target, index, values)
+    assert np.array_equal(target, expected)
 
 
 def test_of_points_equally_low_the_choice_does_not_depend_on_their_order():
