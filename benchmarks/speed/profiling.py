@@ -22,6 +22,8 @@ _RATE = 50
 _PARTS = {
     "algorithms/pointcloud/reading.py": "reading",
     "algorithms/pointcloud/writing.py": "writing",
+    # Where the main thread waits for the threads of the blocks.
+    "algorithms/tiling/": "filtering",
     "algorithms/filters/": "filtering",
     "algorithms/terrain/": "filtering",
 }
