@@ -8,6 +8,7 @@ from ..points import Points
 from ..progress import SILENT, Progress
 from ..threads import in_threads, over_parts
 from .cells import Cells
+from .morphology import within_square
 
 _POINTS_A_PART = 1 << 16
 # Metres by which single precision may be wrong, of heights up to 16 km: what it leaves in doubt is
@@ -101,20 +102,9 @@ def _bounds(limits: np.ndarray) -> np.ndarray:
     def fill(column: int) -> None:
         grid = limits[..., column // 2].astype(np.float32)
         if column % 2:
-            bounds[:, column] = (_extreme(np.maximum, grid) + _IN_DOUBT).ravel()
+            bounds[:, column] = (within_square(np.maximum, grid, 1) + _IN_DOUBT).ravel()
         else:
-            bounds[:, column] = (_extreme(np.minimum, grid) - _IN_DOUBT).ravel()
+            bounds[:, column] = (within_square(np.minimum, grid, 1) - _IN_DOUBT).ravel()
 
     in_threads(fill, range(4))
     return bounds
-
-
-def _extreme(which: np.ufunc, grid: np.ndarray) -> np.ndarray:
-    """Return the minimum or the maximum of the 3 x 3 cells round each cell."""
-    rows = grid.copy()
-    which(rows[1:], grid[:-1], out=rows[1:])
-    which(rows[:-1], grid[1:], out=rows[:-1])
-    result = rows.copy()
-    which(result[:, 1:], rows[:, :-1], out=result[:, 1:])
-    which(result[:, :-1], rows[:, 1:], out=result[:, :-1])
-    return result

@@ -13,6 +13,7 @@ from ..parameters import ParameterSet
 from ..pointcloud.cloud import PointCloud
 from ..pointcloud.reading import read_parts
 from ..pointcloud.scope import Scope
+from ..pointcloud.selection import count_classes
 from ..points import Frame, Points
 from ..progress import SILENT, Progress, Unsaid
 from ..terrain.model import TerrainModel, vertices_of
@@ -61,7 +62,7 @@ class Outcome:
     def add(self, start: int, classes: np.ndarray, is_area_ground: np.ndarray) -> None:
         """Put in the classes of the points from `start` on, and count them."""
         self.classification[start : start + len(classes)] = classes
-        self.class_counts += np.bincount(classes, minlength=256)
+        self.class_counts += count_classes(classes)
         self.area_ground_count += int(np.count_nonzero(is_area_ground))
 
 
