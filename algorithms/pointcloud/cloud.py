@@ -15,7 +15,7 @@ from ..progress import SILENT
 from ..threads import in_threads, over_parts, parts_of
 from .crs import Crs
 
-_POINTS_A_PART = 1 << 17
+_POINTS_A_PART = 1 << 15
 # Times as many points as are wanted that may be read with them.
 _LOOSE = 4
 # Share of the scale by which offsets may differ from a multiple of it: they are rounded numbers.
@@ -115,21 +115,34 @@ class PointCloud:
         BareEarthError
             If the CRS is not a projected one.
         """
+        return Points(*self._metres(which, frame, 3))
+
+    def places(
+        self, which: np.ndarray | slice, frame: Frame | None = None
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return the same x and y as `points`, without the heights."""
+        x, y = self._metres(which, frame, 2)
+        return x, y
+
+    def _metres(
+        self, which: np.ndarray | slice, frame: Frame | None, count: int
+    ) -> list[np.ndarray]:
+        """Return the first one, two or three coordinates of points."""
         self.require_projected()
         if isinstance(which, np.ndarray) and which.dtype == bool:
             which = np.flatnonzero(which)
-        axes = self._axes(self.frame if frame is None else frame)
+        axes = self._axes(self.frame if frame is None else frame)[:count]
         is_slice = isinstance(which, slice)
-        columns = [each[which] if is_slice else each for each in (self.x, self.y, self.z)]
-        count = len(columns[0]) if is_slice else len(which)
-        metres = Points(*(np.empty(count) for _ in axes))
+        columns = [each[which] if is_slice else each for each in (self.x, self.y, self.z)[:count]]
+        length = len(columns[0]) if is_slice else len(which)
+        metres = [np.empty(length) for _ in axes]
 
         def convert(part: slice) -> None:
             picked = _picked(columns, part if is_slice else which[part])
             for axis, integers, target in zip(axes, picked, metres):
                 axis.convert(integers, target[part])
 
-        over_parts(convert, count, _POINTS_A_PART, SILENT)
+        over_parts(convert, length, _POINTS_A_PART, SILENT)
         return metres
 
     def bounds(self, frame: Frame) -> tuple[float, float, float, float]:

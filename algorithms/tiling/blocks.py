@@ -10,14 +10,17 @@ from __future__ import annotations
 import itertools
 import math
 from dataclasses import dataclass
-from typing import Iterator, NamedTuple, Protocol
+from typing import Callable, Iterator, NamedTuple, Protocol, Sequence
 
 import numpy as np
 
 from ..points import Points
+from ..threads import in_threads, parts_of
 
 _SIDE, _STEP, _REACHES = 1000.0, 100.0, 4.0
 _MOST_POINTS = 10_000_000
+# Few enough that what is computed of them stays in the processor's cache.
+_POINTS_A_PART = 1 << 15
 # A survey of up to so many blocks across, each larger than else by this factor at most, is cut
 # evenly: a narrow rest would cost as much as its buffer. Sides are multiples of ten metres.
 _FEW, _LARGER, _ROUND = 3, 1.125, 10.0
@@ -47,8 +50,10 @@ class Block(NamedTuple):
 
     def holds(self, points: Points) -> np.ndarray:
         """Return which points lie in the block."""
-        holds = np.floor(points.x / self.side) == self.column
-        holds &= np.floor(points.y / self.side) == self.row
+        holds = np.empty(points.count, dtype=bool)
+        for part in parts_of(points.count, _POINTS_A_PART):
+            holds[part] = np.floor(points.x[part] / self.side) == self.column
+            holds[part] &= np.floor(points.y[part] / self.side) == self.row
         return holds
 
     def quarters(self) -> list[Block]:
@@ -82,6 +87,13 @@ class Leaves(NamedTuple):
         touch = (self.x <= east) & (self.x + self.side >= west)
         return np.flatnonzero(touch & (self.y <= north) & (self.y + self.side >= south))
 
+    def are_inside(self, leaves: np.ndarray, box: Box) -> bool:
+        """Return whether some leaves lie in a box and touch none of its sides."""
+        west, south, east, north = box
+        x, y = self.x[leaves], self.y[leaves]
+        inside = (x > west) & (x + self.side < east) & (y > south) & (y + self.side < north)
+        return bool(inside.all())
+
 
 class Store(Protocol):
     """Where points wait for their block: in memory or on disk.
@@ -97,8 +109,11 @@ class Store(Protocol):
     leaves: Leaves
     has_known: bool
 
-    def read(self, leaves: np.ndarray) -> Contents:
-        """Return the points of some leaves; may be called from several threads."""
+    def read(self, leaves: np.ndarray, box: Box | None = None) -> Contents:
+        """Return the points of some leaves, or those of them in a box.
+
+        May be called from several threads.
+        """
 
     def put(self, positions: np.ndarray, labels: np.ndarray) -> None:
         """Keep the labels of points; called from one thread."""
@@ -124,20 +139,55 @@ class Contents(NamedTuple):
     wanted: np.ndarray
     positions: np.ndarray
 
-    def take(self, which: np.ndarray) -> Contents:
-        """Return what a mask names."""
-        if which.all():
-            return self
-        rest = (each[which] for each in self[1:])
-        return Contents(self.points.take(which), *rest)
-
     @classmethod
-    def joined(cls, parts: list[Contents]) -> Contents:
-        """Return several as one."""
-        if len(parts) == 1:
-            return parts[0]
-        points = Points(*map(np.concatenate, zip(*(each.points for each in parts))))
-        return cls(points, *map(np.concatenate, zip(*(each[1:] for each in parts))))
+    def empty(cls, count: int) -> Contents:
+        """Return room for so many points; their flags are false."""
+        known, wanted = np.zeros(count, dtype=bool), np.zeros(count, dtype=bool)
+        return cls(Points(*np.empty((3, count))), known, wanted, np.empty(count, dtype=np.int64))
+
+    def put(self, start: int, some: Contents) -> None:
+        """Put others in the place of these from `start` on."""
+        where = slice(start, start + some.points.count)
+        for mine, others in zip((*self.points, *self[1:]), (*some.points, *some[1:])):
+            mine[where] = others
+
+    def take(self, which: np.ndarray | slice) -> Contents:
+        """Return what a mask or a slice names."""
+        return Contents(self.points.take(which), *(each[which] for each in self[1:]))
+
+    def within(self, box: Box) -> Contents:
+        """Return those in a box; on its largest x and y they are outside."""
+        west, south, east, north = box
+        x, y = self.points.x, self.points.y
+        inside = (x >= west) & (x < east) & (y >= south) & (y < north)
+        return self if inside.all() else self.take(inside)
+
+
+def gathered(
+    counts: Sequence[int], read: Callable[[int], Contents], box: Box | None = None
+) -> Contents:
+    """Return contents that are read piece by piece: small ones stay in the processor's cache.
+
+    Parameters
+    ----------
+    counts : sequence of int
+        Points of each piece.
+    read : callable
+        Returns the contents of a piece, given its number; may be called from several threads.
+    box : tuple of float, optional
+        Points outside are left out.
+    """
+    starts = np.concatenate(([0], np.cumsum(counts, dtype=np.int64))).tolist()
+    whole = Contents.empty(starts[-1])
+    if box is None:
+        in_threads(lambda number: whole.put(starts[number], read(number)), range(len(counts)))
+        return whole
+    end = 0
+    for number in range(len(counts)):
+        some = read(number).within(box)
+        whole.put(end, some)
+        end += some.points.count
+    return whole.take(slice(end))
 
 
 @dataclass(frozen=True)
@@ -241,7 +291,6 @@ class Blocks:
 
     def contents(self, block: Block, store: Store) -> Contents:
         """Return what the filter sees for a block."""
-        west, south, east, north = box = self.window(block)
-        contents = store.read(store.leaves.within(box))
-        x, y = contents.points.x, contents.points.y
-        return contents.take((x >= west) & (x < east) & (y >= south) & (y < north))
+        box = self.window(block)
+        leaves = store.leaves.within(box)
+        return store.read(leaves, None if store.leaves.are_inside(leaves, box) else box)

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple, Sequence
+from typing import Iterator, NamedTuple, Sequence
 
 import numpy as np
 
 from ..pointcloud.cloud import PointCloud
 from ..points import Frame
 from ..progress import SILENT, Progress
-from .blocks import Blocks, Contents, Leaves
+from ..threads import over_parts, parts_of
+from .blocks import Blocks, Box, Contents, Leaves, gathered
+from .runs import Runs, Sorted, code_of
 
-_CHUNK = 1 << 20
-_SHIFT = 32
+# Points that are sorted together, and such that are read together.
+_SORTED, _READ = 1 << 16, 1 << 15
 
 
 class Part(NamedTuple):
@@ -61,74 +63,84 @@ class CloudStore:
     def __init__(
         self, parts: Sequence[Part], frame: Frame, blocks: Blocks, progress: Progress = SILENT
     ) -> None:
-        self._parts, self._frame = list(parts), frame
+        self._parts, self._frame = [_as_needed(part) for part in parts], frame
         self.labels = [np.zeros(part.cloud.count, dtype=np.uint8) for part in self._parts]
-        self.has_known = any(part.known is not None and part.known.any() for part in self._parts)
+        self.has_known = any(part.known is not None for part in self._parts)
         counts = [part.cloud.count for part in self._parts]
         self._starts = np.concatenate(([0], np.cumsum(counts)))
-        if self._is_one_block(blocks):
-            side = blocks.side
-            orders = [np.flatnonzero(part.selected).astype(_kind(part)) for part in self._parts]
-            self._runs = [([0], [len(order)]) for order in orders]
-            self._orders, codes = orders, np.array([_code(np.zeros(1), np.zeros(1))[0]])
-        else:
-            side, codes = blocks.leaf_side, self._sort(blocks.leaf_side, progress)
-        sizes = np.sum([np.subtract(ends, starts) for starts, ends in self._runs], axis=0)
-        x, y = (codes & ((1 << _SHIFT) - 1)) - 1, (codes >> _SHIFT) - 1
-        self.leaves = Leaves(x * side, y * side, side, sizes)
+        # Selected points of each file; their places in all of them together are those of the runs.
+        self._orders = [np.flatnonzero(part.selected).astype(_kind(part)) for part in self._parts]
+        self._ends = np.cumsum([len(order) for order in self._orders])
+        self._runs = Runs()
+        is_one = self._is_one_block(blocks)
+        side = blocks.side if is_one else blocks.leaf_side
+        self._sort(None if is_one else side, progress)
+        row, column, totals = self._runs.finish()
+        self.leaves = Leaves(column * side, row * side, side, totals)
 
     def _is_one_block(self, blocks: Blocks) -> bool:
-        count = sum(int(np.count_nonzero(part.selected)) for part in self._parts)
-        if count > blocks.most_points:
+        if self._ends[-1] > blocks.most_points:
             return False
         bounds = np.array([part.cloud.bounds(self._frame) for part in self._parts])
         return bool(bounds.min() >= 0.0 and bounds.max() < blocks.side)
 
-    def _sort(self, side: float, progress: Progress) -> np.ndarray:
-        """Sort the points of each file by leaves; return the codes of all leaves."""
-        numbers: dict[int, int] = {}
-        leaf_of = []
-        for part in self._parts:
-            leaf = np.empty(int(np.count_nonzero(part.selected)), dtype=np.int32)
-            end = 0
-            for first in range(0, part.cloud.count, _CHUNK):
-                which = first + np.flatnonzero(part.selected[first : first + _CHUNK])
-                points = part.cloud.points(which, self._frame)
-                codes, inverse = np.unique(
-                    _code(np.floor(points.y / side), np.floor(points.x / side)),
-                    return_inverse=True,
-                )
-                of_codes = [numbers.setdefault(each, len(numbers)) for each in codes.tolist()]
-                leaf[end : end + len(which)] = np.array(of_codes, np.int32)[inverse.ravel()]
-                end += len(which)
-                progress(end / max(len(leaf), 1))
-            leaf_of.append(leaf)
-        self._orders, self._runs = [], []
-        every = np.arange(len(numbers))
-        for part, leaf in zip(self._parts, leaf_of):
-            # So few that they fit into 16 bits are sorted much faster.
-            leaf = leaf.astype(np.uint16) if len(numbers) <= 1 << 16 else leaf
-            order = np.argsort(leaf, kind="stable").astype(_kind(part))
-            leaf = leaf[order]
-            runs = [np.searchsorted(leaf, every, side) for side in ("left", "right")]
-            self._runs.append(tuple(runs))
-            self._orders.append(np.flatnonzero(part.selected).astype(order.dtype)[order])
-        return np.array(list(numbers), dtype=np.int64)
+    def _sort(self, side: float | None, progress: Progress) -> None:
+        """Sort the points of each file by leaves; there is but one leaf where `side` is None."""
+        start = 0
+        for number, order in enumerate(self._orders):
+            if side is None:
+                found = [(code_of(np.zeros(1), np.zeros(1)), np.array([len(order)]))]
+            else:
+                found = self._sorted(number, side, progress)
+            for codes, counts in found:
+                self._runs.add(codes, counts, start)
+                start += int(counts.sum())
 
-    def read(self, leaves: np.ndarray) -> Contents:
-        """Return the points of some leaves."""
-        found = []
-        for number, part in enumerate(self._parts):
-            starts, ends = self._runs[number]
-            order = self._orders[number]
-            runs = [order[starts[leaf] : ends[leaf]] for leaf in leaves]
-            which = runs[0] if len(runs) == 1 else np.concatenate([order[:0], *runs])
-            known = np.zeros(len(which), bool) if part.known is None else part.known[which]
-            wanted = np.ones(len(which), bool) if part.wanted is None else part.wanted[which]
-            start = self._starts[number]
-            positions = which if start == 0 else which + start
-            found.append(Contents(part.cloud.points(which, self._frame), known, wanted, positions))
-        return Contents.joined(found)
+    def _sorted(
+        self, number: int, side: float, progress: Progress
+    ) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Sort the points of a file; return the leaves and their counts of those sorted together.
+
+        Not all at once: those of a leaf are then read nearly in the order of the file.
+        """
+        cloud, order = self._parts[number].cloud, self._orders[number]
+        found: list = [None] * len(parts_of(len(order), _SORTED))
+
+        def sort(piece: slice) -> None:
+            places = cloud.places(order[piece], self._frame)
+            result = Sorted.of(*(np.floor(each / side) for each in places[::-1]))
+            order[piece] = order[piece][result.order]
+            found[piece.start // _SORTED] = result.codes, result.counts
+
+        over_parts(sort, len(order), _SORTED, progress)
+        return found
+
+    def read(self, leaves: np.ndarray, box: Box | None = None) -> Contents:
+        """Return the points of some leaves, or those of them in a box."""
+        pieces = list(self._pieces(leaves))
+
+        def read(number: int) -> Contents:
+            return self._contents(*pieces[number])
+
+        return gathered([len(which) for _, which in pieces], read, box)
+
+    def _pieces(self, leaves: np.ndarray) -> Iterator[tuple[int, np.ndarray]]:
+        """Yield the number of a file and the indices of some of its points."""
+        starts, counts = self._runs.of(leaves)
+        bounds = np.searchsorted(starts, np.concatenate(([0], self._ends)))
+        for number, order in enumerate(self._orders):
+            runs = slice(bounds[number], bounds[number + 1])
+            firsts = starts[runs] - (self._ends[number] - len(order))
+            spans = zip(firsts.tolist(), counts[runs].tolist())
+            which = np.concatenate([order[:0], *(order[first : first + n] for first, n in spans)])
+            for piece in parts_of(len(which), _READ):
+                yield number, which[piece]
+
+    def _contents(self, number: int, which: np.ndarray) -> Contents:
+        part, start = self._parts[number], self._starts[number]
+        known = np.zeros(len(which), bool) if part.known is None else part.known[which]
+        wanted = np.ones(len(which), bool) if part.wanted is None else part.wanted[which]
+        return Contents(part.cloud.points(which, self._frame), known, wanted, which + start)
 
     def put(self, positions: np.ndarray, labels: np.ndarray) -> None:
         """Keep the labels of points."""
@@ -141,11 +153,13 @@ class CloudStore:
             mine[positions[here] - start] = labels[here]
 
 
+def _as_needed(part: Part) -> Part:
+    """Return a part without flags that say the same of all points."""
+    known = part.known if part.known is not None and part.known.any() else None
+    wanted = part.wanted if part.wanted is not None and not part.wanted.all() else None
+    return part._replace(known=known, wanted=wanted)
+
+
 def _kind(part: Part) -> type:
     """Return the smallest type that holds the index of every point."""
     return np.int32 if part.cloud.count < 1 << 31 else np.int64
-
-
-def _code(row: np.ndarray, column: np.ndarray) -> np.ndarray:
-    """Return one number for row and column, neither below -1."""
-    return (row.astype(np.int64) + 1 << _SHIFT) + column.astype(np.int64) + 1

@@ -24,6 +24,7 @@ from bare_earth.algorithms.tiling.cloudstore import CloudStore, Part
 from bare_earth.algorithms.tiling.ground import blocks_of, label_ground
 from bare_earth.algorithms.tiling.memory import Resources, free_memory
 from bare_earth.algorithms.tiling.scheduling import run_jobs
+from bare_earth.algorithms.tiling.spill import Spill
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
 ORIGIN = (500_000.0, 5_700_000.0, 50.0)
@@ -38,6 +39,12 @@ def cloud_of(x, y, z, offset=ORIGIN, scale=0.01):
         Path("in.las"), *integers, (scale,) * 3, offset, ones, ones, ones,
         np.zeros(len(x), bool), 6, Crs(),
     )  # fmt: skip
+
+
+def part_of(cloud, cut):
+    """Return some points of a cloud as a file of their own."""
+    names = ("x", "y", "z", "classification", "return_number", "number_of_returns", "withheld")
+    return dataclasses.replace(cloud, **{name: getattr(cloud, name)[cut] for name in names})
 
 
 def survey(count=30_000, width=300.0, depth=130.0, seed=3):
@@ -122,6 +129,47 @@ def test_every_point_lies_in_one_block_and_crowded_blocks_are_quartered():
         assert np.array_equal(np.sort(contents.positions), np.flatnonzero(seen))
         assert np.array_equal(contents.points.z, points.z[contents.positions])
     assert (times == 1).all() and sides == {40.0, 20.0, 10.0}
+
+
+@pytest.mark.parametrize("waiting", ["in memory", "on disk"])
+@pytest.mark.parametrize("ordered", [True, False])
+def test_a_block_gets_the_points_of_its_window_that_take_part(tmp_path, request, waiting, ordered):
+    x, y, z = survey(200_000)
+    order = np.argsort(y // 1000, kind="stable") if ordered else slice(None)
+    cloud = cloud_of(x[order], y[order], z[order])
+    selected, known, wanted = np.random.default_rng(8).random((3, cloud.count)) < 0.7
+    known &= selected
+    blocks = Blocks(80.0, 8.0)
+    cuts = (slice(0, 70_000), slice(70_000, 70_001), slice(70_001, None))
+    if waiting == "in memory":
+        parts = [Part(part_of(cloud, cut), selected[cut], known[cut], wanted[cut]) for cut in cuts]
+        store = CloudStore(parts, cloud.frame, blocks)
+    else:
+        store = Spill(tmp_path / "out.laz", blocks.leaf_side)
+        for cut in cuts:
+            store.append(part_of(cloud, cut), selected[cut], known[cut], wanted[cut])
+        request.addfinalizer(store.__exit__)
+        store.finish(cloud.lowest)
+    assert store.leaves.counts.sum() == selected.sum()
+    points, seen = cloud.points(slice(None)), 0
+    for block in blocks.over(store):
+        contents = blocks.contents(block, store)
+        west, south, east, north = blocks.window(block)
+        expected = selected & (points.x >= west) & (points.x < east)
+        expected = np.flatnonzero(expected & (points.y >= south) & (points.y < north))
+        rows = [
+            np.column_stack([*each, *flags])
+            for each, *flags in (
+                (contents.points, contents.known, contents.wanted),
+                (points.take(expected), known[expected], wanted[expected]),
+            )
+        ]
+        assert np.array_equal(*(each[np.lexsort(each.T)] for each in rows))
+        if waiting == "in memory":
+            assert np.array_equal(np.sort(contents.positions), expected)
+        assert len(np.unique(contents.positions)) == len(expected)
+        seen += len(expected)
+    assert seen > selected.sum()
 
 
 # The same labels whatever the cut
