@@ -20,7 +20,7 @@ from .pointcloud.lasbytes import read_layout
 from .pointcloud.reading import read_cloud
 from .pointcloud.scope import Scope
 from .pointcloud.selection import Selection, count_classes
-from .pointcloud.writing import check_writable, is_copc, write_changed
+from .pointcloud.writing import check_writable, is_copc, layers_kept, write_changed
 from .progress import SILENT, Progress
 from .terrain.model import TerrainModel, write_terrain_model
 from .terrain.raster import check_raster_output
@@ -194,11 +194,10 @@ def classify_file(
             )
         classes = outcome.classification
         changes = Changes(classification=classes)
-        if output.ground_only or output.height_above_ground:
+        if output.changes_points:
             ground = classes == selection.to_class
             changes = output.changes(outcome.cloud, classes, ground, progress.part(0.85, 0.9))
-        records = outcome.cloud.records
-        write_changed(source, target, changes, progress.part(0.9, 1.0), records)
+        write_changed(source, target, changes, progress.part(0.9, 1.0), outcome.cloud)
     counts = outcome.class_counts
     written = [selection.to_class] if output.ground_only else np.flatnonzero(counts)
     return Summary(
@@ -226,6 +225,7 @@ def _outcome(
     count, length = layout.count, layout.record_length
     if fits_in_memory(count, resources):
         keep = length <= _LONGEST_KEPT and fits_in_memory(count, resources, length)
+        keep = keep and (output.changes_points or not layers_kept(layout, target))
         cloud = read_cloud(source, progress.part(0.0, 0.2), keep_records=keep)
         part = progress.part(0.2, 0.7)
         return _in_memory(cloud, parameters, scope, resources, terrain, part)

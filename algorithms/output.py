@@ -35,6 +35,11 @@ class Output(ParameterSet):
         " ground, in the vertical unit of the CRS.",
     )
 
+    @property
+    def changes_points(self) -> bool:
+        """Whether points change in more than their classes."""
+        return self.ground_only or self.height_above_ground
+
     def changes(
         self,
         cloud: PointCloud,
@@ -61,7 +66,7 @@ class Output(ParameterSet):
             If nothing would be left to write, or no height can be measured.
         """
         extra = kept = None
-        if (self.ground_only or self.height_above_ground) and not ground.any():
+        if self.changes_points and not ground.any():
             raise BareEarthError(
                 f"{cloud.path} has no ground points, so that there is nothing to write of the"
                 " ground alone, and no height above it. Check the parameters and the selection of"

@@ -91,7 +91,6 @@ class Rewriting:
             self.target, self._place = place_dimension(source, extra)
         if changes.z is not None:
             self.target = with_z_range(self.target, int(changes.z.min()), int(changes.z.max()))
-
         if changes.kept is not None:
             self.target = with_count(self.target, int(np.count_nonzero(changes.kept)))
 
@@ -99,6 +98,12 @@ class Rewriting:
     def leaves_out(self) -> bool:
         """Whether not all points are written."""
         return self._changes.kept is not None
+
+    @property
+    def only_classes(self) -> np.ndarray | None:
+        """The new classes, if nothing else changes."""
+        given = self._changes.columns()
+        return given[0] if len(given) == 1 and given[0] is self._changes.classification else None
 
     def points(self) -> Iterator[tuple[np.ndarray, np.ndarray, float]]:
         """Yield the points that are written, by chunks: as they are to be, but for their classes.

@@ -24,7 +24,7 @@ _WHOLE = 0.01
 
 @dataclass
 class PointCloud:
-    """The points of one file in file order, 16 bytes each.
+    """The points of one file in file order, 16 or 17 bytes each.
 
     Attributes
     ----------
@@ -44,6 +44,8 @@ class PointCloud:
         LAS point format, 0 to 10.
     crs : Crs
         What is known of the coordinate reference system.
+    scanner_channel : numpy.ndarray of uint8, shape (n,), optional
+        The scanner channel of each point, where the point format has it (6 to 10) and it was read.
     records : numpy.ndarray of uint8, shape (n, record length), optional
         The points as the file has them, where they were kept to be written again.
     """
@@ -60,6 +62,7 @@ class PointCloud:
     withheld: np.ndarray
     point_format: int
     crs: Crs
+    scanner_channel: np.ndarray | None = None
     records: np.ndarray | None = None
 
     @property

@@ -15,7 +15,7 @@ from .backends import require
 from .cloud import PointCloud
 from .crs import Crs, read_crs, unit_name
 from .lasbytes import LasLayout, read_layout
-from .records import MOST_KEPT, read_records
+from .records import FIRST_EXTENDED_FORMAT, MOST_KEPT, read_records, selection_of
 from .sources import damage_told, damaged
 
 if TYPE_CHECKING:
@@ -28,7 +28,11 @@ _SMALL = {
     "return_number": np.uint8,
     "number_of_returns": np.uint8,
     "withheld": bool,
+    "scanner_channel": np.uint8,
 }
+_COORDINATES = ("x", "y", "z")
+# Formats 6 to 10 are compressed by columns, of which only these are decompressed.
+NEEDED = ("Z", "CLASSIFICATION", "FLAGS")
 
 
 def read_cloud(path: Path, progress: Progress = SILENT, keep_records: bool = False) -> PointCloud:
@@ -55,54 +59,33 @@ def read_cloud(path: Path, progress: Progress = SILENT, keep_records: bool = Fal
     Cancelled
         If the user asked to stop.
     """
+    from laspy import PackedPointRecord
+
     layout = read_layout(Path(path))
     require(*_packages(layout))
-    if keep_records:
-        return _with_records(layout, progress)
-    cloud = _empty_cloud(layout, layout.count, read_crs(layout, progress))
-    start = 0
-    with _opened(layout) as reader:
-        for chunk in _chunks(layout, reader):
-            _fill(cloud, slice(start, start + len(chunk)), chunk)
-            start += len(chunk)
-            progress(start / layout.count)
-    if start != layout.count:
-        raise damaged(layout.path)
-    return cloud
-
-
-def _with_records(layout: LasLayout, progress: Progress) -> PointCloud:
-    import laspy
-
     crs = read_crs(layout, progress)
-    records = np.empty((layout.count, layout.record_length), dtype=np.uint8)
-    start = 0
-    for part in read_records(layout, MOST_KEPT, records):
-        start += len(part)
-        progress(start / layout.count)
     with _opened(layout) as reader:
         point_format = reader.header.point_format
-    points = laspy.PackedPointRecord.from_buffer(records, point_format)
-    small = {name: np.empty(layout.count, dtype=kind) for name, kind in _SMALL.items()}
 
-    def copy(part: slice) -> None:
-        for name, column in small.items():
-            column[part] = points[name][part]
+    def named(records: np.ndarray) -> laspy.PackedPointRecord:
+        return PackedPointRecord.from_buffer(records, point_format)
 
-    over_parts(copy, layout.count, _POINTS_A_PART, SILENT)
-    return PointCloud(
-        path=layout.path,
-        # Where they stand among the records: a copy would be half as much again.
-        x=points["X"],
-        y=points["Y"],
-        z=points["Z"],
-        scale=layout.scale,
-        offset=layout.offset,
-        **small,
-        point_format=layout.point_format,
-        crs=crs,
-        records=records,
-    )
+    if keep_records:
+        records = np.empty((layout.count, layout.record_length), dtype=np.uint8)
+        # x, y and z stay where they are among the records: a copy would be half as much again.
+        places = named(records)
+        coordinates = {name: places[name.upper()] for name in _COORDINATES}
+        cloud = _empty_cloud(layout, layout.count, crs, records=records, **coordinates)
+        pieces = read_records(layout, MOST_KEPT, records)
+    else:
+        cloud = _empty_cloud(layout, layout.count, crs)
+        pieces = read_records(layout, columns=NEEDED)
+    start = 0
+    for piece in pieces:
+        _fill(cloud, slice(start, start + len(piece)), named(piece))
+        start += len(piece)
+        progress(start / layout.count)
+    return cloud
 
 
 def read_parts(path: Path, progress: Progress = SILENT) -> Iterator[PointCloud]:
@@ -269,12 +252,12 @@ def _packages(layout: LasLayout) -> tuple[str, ...]:
 def _opened(layout: LasLayout) -> Iterator[laspy.LasReader]:
     import laspy
 
-    # Formats 6 to 10 are compressed by columns, of which only these are decompressed.
-    columns = laspy.DecompressionSelection
-    wanted = columns.base() | columns.Z | columns.CLASSIFICATION | columns.FLAGS
     with damage_told(layout.path):
         reader = laspy.open(
-            layout.path, encoding_errors="replace", read_evlrs=False, decompression_selection=wanted
+            layout.path,
+            encoding_errors="replace",
+            read_evlrs=False,
+            decompression_selection=selection_of(NEEDED),
         )
     with reader:
         yield reader
@@ -290,30 +273,34 @@ def _chunks(layout: LasLayout, reader: laspy.LasReader) -> Iterator[laspy.ScaleA
         yield chunk
 
 
-def _empty_cloud(layout: LasLayout, count: int, crs: Crs) -> PointCloud:
-    def column(kind: type) -> np.ndarray:
-        return np.empty(count, dtype=kind)
-
+def _empty_cloud(layout: LasLayout, count: int, crs: Crs, **kept: np.ndarray) -> PointCloud:
+    """Return room for points, but for the columns that there are."""
+    kinds = {**{name: np.int32 for name in _COORDINATES}, **_SMALL}
+    if layout.point_format < FIRST_EXTENDED_FORMAT:
+        del kinds["scanner_channel"]
+    empty = {name: np.empty(count, dtype=kind) for name, kind in kinds.items() if name not in kept}
     return PointCloud(
         path=layout.path,
-        x=column(np.int32),
-        y=column(np.int32),
-        z=column(np.int32),
         scale=layout.scale,
         offset=layout.offset,
-        classification=column(np.uint8),
-        return_number=column(np.uint8),
-        number_of_returns=column(np.uint8),
-        withheld=column(bool),
         point_format=layout.point_format,
         crs=crs,
+        **empty,
+        **kept,
     )
 
 
-def _fill(cloud: PointCloud, where: slice, chunk: laspy.ScaleAwarePointRecord) -> None:
-    cloud.x[where], cloud.y[where], cloud.z[where] = chunk["X"], chunk["Y"], chunk["Z"]
-    for name in _SMALL:
-        getattr(cloud, name)[where] = np.asarray(chunk[name])
+def _fill(cloud: PointCloud, where: slice, points: laspy.PackedPointRecord) -> None:
+    """Put points into their place in a cloud; where their coordinates are kept, they are there."""
+    names = {name: name for name in _SMALL if getattr(cloud, name) is not None}
+    if cloud.records is None:
+        names.update({name: name.upper() for name in _COORDINATES})
+
+    def copy(part: slice) -> None:
+        for name, source in names.items():
+            getattr(cloud, name)[where][part] = np.asarray(points[source][part])
+
+    over_parts(copy, len(points), _POINTS_A_PART, SILENT)
 
 
 def _density(cloud: PointCloud, minimum: tuple, maximum: tuple) -> float | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import BinaryIO, Iterator
+from typing import TYPE_CHECKING, BinaryIO, Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -10,6 +10,9 @@ from ..errors import BareEarthError
 from ..progress import paced
 from .lasbytes import LASZIP, LasLayout, Vlr, new_vlr
 from .sources import damage_told, damaged, open_source
+
+if TYPE_CHECKING:
+    import laspy
 
 # Most points at a time: where they go through a buffer, and where all of them are in memory.
 _MOST, MOST_KEPT = 1_000_000, 8_000_000
@@ -44,8 +47,22 @@ def check_class(path: object, point_format: int, value: int, what: str) -> None:
         )
 
 
+def selection_of(columns: Sequence[str]) -> laspy.DecompressionSelection:
+    """Return what laspy calls these columns of points, with those that are always decompressed."""
+    from laspy import DecompressionSelection
+
+    selection = DecompressionSelection.base()
+    for name in columns:
+        selection |= DecompressionSelection[name]
+    return selection
+
+
 def read_records(
-    layout: LasLayout, most: int = _MOST, into: np.ndarray | None = None
+    layout: LasLayout,
+    most: int = _MOST,
+    into: np.ndarray | None = None,
+    columns: Sequence[str] | None = None,
+    pieces: Iterable[slice] | None = None,
 ) -> Iterator[np.ndarray]:
     """Yield the points of a file as their bytes.
 
@@ -57,6 +74,13 @@ def read_records(
         Most points to read at a time; fewer where that takes long.
     into : numpy.ndarray of uint8, shape (n, record length), optional
         Where to keep all of them.
+    columns : sequence of str, optional
+        Which columns are wanted of point formats that are compressed by columns, by their names in
+        `laspy.DecompressionSelection`; x, y, returns and the scanner channel always are. All, if
+        it is not given. What is in the others is not said.
+    pieces : iterable of slice, optional
+        Which points to read at a time, one piece after the other, none longer than `most`. As
+        many as are read in half a second or so, if it is not given.
 
     Yields
     ------
@@ -70,10 +94,10 @@ def read_records(
     """
     with open_source(layout.path) as file:
         file.seek(layout.points_start)
-        decompressor = _decompressor(layout, file) if layout.is_compressed else None
+        decompressor = _decompressor(layout, file, columns) if layout.is_compressed else None
         if into is None:
             buffer = np.empty((min(most, layout.count), layout.record_length), dtype=np.uint8)
-        for piece in paced(layout.count, most):
+        for piece in paced(layout.count, most) if pieces is None else pieces:
             records = buffer[: piece.stop - piece.start] if into is None else into[piece]
             with damage_told(layout.path):
                 if decompressor is not None:
@@ -255,9 +279,10 @@ def copy_range(source: BinaryIO, target: BinaryIO, start: int, end: int) -> None
         start += len(block)
 
 
-def _decompressor(layout: LasLayout, file: BinaryIO):
+def _decompressor(layout: LasLayout, file: BinaryIO, columns: Sequence[str] | None):
     import lazrs
 
     record = layout.vlr(LASZIP)
+    selection = None if columns is None else selection_of(columns).to_lazrs()
     with damage_told(layout.path):
-        return lazrs.ParLasZipDecompressor(file, record.data)
+        return lazrs.ParLasZipDecompressor(file, record.data, selection)

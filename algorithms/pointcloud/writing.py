@@ -17,6 +17,8 @@ from ..files import replacing
 from ..progress import SILENT, Progress
 from .backends import require
 from .changes import Changes, Rewriting
+from .class_layers import ClassLayers, class_layers
+from .cloud import PointCloud
 from .copc import write_copc
 from .lasbytes import (
     COPC_HIERARCHY,
@@ -78,7 +80,7 @@ def write_changed(
     target: Path,
     changes: Changes,
     progress: Progress = SILENT,
-    records: np.ndarray | None = None,
+    cloud: PointCloud | None = None,
 ) -> None:
     """Write `source` anew with other values of its points.
 
@@ -95,9 +97,9 @@ def write_changed(
         What changes.
     progress : Progress
         Told what an output cannot hold.
-    records : numpy.ndarray of uint8, shape (n, record length), optional
-        The points of `source`, if they were kept when it was read (see `PointCloud`); they are
-        changed here.
+    cloud : PointCloud, optional
+        Points of `source`: if they are all, less of it is read again. Its records are changed
+        here, if they were kept.
 
     Raises
     ------
@@ -109,12 +111,14 @@ def write_changed(
     source, target = Path(source), Path(target)
     check_writable(target)
     layout = read_layout(source)
-    rewriting = Rewriting(layout, changes, records)
+    rewriting = Rewriting(layout, changes, None if cloud is None else cloud.records)
     if layout.is_compressed:
         require("lazrs")
     with replacing(target) as temporary:
         if is_copc(target):
             write_copc(rewriting, temporary, progress)
+        elif rewriting.only_classes is not None and (layers := layers_kept(layout, target)):
+            _replace_classes(rewriting, layers, temporary, progress, cloud)
         else:
             _write(rewriting, temporary, progress)
     if not is_copc(target):
@@ -126,14 +130,45 @@ def is_copc(target: Path) -> bool:
     return target.name.lower().endswith(_COPC_SUFFIX)
 
 
-def _write(rewriting: Rewriting, target: Path, progress: Progress) -> None:
-    rewriting.check_classes()
+def layers_kept(source: LasLayout, target: Path) -> ClassLayers | None:
+    """Return the layers of the classes in a file, if the rest of it may be copied as it is.
+
+    The points need not be kept as the file has them then, to give them other classes.
+    """
+    compressed = target.suffix.lower() == ".laz" and not is_copc(target)
+    return class_layers(source) if compressed else None
+
+
+def _replace_classes(
+    rewriting: Rewriting,
+    layers: ClassLayers,
+    target: Path,
+    progress: Progress,
+    cloud: PointCloud | None,
+) -> None:
+    """Write a compressed file anew, nothing of whose points changes but the classes."""
     layout = rewriting.target
+    _tell_of_index(layout, progress)
+    with open(target, "w+b") as file:
+        vlrs = tuple(vlr for vlr in layout.vlrs if vlr.key != COPC_INFO)
+        file.write(layout.prefix(vlrs, compressed=True))
+        for done in layers.write(file, rewriting.only_classes, cloud):
+            progress(done)
+        _copy_tail(rewriting, file)
+
+
+def _tell_of_index(layout: LasLayout, progress: Progress) -> None:
     if layout.is_copc:
         progress.info(
             "The points stay in the order of the COPC file, but its index is left out: choose an"
             " output named .copc.laz to have one."
         )
+
+
+def _write(rewriting: Rewriting, target: Path, progress: Progress) -> None:
+    rewriting.check_classes()
+    layout = rewriting.target
+    _tell_of_index(layout, progress)
     compressed = target.suffix.lower() == ".laz"
     vlrs = [vlr for vlr in layout.vlrs if vlr.key not in (LASZIP, COPC_INFO)]
     laszip = laszip_vlr(layout.point_format, layout.extra_bytes) if compressed else None

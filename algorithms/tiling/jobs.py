@@ -15,10 +15,11 @@ from ..files import replacing
 from ..pointcloud.changes import Changes
 from ..pointcloud.cloud import PointCloud
 from ..pointcloud.collection import Tile
+from ..pointcloud.lasbytes import read_layout
 from ..pointcloud.reading import read_cloud, read_parts
 from ..pointcloud.selection import Tally
 from ..pointcloud.window import read_window
-from ..pointcloud.writing import write_changed
+from ..pointcloud.writing import layers_kept, write_changed
 from ..progress import Progress, Unsaid
 from ..threads import may_use
 from .blocks import GROUND, LOW
@@ -226,7 +227,7 @@ class TileJob(NamedTuple):
         selection.tell(tally, path, progress)
         kept.check()
         changes, rest = Changes(classification=classes), progress.part(0.4, 1.0)
-        write_changed(path, self.target, changes, rest, part.records)
+        write_changed(path, self.target, changes, rest, part)
         ground = int(np.count_nonzero(classes == selection.to_class))
         summary = TileSummary(self.target.name, len(classes), ground)
         write_record(self.target, self.record, summary._asdict())
@@ -236,7 +237,8 @@ class TileJob(NamedTuple):
         """Yield the points: all at once, to be written without being read again, if they fit."""
         count, length = self.tile.count, self.tile.record_length
         if fits_in_memory(count, share.resources, length):
-            yield read_cloud(self.tile.path, progress, keep_records=True)
+            keep = not layers_kept(read_layout(self.tile.path), self.target)
+            yield read_cloud(self.tile.path, progress, keep_records=keep)
         else:
             yield from read_parts(self.tile.path, progress)
 
