@@ -223,13 +223,14 @@ def _outcome(
     """Classify the points of a file, in memory if they fit."""
     layout = read_layout(Path(source))
     count, length = layout.count, layout.record_length
+    is_copied = not output.changes_points and layers_kept(layout, Path(target)) is not None
     if fits_in_memory(count, resources):
         keep = length <= _LONGEST_KEPT and fits_in_memory(count, resources, length)
-        keep = keep and (output.changes_points or not layers_kept(layout, target))
+        keep = keep and not is_copied
         cloud = read_cloud(source, progress.part(0.0, 0.2), keep_records=keep)
         part = progress.part(0.2, 0.7)
         return _in_memory(cloud, parameters, scope, resources, terrain, part)
-    _check_parts_do(target, output, count, progress)
+    _check_parts_do(target, output, is_copied, count, progress)
     part = progress.part(0.0, 0.7)
     return classify_parts(source, target, parameters, scope, resources, terrain, part)
 
@@ -256,11 +257,14 @@ def _in_memory(
     )
 
 
-def _check_parts_do(target: Path, output: Output, count: int, progress: Progress) -> None:
+def _check_parts_do(
+    target: Path, output: Output, is_copied: bool, count: int, progress: Progress
+) -> None:
     """Refuse an output that needs all points in memory where they do not fit; tell of the way."""
-    needs = "writing COPC" if is_copc(target) else "measuring heights above ground"
-    if is_copc(target) or output.height_above_ground:
-        remedy = "Name the output .laz" if is_copc(target) else "Leave out the heights"
+    makes_index = is_copc(target) and not is_copied
+    needs = "making a COPC file" if makes_index else "measuring heights above ground"
+    if makes_index or output.height_above_ground:
+        remedy = "Name the output .laz" if makes_index else "Leave out the heights"
         raise BareEarthError(
             f"The {count:,} points do not fit into the memory that may be used, which {needs}"
             f" needs. {remedy}, or give more memory."

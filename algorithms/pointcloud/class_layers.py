@@ -45,12 +45,13 @@ class Chunk(NamedTuple):
     ----------
     start, end : int
         Which of the points of the file they are.
-    size : int
-        Bytes in the file.
+    place, size : int
+        Where their bytes begin in the file, and how many they are.
     """
 
     start: int
     end: int
+    place: int
     size: int
 
 
@@ -105,7 +106,7 @@ def _chunks(layout: LasLayout, layers: int) -> list[Chunk] | None:
             count, *lengths = struct.unpack_from(f"<{1 + layers}I", head, layout.record_length)
             if not count or len(head) + sum(lengths) != size:
                 return None
-            chunks.append(Chunk(start, start + count, size))
+            chunks.append(Chunk(start, start + count, place, size))
             start, place = start + count, place + size
     return chunks if start == layout.count else None
 
@@ -121,10 +122,19 @@ class ClassLayers:
         All of its chunks, in order.
     layers : int
         How many layers each has.
+
+    Attributes
+    ----------
+    chunks : dict of int to tuple of int
+        Bytes and points of each chunk, by where it begins in the file.
+    moved : dict of int to tuple of int
+        Where each that was written begins in the output, and its bytes there, by the same.
     """
 
     def __init__(self, layout: LasLayout, chunks: list[Chunk], layers: int) -> None:
         self._layout, self._chunks, self._layers = layout, chunks, layers
+        self.chunks = {each.place: (each.size, each.end - each.start) for each in chunks}
+        self.moved: dict[int, tuple[int, int]] = {}
 
     def write(
         self, file: BinaryIO, classes: np.ndarray, cloud: PointCloud | None = None
@@ -156,7 +166,6 @@ class ClassLayers:
 
         table, layout = file.tell(), self._layout
         file.write(struct.pack("<q", -1))
-        written: list[tuple[int, int]] = []
         groups = self._groups()
         with open_source(layout.path) as source:
             source.seek(layout.points_start + 8)
@@ -168,11 +177,13 @@ class ClassLayers:
                     [slice(each.start - first, each.end - first) for each in group],
                 )
                 for chunk, layer in zip(group, new):
-                    size = self._write_chunk(source, file, chunk, int(classes[chunk.start]), layer)
-                    written.append((chunk.end - chunk.start, size))
+                    start = file.tell()
+                    self._write_chunk(source, file, chunk, int(classes[chunk.start]), layer)
+                    self.moved[chunk.place] = start, file.tell() - start
                 yield group[-1].end / layout.count
         end = file.tell()
-        lazrs.write_chunk_table(file, written, lazrs.LazVlr(layout.vlr(LASZIP).data))
+        sizes = [(each.end - each.start, self.moved[each.place][1]) for each in self._chunks]
+        lazrs.write_chunk_table(file, sizes, lazrs.LazVlr(layout.vlr(LASZIP).data))
         file.seek(table)
         file.write(struct.pack("<q", end))
         file.seek(0, io.SEEK_END)
@@ -188,8 +199,8 @@ class ClassLayers:
 
     def _write_chunk(
         self, source: BinaryIO, file: BinaryIO, chunk: Chunk, first_class: int, layer: bytes
-    ) -> int:
-        """Copy a chunk with another layer of classes; return its new size."""
+    ) -> None:
+        """Copy a chunk with another layer of classes."""
         data = source.read(chunk.size)
         if len(data) != chunk.size:
             raise damaged(self._layout.path)
@@ -209,7 +220,6 @@ class ClassLayers:
         )
         for part in parts:
             file.write(part)
-        return sum(map(len, parts))
 
 
 def _returns(

@@ -22,6 +22,7 @@ from ..progress import SILENT, Progress
 from .changes import Rewriting
 from .crs import GEOKEY_RECORDS, WKT_RECORD, compound_wkt, read_crs, wkt_text
 from .lasbytes import (
+    COPC_EXTENTS,
     COPC_HIERARCHY,
     COPC_INFO,
     HEADER_SIZES,
@@ -52,7 +53,6 @@ _BATCH = 1_000_000
 # A row of the hierarchy: depth, x, y and z of a node, then where its points begin, how many bytes
 # they take and how many they are; -1 points where the rest of the branch stands on another page.
 HIERARCHY_ENTRY = np.dtype([("key", "<i4", 4), ("start", "<u8"), ("size", "<i4"), ("count", "<i4")])
-_COPC_EXTENTS = ("copc", 10000)
 _GPS_TIME_TYPE, _SYNTHETIC_RETURNS, _WKT = 0x01, 0x08, 0x10
 _WAVEFORM_DESCRIPTORS = range(100, 355)
 
@@ -439,7 +439,7 @@ def _is_kept(record: Vlr | Evlr) -> bool:
     user, number = record.key
     if user == "LASF_Spec" and number in _WAVEFORM_DESCRIPTORS:
         return False
-    return record.key not in (LASZIP, COPC_INFO, COPC_HIERARCHY, _COPC_EXTENTS, WAVEFORM_PACKETS)
+    return record.key not in (LASZIP, COPC_INFO, COPC_HIERARCHY, COPC_EXTENTS, WAVEFORM_PACKETS)
 
 
 def _wkt(layout: LasLayout, progress: Progress) -> Vlr | None:

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import struct
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, BinaryIO, Iterator
+from typing import TYPE_CHECKING, BinaryIO, Callable, Iterator
 
 import numpy as np
 
@@ -127,29 +127,40 @@ def find_nodes(hierarchy: Hierarchy, box: Box) -> np.ndarray:
         If the hierarchy is damaged.
     """
     layout = hierarchy.layout
-    pages, seen, found = [hierarchy.root], set(), []
-    # All points of the pages that are read count, not only those of the nodes that are wanted.
-    total, is_whole = 0, True
-    with open_source(layout.path) as file:
-        while pages:
-            page = pages.pop()
-            if page in seen:
-                raise _octree_error(layout, "one of its pages names itself")
-            seen.add(page)
-            entries = _read_page(layout, file, *page)
-            nodes = entries[_touching(hierarchy, entries["key"], box)]
-            branches = nodes["count"] == -1
-            pages += [(int(each["start"]), int(each["size"])) for each in nodes[branches]]
-            is_whole &= np.count_nonzero(entries["count"] == -1) == np.count_nonzero(branches)
-            found.append(nodes[nodes["count"] > 0])
-            total += int(np.maximum(entries["count"], 0).sum(dtype=np.int64))
+    found, total, is_whole = [], 0, True
+    for _, entries, touch in _pages(hierarchy, lambda keys: _touching(hierarchy, keys, box)):
+        # All points of the pages that are read count, not only those of the nodes that are wanted.
+        total += int(np.maximum(entries["count"], 0).sum(dtype=np.int64))
+        is_whole &= not (entries["count"][~touch] == -1).any()
+        found.append(entries[touch & (entries["count"] > 0)])
     if total > layout.count or (is_whole and total != layout.count):
-        raise _octree_error(layout, "its numbers of points do not add up to that of the file")
+        raise _uncounted(layout)
     nodes = np.concatenate(found)
     nodes = nodes[np.argsort(nodes["start"], kind="stable")]
     if (nodes["start"][1:] < nodes["start"][:-1] + nodes["size"][:-1].astype(np.uint64)).any():
         raise _octree_error(layout, "its nodes overlap in the file")
     return nodes
+
+
+def read_pages(hierarchy: Hierarchy) -> dict[int, np.ndarray]:
+    """Return all pages of the hierarchy.
+
+    Returns
+    -------
+    dict of int to numpy.ndarray of HIERARCHY_ENTRY
+        The entries of each page, by where it begins.
+
+    Raises
+    ------
+    OctreeError
+        If the hierarchy is damaged.
+    """
+    every = _pages(hierarchy, lambda keys: np.ones(len(keys), dtype=bool))
+    pages = {start: entries for start, entries, _ in every}
+    total = sum(int(np.maximum(each["count"], 0).sum(dtype=np.int64)) for each in pages.values())
+    if total != hierarchy.layout.count:
+        raise _uncounted(hierarchy.layout)
+    return pages
 
 
 def read_nodes(
@@ -183,6 +194,27 @@ def read_nodes(
                 chunk = laspy.PackedPointRecord.from_buffer(records, reader.header.point_format)
             _check_places(hierarchy, batch, chunk)
             yield chunk
+
+
+def _pages(
+    hierarchy: Hierarchy, wanted: Callable[[np.ndarray], np.ndarray]
+) -> Iterator[tuple[int, np.ndarray, np.ndarray]]:
+    """Yield where pages begin, their entries, and which of these are wanted, as their keys tell.
+
+    The pages of branches that are not wanted are not read.
+    """
+    layout, pages, seen = hierarchy.layout, [hierarchy.root], set()
+    with open_source(layout.path) as file:
+        while pages:
+            page = pages.pop()
+            if page in seen:
+                raise _octree_error(layout, "one of its pages names itself")
+            seen.add(page)
+            entries = _read_page(layout, file, *page)
+            which = wanted(entries["key"])
+            branches = entries[which & (entries["count"] == -1)]
+            pages += [(int(each["start"]), int(each["size"])) for each in branches]
+            yield page[0], entries, which
 
 
 def _read_page(layout: LasLayout, file: BinaryIO, start: int, size: int) -> np.ndarray:
@@ -254,6 +286,10 @@ def _check_places(hierarchy: Hierarchy, nodes: np.ndarray, chunk: laspy.PackedPo
         highest = np.maximum.reduceat(integers, starts) * layout.scale[axis] + layout.offset[axis]
         if (lowest < squares[axis]).any() or (highest > squares[axis + 2]).any():
             raise _octree_error(layout, "points lie outside of their nodes")
+
+
+def _uncounted(layout: LasLayout) -> OctreeError:
+    return _octree_error(layout, "its numbers of points do not add up to that of the file")
 
 
 def _octree_error(layout: LasLayout, what: str) -> OctreeError:

@@ -20,6 +20,7 @@ VLR_HEADER, EVLR_HEADER = 54, 60
 LASZIP = ("laszip encoded", 22204)
 COPC_INFO = ("copc", 1)
 COPC_HIERARCHY = ("copc", 1000)
+COPC_EXTENTS = ("copc", 10000)
 WAVEFORM_PACKETS = ("LASF_Spec", 65535)
 EVLR_COUNT = 243
 

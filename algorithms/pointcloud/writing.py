@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import struct
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, NamedTuple
 
 import numpy as np
 
@@ -20,6 +20,8 @@ from .changes import Changes, Rewriting
 from .class_layers import ClassLayers, class_layers
 from .cloud import PointCloud
 from .copc import write_copc
+from .copc_index import CopcIndex
+from .copc_nodes import OctreeError
 from .lasbytes import (
     COPC_HIERARCHY,
     COPC_INFO,
@@ -114,11 +116,12 @@ def write_changed(
     rewriting = Rewriting(layout, changes, None if cloud is None else cloud.records)
     if layout.is_compressed:
         require("lazrs")
+    kept = None if rewriting.only_classes is None else layers_kept(layout, target)
     with replacing(target) as temporary:
-        if is_copc(target):
+        if kept is not None:
+            _replace_classes(rewriting, kept, temporary, progress, cloud)
+        elif is_copc(target):
             write_copc(rewriting, temporary, progress)
-        elif rewriting.only_classes is not None and (layers := layers_kept(layout, target)):
-            _replace_classes(rewriting, layers, temporary, progress, cloud)
         else:
             _write(rewriting, temporary, progress)
     if not is_copc(target):
@@ -130,31 +133,59 @@ def is_copc(target: Path) -> bool:
     return target.name.lower().endswith(_COPC_SUFFIX)
 
 
-def layers_kept(source: LasLayout, target: Path) -> ClassLayers | None:
-    """Return the layers of the classes in a file, if the rest of it may be copied as it is.
+class Kept(NamedTuple):
+    """What of a compressed file is known, so that all but the classes may be copied as it is.
 
-    The points need not be kept as the file has them then, to give them other classes.
+    Attributes
+    ----------
+    layers : ClassLayers
+        Where the classes are.
+    index : CopcIndex or None
+        That of a COPC file, if the output is one as well.
     """
-    compressed = target.suffix.lower() == ".laz" and not is_copc(target)
-    return class_layers(source) if compressed else None
+
+    layers: ClassLayers
+    index: CopcIndex | None
+
+
+def layers_kept(source: LasLayout, target: Path) -> Kept | None:
+    """Return what has to be known to write nothing of the points anew but their classes.
+
+    Returns
+    -------
+    Kept or None
+        None where the output is of another kind than the source, or the source not compressed by
+        layers.
+    """
+    if target.suffix.lower() != ".laz" or is_copc(target) > source.is_copc:
+        return None
+    layers = class_layers(source)
+    if layers is None or not is_copc(target):
+        return layers and Kept(layers, None)
+    try:
+        index = CopcIndex(source)
+    except OctreeError:
+        return None
+    return Kept(layers, index) if index.fits(layers.chunks) else None
 
 
 def _replace_classes(
-    rewriting: Rewriting,
-    layers: ClassLayers,
-    target: Path,
-    progress: Progress,
-    cloud: PointCloud | None,
+    rewriting: Rewriting, kept: Kept, target: Path, progress: Progress, cloud: PointCloud | None
 ) -> None:
     """Write a compressed file anew, nothing of whose points changes but the classes."""
-    layout = rewriting.target
-    _tell_of_index(layout, progress)
+    layout, dropped = rewriting.target, ()
+    if kept.index is None:
+        _tell_of_index(layout, progress)
+        dropped = (COPC_INFO, COPC_HIERARCHY)
     with open(target, "w+b") as file:
-        vlrs = tuple(vlr for vlr in layout.vlrs if vlr.key != COPC_INFO)
+        vlrs = tuple(vlr for vlr in layout.vlrs if vlr.key not in dropped)
         file.write(layout.prefix(vlrs, compressed=True))
-        for done in layers.write(file, rewriting.only_classes, cloud):
+        for done in kept.layers.write(file, rewriting.only_classes, cloud):
             progress(done)
-        _copy_tail(rewriting, file)
+        shift = file.seek(0, 2) - layout.tail_start
+        _copy_tail(rewriting, file, *dropped)
+        if kept.index is not None:
+            kept.index.write(file, kept.layers.moved, shift)
 
 
 def _tell_of_index(layout: LasLayout, progress: Progress) -> None:
@@ -197,7 +228,7 @@ def _write(rewriting: Rewriting, target: Path, progress: Progress) -> None:
             )
             file.seek(0)
             file.write(layout.prefix(tuple(vlrs), compressed)[: len(layout.header)])
-        _copy_tail(rewriting, file)
+        _copy_tail(rewriting, file, COPC_HIERARCHY)
 
 
 def _check_channels(layout: LasLayout, channels: set[int]) -> None:
@@ -213,11 +244,11 @@ def _check_channels(layout: LasLayout, channels: set[int]) -> None:
         )
 
 
-def _copy_tail(rewriting: Rewriting, file: BinaryIO) -> None:
-    """Copy what follows the points, and let the header point to where it is now."""
+def _copy_tail(rewriting: Rewriting, file: BinaryIO, *dropped: tuple[str, int]) -> None:
+    """Copy what follows the points, but for some records; let the header say where it is now."""
     layout = rewriting.source
     kept = {evlr.key for evlr in rewriting.target.evlrs}
-    tail = layout.kept_tail(COPC_HIERARCHY, *(e.key for e in layout.evlrs if e.key not in kept))
+    tail = layout.kept_tail(*dropped, *(e.key for e in layout.evlrs if e.key not in kept))
     pointers = layout.pointers(tail, file.seek(0, 2))
     with open_source(layout.path) as source:
         for start, end in tail:

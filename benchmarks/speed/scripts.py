@@ -12,7 +12,7 @@ import numpy as np
 
 
 def floor(source: str, target: str) -> None:
-    """Read a file and write it back unchanged: what no program with these libraries can beat."""
+    """Read a file and write it back unchanged: all of it decompressed and compressed."""
     _write(_read(source), target)
 
 

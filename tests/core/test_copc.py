@@ -207,6 +207,13 @@ def test_copc_becomes_copc_again(las, small_leaves):
     described = inspect(second)
     assert described.classes == {2: 10_000} and described.encoding == "COPC"
     assert sum("copc" in record for record in described.records) == 2
+    # Nothing else has to change then, not even the order of the points.
+    one, other = laspy.read(first), laspy.read(second)
+    for name in ("X", "Y", "Z", "intensity"):
+        np.testing.assert_array_equal(one[name], other[name])
+    with CopcReader.open(second) as reader:
+        assert len(reader.query(level=0)) == len(CopcReader.open(first).query(level=0)) < 10_000
+        assert (reader.query().classification == 2).all()
 
 
 def test_records_of_others_stay_and_the_crs_is_kept_word_for_word(las):

@@ -20,7 +20,9 @@ from bare_earth.algorithms.filters.tin_densification import TinDensification
 from bare_earth.algorithms.output import Output
 from bare_earth.algorithms.pointcloud import reading
 from bare_earth.algorithms.pointcloud.area import Area
+from bare_earth.algorithms.pointcloud.reading import inspect
 from bare_earth.algorithms.pointcloud.selection import Selection
+from bare_earth.algorithms.pointcloud.writing import write_classified
 from bare_earth.algorithms.progress import Progress
 from bare_earth.algorithms.terrain.model import TerrainModel
 from bare_earth.algorithms.tiling import spill, streaming
@@ -155,7 +157,7 @@ def test_a_stray_point_far_away_stops_nothing(parameters, resources, tmp_path):
 
 def test_copc_and_too_large_a_model_are_refused_before_the_work(tmp_path, monkeypatch):
     source = write(tmp_path / "in.las", 4000)
-    with pytest.raises(BareEarthError, match=r"writing COPC needs\. Name the output \.laz"):
+    with pytest.raises(BareEarthError, match=r"making a COPC file needs\. Name the output \.laz"):
         classify_file(source, tmp_path / "a.copc.laz", SlopeFilter(), resources=LITTLE)
     with pytest.raises(BareEarthError, match=r"measuring heights above ground needs\. Leave out"):
         run(source, tmp_path / "b", SlopeFilter(), LITTLE, output=Output(height_above_ground=True))
@@ -164,6 +166,17 @@ def test_copc_and_too_large_a_model_are_refused_before_the_work(tmp_path, monkey
     with pytest.raises(BareEarthError, match="would take about 2 GB of memory"):
         run(source, tmp_path / "out", SlopeFilter(), LITTLE, rasters=("dtm",))
     assert os.listdir(tmp_path / "out") == []
+
+
+def test_a_copc_file_stays_one_though_it_does_not_fit(tmp_path):
+    plain, source = write(tmp_path / "in.las", 4000), tmp_path / "in.copc.laz"
+    write_classified(plain, source, np.zeros(4000, np.uint8))
+    for name, resources in (("much.copc.laz", MUCH), ("little.copc.laz", LITTLE)):
+        classify_file(source, tmp_path / name, SlopeFilter(), resources=resources)
+    much, little = (tmp_path / f"{name}.copc.laz" for name in ("much", "little"))
+    assert much.read_bytes() == little.read_bytes()
+    assert inspect(little).encoding == "COPC"
+    assert 1000 < inspect(little).classes[2] < 3900
 
 
 def test_a_full_disk_is_told_in_a_sentence(tmp_path, monkeypatch):

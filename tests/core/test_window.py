@@ -5,8 +5,9 @@ import pytest
 from conftest import LasKit
 
 from bare_earth.algorithms.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.pointcloud import copc, copc_nodes, reading
+from bare_earth.algorithms.pointcloud import copc, copc_nodes, reading, writing
 from bare_earth.algorithms.pointcloud.copc import HIERARCHY_ENTRY
+from bare_earth.algorithms.pointcloud.copc_nodes import read_hierarchy
 from bare_earth.algorithms.pointcloud.lasbytes import COPC_INFO, VLR_HEADER, read_layout
 from bare_earth.algorithms.pointcloud.reading import read_cloud
 from bare_earth.algorithms.pointcloud.window import read_window
@@ -207,6 +208,40 @@ def test_nested_pages_are_followed_only_where_the_window_is(octree, monkeypatch)
     box = (400_010.0, 5_000_010.0, 400_590.0, 5_000_590.0)
     assert_is_part(read_window(octree, box), cloud, box)
     assert len(read) == 1 + pages
+
+
+@pytest.mark.parametrize("nested", [False, True])
+def test_other_classes_leave_the_octree_as_it_is(las, octree, nested, monkeypatch):
+    count = 1 + (nest_pages(octree) if nested else 0)
+    monkeypatch.setattr(writing, "write_copc", None)
+    target, classes = las.folder / "out.copc.laz", (np.arange(POINTS) * 7 % 251).astype(np.uint8)
+    write_classified(octree, target, classes)
+    before, after = las.split(octree), las.split(target)
+    before.records[:, 16] = classes
+    np.testing.assert_array_equal(after.records, before.records)
+    cloud, heard = read_cloud(target), las.Heard()
+    for box in boxes_in_octree():
+        assert_is_part(read_window(target, box, heard), cloud, box)
+    assert not any("octree" in each for each in heard.warnings)
+    pages = [copc_nodes.read_pages(read_hierarchy(read_layout(path))) for path in (octree, target)]
+    assert len(pages[0]) == len(pages[1]) == count
+    for one, other in zip(*(np.concatenate(list(each.values())) for each in pages)):
+        assert one["count"] == other["count"] and (one["key"] == other["key"]).all()
+    classes[:] = cloud.classification
+    write_classified(target, las.folder / "again.copc.laz", classes)
+    assert (las.folder / "again.copc.laz").read_bytes() == target.read_bytes()
+
+
+def test_an_octree_that_is_damaged_is_made_anew(las, octree):
+    def more(entries):
+        entries["count"][-1] += 1
+
+    cloud = read_cloud(octree)
+    change_entries(octree, more)
+    target = las.folder / "out.copc.laz"
+    write_classified(octree, target, cloud.classification)
+    assert read_cloud(target).count == POINTS
+    assert_is_part(read_window(target, (0, 0, 1e7, 1e7)), read_cloud(target), (0, 0, 1e7, 1e7))
 
 
 def nest_pages(path):

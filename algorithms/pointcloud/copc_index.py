@@ -1,0 +1,83 @@
+"""The index of a COPC file whose chunks take up other bytes than before, and nothing else.
+
+References
+----------
+COPC specification 1.0, https://copc.io
+"""
+
+from __future__ import annotations
+
+import struct
+from typing import BinaryIO, Mapping
+
+import numpy as np
+
+from .copc_nodes import OctreeError, read_hierarchy, read_pages
+from .lasbytes import COPC_EXTENTS, COPC_INFO, VLR_HEADER, LasLayout
+
+# Where the info record says where the first page of the hierarchy begins.
+_ROOT = 40
+
+
+class CopcIndex:
+    """The pages of the hierarchy, which say where the points of each node are.
+
+    Parameters
+    ----------
+    layout : LasLayout
+        A COPC file.
+
+    Raises
+    ------
+    OctreeError
+        If the index is damaged, or would no longer be true.
+    """
+
+    def __init__(self, layout: LasLayout) -> None:
+        self._layout, self._pages = layout, read_pages(read_hierarchy(layout))
+        if layout.vlr(COPC_EXTENTS) is not None:
+            raise OctreeError(f"The index of {layout.path} says which classes there are.")
+        if min(self._pages) < layout.tail_start:
+            raise OctreeError(f"The index of {layout.path} does not stand behind the points.")
+
+    def fits(self, chunks: Mapping[int, tuple[int, int]]) -> bool:
+        """Return whether each node is a chunk.
+
+        Parameters
+        ----------
+        chunks : mapping of int to tuple of int
+            Bytes and points of each, by where it begins.
+        """
+        nodes = np.concatenate(list(self._pages.values()))
+        nodes = nodes[nodes["count"] > 0]
+        columns = (nodes[name].tolist() for name in ("start", "size", "count"))
+        return all(chunks.get(start) == (size, count) for start, size, count in zip(*columns))
+
+    def write(self, file: BinaryIO, moved: Mapping[int, tuple[int, int]], shift: int) -> None:
+        """Write the index into a file that has the records of this one.
+
+        Parameters
+        ----------
+        file : file object
+            The file.
+        moved : mapping of int to tuple of int
+            Where each chunk begins and how many bytes it takes, by where it began.
+        shift : int
+            By how many bytes the records behind the points lie further on.
+        """
+        for start, entries in self._pages.items():
+            entries = entries.copy()
+            for entry in entries:
+                if entry["count"] > 0:
+                    entry["start"], entry["size"] = moved[int(entry["start"])]
+                elif entry["count"] < 0:
+                    entry["start"] += shift
+            file.seek(start + shift)
+            file.write(entries.tobytes())
+        place = len(self._layout.header)
+        for vlr in self._layout.vlrs:
+            if vlr.key == COPC_INFO:
+                (root,) = struct.unpack_from("<Q", vlr.data, _ROOT)
+                file.seek(place + VLR_HEADER + _ROOT)
+                file.write(struct.pack("<Q", root + shift))
+            place += len(vlr.raw)
