@@ -19,7 +19,7 @@ from .pointcloud.cloud import PointCloud
 from .pointcloud.lasbytes import read_layout
 from .pointcloud.reading import read_cloud
 from .pointcloud.scope import Scope
-from .pointcloud.selection import Selection, count_classes
+from .pointcloud.selection import Selection
 from .pointcloud.writing import check_writable, is_copc, layers_kept, write_changed
 from .progress import SILENT, Progress
 from .terrain.model import TerrainModel, write_terrain_model
@@ -105,37 +105,38 @@ def classify(
     """
     scope = Scope(selection, area, method_of(parameters).reach(parameters))
     with may_use(resources.thread_count):
-        labels, inside, selected = _labels(cloud, parameters, scope, resources, progress)
-    return _classes(cloud, selection, labels, inside), selected & inside
+        outcome, inside, selected = _in_memory(cloud, parameters, scope, resources, progress)
+    return outcome.classification, selected & inside
 
 
-def _labels(
+def _in_memory(
     cloud: PointCloud,
     parameters: ParameterSet,
     scope: Scope,
     resources: Resources,
     progress: Progress,
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the label of each point, and which lie in the area, and which take part."""
+) -> tuple[Outcome, np.ndarray, np.ndarray]:
+    """Classify points in memory; return which lie in the area, and which take part, as well."""
     selection = scope.selection
-    inside, selected = scope.choose(cloud, progress.part(0.0, 0.05))
+    inside, selected = scope.choose_all(cloud, progress.part(0.0, 0.1))
     scope.tell(progress)
-    progress(0.1)
     blocks = blocks_of(parameters, scope.extent)
-    part = Part(cloud, selected, selection.known_ground(cloud, selected), inside)
+    known = selection.known_ground(cloud, selected) if selection.seed_classes else None
+    part = Part(cloud, selected, known, inside)
     store = CloudStore([part], cloud.frame, blocks, progress.part(0.1, 0.2))
     depth = selection.low_noise_depth if selection.low_noise_class else None
-    label_ground(store, parameters, blocks, depth, resources, progress.part(0.2, 1.0))
-    labels = store.labels[0]
-    scope.tell_of_low(int(np.count_nonzero((labels == LOW) & inside)), progress)
-    return labels, inside, selected
-
-
-def _classes(
-    cloud: PointCloud, selection: Selection, labels: np.ndarray, inside: np.ndarray
-) -> np.ndarray:
-    """Return the new class of each point."""
-    return selection.classes(cloud, labels == GROUND, labels == LOW, inside)
+    label_ground(store, parameters, blocks, depth, resources, progress.part(0.2, 0.95))
+    outcome = Outcome(cloud, np.empty(cloud.count, dtype=np.uint8), cloud.frame)
+    low_count = 0
+    for where, part in cloud.parts():
+        labels, within = store.labels[0][where], inside[where]
+        low = labels == LOW
+        low_count += int(np.count_nonzero(low & within))
+        classes = selection.classes(part, labels == GROUND, low, within)
+        outcome.add(where.start, classes, (classes == selection.to_class) & within)
+        progress(0.95 + 0.05 * where.stop / cloud.count)
+    scope.tell_of_low(low_count, progress)
+    return outcome, inside, selected
 
 
 def classify_file(
@@ -229,32 +230,14 @@ def _outcome(
         keep = keep and not is_copied
         cloud = read_cloud(source, progress.part(0.0, 0.2), keep_records=keep)
         part = progress.part(0.2, 0.7)
-        return _in_memory(cloud, parameters, scope, resources, terrain, part)
+        outcome, *_ = _in_memory(cloud, parameters, scope, resources, part)
+        if terrain is not None:
+            ground = outcome.classification == scope.selection.to_class
+            outcome.ground = cloud.points(ground)
+        return outcome
     _check_parts_do(target, output, is_copied, count, progress)
     part = progress.part(0.0, 0.7)
     return classify_parts(source, target, parameters, scope, resources, terrain, part)
-
-
-def _in_memory(
-    cloud: PointCloud,
-    parameters: ParameterSet,
-    scope: Scope,
-    resources: Resources,
-    terrain: TerrainModel | None,
-    progress: Progress,
-) -> Outcome:
-    """Classify the points of a file that are all in memory."""
-    labels, inside, _ = _labels(cloud, parameters, scope, resources, progress)
-    classes = _classes(cloud, scope.selection, labels, inside)
-    ground = classes == scope.selection.to_class
-    return Outcome(
-        cloud,
-        classes,
-        cloud.frame,
-        count_classes(classes),
-        int(np.count_nonzero(ground & inside)),
-        None if terrain is None else cloud.points(ground),
-    )
 
 
 def _check_parts_do(

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import NamedTuple, Sequence
+from typing import Iterator, NamedTuple, Sequence
 
 import numpy as np
 
@@ -16,6 +16,8 @@ from ..threads import in_threads, over_parts, parts_of
 from .crs import Crs
 
 _POINTS_A_PART = 1 << 15
+# Points of the parts of a cloud.
+_PART = 1 << 19
 # Times as many points as are wanted that may be read with them.
 _LOOSE = 4
 # Share of the scale by which offsets may differ from a multiple of it: they are rounded numbers.
@@ -69,6 +71,17 @@ class PointCloud:
     def count(self) -> int:
         """Number of points."""
         return len(self.x)
+
+    def parts(self) -> Iterator[tuple[slice, PointCloud]]:
+        """Yield the points some at a time, without their records, and where they stand."""
+        columns = {
+            name: value
+            for name, value in vars(self).items()
+            if isinstance(value, np.ndarray) and name != "records"
+        }
+        for where in parts_of(self.count, _PART):
+            part = {name: column[where] for name, column in columns.items()}
+            yield where, replace(self, records=None, **part)
 
     @cached_property
     def lowest(self) -> tuple[int, int]:

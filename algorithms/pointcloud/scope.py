@@ -49,19 +49,38 @@ class Scope:
         BareEarthError
             If nothing can be measured in the CRS, or the points cannot hold the class.
         """
-        if self._first is None:
-            self.selection.check(part)
-            self._first, self.lowest, self.highest = part, part.lowest, part.highest
-        self.lowest = tuple(map(min, part.lowest, self.lowest))
-        self.highest = tuple(map(max, part.highest, self.highest))
-        inside, selected = self._choose(part, self.tally, progress)
-        self.inside_count += int(np.count_nonzero(inside))
-        self.wanted_count += int(np.count_nonzero(inside & selected))
+        self._see(part)
+        return self._counted(part, progress)
+
+    def choose_all(
+        self, cloud: PointCloud, progress: Progress = SILENT
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return the same as `choose` for all points of a file, some of which it sees at a time."""
+        self._see(cloud)
+        inside, selected = (np.empty(cloud.count, dtype=bool) for _ in range(2))
+        for where, part in cloud.parts():
+            share = progress.part(where.start / cloud.count, where.stop / cloud.count)
+            inside[where], selected[where] = self._counted(part, share)
+            share(1.0)
         return inside, selected
 
     def choose_again(self, part: PointCloud) -> tuple[np.ndarray, np.ndarray]:
         """Return the same as `choose` for a part that was counted before."""
         return self._choose(part, Tally(), SILENT)
+
+    def _see(self, part: PointCloud) -> None:
+        """Take in where points lie; refuse a file that does not do."""
+        if self._first is None:
+            self.selection.check(part)
+            self._first, self.lowest, self.highest = part, part.lowest, part.highest
+        self.lowest = tuple(map(min, part.lowest, self.lowest))
+        self.highest = tuple(map(max, part.highest, self.highest))
+
+    def _counted(self, part: PointCloud, progress: Progress) -> tuple[np.ndarray, np.ndarray]:
+        inside, selected = self._choose(part, self.tally, progress)
+        self.inside_count += int(np.count_nonzero(inside))
+        self.wanted_count += int(np.count_nonzero(inside & selected))
+        return inside, selected
 
     def _choose(
         self, part: PointCloud, tally: Tally, progress: Progress

@@ -155,10 +155,12 @@ class Selection(ParameterSet):
         if self.returns == "last":
             # A number above the total is wrong, but a last return whatever the total should be.
             selected = eligible & ((part.return_number >= part.number_of_returns) | unnumbered)
-        known = self.known_ground(part, within)
         tally.add(part, within, unnumbered=unnumbered, eligible=eligible, of_returns=selected)
-        selected = selected | known
-        tally.add_counts(known=known, selected=selected)
+        if self.seed_classes:
+            known = self.known_ground(part, within)
+            selected = selected | known
+            tally.add_counts(known=known)
+        tally.add_counts(selected=selected)
         return selected
 
     def tell(self, tally: Tally, path: Path, progress: Progress, in_area: bool = False) -> None:

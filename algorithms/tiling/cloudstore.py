@@ -13,8 +13,8 @@ from ..threads import over_parts, parts_of
 from .blocks import Blocks, Box, Contents, Leaves, gathered
 from .runs import Runs, Sorted, code_of
 
-# Points that are sorted together, and such that are read together.
-_SORTED, _READ = 1 << 16, 1 << 15
+# Points that are looked at, sorted, and read together.
+_CHOSEN, _SORTED, _READ = 1 << 19, 1 << 16, 1 << 15
 
 
 class Part(NamedTuple):
@@ -69,12 +69,12 @@ class CloudStore:
         counts = [part.cloud.count for part in self._parts]
         self._starts = np.concatenate(([0], np.cumsum(counts)))
         # Selected points of each file; their places in all of them together are those of the runs.
-        self._orders = [np.flatnonzero(part.selected).astype(_kind(part)) for part in self._parts]
+        self._orders = [_indices(part, progress.part(0.0, 0.3)) for part in self._parts]
         self._ends = np.cumsum([len(order) for order in self._orders])
         self._runs = Runs()
         is_one = self._is_one_block(blocks)
         side = blocks.side if is_one else blocks.leaf_side
-        self._sort(None if is_one else side, progress)
+        self._sort(None if is_one else side, progress.part(0.3, 1.0))
         row, column, totals = self._runs.finish()
         self.leaves = Leaves(column * side, row * side, side, totals)
 
@@ -160,6 +160,14 @@ def _as_needed(part: Part) -> Part:
     return part._replace(known=known, wanted=wanted)
 
 
-def _kind(part: Part) -> type:
-    """Return the smallest type that holds the index of every point."""
-    return np.int32 if part.cloud.count < 1 << 31 else np.int64
+def _indices(part: Part, progress: Progress) -> np.ndarray:
+    """Return the indices of the points of a part that are selected, in the smallest type."""
+    kind = np.int32 if part.cloud.count < 1 << 31 else np.int64
+    indices, end = np.empty(np.count_nonzero(part.selected), dtype=kind), 0
+    for some in parts_of(part.cloud.count, _CHOSEN):
+        found = np.flatnonzero(part.selected[some])
+        indices[end : end + len(found)] = found
+        indices[end : end + len(found)] += some.start
+        end += len(found)
+        progress(some.stop / part.cloud.count)
+    return indices

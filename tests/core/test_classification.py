@@ -13,6 +13,7 @@ from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.filters.tin_densification import TinDensification
+from bare_earth.algorithms.pointcloud import cloud as cloud_module
 from bare_earth.algorithms.pointcloud.area import Area
 from bare_earth.algorithms.pointcloud.cloud import PointCloud
 from bare_earth.algorithms.pointcloud.crs import Crs
@@ -20,7 +21,7 @@ from bare_earth.algorithms.pointcloud.selection import Selection
 from bare_earth.algorithms.points import Points
 from bare_earth.algorithms.progress import SILENT
 from bare_earth.algorithms.terrain.below_ground import below_ground
-from bare_earth.algorithms.tiling import ground
+from bare_earth.algorithms.tiling import cloudstore, ground
 
 EAST, NORTH = 500_000.0, 5_700_000.0
 FOOT = 0.3048
@@ -66,6 +67,29 @@ def test_in_an_area_the_result_is_that_of_the_whole_survey(parameters, long_scen
     assert 1000 < inside.sum() < 5000 and 0.2 < (whole[inside] == 2).mean() < 0.95
     assert np.array_equal(found[inside], whole[inside])
     assert (found[~inside] == 6).all() and np.array_equal(selected, inside)
+
+
+def test_however_many_points_are_looked_at_together_the_result_is_the_same(
+    las, monkeypatch, long_scene
+):
+    random = np.random.default_rng(9)
+    classes = random.choice([1, 2, 5, 7, 9], long_scene.count)
+    cloud = cloud_of(long_scene, classes=classes.astype(np.uint8))
+    cloud.withheld[random.random(cloud.count) < 0.02] = True
+    cloud.z[::5000] -= 15_000
+    selection = Selection(seed_classes=(9,), low_noise_class=True)
+    results = []
+    for most in (1 << 19, 700):
+        monkeypatch.setattr(cloud_module, "_PART", most)
+        monkeypatch.setattr(cloudstore, "_CHOSEN", most)
+        heard = las.Heard()
+        found = classify(cloud, TinDensification(), selection, heard, box(20, 5, 400, 35))
+        assert heard.fractions == sorted(heard.fractions)
+        results.append((*found, heard.infos, heard.warnings))
+        steps = len(heard.fractions)
+    assert all(np.array_equal(*pair) for pair in zip(*results))
+    assert steps > 3 * cloud.count / 700
+    assert len(np.unique(results[0][0])) == 5
 
 
 def watched(monkeypatch, result=None, takes_known_ground=False):
