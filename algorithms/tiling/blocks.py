@@ -140,10 +140,10 @@ class Contents(NamedTuple):
     positions: np.ndarray
 
     @classmethod
-    def empty(cls, count: int) -> Contents:
-        """Return room for so many points; their flags are false."""
+    def empty(cls, count: int, kind: type) -> Contents:
+        """Return room for so many points, and for their places as integers of a type."""
         known, wanted = np.zeros(count, dtype=bool), np.zeros(count, dtype=bool)
-        return cls(Points(*np.empty((3, count))), known, wanted, np.empty(count, dtype=np.int64))
+        return cls(Points(*np.empty((3, count))), known, wanted, np.empty(count, dtype=kind))
 
     def put(self, start: int, some: Contents) -> None:
         """Put others in the place of these from `start` on."""
@@ -164,7 +164,10 @@ class Contents(NamedTuple):
 
 
 def gathered(
-    counts: Sequence[int], read: Callable[[int], Contents], box: Box | None = None
+    counts: Sequence[int],
+    read: Callable[[int], Contents],
+    box: Box | None = None,
+    kind: type = np.int64,
 ) -> Contents:
     """Return contents that are read piece by piece: small ones stay in the processor's cache.
 
@@ -176,9 +179,11 @@ def gathered(
         Returns the contents of a piece, given its number; may be called from several threads.
     box : tuple of float, optional
         Points outside are left out.
+    kind : type
+        Integers that hold the place of any point.
     """
     starts = np.concatenate(([0], np.cumsum(counts, dtype=np.int64))).tolist()
-    whole = Contents.empty(starts[-1])
+    whole = Contents.empty(starts[-1], kind)
     if box is None:
         in_threads(lambda number: whole.put(starts[number], read(number)), range(len(counts)))
         return whole

@@ -122,7 +122,8 @@ class CloudStore:
         def read(number: int) -> Contents:
             return self._contents(*pieces[number])
 
-        return gathered([len(which) for _, which in pieces], read, box)
+        kind = _smallest(self._starts[-1])
+        return gathered([len(which) for _, which in pieces], read, box, kind)
 
     def _pieces(self, leaves: np.ndarray) -> Iterator[tuple[int, np.ndarray]]:
         """Yield the number of a file and the indices of some of its points."""
@@ -132,7 +133,8 @@ class CloudStore:
             runs = slice(bounds[number], bounds[number + 1])
             firsts = starts[runs] - (self._ends[number] - len(order))
             spans = zip(firsts.tolist(), counts[runs].tolist())
-            which = np.concatenate([order[:0], *(order[first : first + n] for first, n in spans)])
+            found = [order[first : first + n] for first, n in spans]
+            which = found[0] if len(found) == 1 else np.concatenate([order[:0], *found])
             for piece in parts_of(len(which), _READ):
                 yield number, which[piece]
 
@@ -162,8 +164,8 @@ def _as_needed(part: Part) -> Part:
 
 def _indices(part: Part, progress: Progress) -> np.ndarray:
     """Return the indices of the points of a part that are selected, in the smallest type."""
-    kind = np.int32 if part.cloud.count < 1 << 31 else np.int64
-    indices, end = np.empty(np.count_nonzero(part.selected), dtype=kind), 0
+    count = np.count_nonzero(part.selected)
+    indices, end = np.empty(count, dtype=_smallest(part.cloud.count)), 0
     for some in parts_of(part.cloud.count, _CHOSEN):
         found = np.flatnonzero(part.selected[some])
         indices[end : end + len(found)] = found
@@ -171,3 +173,8 @@ def _indices(part: Part, progress: Progress) -> np.ndarray:
         end += len(found)
         progress(some.stop / part.cloud.count)
     return indices
+
+
+def _smallest(count: int) -> type:
+    """Return the smallest integers that hold the index of each of so many points."""
+    return np.int32 if count < 1 << 31 else np.int64

@@ -113,7 +113,7 @@ def _job_maker(
             contents = blocks.contents(block, store)
             # The only block holds them all.
             core = contents.wanted & (is_only or block.holds(contents.points))
-            positions = contents.positions[core]
+            positions = contents.positions if core.all() else contents.positions[core]
             notes = _Notes(progress, len(positions), is_only)
             labels = np.zeros(len(positions), dtype=np.uint8)
             if notes.count:
