@@ -192,6 +192,7 @@ class Report:
 
 def draw(results: Results, contestants: Sequence[Contestant], target: Path) -> None:
     """Draw time and peak memory against the number of points of the generated tiles."""
+    from matplotlib import colormaps
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
@@ -200,6 +201,8 @@ def draw(results: Results, contestants: Sequence[Contestant], target: Path) -> N
     tiles = [each for each in results.tiles if each.is_generated]
     titles = (("wall", "Time, s", 1.0), ("memory", "Peak memory, MB", 1e6))
     for axes, (cost, title, unit) in zip(figure.subplots(1, 2), titles):
+        # As many colours as there may be contestants; there are ten as a rule.
+        axes.set_prop_cycle(color=colormaps["tab20"].colors[::2] + colormaps["tab20"].colors[1::2])
         for each in contestants:
             found = [
                 (tile.count, *one)
