@@ -91,9 +91,9 @@ class Survey:
         codes = np.empty(cloud.count, dtype=np.int64)
         for first in range(0, cloud.count, _STEP):
             part = slice(first, first + _STEP)
-            points = cloud.points(part, self.frame)
+            places = cloud.places(part, self.frame)
             # As `Block.holds`: of the same numbers in the same way.
-            column, row = (np.floor(each / self.blocks.side) for each in points[:2])
+            column, row = (np.floor(each / self.blocks.side) for each in places)
             codes[part] = (row.astype(np.int64) << _SHIFT) + column.astype(np.int64) + _HALF
         return codes
 
