@@ -68,6 +68,7 @@ class CloudStore:
         self.has_known = any(part.known is not None for part in self._parts)
         counts = [part.cloud.count for part in self._parts]
         self._starts = np.concatenate(([0], np.cumsum(counts)))
+        self._kind = _smallest(self._starts[-1])
         # Selected points of each file; their places in all of them together are those of the runs.
         self._orders = [_indices(part, progress.part(0.0, 0.3)) for part in self._parts]
         self._ends = np.cumsum([len(order) for order in self._orders])
@@ -122,8 +123,7 @@ class CloudStore:
         def read(number: int) -> Contents:
             return self._contents(*pieces[number])
 
-        kind = _smallest(self._starts[-1])
-        return gathered([len(which) for _, which in pieces], read, box, kind)
+        return gathered([len(which) for _, which in pieces], read, box, self._kind)
 
     def _pieces(self, leaves: np.ndarray) -> Iterator[tuple[int, np.ndarray]]:
         """Yield the number of a file and the indices of some of its points."""
@@ -142,7 +142,8 @@ class CloudStore:
         part, start = self._parts[number], self._starts[number]
         known = np.zeros(len(which), bool) if part.known is None else part.known[which]
         wanted = np.ones(len(which), bool) if part.wanted is None else part.wanted[which]
-        return Contents(part.cloud.points(which, self._frame), known, wanted, which + start)
+        positions = np.add(which, start, dtype=self._kind)
+        return Contents(part.cloud.points(which, self._frame), known, wanted, positions)
 
     def put(self, positions: np.ndarray, labels: np.ndarray) -> None:
         """Keep the labels of points."""
