@@ -21,7 +21,7 @@ from typing import BinaryIO, Iterable, Iterator, NamedTuple, Sequence
 import numpy as np
 
 from .cloud import PointCloud
-from .lasbytes import LASZIP, LasLayout
+from .lasbytes import LASZIP, RECORD_LENGTHS, LasLayout
 from .records import LazRecordWriter, laszip_vlr, read_records
 from .sources import damage_told, damaged, open_source
 
@@ -31,7 +31,6 @@ _KIND, _ITEM_COUNT, _ITEMS = "<H", 32, 34
 # Layers of a point, its colours, those with near infrared, and its wave packet.
 _LAYERS = {_POINT: 9, 11: 1, 12: 2, 13: 1}
 _FORMAT, _RETURNS, _CHANNEL, _CLASS, _CLASS_LAYER = 6, 14, 15, 16, 2
-_CHANNEL_BITS = 0x30
 # Returns of a pulse that has one, and that has more: as small as can be.
 _ONLY, _FIRST_OF_TWO = 0x11, 0x21
 # Points whose layers are made at a time.
@@ -55,6 +54,41 @@ class Chunk(NamedTuple):
     size: int
 
 
+class _Head(NamedTuple):
+    """What a chunk begins with: a whole point, how many there are, and the length of each layer.
+
+    Attributes
+    ----------
+    record_length : int
+        Bytes of a point.
+    layers : int
+        How many layers there are.
+    """
+
+    record_length: int
+    layers: int
+
+    @property
+    def size(self) -> int:
+        """Bytes before the first layer."""
+        return self.record_length + 4 + 4 * self.layers
+
+    @property
+    def class_length(self) -> int:
+        """Where the length of the layer of the classes stands."""
+        return self.record_length + 4 + 4 * _CLASS_LAYER
+
+    def numbers(self, data: bytes | memoryview, start: int = 0) -> tuple[int, ...]:
+        """Return the number of points, and the lengths of the layers, of the chunk at `start`."""
+        return struct.unpack_from(f"<{1 + self.layers}I", data, start + self.record_length)
+
+    def class_layer(self, data: bytes | memoryview, start: int = 0) -> slice:
+        """Return where the layer of the classes stands of the chunk at `start`."""
+        _, *lengths = self.numbers(data, start)
+        place = start + self.size + sum(lengths[:_CLASS_LAYER])
+        return slice(place, place + lengths[_CLASS_LAYER])
+
+
 def class_layers(layout: LasLayout) -> ClassLayers | None:
     """Return the layers of the classes of a file; None if it has none that can be replaced.
 
@@ -67,8 +101,9 @@ def class_layers(layout: LasLayout) -> ClassLayers | None:
     layers = 0 if record is None else _layers_of(record.data)
     if not layers:
         return None
-    chunks = _chunks(layout, layers)
-    return None if chunks is None else ClassLayers(layout, chunks, layers)
+    head = _Head(layout.record_length, layers)
+    chunks = _chunks(layout, head)
+    return None if chunks is None else ClassLayers(layout, chunks, head)
 
 
 def _layers_of(record: bytes) -> int:
@@ -85,7 +120,7 @@ def _layers_of(record: bytes) -> int:
     return sum(size if kind == _EXTRA_BYTES else _LAYERS[kind] for kind, size in items)
 
 
-def _chunks(layout: LasLayout, layers: int) -> list[Chunk] | None:
+def _chunks(layout: LasLayout, head: _Head) -> list[Chunk] | None:
     """Return the chunks of a file; None if they are not made as they should be."""
     import lazrs
 
@@ -100,11 +135,11 @@ def _chunks(layout: LasLayout, layers: int) -> list[Chunk] | None:
         place = layout.points_start + 8
         for size in sizes:
             file.seek(place)
-            head = file.read(layout.record_length + 4 + 4 * layers)
-            if len(head) != layout.record_length + 4 + 4 * layers:
+            data = file.read(head.size)
+            if len(data) != head.size:
                 return None
-            count, *lengths = struct.unpack_from(f"<{1 + layers}I", head, layout.record_length)
-            if not count or len(head) + sum(lengths) != size:
+            count, *lengths = head.numbers(data)
+            if not count or head.size + sum(lengths) != size:
                 return None
             chunks.append(Chunk(start, start + count, place, size))
             start, place = start + count, place + size
@@ -120,20 +155,19 @@ class ClassLayers:
         The file.
     chunks : list of Chunk
         All of its chunks, in order.
-    layers : int
-        How many layers each has.
+    head : _Head
+        What each begins with.
 
     Attributes
     ----------
-    chunks : dict of int to tuple of int
-        Bytes and points of each chunk, by where it begins in the file.
+    chunks : list of Chunk
+        As given.
     moved : dict of int to tuple of int
-        Where each that was written begins in the output, and its bytes there, by the same.
+        Where each that was written begins in the output, and its bytes there, by its `place`.
     """
 
-    def __init__(self, layout: LasLayout, chunks: list[Chunk], layers: int) -> None:
-        self._layout, self._chunks, self._layers = layout, chunks, layers
-        self.chunks = {each.place: (each.size, each.end - each.start) for each in chunks}
+    def __init__(self, layout: LasLayout, chunks: list[Chunk], head: _Head) -> None:
+        self._layout, self.chunks, self._head = layout, chunks, head
         self.moved: dict[int, tuple[int, int]] = {}
 
     def write(
@@ -172,7 +206,7 @@ class ClassLayers:
             for group, returns in zip(groups, _returns(layout, groups, cloud)):
                 first = group[0].start
                 new = _new_layers(
-                    returns,
+                    *returns,
                     classes[first : group[-1].end],
                     [slice(each.start - first, each.end - first) for each in group],
                 )
@@ -182,7 +216,7 @@ class ClassLayers:
                     self.moved[chunk.place] = start, file.tell() - start
                 yield group[-1].end / layout.count
         end = file.tell()
-        sizes = [(each.end - each.start, self.moved[each.place][1]) for each in self._chunks]
+        sizes = [(each.end - each.start, self.moved[each.place][1]) for each in self.chunks]
         lazrs.write_chunk_table(file, sizes, lazrs.LazVlr(layout.vlr(LASZIP).data))
         file.seek(table)
         file.write(struct.pack("<q", end))
@@ -191,7 +225,7 @@ class ClassLayers:
     def _groups(self) -> list[list[Chunk]]:
         """Return the chunks whose layers are made together."""
         groups: list[list[Chunk]] = []
-        for chunk in self._chunks:
+        for chunk in self.chunks:
             if not groups or chunk.end - groups[-1][0].start > _POINTS_A_GROUP:
                 groups.append([])
             groups[-1].append(chunk)
@@ -204,54 +238,48 @@ class ClassLayers:
         data = source.read(chunk.size)
         if len(data) != chunk.size:
             raise damaged(self._layout.path)
-        places = self._layout.record_length + 4
-        sizes = list(struct.unpack_from(f"<{self._layers}I", data, places))
-        start = places + 4 * self._layers + sum(sizes[:_CLASS_LAYER])
-        rest = start + sizes[_CLASS_LAYER]
-        sizes[_CLASS_LAYER] = len(layer)
-        head = bytearray(data[:places])
+        size, former = self._head.size, self._head.class_layer(data)
+        head, data = bytearray(data[:size]), memoryview(data)
         head[_CLASS] = first_class
-        parts = (
-            head,
-            struct.pack(f"<{self._layers}I", *sizes),
-            memoryview(data)[places + 4 * self._layers : start],
-            layer,
-            memoryview(data)[rest:],
-        )
-        for part in parts:
+        struct.pack_into("<I", head, self._head.class_length, len(layer))
+        for part in (head, data[size : former.start], layer, data[former.stop :]):
             file.write(part)
 
 
 def _returns(
     layout: LasLayout, groups: Iterable[Sequence[Chunk]], cloud: PointCloud | None
-) -> Iterator[np.ndarray]:
+) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
     """Yield, for each group of chunks, what of the points decides how classes are coded.
 
     Yields
     ------
-    numpy.ndarray of uint8, shape (k, 2)
-        Return number and number of returns in one byte, and the scanner channel where it stands in
-        a byte with others.
+    return_number, number_of_returns, scanner_channel : numpy.ndarray of uint8, shape (k,)
     """
     pieces = [slice(group[0].start, group[-1].end) for group in groups]
     if cloud is None or cloud.count != layout.count or cloud.scanner_channel is None:
         most = max(piece.stop - piece.start for piece in pieces)
         for records in read_records(layout, most, columns=(), pieces=pieces):
-            yield records[:, [_RETURNS, _CHANNEL]]
+            returns, channel = records[:, _RETURNS], records[:, _CHANNEL]
+            yield returns & 0x0F, returns >> 4, channel >> 4 & 0x03
         return
+    columns = cloud.return_number, cloud.number_of_returns, cloud.scanner_channel
     for piece in pieces:
-        number, of = cloud.return_number[piece], cloud.number_of_returns[piece]
-        yield np.column_stack((number | of << 4, cloud.scanner_channel[piece] << 4))
+        yield tuple(column[piece] for column in columns)
 
 
 def _new_layers(
-    returns: np.ndarray, classes: np.ndarray, chunks: Sequence[slice]
+    return_number: np.ndarray,
+    number_of_returns: np.ndarray,
+    scanner_channel: np.ndarray,
+    classes: np.ndarray,
+    chunks: Sequence[slice],
 ) -> Iterator[bytes]:
     """Yield the layer of the classes for each chunk of some points."""
-    points = np.zeros((len(classes), 30), dtype=np.uint8)
-    number, of = returns[:, 0] & 0x0F, returns[:, 0] >> 4
-    points[:, _RETURNS] = np.where((number == 1) & (of <= 1), _ONLY, _FIRST_OF_TWO)
-    points[:, _CHANNEL] = returns[:, 1] & _CHANNEL_BITS
+    head = _Head(RECORD_LENGTHS[_FORMAT], _LAYERS[_POINT])
+    points = np.zeros((len(classes), head.record_length), dtype=np.uint8)
+    is_only = (return_number == 1) & (number_of_returns <= 1)
+    points[:, _RETURNS] = np.where(is_only, _ONLY, _FIRST_OF_TWO)
+    points[:, _CHANNEL] = scanner_channel << 4
     points[:, _CLASS] = classes
     file = io.BytesIO()
     writer = LazRecordWriter(file, laszip_vlr(_FORMAT, 0, variable_chunks=True))
@@ -261,7 +289,5 @@ def _new_layers(
     sizes = writer.chunk_sizes(file)
     data, start = file.getbuffer(), 8
     for size in sizes:
-        lengths = struct.unpack_from(f"<{_LAYERS[_POINT]}I", data, start + points.shape[1] + 4)
-        place = start + points.shape[1] + 4 + 4 * len(lengths) + sum(lengths[:_CLASS_LAYER])
-        yield bytes(data[place : place + lengths[_CLASS_LAYER]])
+        yield bytes(data[head.class_layer(data, start)])
         start += size

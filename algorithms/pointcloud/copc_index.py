@@ -8,10 +8,11 @@ COPC specification 1.0, https://copc.io
 from __future__ import annotations
 
 import struct
-from typing import BinaryIO, Mapping
+from typing import BinaryIO, Mapping, Sequence
 
 import numpy as np
 
+from .class_layers import Chunk
 from .copc_nodes import OctreeError, read_hierarchy, read_pages
 from .lasbytes import COPC_EXTENTS, COPC_INFO, VLR_HEADER, LasLayout
 
@@ -40,18 +41,13 @@ class CopcIndex:
         if min(self._pages) < layout.tail_start:
             raise OctreeError(f"The index of {layout.path} does not stand behind the points.")
 
-    def fits(self, chunks: Mapping[int, tuple[int, int]]) -> bool:
-        """Return whether each node is a chunk.
-
-        Parameters
-        ----------
-        chunks : mapping of int to tuple of int
-            Bytes and points of each, by where it begins.
-        """
+    def fits(self, chunks: Sequence[Chunk]) -> bool:
+        """Return whether each node is one of the chunks of the file."""
+        known = {(each.place, each.size, each.end - each.start) for each in chunks}
         nodes = np.concatenate(list(self._pages.values()))
         nodes = nodes[nodes["count"] > 0]
         columns = (nodes[name].tolist() for name in ("start", "size", "count"))
-        return all(chunks.get(start) == (size, count) for start, size, count in zip(*columns))
+        return known.issuperset(zip(*columns))
 
     def write(self, file: BinaryIO, moved: Mapping[int, tuple[int, int]], shift: int) -> None:
         """Write the index into a file that has the records of this one.

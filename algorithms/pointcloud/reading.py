@@ -32,7 +32,7 @@ _SMALL = {
 }
 _COORDINATES = ("x", "y", "z")
 # Formats 6 to 10 are compressed by columns, of which only these are decompressed.
-NEEDED = ("Z", "CLASSIFICATION", "FLAGS")
+_NEEDED = ("Z", "CLASSIFICATION", "FLAGS")
 
 
 def read_cloud(path: Path, progress: Progress = SILENT, keep_records: bool = False) -> PointCloud:
@@ -79,7 +79,7 @@ def read_cloud(path: Path, progress: Progress = SILENT, keep_records: bool = Fal
         pieces = read_records(layout, MOST_KEPT, records)
     else:
         cloud = _empty_cloud(layout, layout.count, crs)
-        pieces = read_records(layout, columns=NEEDED)
+        pieces = read_records(layout, columns=_NEEDED)
     start = 0
     for piece in pieces:
         _fill(cloud, slice(start, start + len(piece)), named(piece))
@@ -257,7 +257,7 @@ def _opened(layout: LasLayout) -> Iterator[laspy.LasReader]:
             layout.path,
             encoding_errors="replace",
             read_evlrs=False,
-            decompression_selection=selection_of(NEEDED),
+            decompression_selection=selection_of(_NEEDED),
         )
     with reader:
         yield reader
