@@ -25,7 +25,6 @@ from .progress import SILENT, Progress
 from .terrain.model import TerrainModel, write_terrain_model
 from .terrain.raster import check_raster_output
 from .threads import may_use
-from .tiling.blocks import GROUND, LOW
 from .tiling.cloudstore import CloudStore, Part
 from .tiling.ground import blocks_of, label_ground
 from .tiling.memory import Resources
@@ -127,15 +126,10 @@ def _in_memory(
     depth = selection.low_noise_depth if selection.low_noise_class else None
     label_ground(store, parameters, blocks, depth, resources, progress.part(0.2, 0.95))
     outcome = Outcome(cloud, np.empty(cloud.count, dtype=np.uint8), cloud.frame)
-    low_count = 0
-    for where, part in cloud.parts():
-        labels, within = store.labels[0][where], inside[where]
-        low = labels == LOW
-        low_count += int(np.count_nonzero(low & within))
-        classes = selection.classes(part, labels == GROUND, low, within)
-        outcome.add(where.start, classes, (classes == selection.to_class) & within)
+    for where, some in cloud.parts():
+        outcome.add(where.start, some, store.labels[0][where], inside[where], selection)
         progress(0.95 + 0.05 * where.stop / cloud.count)
-    scope.tell_of_low(low_count, progress)
+    scope.tell_of_low(outcome.area_low_count, progress)
     return outcome, inside, selected
 
 

@@ -13,7 +13,7 @@ from ..parameters import ParameterSet
 from ..pointcloud.cloud import PointCloud
 from ..pointcloud.reading import read_parts
 from ..pointcloud.scope import Scope
-from ..pointcloud.selection import count_classes
+from ..pointcloud.selection import Selection, count_classes
 from ..points import Frame, Points
 from ..progress import SILENT, Progress, Unsaid
 from ..terrain.model import TerrainModel, vertices_of
@@ -46,6 +46,8 @@ class Outcome:
         Points of each class.
     area_ground_count : int
         Points of the class of the ground in the area.
+    area_low_count : int
+        Points in the area that are labelled as low outliers.
     ground : Points or None
         The points of the class of the ground that a terrain model needs, if it is wanted.
     frame : Frame
@@ -57,13 +59,45 @@ class Outcome:
     frame: Frame
     class_counts: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
     area_ground_count: int = 0
+    area_low_count: int = 0
     ground: Points | None = None
 
-    def add(self, start: int, classes: np.ndarray, is_area_ground: np.ndarray) -> None:
-        """Put in the classes of the points from `start` on, and count them."""
-        self.classification[start : start + len(classes)] = classes
+    def add(
+        self,
+        start: int,
+        part: PointCloud,
+        labels: np.ndarray,
+        inside: np.ndarray,
+        selection: Selection,
+    ) -> np.ndarray:
+        """Put in the classes that follow from the labels of some points, and count them.
+
+        Parameters
+        ----------
+        start : int
+            Number of the first of the points in the file.
+        part : PointCloud
+            The points, with their present classes.
+        labels : numpy.ndarray of uint8, shape (k,)
+            What they are labelled.
+        inside : numpy.ndarray of bool, shape (k,)
+            Which lie in the area.
+        selection : Selection
+            What their classes become.
+
+        Returns
+        -------
+        numpy.ndarray of bool, shape (k,)
+            Which have the class of the ground now.
+        """
+        low = labels == LOW
+        classes = selection.classes(part, labels == GROUND, low, inside)
+        is_ground = classes == selection.to_class
+        self.classification[start : start + part.count] = classes
         self.class_counts += count_classes(classes)
-        self.area_ground_count += int(np.count_nonzero(is_area_ground))
+        self.area_ground_count += int(np.count_nonzero(is_ground & inside))
+        self.area_low_count += int(np.count_nonzero(low & inside))
+        return is_ground
 
 
 def fits_in_memory(count: int, resources: Resources, record_length: int = 0) -> bool:
@@ -139,20 +173,16 @@ def classify_parts(
         classification = np.empty(scope.tally.points, dtype=np.uint8)
         outcome = Outcome(spill.cloud, classification, frame)
         thinned = None if terrain is None else _Thinned(terrain, frame)
-        start = taken = low_count = 0
+        start = taken = 0
         for part in read_parts(source, Unsaid(progress.part(0.8, 1.0))):
             inside, selected = scope.choose_again(part)
             labels = spill.labels_of(part, selected, taken)
-            low = labels == LOW
-            low_count += int(np.count_nonzero(low & inside))
-            classes = selection.classes(part, labels == GROUND, low, inside)
-            is_ground = classes == selection.to_class
-            outcome.add(start, classes, is_ground & inside)
+            is_ground = outcome.add(start, part, labels, inside, selection)
             if thinned is not None:
                 thinned.add(part, is_ground)
             start += part.count
             taken += int(np.count_nonzero(selected))
-        scope.tell_of_low(low_count, progress)
+        scope.tell_of_low(outcome.area_low_count, progress)
     if thinned is not None:
         outcome.ground = thinned.points()
     return outcome
