@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any, Iterator
 import numpy as np
 
 from ..progress import SILENT, Progress
-from ..threads import over_parts
+from ..threads import over_parts, parts_of
 from .backends import require
 from .cloud import PointCloud
 from .crs import Crs, read_crs, unit_name
 from .lasbytes import LasLayout, read_layout
 from .records import FIRST_EXTENDED_FORMAT, MOST_KEPT, read_records, selection_of
-from .sources import damage_told, damaged
+from .sources import damage_told
 
 if TYPE_CHECKING:
     import laspy
@@ -59,32 +59,24 @@ def read_cloud(path: Path, progress: Progress = SILENT, keep_records: bool = Fal
     Cancelled
         If the user asked to stop.
     """
-    from laspy import PackedPointRecord
-
     layout = read_layout(Path(path))
     require(*_packages(layout))
-    crs = read_crs(layout, progress)
+    crs, start = read_crs(layout, progress), 0
     with _opened(layout) as reader:
-        point_format = reader.header.point_format
-
-    def named(records: np.ndarray) -> laspy.PackedPointRecord:
-        return PackedPointRecord.from_buffer(records, point_format)
-
-    if keep_records:
-        records = np.empty((layout.count, layout.record_length), dtype=np.uint8)
-        # x, y and z stay where they are among the records: a copy would be half as much again.
-        places = named(records)
-        coordinates = {name: places[name.upper()] for name in _COORDINATES}
-        cloud = _empty_cloud(layout, layout.count, crs, records=records, **coordinates)
-        pieces = read_records(layout, MOST_KEPT, records)
-    else:
-        cloud = _empty_cloud(layout, layout.count, crs)
-        pieces = read_records(layout, columns=_NEEDED)
-    start = 0
-    for piece in pieces:
-        _fill(cloud, slice(start, start + len(piece)), named(piece))
-        start += len(piece)
-        progress(start / layout.count)
+        if keep_records:
+            records = np.empty((layout.count, layout.record_length), dtype=np.uint8)
+            # x, y and z stay where they are among the records: a copy would be half as much again.
+            named = _named(reader, records)
+            coordinates = {name: named[name.upper()] for name in _COORDINATES}
+            cloud = _empty_cloud(layout, layout.count, crs, records=records, **coordinates)
+            pieces = read_records(layout, MOST_KEPT, records)
+        else:
+            cloud = _empty_cloud(layout, layout.count, crs)
+            pieces = read_records(layout, columns=_NEEDED)
+        for piece in pieces:
+            _fill(cloud, slice(start, start + len(piece)), _named(reader, piece))
+            start += len(piece)
+            progress(start / layout.count)
     return cloud
 
 
@@ -118,8 +110,6 @@ def read_parts(path: Path, progress: Progress = SILENT) -> Iterator[PointCloud]:
             yield part
             start += len(chunk)
             progress(start / layout.count)
-    if start != layout.count:
-        raise damaged(layout.path)
 
 
 @dataclass(frozen=True)
@@ -263,14 +253,18 @@ def _opened(layout: LasLayout) -> Iterator[laspy.LasReader]:
         yield reader
 
 
-def _chunks(layout: LasLayout, reader: laspy.LasReader) -> Iterator[laspy.ScaleAwarePointRecord]:
-    chunks = reader.chunk_iterator(_CHUNK)
-    while True:
-        with damage_told(layout.path):
-            chunk = next(chunks, None)
-        if chunk is None:
-            return
-        yield chunk
+def _chunks(layout: LasLayout, reader: laspy.LasReader) -> Iterator[laspy.PackedPointRecord]:
+    """Yield all points, as many at a time in each run; the next ones reuse their memory."""
+    pieces = parts_of(layout.count, _CHUNK)
+    for records in read_records(layout, _CHUNK, columns=_NEEDED, pieces=pieces):
+        yield _named(reader, records)
+
+
+def _named(reader: laspy.LasReader, records: np.ndarray) -> laspy.PackedPointRecord:
+    """Return points, given as their bytes, by the names of their columns."""
+    from laspy import PackedPointRecord
+
+    return PackedPointRecord.from_buffer(records, reader.header.point_format)
 
 
 def _empty_cloud(layout: LasLayout, count: int, crs: Crs, **kept: np.ndarray) -> PointCloud:

@@ -15,7 +15,6 @@ from .copc_nodes import OctreeError, find_nodes, read_hierarchy, read_nodes
 from .crs import read_crs
 from .lasbytes import LasLayout, read_layout
 from .reading import _chunks, _opened, _packages
-from .sources import damaged
 
 if TYPE_CHECKING:
     import laspy
@@ -96,8 +95,6 @@ def _in_chunks(layout: LasLayout, area: Area, progress: Progress) -> Iterator[Co
             is_outside |= _leaves_header(layout, chunk)
             done += len(chunk)
             progress(done / layout.count)
-    if done != layout.count:
-        raise damaged(layout.path)
     if is_outside:
         progress.warning(
             f"The header of {layout.path.name} states a smaller extent than its points have: other"
