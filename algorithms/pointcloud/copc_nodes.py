@@ -20,6 +20,7 @@ from ..errors import BareEarthError
 from .area import Box
 from .copc import HIERARCHY_ENTRY
 from .lasbytes import COPC_INFO, LASZIP, LasLayout
+from .records import NEEDED, selection_of
 from .sources import damage_told, damaged, open_source
 
 if TYPE_CHECKING:
@@ -175,7 +176,7 @@ def read_nodes(
     nodes : numpy.ndarray of HIERARCHY_ENTRY
         From `find_nodes`.
     reader : laspy.LasReader
-        The opened file; knows the point format, and which columns to decompress.
+        The opened file; knows the point format.
 
     Raises
     ------
@@ -190,7 +191,7 @@ def read_nodes(
     with open_source(layout.path) as file:
         for batch in _batches(nodes):
             with damage_told(layout.path):
-                records = _decompress(layout, file, batch, reader)
+                records = _decompress(layout, file, batch)
                 chunk = laspy.PackedPointRecord.from_buffer(records, reader.header.point_format)
             _check_places(hierarchy, batch, chunk)
             yield chunk
@@ -252,9 +253,7 @@ def _batches(nodes: np.ndarray) -> Iterator[np.ndarray]:
     return (run for run in np.split(nodes, np.flatnonzero(np.diff(numbers)) + 1) if len(run))
 
 
-def _decompress(
-    layout: LasLayout, file: BinaryIO, nodes: np.ndarray, reader: laspy.LasReader
-) -> np.ndarray:
+def _decompress(layout: LasLayout, file: BinaryIO, nodes: np.ndarray) -> np.ndarray:
     import lazrs
 
     compressed = bytearray()
@@ -270,7 +269,7 @@ def _decompress(
         layout.vlr(LASZIP).data,
         records,
         list(zip(counts, nodes["size"].tolist())),
-        reader.decompression_selection.to_lazrs(),
+        selection_of(NEEDED),
     )
     return records
 

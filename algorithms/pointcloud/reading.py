@@ -15,7 +15,7 @@ from .backends import require
 from .cloud import PointCloud
 from .crs import Crs, read_crs, unit_name
 from .lasbytes import LasLayout, read_layout
-from .records import FIRST_EXTENDED_FORMAT, MOST_KEPT, read_records, selection_of
+from .records import FIRST_EXTENDED_FORMAT, MOST_KEPT, NEEDED, read_records
 from .sources import damage_told
 
 if TYPE_CHECKING:
@@ -31,8 +31,6 @@ _SMALL = {
     "scanner_channel": np.uint8,
 }
 _COORDINATES = ("x", "y", "z")
-# Formats 6 to 10 are compressed by columns, of which only these are decompressed.
-_NEEDED = ("Z", "CLASSIFICATION", "FLAGS")
 
 
 def read_cloud(path: Path, progress: Progress = SILENT, keep_records: bool = False) -> PointCloud:
@@ -72,7 +70,7 @@ def read_cloud(path: Path, progress: Progress = SILENT, keep_records: bool = Fal
             pieces = read_records(layout, MOST_KEPT, records)
         else:
             cloud = _empty_cloud(layout, layout.count, crs)
-            pieces = read_records(layout, columns=_NEEDED)
+            pieces = read_records(layout, columns=NEEDED)
         for piece in pieces:
             _fill(cloud, slice(start, start + len(piece)), _named(reader, piece))
             start += len(piece)
@@ -243,12 +241,7 @@ def _opened(layout: LasLayout) -> Iterator[laspy.LasReader]:
     import laspy
 
     with damage_told(layout.path):
-        reader = laspy.open(
-            layout.path,
-            encoding_errors="replace",
-            read_evlrs=False,
-            decompression_selection=selection_of(_NEEDED),
-        )
+        reader = laspy.open(layout.path, encoding_errors="replace", read_evlrs=False)
     with reader:
         yield reader
 
@@ -256,7 +249,7 @@ def _opened(layout: LasLayout) -> Iterator[laspy.LasReader]:
 def _chunks(layout: LasLayout, reader: laspy.LasReader) -> Iterator[laspy.PackedPointRecord]:
     """Yield all points, as many at a time in each run; the next ones reuse their memory."""
     pieces = parts_of(layout.count, _CHUNK)
-    for records in read_records(layout, _CHUNK, columns=_NEEDED, pieces=pieces):
+    for records in read_records(layout, _CHUNK, columns=NEEDED, pieces=pieces):
         yield _named(reader, records)
 
 

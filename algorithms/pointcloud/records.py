@@ -12,8 +12,11 @@ from .lasbytes import LASZIP, LasLayout, Vlr, new_vlr
 from .sources import damage_told, damaged, open_source
 
 if TYPE_CHECKING:
-    import laspy
+    import lazrs
 
+# What a `PointCloud` has of points that are compressed by columns (formats 6 to 10), besides x, y,
+# returns and scanner channel.
+NEEDED = ("Z", "CLASSIFICATION", "FLAGS")
 # Most points at a time: where they go through a buffer, and where all of them are in memory.
 _MOST, MOST_KEPT = 1_000_000, 8_000_000
 _BLOCK = 1 << 24
@@ -47,14 +50,14 @@ def check_class(path: object, point_format: int, value: int, what: str) -> None:
         )
 
 
-def selection_of(columns: Sequence[str]) -> laspy.DecompressionSelection:
-    """Return what laspy calls these columns of points, with those that are always decompressed."""
-    from laspy import DecompressionSelection
+def selection_of(columns: Sequence[str]) -> lazrs.DecompressionSelection:
+    """Return what lazrs calls these columns of points, with those that are always decompressed."""
+    import lazrs
 
-    selection = DecompressionSelection.base()
+    selection = lazrs.SELECTIVE_DECOMPRESS_XY_RETURNS_CHANNEL
     for name in columns:
-        selection |= DecompressionSelection[name]
-    return selection
+        selection |= getattr(lazrs, f"SELECTIVE_DECOMPRESS_{name}")
+    return lazrs.DecompressionSelection(selection)
 
 
 def read_records(
@@ -76,8 +79,8 @@ def read_records(
         Where to keep all of them.
     columns : sequence of str, optional
         Which columns are wanted of point formats that are compressed by columns, by their names in
-        `laspy.DecompressionSelection`; x, y, returns and the scanner channel always are. All, if
-        it is not given. What is in the others is not said.
+        `laspy.DecompressionSelection`, as `NEEDED`; x, y, returns and the scanner channel always
+        are. All, if it is not given. What is in the others is not said.
     pieces : iterable of slice, optional
         Which points to read at a time, one piece after the other, none longer than `most`. As
         many as are read in half a second or so, if it is not given.
@@ -283,6 +286,6 @@ def _decompressor(layout: LasLayout, file: BinaryIO, columns: Sequence[str] | No
     import lazrs
 
     record = layout.vlr(LASZIP)
-    selection = None if columns is None else selection_of(columns).to_lazrs()
+    selection = None if columns is None else selection_of(columns)
     with damage_told(layout.path):
         return lazrs.ParLasZipDecompressor(file, record.data, selection)

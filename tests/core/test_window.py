@@ -146,9 +146,9 @@ def test_a_window_of_copc_holds_what_masking_the_whole_gives(las, octree, monkey
 def test_a_small_window_of_copc_reads_only_its_nodes(octree, monkeypatch):
     read = []
 
-    def counting(layout, file, nodes, reader):
+    def counting(layout, file, nodes):
         read.append(int(nodes["count"].sum()))
-        return decompress(layout, file, nodes, reader)
+        return decompress(layout, file, nodes)
 
     decompress = copc_nodes._decompress
     monkeypatch.setattr(copc_nodes, "_decompress", counting)
