@@ -15,7 +15,7 @@ from .output import Output
 from .parameters import ParameterSet
 from .pointcloud.area import Area
 from .pointcloud.changes import Changes
-from .pointcloud.cloud import PointCloud
+from .pointcloud.cloud import PointCloud, survey_frame
 from .pointcloud.lasbytes import read_layout
 from .pointcloud.reading import read_cloud
 from .pointcloud.scope import Scope
@@ -119,10 +119,10 @@ def _in_memory(
     selection = scope.selection
     inside, selected = scope.choose_all(cloud, progress.part(0.0, 0.1))
     scope.tell(progress)
-    blocks = blocks_of(parameters, scope.extent)
+    blocks = blocks_of(parameters)
     known = selection.known_ground(cloud, selected) if selection.seed_classes else None
     part = Part(cloud, selected, known, inside)
-    store = CloudStore([part], cloud.frame, blocks, progress.part(0.1, 0.2))
+    store = CloudStore([part], survey_frame(cloud.crs), blocks, progress.part(0.1, 0.2))
     depth = selection.low_noise_depth if selection.low_noise_class else None
     label_ground(store, parameters, blocks, depth, resources, progress.part(0.2, 0.95))
     outcome = Outcome(cloud, np.empty(cloud.count, dtype=np.uint8), cloud.frame)

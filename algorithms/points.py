@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -27,12 +27,18 @@ class Frame:
     vertical_unit: float = 1.0
     wkt: str | None = None
 
+    def moved(self, corner: tuple[float, float]) -> Frame:
+        """Return the frame whose origin is a place, given in metres of this one."""
+        origin = tuple(at + by / self.horizontal_unit for at, by in zip(self.origin, corner))
+        return replace(self, origin=origin)
+
 
 class Points(NamedTuple):
     """Coordinates in metres, relative to a local origin.
 
-    The origin is one for the whole survey, not for the block at hand: grids are anchored at its
-    (0, 0), so that a point falls into the same cell however the survey is cut.
+    The origin is a place of the CRS that does not depend on the survey: that of the block at hand
+    (`Blocks.corner`). Grids are anchored at its (0, 0), so that a point falls into the same cell
+    however far the survey reaches, and however it is cut.
 
     Attributes
     ----------

@@ -27,7 +27,6 @@ from .tiling.run import Run
 from .tiling.survey import (
     Place,
     Survey,
-    extent_of,
     frame_of,
     grouped,
     memory_of,
@@ -131,7 +130,7 @@ def classify_tiles(
     collection = open_collection(sources, files.recursive, progress.part(0.0, 0.02))
     _check(collection, folder, vpc, sources if files.recursive else [])
     targets = _targets(collection, folder, output.format)
-    blocks = blocks or blocks_of(parameters, extent_of(collection))
+    blocks = blocks or blocks_of(parameters)
     survey = Survey(parameters, selection, frame_of(collection), blocks)
     workers = Threads() if workers is None else workers
     plan = _Plan(survey, collection, targets, progress)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -20,6 +22,8 @@ _POINTS_A_PART = 1 << 15
 _PART = 1 << 19
 # Times as many points as are wanted that may be read with them.
 _LOOSE = 4
+# Units of the CRS of which the origin of a cloud's own frame is a multiple.
+_ORIGINS = 10_000.0
 # Share of the scale by which offsets may differ from a multiple of it: they are rounded numbers.
 _WHOLE = 0.01
 
@@ -108,12 +112,15 @@ class PointCloud:
 
     @property
     def frame(self) -> Frame:
-        """The local metres of `points`: their origin is the smallest x and the smallest y."""
+        """The local metres of `points`: that of the CRS with an origin near the smallest x and y.
+
+        The origin is a multiple of a large number, so that it hardly depends on the extent.
+        """
         origin = tuple(
-            minimum * scale + offset
+            math.floor((minimum * scale + offset) / _ORIGINS) * _ORIGINS
             for minimum, scale, offset in zip(self.lowest, self.scale, self.offset)
         )
-        return Frame(origin, self.crs.horizontal_unit, self.crs.vertical_unit, self.crs.wkt)
+        return dataclasses.replace(survey_frame(self.crs), origin=origin)
 
     def points(self, which: np.ndarray | slice, frame: Frame | None = None) -> Points:
         """Return coordinates in metres, relative to the origin of a frame.
@@ -123,8 +130,8 @@ class PointCloud:
         which : numpy.ndarray or slice
             Boolean mask or indices of the points to return.
         frame : Frame, optional
-            The frame of a survey of which this file is a part; `frame` if none is given. Files of
-            one scale give equal numbers for equal places, whatever their offsets.
+            That of a survey of which this file is a part; `frame` if none is given. Files of one
+            scale give equal numbers for equal places, whatever their offsets.
 
         Raises
         ------
@@ -174,7 +181,7 @@ class PointCloud:
         origin = (*frame.origin, 0.0)
         units = (self.crs.horizontal_unit, self.crs.horizontal_unit, self.crs.vertical_unit)
         return [
-            _Axis.of(scale, offset - start, unit)
+            _Axis.of(scale, offset, start, unit)
             for scale, offset, start, unit in zip(self.scale, self.offset, origin, units)
         ]
 
@@ -195,11 +202,16 @@ class PointCloud:
             )
 
 
+def survey_frame(crs: Crs) -> Frame:
+    """Return the frame in which the blocks of any survey lie: that of the CRS and its zero."""
+    return Frame((0.0, 0.0), crs.horizontal_unit, crs.vertical_unit, crs.wkt)
+
+
 class _Axis(NamedTuple):
     """How integers become metres.
 
     The offset is added to the integers where it is a multiple of the scale: no digit is lost,
-    wherever the survey lies.
+    wherever the survey lies, and equal places give equal numbers, whatever the offset.
 
     Attributes
     ----------
@@ -216,11 +228,10 @@ class _Axis(NamedTuple):
     rest: float
 
     @classmethod
-    def of(cls, scale: float, offset: float, unit: float) -> _Axis:
-        """Return the axis of a scale and an offset in units of so many metres."""
-        whole = float(np.rint(offset / scale))
-        rest = offset - whole * scale
-        return cls(whole, scale * unit, rest * unit if abs(rest) > _WHOLE * scale else 0.0)
+    def of(cls, scale: float, offset: float, start: float, unit: float) -> _Axis:
+        """Return the axis of a scale and an offset, relative to a start, in units of metres."""
+        (whole, rest), (before, beyond) = (_multiple(each, scale) for each in (offset, start))
+        return cls(whole - before, scale * unit, (rest - beyond) * unit)
 
     def convert(self, integers: np.ndarray, metres: np.ndarray) -> None:
         """Write the metres of integers into an array."""
@@ -229,6 +240,13 @@ class _Axis(NamedTuple):
         metres *= self.scale
         if self.rest:
             metres += self.rest
+
+
+def _multiple(value: float, scale: float) -> tuple[float, float]:
+    """Return how many times a scale is in a value, as a whole number, and the rest."""
+    whole = float(np.rint(value / scale))
+    rest = value - whole * scale
+    return whole, rest if abs(rest) > _WHOLE * scale else 0.0
 
 
 def _picked(columns: Sequence[np.ndarray], which: np.ndarray | slice) -> list[np.ndarray]:

@@ -121,12 +121,6 @@ class Scope:
             depth = self.selection.low_noise_depth
             progress.info(f"{count:,} points lie more than {depth:g} m below the ground.")
 
-    @property
-    def extent(self) -> float:
-        """Longer side, in metres, of the area that all points so far take up."""
-        west, south, east, north = self._bounds()
-        return max(east - west, north - south) * self._first.crs.horizontal_unit
-
     def _bounds(self) -> tuple[float, ...]:
         scale, offset = self._first.scale, self._first.offset
         return tuple(

@@ -1,8 +1,9 @@
 """The square blocks that a survey is filtered in, and what each of them needs of the points round.
 
-The blocks belong to the method, not to the run: what a point is, the filter says in the one block
-that holds it, with all points of a buffer round the block. So the labels depend neither on how the
-survey is cut into files nor on threads, memory and the order of the points.
+The blocks belong to the method and to the CRS, not to the run: what a point is, the filter says in
+the one block that holds it, with all points of a buffer round the block. So the labels depend
+neither on how far the survey reaches and how it is cut into files, nor on threads, memory and the
+order of the points.
 """
 
 from __future__ import annotations
@@ -17,49 +18,66 @@ import numpy as np
 from ..points import Points
 from ..threads import in_threads, parts_of
 
-_SIDE, _STEP, _REACHES = 1000.0, 100.0, 4.0
+_SIDE, _STEP, _REACHES = 2000.0, 100.0, 4.0
+# Metres from the multiples of the side to the borders of the blocks. The tiles of a survey mostly
+# end at whole kilometres, give or take some centimetres: a border there would cut off a strip
+# as narrow, which costs as much as its buffer. No coordinate lies on such a border, so that
+# rounding never decides.
+_START = -1.00005
 _MOST_POINTS = 10_000_000
+# Metres by which a border of a leaf may be wrong that is one of a block.
+_ROUNDING = 1e-5
 # Few enough that what is computed of them stays in the processor's cache.
 _POINTS_A_PART = 1 << 15
-# A survey of up to so many blocks across, each larger than else by this factor at most, is cut
-# evenly: a narrow rest would cost as much as its buffer. Sides are multiples of ten metres.
-_FEW, _LARGER, _ROUND = 3, 1.125, 10.0
-# An extent may be wrong by so much of the ten metres.
-_WRONG = 0.01
-# How often a block may be quartered: leaves of an eighth of a block are also how points are kept.
-_LEVELS = 3
+# How often a block may be quartered: leaves of a sixteenth of a block are also how points are kept.
+_LEVELS = 4
 
 # What a point is labelled; 0 where it is neither.
 GROUND, LOW = 1, 2
 
 Box = tuple[float, float, float, float]
+# x and y in metres.
+Corner = tuple[float, float]
 
 
 class Block(NamedTuple):
-    """A square of the plane: block `column`, `row` of the side that it has."""
+    """A square of the plane: block `column`, `row` of the side that it has.
+
+    Attributes
+    ----------
+    column, row : int
+        Its number from west and from south.
+    side : float
+        Metres.
+    start : float
+        Metres from the multiples of the side to the borders of the blocks.
+    """
 
     column: int
     row: int
     side: float
+    start: float = 0.0
 
     @property
     def box(self) -> Box:
         """Smallest x and y, largest x and y in metres; the largest belong to the next block."""
-        west, south = self.column * self.side, self.row * self.side
+        west, south = (each * self.side + self.start for each in (self.column, self.row))
         return west, south, west + self.side, south + self.side
 
-    def holds(self, points: Points) -> np.ndarray:
-        """Return which points lie in the block."""
+    def holds(self, points: Points, corner: Corner = (0.0, 0.0)) -> np.ndarray:
+        """Return which points lie in the block; their coordinates are relative to a corner."""
         holds = np.empty(points.count, dtype=bool)
+        west, south = (each - self.start for each in corner)
         for part in parts_of(points.count, _POINTS_A_PART):
-            holds[part] = np.floor(points.x[part] / self.side) == self.column
-            holds[part] &= np.floor(points.y[part] / self.side) == self.row
+            holds[part] = np.floor((points.x[part] + west) / self.side) == self.column
+            holds[part] &= np.floor((points.y[part] + south) / self.side) == self.row
         return holds
 
     def quarters(self) -> list[Block]:
         """Return the four blocks of half the side."""
         column, row, side = 2 * self.column, 2 * self.row, self.side / 2.0
-        return [Block(column + i, row + k, side) for k, i in itertools.product((0, 1), (0, 1))]
+        places = itertools.product((0, 1), (0, 1))
+        return [Block(column + i, row + k, side, self.start) for k, i in places]
 
 
 class Leaves(NamedTuple):
@@ -109,10 +127,12 @@ class Store(Protocol):
     leaves: Leaves
     has_known: bool
 
-    def read(self, leaves: np.ndarray, box: Box | None = None) -> Contents:
+    def read(
+        self, leaves: np.ndarray, box: Box | None = None, corner: Corner = (0.0, 0.0)
+    ) -> Contents:
         """Return the points of some leaves, or those of them in a box.
 
-        May be called from several threads.
+        Coordinates, and the box, are relative to a corner. May be called from several threads.
         """
 
     def put(self, positions: np.ndarray, labels: np.ndarray) -> None:
@@ -197,7 +217,7 @@ def gathered(
 
 @dataclass(frozen=True)
 class Blocks:
-    """How a survey is cut, anchored at (0, 0) of its frame.
+    """How the plane is cut, anchored at (0, 0) of the frame: in a survey that of its CRS.
 
     Attributes
     ----------
@@ -206,28 +226,37 @@ class Blocks:
     most_points : int
         A block with more is quartered, again and again, as long as it is no narrower than its
         buffer.
+    start : float
+        As that of `Block`.
     """
 
     side: float
     buffer: float
     most_points: int = _MOST_POINTS
+    start: float = 0.0
 
     @classmethod
-    def of(cls, reach: float, extent: float = math.inf) -> Blocks:
-        """Return the blocks for a filter to which points within `reach` metres matter.
-
-        Parameters
-        ----------
-        reach : float
-            Metres.
-        extent : float
-            Larger of the two sides of the survey, in metres.
-        """
+    def of(cls, reach: float) -> Blocks:
+        """Return the blocks for a filter to which points within `reach` metres matter."""
         side = max(_SIDE, _STEP * math.ceil(_REACHES * reach / _STEP))
-        if side - _WRONG * _ROUND <= extent <= _FEW * _LARGER * side:
-            fitting = extent / math.ceil(extent / (_LARGER * side))
-            side = _ROUND * (math.floor(fitting / _ROUND + _WRONG) + 1)
-        return cls(side, reach)
+        return cls(side, reach, start=_START)
+
+    def number(self, places: np.ndarray | float) -> np.ndarray:
+        """Return the columns of blocks that hold some x, or the rows of some y, as floats."""
+        return np.floor((places - self.start) / self.side)
+
+    def block(self, column: int, row: int) -> Block:
+        """Return a block."""
+        return Block(column, row, self.side, self.start)
+
+    def corner(self, block: Block) -> Corner:
+        """Return the corner that the filter takes for (0, 0) in a block, or a part of one.
+
+        Near the block no digit is lost to the size of the coordinates, and what the filter sees
+        does not depend on where the survey begins.
+        """
+        share = round(self.side / block.side)
+        return block.column // share * self.side, block.row // share * self.side
 
     @property
     def leaf_side(self) -> float:
@@ -249,22 +278,24 @@ class Blocks:
         box : tuple of float
             Smallest x and y, largest x and y, in metres of the frame.
         """
-        low = (math.floor(each / self.side) * self.side - self.buffer for each in box[:2])
-        high = ((math.floor(each / self.side) + 1) * self.side + self.buffer for each in box[2:])
-        return (*low, *high)
+        first, last = (
+            self.window(self.block(*(int(self.number(each)) for each in corner)))
+            for corner in (box[:2], box[2:])
+        )
+        return (*first[:2], *last[2:])
 
     def over(self, store: Store) -> Iterator[Block]:
         """Yield the blocks that may hold points of a store, from south to north."""
         leaves = store.leaves
         rows, columns = (
-            (np.floor(low / self.side), np.ceil((low + leaves.side) / self.side) - 1.0)
+            (self.number(low + _ROUNDING), self.number(low + leaves.side - _ROUNDING))
             for low in (leaves.y, leaves.x)
         )
         places = set()
         for row, column in itertools.product(rows, columns):
             places |= set(zip(row.astype(int).tolist(), column.astype(int).tolist()))
         for row, column in sorted(places):
-            yield from self._divided(Block(column, row, self.side), store)
+            yield from self._divided(self.block(column, row), store)
 
     def _divided(self, block: Block, store: Store) -> Iterator[Block]:
         """Yield a block, or the smaller ones that it is cut into."""
@@ -289,13 +320,16 @@ class Blocks:
         for leaf in store.leaves.within(block.box):
             points = store.read(np.array([leaf])).points
             points = points.take(block.holds(points))
-            row = np.floor(points.y / self.leaf_side).astype(np.intp) - block.row * width
-            column = np.floor(points.x / self.leaf_side).astype(np.intp) - block.column * width
+            row, column = (
+                np.floor((each - self.start) / self.leaf_side).astype(np.intp) - number * width
+                for each, number in ((points.y, block.row), (points.x, block.column))
+            )
             counts += np.bincount(row * width + column, minlength=width**2).reshape(counts.shape)
         return counts
 
     def contents(self, block: Block, store: Store) -> Contents:
-        """Return what the filter sees for a block."""
-        box = self.window(block)
+        """Return what the filter sees for a block, relative to its `corner`."""
+        box, corner = self.window(block), self.corner(block)
         leaves = store.leaves.within(box)
-        return store.read(leaves, None if store.leaves.are_inside(leaves, box) else box)
+        local = tuple(each - at for each, at in zip(box, corner * 2))
+        return store.read(leaves, None if store.leaves.are_inside(leaves, box) else local, corner)

@@ -10,7 +10,7 @@ from ..pointcloud.cloud import PointCloud
 from ..points import Frame
 from ..progress import SILENT, Progress
 from ..threads import over_parts, parts_of
-from .blocks import Blocks, Box, Contents, Leaves, gathered
+from .blocks import Blocks, Box, Contents, Corner, Leaves, gathered
 from .runs import Runs, Sorted, code_of
 
 # Points that are looked at, sorted, and read together.
@@ -75,15 +75,26 @@ class CloudStore:
         self._runs = Runs()
         is_one = self._is_one_block(blocks)
         side = blocks.side if is_one else blocks.leaf_side
+        self._start = blocks.start
+        first = self._lowest_block(blocks) if is_one else (0.0, 0.0)
         self._sort(None if is_one else side, progress.part(0.3, 1.0))
         row, column, totals = self._runs.finish()
-        self.leaves = Leaves(column * side, row * side, side, totals)
+        x, y = ((n + by) * side + blocks.start for n, by in zip((column, row), first))
+        self.leaves = Leaves(x, y, side, totals)
 
     def _is_one_block(self, blocks: Blocks) -> bool:
         if self._ends[-1] > blocks.most_points:
             return False
-        bounds = np.array([part.cloud.bounds(self._frame) for part in self._parts])
-        return bool(bounds.min() >= 0.0 and bounds.max() < blocks.side)
+        blocks_of_corners = blocks.number(self._bounds())
+        return bool((blocks_of_corners == blocks_of_corners[:1]).all())
+
+    def _lowest_block(self, blocks: Blocks) -> tuple[float, float]:
+        """Return column and row of the block that holds the smallest x and y."""
+        return tuple(blocks.number(self._bounds().min(axis=0)).tolist())
+
+    def _bounds(self) -> np.ndarray:
+        """Return x and y of two corners of each file, shape (corners, 2)."""
+        return np.array([part.cloud.bounds(self._frame) for part in self._parts]).reshape(-1, 2)
 
     def _sort(self, side: float | None, progress: Progress) -> None:
         """Sort the points of each file by leaves; there is but one leaf where `side` is None."""
@@ -109,19 +120,21 @@ class CloudStore:
 
         def sort(piece: slice) -> None:
             places = cloud.places(order[piece], self._frame)
-            result = Sorted.of(*(np.floor(each / side) for each in places[::-1]))
+            result = Sorted.of(*(np.floor((each - self._start) / side) for each in places[::-1]))
             order[piece] = order[piece][result.order]
             found[piece.start // _SORTED] = result.codes, result.counts
 
         over_parts(sort, len(order), _SORTED, progress)
         return found
 
-    def read(self, leaves: np.ndarray, box: Box | None = None) -> Contents:
-        """Return the points of some leaves, or those of them in a box."""
-        pieces = list(self._pieces(leaves))
+    def read(
+        self, leaves: np.ndarray, box: Box | None = None, corner: Corner = (0.0, 0.0)
+    ) -> Contents:
+        """Return the points of some leaves, or those of them in a box, relative to a corner."""
+        pieces, frame = list(self._pieces(leaves)), self._frame.moved(corner)
 
         def read(number: int) -> Contents:
-            return self._contents(*pieces[number])
+            return self._contents(*pieces[number], frame)
 
         return gathered([len(which) for _, which in pieces], read, box, self._kind)
 
@@ -138,12 +151,12 @@ class CloudStore:
             for piece in parts_of(len(which), _READ):
                 yield number, which[piece]
 
-    def _contents(self, number: int, which: np.ndarray) -> Contents:
+    def _contents(self, number: int, which: np.ndarray, frame: Frame) -> Contents:
         part, start = self._parts[number], self._starts[number]
         known = np.zeros(len(which), bool) if part.known is None else part.known[which]
         wanted = np.ones(len(which), bool) if part.wanted is None else part.wanted[which]
         positions = np.add(which, start, dtype=self._kind)
-        return Contents(part.cloud.points(which, self._frame), known, wanted, positions)
+        return Contents(part.cloud.points(which, frame), known, wanted, positions)
 
     def put(self, positions: np.ndarray, labels: np.ndarray) -> None:
         """Keep the labels of points."""

@@ -30,9 +30,9 @@ class _Labelled(NamedTuple):
     notes: _Notes
 
 
-def blocks_of(parameters: ParameterSet, extent: float) -> Blocks:
-    """Return the blocks in which a method filters a survey, whose longer side is so many metres."""
-    return Blocks.of(method_of(parameters).reach(parameters), extent)
+def blocks_of(parameters: ParameterSet) -> Blocks:
+    """Return the blocks in which a method filters any survey."""
+    return Blocks.of(method_of(parameters).reach(parameters))
 
 
 def label_ground(
@@ -112,7 +112,9 @@ def _job_maker(
         def job(progress: Progress) -> _Labelled:
             contents = blocks.contents(block, store)
             # The only block holds them all.
-            core = contents.wanted & (is_only or block.holds(contents.points))
+            core = contents.wanted.copy()
+            if not is_only:
+                core &= block.holds(contents.points, blocks.corner(block))
             positions = contents.positions if core.all() else contents.positions[core]
             notes = _Notes(progress, len(positions), is_only)
             labels = np.zeros(len(positions), dtype=np.uint8)

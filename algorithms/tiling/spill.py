@@ -12,9 +12,9 @@ from typing import BinaryIO, Iterator
 import numpy as np
 
 from ..files import describe_write_error
-from ..pointcloud.cloud import PointCloud
+from ..pointcloud.cloud import PointCloud, survey_frame
 from ..points import Frame
-from .blocks import Box, Contents, Leaves, gathered
+from .blocks import Box, Contents, Corner, Leaves, gathered
 from .runs import Runs, Sorted
 
 _RECORD = np.dtype([("x", "<i4"), ("y", "<i4"), ("z", "<i4"), ("flags", "u1")])
@@ -56,7 +56,7 @@ class Spill:
         with self._told():
             self._records, self._labels = self._file(), self._file()
         self.cloud: PointCloud | None = None
-        self._frame: Frame | None = None
+        self._frame = Frame()
         self._first = np.zeros(2, dtype=np.int64)
         self._runs = Runs()
 
@@ -94,6 +94,7 @@ class Spill:
             names = ("x", "y", "z", "classification", "return_number", "number_of_returns")
             nothing = {name: getattr(part, name)[:0] for name in (*names, "withheld")}
             self.cloud = dataclasses.replace(part, **nothing)
+            self._frame = survey_frame(part.crs)
         found = self._sorted(part, selected)
         which = np.flatnonzero(selected)[found.order]
         records = np.empty(len(which), dtype=_RECORD)
@@ -115,36 +116,39 @@ class Spill:
         return Sorted.of(y, x)
 
     def finish(self, lowest: tuple[int, int]) -> Frame:
-        """End the points; return the frame, whose origin is the smallest x and y of the file.
+        """End the points; return the frame of the cloud itself, as `PointCloud.frame`.
 
         Parameters
         ----------
         lowest : tuple of int
-            These as integers.
+            The smallest x and y of the file, as integers.
         """
         cloud = self.cloud
         corner = {name: np.array([value]) for name, value in zip("xyz", (*lowest, 0))}
-        self._frame = dataclasses.replace(cloud, **corner).frame
         rows, columns, totals = self._runs.finish()
         x, y = (
-            number * self._side + (first - low) * scale * cloud.crs.horizontal_unit - _MARGIN
-            for number, first, low, scale in zip((columns, rows), self._first, lowest, cloud.scale)
+            number * self._side + (first * scale + offset) * cloud.crs.horizontal_unit - _MARGIN
+            for number, first, scale, offset in zip(
+                (columns, rows), self._first, cloud.scale, cloud.offset
+            )
         )
         self.leaves = Leaves(x, y, self._side + 2.0 * _MARGIN, totals)
         with self._told():
             self._records.flush()
             self._labels.truncate(self.count)
-        return self._frame
+        return dataclasses.replace(cloud, **corner).frame
 
-    def read(self, leaves: np.ndarray, box: Box | None = None) -> Contents:
+    def read(
+        self, leaves: np.ndarray, box: Box | None = None, corner: Corner = (0.0, 0.0)
+    ) -> Contents:
         """Return the points of some leaves, in the order of the file, or those of them in a box."""
-        runs = list(_joined(*self._runs.of(leaves)))
+        runs, frame = list(_joined(*self._runs.of(leaves))), self._frame.moved(corner)
 
         def read(number: int) -> Contents:
             start, end = runs[number]
             records = self._read(start, end)
             columns = {name: records[name] for name in "xyz"}
-            points = dataclasses.replace(self.cloud, **columns).points(slice(None), self._frame)
+            points = dataclasses.replace(self.cloud, **columns).points(slice(None), frame)
             flags = records["flags"]
             positions = np.arange(start, end)
             return Contents(points, flags & _KNOWN > 0, flags & _WANTED > 0, positions)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -156,8 +155,8 @@ def classify_parts(
         If the user asked to stop.
     """
     selection = scope.selection
-    # How large the blocks are is known when all points are; their leaves need not be the same.
-    with Spill(target, blocks_of(parameters, math.inf).leaf_side) as spill:
+    blocks = blocks_of(parameters)
+    with Spill(target, blocks.leaf_side) as spill:
         for part in read_parts(source, progress.part(0.0, 0.3)):
             inside, selected = scope.choose(part)
             known = selection.known_ground(part, selected)
@@ -166,7 +165,6 @@ def classify_parts(
         frame = spill.finish(scope.lowest)
         if terrain is not None:
             _check_terrain(spill, terrain, resources)
-        blocks = blocks_of(parameters, scope.extent)
         depth = selection.low_noise_depth if selection.low_noise_class else None
         fewer = _for_blocks(resources)
         label_ground(spill, parameters, blocks, depth, fewer, progress.part(0.3, 0.8))

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..parameters import ParameterSet
 from ..pointcloud.area import Box
-from ..pointcloud.cloud import PointCloud
+from ..pointcloud.cloud import PointCloud, survey_frame
 from ..pointcloud.collection import Collection, Tile
 from ..pointcloud.reading import read_cloud
 from ..pointcloud.selection import Selection
@@ -54,7 +54,7 @@ class Survey:
     selection : Selection
         Which points take part, and what their classes become.
     frame : Frame
-        That of all files: its origin is the smallest x and y of their headers.
+        That of all files: the CRS and its zero.
     blocks : Blocks
         How the survey is cut.
     """
@@ -66,7 +66,7 @@ class Survey:
 
     def block(self, place: Place) -> Block:
         """Return the block at a place."""
-        return Block(place.column, place.row, self.blocks.side)
+        return self.blocks.block(*place)
 
     def window(self, places: Iterable[Place]) -> Box:
         """Return the box, in units of the CRS, of all points that some blocks need."""
@@ -78,7 +78,7 @@ class Survey:
     def places_in(self, box: Box) -> tuple[range, range]:
         """Return the columns and rows of the blocks that a box in units of the CRS touches."""
         metres = (np.array(box) - np.tile(self.frame.origin, 2)) * self.frame.horizontal_unit
-        west, south, east, north = (math.floor(each / self.blocks.side) for each in metres)
+        west, south, east, north = self.blocks.number(metres).astype(int).tolist()
         return range(west, east + 1), range(south, north + 1)
 
     def codes(self, cloud: PointCloud) -> np.ndarray:
@@ -93,7 +93,7 @@ class Survey:
             part = slice(first, first + _STEP)
             places = cloud.places(part, self.frame)
             # As `Block.holds`: of the same numbers in the same way.
-            column, row = (np.floor(each / self.blocks.side) for each in places)
+            column, row = (self.blocks.number(each) for each in places)
             codes[part] = (row.astype(np.int64) << _SHIFT) + column.astype(np.int64) + _HALF
         return codes
 
@@ -104,18 +104,8 @@ def code(place: Place) -> int:
 
 
 def frame_of(collection: Collection) -> Frame:
-    """Return the frame of a survey: its origin is the smallest x and y of all headers."""
-    corners = np.array([tile.minimum[:2] for tile in collection.tiles])
-    crs = collection.crs
-    origin = tuple(float(each) for each in corners.min(axis=0))
-    return Frame(origin, crs.horizontal_unit, crs.vertical_unit, crs.wkt)
-
-
-def extent_of(collection: Collection) -> float:
-    """Return the longer side, in metres, of the area that all files take up by their headers."""
-    lowest = np.min([tile.minimum[:2] for tile in collection.tiles], axis=0)
-    highest = np.max([tile.maximum[:2] for tile in collection.tiles], axis=0)
-    return float((highest - lowest).max()) * collection.crs.horizontal_unit
+    """Return the frame of a survey, in which its blocks lie."""
+    return survey_frame(collection.crs)
 
 
 def places_of(survey: Survey, tile: Tile, progress: Progress = SILENT) -> list[Place]:

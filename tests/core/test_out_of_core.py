@@ -48,7 +48,7 @@ def small(monkeypatch):
     monkeypatch.setattr(spill, "_GAP", 50)
     for module in (classification, streaming):
         blocks = Blocks(80.0, 30.0, most_points=2500)
-        monkeypatch.setattr(module, "blocks_of", lambda parameters, extent, blocks=blocks: blocks)
+        monkeypatch.setattr(module, "blocks_of", lambda parameters, blocks=blocks: blocks)
 
 
 def write(path, count=9000, east=EAST, stray=(), seed=3, shape=(160.0, 90.0), first=0.0):

@@ -22,6 +22,7 @@ from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.filters.tin_densification import TinDensification
 from bare_earth.algorithms.pointcloud import reading as reading_module
+from bare_earth.algorithms.pointcloud.cloud import survey_frame
 from bare_earth.algorithms.pointcloud.collection import open_collection
 from bare_earth.algorithms.pointcloud.reading import read_cloud
 from bare_earth.algorithms.pointcloud.selection import Selection
@@ -68,7 +69,9 @@ def whole_classes(path, parameters, selection=Selection(), blocks=BLOCKS):
     cloud = read_cloud(path)
     selected = selection.select(cloud, SILENT)
     store = CloudStore(
-        [Part(cloud, selected, selection.known_ground(cloud, selected))], cloud.frame, blocks
+        [Part(cloud, selected, selection.known_ground(cloud, selected))],
+        survey_frame(cloud.crs),
+        blocks,
     )
     depth = selection.low_noise_depth if selection.low_noise_class else None
     label_ground(store, parameters, blocks, depth)
@@ -426,7 +429,7 @@ def test_a_job_that_fails_fails_its_tile_only(six, out, monkeypatch):
 
 def test_labelling_that_fails_fails_the_tiles_of_that_block_only(six, out, monkeypatch):
     def failing(store, parameters, blocks, *rest):
-        if store.leaves.x.max() > 110.0:
+        if store.leaves.x.max() > 500_110.0:
             raise ValueError("no")
         return label_ground(store, parameters, blocks, *rest)
 
