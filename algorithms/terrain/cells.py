@@ -19,6 +19,8 @@ _POINTS_A_COUNT = 1 << 20
 _HAS_FAST_AT = np.lib.NumpyVersion(np.__version__) >= "1.25.0"
 # Side in metres of the blocks that are a gap in the survey where they have no point.
 _BLOCK = 10.0
+# Cells along the gap between groups of points, an even number, and the least side of one in metres.
+_CELLS_A_REACH, _LEAST_GAP = 10, 5.0
 
 
 @dataclass(frozen=True)
@@ -158,6 +160,38 @@ class Cells:
         row = np.clip(row.astype(int) - self.first_row, 0, self.rows - 1)
         column = np.clip(column.astype(int) - self.first_column, 0, self.columns - 1)
         return grid[np.ix_(row, column)]
+
+
+def apart(points: Points, reach: float) -> tuple[np.ndarray, int]:
+    """Part points into groups between which there is a gap.
+
+    Parameters
+    ----------
+    points : Points
+        At least one.
+    reach : float
+        Metres: no point of another group is as close; groups are surely told apart where the gap
+        is a quarter wider.
+
+    Returns
+    -------
+    numpy.ndarray of int32, shape (n,)
+        The group of each point; of length 0 if there is but one.
+    int
+        How many there are.
+    """
+    from scipy import ndimage
+
+    cells = Cells.over(points, max(reach / _CELLS_A_REACH, _LEAST_GAP))
+    square = np.ones((3, 3), dtype=bool)
+    around = np.pad(cells.occupied, _CELLS_A_REACH)
+    groups, count = ndimage.label(
+        ndimage.binary_dilation(around, square, iterations=_CELLS_A_REACH // 2)
+    )
+    if count == 1:
+        return np.zeros(0, dtype=np.int32), 1
+    inner = groups[_CELLS_A_REACH:-_CELLS_A_REACH, _CELLS_A_REACH:-_CELLS_A_REACH]
+    return inner.ravel()[cells.index] - np.int32(1), count
 
 
 def lower_at(target: np.ndarray, index: np.ndarray, values: np.ndarray) -> None:

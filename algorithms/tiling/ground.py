@@ -10,8 +10,9 @@ import numpy as np
 from ..errors import BareEarthError
 from ..filters import Method, method_of
 from ..parameters import ParameterSet
-from ..progress import SILENT, Progress
+from ..progress import SILENT, Progress, Unsaid
 from ..terrain.below_ground import below_ground
+from ..terrain.cells import apart
 from .blocks import LOW, Block, Blocks, Contents, Store
 from .memory import Resources
 from .scheduling import run_jobs
@@ -73,7 +74,7 @@ def label_ground(
     todo = list(blocks.over(store))
     counts = [_count(blocks, each, store) for each in todo]
     at_once = _at_once(len(todo), max(counts), blocks, resources)
-    job_of = _job_maker(store, method, parameters, blocks, low_noise_depth)
+    job_of = _job_maker(store, blocks, _Filter(method, parameters, low_noise_depth))
     jobs = [job_of(each, len(todo) == 1) for each in todo]
     workers = max(1, resources.thread_count // at_once)
     notes = {}
@@ -101,12 +102,42 @@ def _at_once(number: int, largest: int, blocks: Blocks, resources: Resources) ->
     return int(max(1, min(number, resources.thread_count, fitting)))
 
 
+class _Filter(NamedTuple):
+    """What labels the points of a window.
+
+    Attributes
+    ----------
+    method : Method
+        The ground filter.
+    parameters : ParameterSet
+        Those of the method.
+    low_noise_depth : float or None
+        As for `label_ground`.
+    """
+
+    method: Method
+    parameters: ParameterSet
+    low_noise_depth: float | None
+
+    def label(self, contents: Contents, progress: Progress) -> np.ndarray:
+        """Return the label of each point."""
+        depth, method = self.low_noise_depth, self.method
+        end = 1.0 if depth is None else 1.0 - _LOW_SHARE
+        part = progress.part(0.0, end)
+        points, known = contents.points, contents.known
+        if known.any() and method.takes_known_ground:
+            ground = method.classify(points, self.parameters, part, known_ground=known)
+        else:
+            ground = method.classify(points, self.parameters, part)
+        ground |= known
+        labels = ground.astype(np.uint8)
+        if depth is not None:
+            labels[below_ground(points, ground, depth, progress.part(end, 1.0))] = LOW
+        return labels
+
+
 def _job_maker(
-    store: Store,
-    method: Method,
-    parameters: ParameterSet,
-    blocks: Blocks,
-    low_noise_depth: float | None,
+    store: Store, blocks: Blocks, filter_: _Filter
 ) -> Callable[[Block, bool], Callable[[Progress], _Labelled]]:
     def job_of(block: Block, is_only: bool) -> Callable[[Progress], _Labelled]:
         def job(progress: Progress) -> _Labelled:
@@ -120,7 +151,7 @@ def _job_maker(
             labels = np.zeros(len(positions), dtype=np.uint8)
             if notes.count:
                 try:
-                    labels = _labels(contents, method, parameters, low_noise_depth, notes)[core]
+                    labels = _labels(contents, core, filter_, blocks.buffer, notes)[core]
                 except BareEarthError as error:
                     notes.failure = error
             return _Labelled(positions, labels, notes)
@@ -131,24 +162,31 @@ def _job_maker(
 
 
 def _labels(
-    contents: Contents,
-    method: Method,
-    parameters: ParameterSet,
-    low_noise_depth: float | None,
-    progress: Progress,
+    contents: Contents, wanted: np.ndarray, filter_: _Filter, reach: float, progress: Progress
 ) -> np.ndarray:
-    """Return the label of each point of a window."""
-    end = 1.0 if low_noise_depth is None else 1.0 - _LOW_SHARE
-    part = progress.part(0.0, end)
-    points, known = contents.points, contents.known
-    if known.any() and method.takes_known_ground:
-        ground = method.classify(points, parameters, part, known_ground=known)
-    else:
-        ground = method.classify(points, parameters, part)
-    ground |= known
-    labels = ground.astype(np.uint8)
-    if low_noise_depth is not None:
-        labels[below_ground(points, ground, low_noise_depth, progress.part(end, 1.0))] = LOW
+    """Return the label of each point of a window that is wanted.
+
+    Points that no chain of steps as long as the reach of the filter joins do not matter for each
+    other, and are filtered apart: grids end where the points do, and a stray point would move the
+    border of those of all others.
+    """
+    groups, count = apart(contents.points, reach)
+    if count == 1:
+        return filter_.label(contents, progress)
+    sizes = np.bincount(groups, minlength=count)
+    labels, failures, done = np.zeros(len(groups), dtype=np.uint8), [], 0
+    needed = np.flatnonzero(np.bincount(groups[wanted], minlength=count))
+    for group in needed[np.argsort(-sizes[needed], kind="stable")].tolist():
+        which, end = np.flatnonzero(groups == group), done + int(sizes[group])
+        part = progress.part(done / len(groups), end / len(groups))
+        try:
+            # What there is to say of the points is said of the most of them.
+            labels[which] = filter_.label(contents.take(which), Unsaid(part) if done else part)
+        except BareEarthError as error:
+            failures.append(error)
+        done = end
+    if len(failures) == len(needed):
+        raise failures[0]
     return labels
 
 
