@@ -22,17 +22,21 @@ class CellBlocks(NamedTuple):
         Side of a block in cells.
     first : tuple of int
         Row and column of the first cell within its block.
+    first_block : tuple of int
+        Row and column of the first block.
     """
 
     size: float
     side: int
     first: tuple[int, int]
+    first_block: tuple[int, int]
 
     @classmethod
     def over(cls, cells: Cells, size: float, least: int = 2) -> CellBlocks:
         """Return blocks of about a size in metres, at least some cells wide."""
         side = max(round(size / cells.size), least)
-        return cls(side * cells.size, side, (cells.first_row % side, cells.first_column % side))
+        blocks, within = zip(*(divmod(each, side) for each in cells.first))
+        return cls(side * cells.size, side, within, blocks)
 
     def lowest(self, heights: np.ndarray) -> np.ndarray:
         """Return the lowest height in each block; NaN where there is none."""

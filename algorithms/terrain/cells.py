@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -19,6 +20,10 @@ _POINTS_A_COUNT = 1 << 20
 _HAS_FAST_AT = np.lib.NumpyVersion(np.__version__) >= "1.25.0"
 # Side in metres of the blocks that are a gap in the survey where they have no point.
 _BLOCK = 10.0
+# Times as many points as are dense, on average, where surely most blocks are.
+_SURELY = 4.0
+# Metres of which the usual distance between points is a multiple.
+_SPACING_STEP = 0.5
 # Cells along the gap between groups of points, an even number, and the least side of one in metres.
 _CELLS_A_REACH, _LEAST_GAP = 10, 5.0
 
@@ -76,6 +81,11 @@ class Cells:
 
         over_parts(fill, points.count, _POINTS_A_PART, SILENT)
         return cls(size, first_row, first_column, rows, columns, index)
+
+    @property
+    def first(self) -> tuple[int, int]:
+        """The row and the column at which the grid begins."""
+        return self.first_row, self.first_column
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -171,7 +181,7 @@ def apart(points: Points, reach: float) -> tuple[np.ndarray, int]:
         At least one.
     reach : float
         Metres: no point of another group is as close; groups are surely told apart where the gap
-        is a quarter wider.
+        is a quarter wider, and at least 65 m.
 
     Returns
     -------
@@ -217,17 +227,25 @@ def lower_at(target: np.ndarray, index: np.ndarray, values: np.ndarray) -> None:
 
 
 def spacing(points: Points, dense: float = 1.0) -> float:
-    """Return the mean distance between points in metres, large gaps in the survey left out.
+    """Return the usual distance between points in metres, in coarse steps.
+
+    It is that of the median of the blocks within the survey, so that neither gaps nor the extent
+    nor a few points matter, and in steps of half a metre, so that a crop hardly ever does.
 
     Parameters
     ----------
     points : Points
         All points.
     dense : float
-        Metres: a smaller spacing is as good as any, and gaps are not looked for.
+        Metres: a smaller spacing is as good as any.
     """
+    from scipy import ndimage
+
     area = float(np.ptp(points.x)) * float(np.ptp(points.y))
-    if area <= dense**2 * points.count:
-        return float(np.sqrt(area / points.count))  # gaps could only make it smaller
+    if _SURELY * area <= dense**2 * points.count:
+        return dense
     blocks = Cells.over(points, _BLOCK)
-    return float(np.sqrt(np.count_nonzero(blocks.occupied) * _BLOCK**2 / points.count))
+    counts = blocks.counts()
+    within = ndimage.binary_erosion(counts > 0, np.ones((3, 3)))
+    usual = np.median(counts[within if within.any() else counts > 0])
+    return max(dense, _SPACING_STEP * round(_BLOCK / math.sqrt(usual) / _SPACING_STEP))

@@ -8,10 +8,16 @@ _RELAXATIONS = 12
 # Share of unknown cells above which computing all is faster than picking them out.
 _MANY = 0.15
 _SAMPLES = 1000
+# Metres of which the usual height is a multiple.
+_LEVEL = 128.0
 _QUARTER, _THREE_QUARTERS = np.float32(0.25), np.float32(0.75)
 
 
-def inpaint(grid: np.ndarray, relaxations: int = _RELAXATIONS) -> np.ndarray:
+# Row and column, in the grid of the CRS, of the first cell of a grid.
+First = tuple[int, int]
+
+
+def inpaint(grid: np.ndarray, relaxations: int = _RELAXATIONS, first: First = (0, 0)) -> np.ndarray:
     """Return `grid` with its NaN cells filled by an approximate membrane.
 
     Coarser and coarser means of the known cells are interpolated back into the gaps ("push-pull";
@@ -24,6 +30,8 @@ def inpaint(grid: np.ndarray, relaxations: int = _RELAXATIONS) -> np.ndarray:
         Heights; NaN where there is none.
     relaxations : int
         Sweeps on each level.
+    first : tuple of int
+        Row and column of the first cell: coarser cells begin at even ones, wherever the grid does.
 
     Returns
     -------
@@ -38,31 +46,34 @@ def inpaint(grid: np.ndarray, relaxations: int = _RELAXATIONS) -> np.ndarray:
     # Beside the usual height, single precision is better than a tenth of a millimetre.
     level = _usual(grid[known])
     beside = np.subtract(grid, level, dtype=np.float64).astype(np.float32)
-    filled = np.add(_filled(beside, known, relaxations), level, dtype=np.float64)
+    filled = np.add(_filled(beside, known, relaxations, first), level, dtype=np.float64)
     np.copyto(filled, grid, where=known)
     return filled
 
 
 def _usual(values: np.ndarray) -> float:
-    """Return about the median of many values."""
-    return float(np.median(values[:: max(len(values) // _SAMPLES, 1)]))
+    """Return about the median of many values, in steps so coarse that a few do not move it."""
+    usual = float(np.median(values[:: max(len(values) // _SAMPLES, 1)]))
+    return _LEVEL * round(usual / _LEVEL)
 
 
-def _filled(grid: np.ndarray, known: np.ndarray, relaxations: int) -> np.ndarray:
+def _filled(grid: np.ndarray, known: np.ndarray, relaxations: int, first: First) -> np.ndarray:
     """Return a grid (float32) of which some cells are known, with the others filled."""
     if known.all():
         return grid
-    if min(grid.shape) <= 1 and max(grid.shape) <= 2:
+    if max(grid.shape) <= 2:  # where a coarser cell begins between two, they stay two
         return np.where(known, grid, grid[known].mean())
-    coarse = _filled(*_coarser(grid, known), relaxations)
+    odd = first[0] % 2, first[1] % 2
+    half = first[0] // 2, first[1] // 2
+    coarse = _filled(*_coarser(grid, known, odd), relaxations, half)
     unknown = ~known
     if np.count_nonzero(unknown) > _MANY * known.size:
-        padded = np.pad(np.where(known, grid, _finer(coarse, grid.shape)), 1, mode="edge")
+        padded = np.pad(np.where(known, grid, _finer(coarse, grid.shape, odd)), 1, mode="edge")
         _relax_all(padded, unknown, relaxations)
     else:
         row, column = np.nonzero(unknown)
         padded = np.pad(grid, 1, mode="edge")
-        padded[row + 1, column + 1] = _finer_at(coarse, row, column)
+        padded[row + 1, column + 1] = _finer_at(coarse, row + odd[0], column + odd[1])
         _pad_again(padded)
         _relax_some(padded, row, column, relaxations)
     return padded[1:-1, 1:-1]
@@ -98,23 +109,30 @@ def _pad_again(padded: np.ndarray) -> None:
     padded[:, 0], padded[:, -1] = padded[:, 1], padded[:, -2]
 
 
-def _coarser(grid: np.ndarray, known: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the mean of the known ones of each 2 x 2 cells, and where there is one."""
+def _coarser(grid: np.ndarray, known: np.ndarray, odd: First) -> tuple[np.ndarray, np.ndarray]:
+    """Return the mean of the known ones of each 2 x 2 cells, and where there is one.
+
+    Where the first row or column is an odd one, it is by itself.
+    """
     total, count = np.where(known, grid, np.float32(0.0)), known.astype(np.uint8)
     for axis in (0, 1):
-        total, count = _pairs(total, axis), _pairs(count, axis)
+        total, count = (_pairs(each, axis, odd[axis]) for each in (total, count))
     return total / np.maximum(count, 1), count > 0
 
 
-def _pairs(grid: np.ndarray, axis: int) -> np.ndarray:
-    """Return the sums of two rows or columns each; an odd one at the end is by itself."""
-    first, second = ((grid[start::2] if axis == 0 else grid[:, start::2]) for start in (0, 1))
-    pairs = first.copy()
-    pairs[: second.shape[0], : second.shape[1]] += second
+def _pairs(grid: np.ndarray, axis: int, odd: int) -> np.ndarray:
+    """Return the sums of two rows or columns each; what is left at the ends is by itself."""
+    shape = list(grid.shape)
+    shape[axis] = (shape[axis] + odd + 1) // 2
+    pairs = np.zeros(shape, dtype=grid.dtype)
+    along, lines = (each if axis == 0 else each.T for each in (pairs, grid))
+    first, second = lines[odd::2], lines[1 - odd :: 2]
+    along[odd : odd + len(first)] = first
+    along[: len(second)] += second
     return pairs
 
 
-def _finer(coarse: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
+def _finer(coarse: np.ndarray, shape: tuple[int, int], odd: First) -> np.ndarray:
     """Interpolate bilinearly to cells of half the size."""
     padded = np.pad(coarse, 1, mode="edge")
     rows = np.empty((2 * coarse.shape[0], padded.shape[1]), dtype=coarse.dtype)
@@ -125,21 +143,20 @@ def _finer(coarse: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
     near, far = _THREE_QUARTERS * rows[:, 1:-1], _QUARTER * rows
     np.add(near, far[:, :-2], out=fine[:, 0::2])
     np.add(near, far[:, 2:], out=fine[:, 1::2])
-    return fine[: shape[0], : shape[1]]
+    return fine[odd[0] : odd[0] + shape[0], odd[1] : odd[1] + shape[1]]
 
 
 def _finer_at(coarse: np.ndarray, row: np.ndarray, column: np.ndarray) -> np.ndarray:
-    """Do as `_finer` for single cells."""
+    """Do as `_finer` for single cells, in the same order, so that they are rounded alike."""
     width = coarse.shape[1]
     # The coarse cell in which it lies, and the next one on its side of the middle.
     own_row, own_column = row >> 1, column >> 1
     next_row = np.clip(own_row + 2 * (row & 1) - 1, 0, coarse.shape[0] - 1)
     next_column = np.clip(own_column + 2 * (column & 1) - 1, 0, width - 1)
 
-    def between(of_row: np.ndarray) -> np.ndarray:
-        start = of_row * width
-        return _THREE_QUARTERS * coarse.take(start + own_column) + _QUARTER * coarse.take(
-            start + next_column
+    def between(of_column: np.ndarray) -> np.ndarray:
+        return _THREE_QUARTERS * coarse.take(own_row * width + of_column) + _QUARTER * coarse.take(
+            next_row * width + of_column
         )
 
-    return _THREE_QUARTERS * between(own_row) + _QUARTER * between(next_row)
+    return _THREE_QUARTERS * between(own_column) + _QUARTER * between(next_column)

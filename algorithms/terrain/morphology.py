@@ -6,8 +6,10 @@ import numpy as np
 
 from ..threads import in_threads
 
-# Metres: heights are compared in steps of this, unless their range is too large for 16 bits.
-_STEP, _MOST_STEPS = 0.01, 65_000
+# Heights are compared in steps of so many metres, or twice, four times ... as many where their
+# range is too large for so many steps. Half of the range begins at a multiple of some steps:
+# what a height becomes does not depend on the others.
+_STEP, _MOST_STEPS, _LEVEL_STEPS = 0.01, 65_000, 12_800
 # What stands this far above nearly all others, or below, does so by any measure.
 _BEYOND, _NEARLY_ALL = 200.0, 0.001
 # Cells that are worked on at a time, those round them included: they stay in the processor's cache.
@@ -27,7 +29,7 @@ def in_steps(grid: np.ndarray) -> tuple[np.ndarray, float]:
     -------
     steps : numpy.ndarray of int16, shape (rows, columns)
     step : float
-        Metres of a step: a centimetre, or more if the others span more than 650 m.
+        Metres of a step: a centimetre, or more if the others span more than 500 m.
     """
     low, high = float(grid.min()), float(grid.max())
     if high - low > _BEYOND:
@@ -35,8 +37,14 @@ def in_steps(grid: np.ndarray) -> tuple[np.ndarray, float]:
         ends = (few, grid.size - 1 - few)
         nearly_lowest, nearly_highest = np.partition(grid.ravel(), ends)[list(ends)].tolist()
         low, high = max(nearly_lowest - _BEYOND, low), min(nearly_highest + _BEYOND, high)
-    step = max(_STEP, (high - low) / _MOST_STEPS)
-    steps = np.rint((np.clip(grid, low, high) - low) / step) - _MOST_STEPS // 2
+    step = _STEP
+    while high - low > (_MOST_STEPS - _LEVEL_STEPS) * step:
+        step *= 2.0
+    level = round((low + high) / 2.0 / (_LEVEL_STEPS * step)) * _LEVEL_STEPS
+    steps = np.multiply(grid, 1.0 / step, dtype=np.float64)
+    np.rint(steps, out=steps)
+    steps -= level
+    np.clip(steps, -(_MOST_STEPS // 2), _MOST_STEPS // 2, out=steps)
     return steps.astype(np.int16), step
 
 

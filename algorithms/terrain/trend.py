@@ -8,6 +8,7 @@ import numpy as np
 
 from ..threads import in_threads
 from .gradient import length
+from .inpaint import First
 
 # Side in metres of the blocks whose median slope is the trend of the terrain.
 _BLOCK = 15.0
@@ -48,13 +49,17 @@ class Trend:
         Heights in metres without NaN.
     size : float
         Side of a cell in metres.
+    first : tuple of int
+        Row and column of the first cell: blocks begin at multiples of their side, wherever the
+        grid does.
     """
 
-    def __init__(self, heights: np.ndarray, size: float) -> None:
+    def __init__(self, heights: np.ndarray, size: float, first: First = (0, 0)) -> None:
         self._size, self._shape = size, heights.shape
         self._block = max(round(_BLOCK / size), 3)
+        self._within = tuple(each % self._block for each in first)
         self._blocks = in_threads(lambda axis: self._of_axis(heights, axis), (0, 1))
-        columns = np.arange(heights.shape[1])
+        columns = np.arange(heights.shape[1]) + self._within[1]
         # Between the columns once for all rows of a block.
         self._across = [
             None if each is None else _interpolated(each, columns, self._block, -1)
@@ -68,7 +73,7 @@ class Trend:
         if heights.shape[axis] == 1:
             return None
         slopes = np.diff(heights, axis=axis) / heights.dtype.type(self._size)
-        blocks = _sampled_blocks(slopes, self._block)
+        blocks = _sampled_blocks(slopes, self._block, self._within)
         slope = np.median(blocks, axis=2)
         departure = np.median(np.abs(blocks - slope[..., None]), axis=2)
         smooth = (ndimage.median_filter(each, 3, mode="nearest") for each in (slope, departure))
@@ -76,7 +81,7 @@ class Trend:
 
     def of_rows(self, first: int, last: int) -> Rises:
         """Return the rises at all cells of some rows, `last` not among them."""
-        rows = np.arange(first, last)
+        rows = np.arange(first, last) + self._within[0]
         fields = [
             None if each is None else _interpolated(each, rows, self._block, -2)
             for each in self._across
@@ -85,6 +90,7 @@ class Trend:
 
     def at(self, row: np.ndarray, column: np.ndarray) -> Rises:
         """Return the rises at cells."""
+        row, column = row + self._within[0], column + self._within[1]
         fields = [
             None if each is None else _at_places(each, self._block, row, column)
             for each in self._blocks
@@ -94,6 +100,7 @@ class Trend:
     def along(self, row: np.ndarray, column: np.ndarray, north: int, east: int) -> np.ndarray:
         """Return what the terrain rises from cells to others, some cells farther north and east."""
         rise = np.float32(0.0)
+        row, column = row + self._within[0], column + self._within[1]
         for cells, values in zip((north, east), self._blocks):
             if cells and values is not None:
                 slope = _at_places(values[:1], self._block, row, column)[0]
@@ -166,11 +173,11 @@ def _neighbours(
     return first, np.minimum(first + 1, count - 1), (place - first).astype(kind)
 
 
-def _sampled_blocks(grid: np.ndarray, block: int) -> np.ndarray:
+def _sampled_blocks(grid: np.ndarray, block: int, within: First) -> np.ndarray:
     """Return some cells of each block of a grid, shape (rows, columns, samples) of blocks."""
-    rows, columns = (-(-side // block) for side in grid.shape)
-    missing = rows * block - grid.shape[0], columns * block - grid.shape[1]
-    padded = np.pad(grid, [(0, each) for each in missing], mode="symmetric")
+    rows, columns = (-(-(at + side) // block) for at, side in zip(within, grid.shape))
+    ends = rows * block - grid.shape[0] - within[0], columns * block - grid.shape[1] - within[1]
+    padded = np.pad(grid, list(zip(within, ends)), mode="symmetric")
     step = max(block // _SAMPLES, 1)
     blocks = padded.reshape(rows, block, columns, block)[:, ::step, :, ::step]
     return blocks.transpose(0, 2, 1, 3).reshape(rows, columns, -1)

@@ -7,9 +7,9 @@ from scipy import ndimage
 from bare_earth.algorithms.points import Points
 from bare_earth.algorithms.terrain import cells as cells_module
 from bare_earth.algorithms.terrain import morphology
-from bare_earth.algorithms.terrain.cells import Cells, lower_at
+from bare_earth.algorithms.terrain.cells import Cells, apart, lower_at, spacing
 from bare_earth.algorithms.terrain.inpaint import inpaint
-from bare_earth.algorithms.terrain.morphology import erosion, opening, within_square
+from bare_earth.algorithms.terrain.morphology import erosion, in_steps, opening, within_square
 from bare_earth.algorithms.terrain.outliers import low_outliers
 from bare_earth.algorithms.threads import may_use
 
@@ -143,3 +143,70 @@ def test_a_pit_is_an_outlier_and_a_ditch_is_not():
     grid[20] = -3.0
     found = low_outliers(grid, 1.0, 5.0)
     assert np.argwhere(found).tolist() == [[10, 10]]
+
+
+# The same wherever the grid begins
+
+
+@pytest.mark.parametrize(("south", "west"), [(1, 0), (2, 3), (5, 8), (7, 1)])
+@pytest.mark.parametrize("share", [0.05, 0.6])
+def test_gaps_are_filled_alike_wherever_the_grid_begins(south, west, share):
+    random = np.random.default_rng(4)
+    grid = random.normal(300.0, 2.0, (96, 96))
+    grid[:32, :32] = np.where(random.random((32, 32)) < share, np.nan, grid[:32, :32])
+    grid[8:14, 9:13] = np.nan
+    whole = inpaint(grid, first=(-64, 4096))
+    part = inpaint(grid[south:, west:], first=(-64 + south, 4096 + west))
+    # Not so near the border that it matters.
+    assert np.array_equal(part[32 - south :, 32 - west :], whole[32:, 32:])
+    different = np.abs(part - whole[south:, west:])[40 - south - 24 : 32, 40 - west - 24 : 32]
+    assert different.max() < 1e-4
+    assert not np.array_equal(inpaint(grid[1:], first=(0, 0)), whole[1:])
+
+
+def test_the_smallest_grids_are_filled_wherever_they_begin():
+    grid = np.array([[1.0, np.nan], [np.nan, np.nan]])
+    for row in (-1, 0, 2**20 - 1):
+        assert np.allclose(inpaint(grid, first=(row, -1)), 1.0)
+        assert np.allclose(inpaint(grid[:, :1], first=(row, -1)), 1.0)
+
+
+def test_heights_become_the_same_steps_whatever_the_other_heights():
+    heights = np.round(np.random.default_rng(2).uniform(40.0, 90.0, (20, 30)), 3)
+    steps, step = in_steps(heights)
+    for other in (20.0, 130.0, 95.004):
+        more, same = in_steps(np.append(heights, np.full((1, 30), other), axis=0))
+        assert same == step == 0.01
+        # They may begin elsewhere, all of them together.
+        assert len(np.unique(more[:-1].astype(int) - steps)) == 1
+
+
+@pytest.mark.parametrize("high", [400.0, 3000.0])
+def test_heights_far_apart_are_steps_that_fit(high):
+    heights = np.linspace(-100.0, high, 5000).reshape(50, 100)
+    steps, step = in_steps(heights)
+    assert step <= 0.01 * max(1.0, 2.0 * (high + 100.0) / 500.0)
+    rises = np.diff(steps.ravel().astype(int)) * step
+    assert np.allclose(rises, np.diff(heights.ravel()), atol=1.01 * step)
+
+
+def test_the_spacing_of_a_survey_is_that_of_any_part_of_it():
+    x, y = np.random.default_rng(5).uniform(0.0, 400.0, (2, 40_000))
+    points = Points(x, y, x)
+    assert spacing(points) == 2.0
+    far = Points(*(np.append(each, 900.0) for each in points))
+    for part in (points.take(x < 200), points.take((x < 90) | (x > 300)), far):
+        assert spacing(part) == 2.0
+    assert spacing(points, dense=2.5) == 2.5
+    assert spacing(Points(x / 8, y / 8, x)) == 1.0
+
+
+def test_points_with_a_gap_between_them_are_apart():
+    x, y = np.random.default_rng(6).uniform(0.0, 60.0, (2, 500))
+    for gap, count in ((99.0, 1), (126.0, 2), (3000.0, 2)):
+        both = Points(np.r_[x, x + 60.0 + gap], np.r_[y, y], np.r_[x, x])
+        groups, found = apart(both, 100.0)
+        assert found == count
+        if count == 2:
+            assert len(set(groups[:500])) == len(set(groups[500:])) == 1
+            assert groups[0] != groups[-1] and {groups[0], groups[-1]} == {0, 1}

@@ -150,6 +150,21 @@ def test_the_trend_is_the_same_at_single_cells_and_over_rows():
     assert np.allclose(along, rises.north.ravel() - rises.east.ravel())
 
 
+def test_the_trend_of_a_place_does_not_depend_on_where_the_grid_begins():
+    random = np.random.default_rng(3)
+    heights = (plain(120, slope=0.3) + random.normal(0, 0.3, (120, 120))).astype(np.float32)
+    whole = Trend(heights, 1.0, (-31, 77))
+    part = Trend(heights[11:, 8:], 1.0, (-31 + 11, 77 + 8))
+    # Three blocks from the new border: the medians of their neighbours matter.
+    for one, other in zip(whole.of_rows(60, 120), part.of_rows(60 - 11, 120 - 11)):
+        assert np.array_equal(one[:, 60:], other[:, 60 - 8 :])
+    row, column = (each.ravel() for each in np.mgrid[60:119, 60:119])
+    expected = whole.along(row, column, 1, 1)
+    assert np.array_equal(part.along(row - 11, column - 8, 1, 1), expected)
+    unanchored = Trend(heights[11:, 8:], 1.0).of_rows(49, 109)
+    assert not np.array_equal(unanchored.east[:, 52:], whole.of_rows(60, 120).east[:, 60:])
+
+
 @pytest.mark.parametrize("shape", [(1, 1), (1, 7), (7, 1), (2, 2)])
 def test_the_smallest_grids_have_no_objects(shape):
     assert not raised_objects(np.zeros(shape), 1.0, (5.0,), 40.0).any()
