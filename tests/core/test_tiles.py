@@ -1,6 +1,7 @@
 import dataclasses
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -280,6 +281,49 @@ def test_other_parameters_or_inputs_make_tiles_anew_where_they_matter(six, out, 
     assert 1 <= summary.kept_count < 6
     after = changed_times(out)
     assert after["5.laz"] != before["5.laz"] and after["0.laz"] == before["0.laz"]
+
+
+@pytest.mark.parametrize("added", [("0", "1"), ("4", "5"), ("3",)], ids=str)
+def test_of_a_survey_to_which_tiles_are_added_only_their_neighbours_are_done_anew(
+    added, many, out, tmp_path
+):
+    every = sorted(many[0].iterdir())
+    (tmp_path / "some").mkdir()
+    for path in every:
+        if path.stem not in added:
+            shutil.copy2(path, tmp_path / "some")
+    run = dict(blocks=Blocks(40.0, 8.0))
+    classify_tiles([tmp_path / "some"], out, FAST, **run)
+    before = changed_times(out)
+    for name in added:
+        shutil.copy2(many[0] / f"{name}.laz", tmp_path / "some")
+    summary = classify_tiles([tmp_path / "some"], out, FAST, output=RESUME, **run)
+    anew = {name for name, time in changed_times(out).items() if time != before.get(name)}
+    extents = {path.name: laspy.read(path).header for path in every}
+    for name in before:
+        gap = min(
+            np.max(np.maximum(mine.mins - extents[name].maxs, extents[name].mins - mine.maxs)[:2])
+            for mine in (extents[f"{each}.laz"] for each in added)
+        )
+        assert gap > 0 or name in anew  # it touches one that was added
+        assert gap < 40.0 + 8.0 or name not in anew
+    assert summary.kept_count == 16 - len(anew) >= 6
+    classify_tiles([many[0]], tmp_path / "at once", FAST, **run)
+    assert bytes_of(out) == bytes_of(tmp_path / "at once")
+
+
+def test_the_blocks_of_a_method_do_not_move_with_the_survey(tmp_path, out):
+    folder, integers = tmp_path / "in", strip(400, 60.0, 60.0)
+    folder.mkdir()
+    for east in (0, 2100, 4200):
+        write(folder / f"{east}.laz", integers + np.array([100 * east, 0, 0]))
+    classify_tiles([folder], out, FAST)
+    before = changed_times(out)
+    # In the west, near the first block, and lower and higher than all others.
+    write(folder / "new.laz", strip(400, 60.0, 300.0, 4) - [6100, 12_000, 0])
+    assert classify_tiles([folder], out, FAST, output=RESUME).kept_count == 2
+    anew = {name for name, time in changed_times(out).items() if time != before.get(name)}
+    assert anew == {"0.laz", "new.laz"}
 
 
 def command(*words):
