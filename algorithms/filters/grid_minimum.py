@@ -261,8 +261,8 @@ def _surface(
     progress(0.2)
     ground = heights.copy()
     ground[_tall_objects(heights, blocks, parameters, progress.part(0.2, 0.6))] = np.nan
-    ground = _without_low_objects(ground, heights, cells.size, parameters, progress.part(0.6, 1.0))
-    return inpaint(ground, _RELAXATIONS)
+    ground = _without_low_objects(ground, heights, cells, parameters, progress.part(0.6, 1.0))
+    return inpaint(ground, _RELAXATIONS, cells.first)
 
 
 def _in_words(parameters: GridMinimum) -> str:
@@ -318,19 +318,20 @@ def _noise(heights: np.ndarray, cells: Cells, blocks: CellBlocks) -> np.ndarray:
 
     from scipy import ndimage
 
-    noise = low_outliers(heights, cells.size, _OUTLIER_SLOPE)
+    noise = low_outliers(heights, cells.size, _OUTLIER_SLOPE, cells.first)
     heights = np.where(noise, np.nan, heights)
     around = CellBlocks.over(cells, _NOISE_WIDTH)
-    usual = ndimage.median_filter(inpaint(around.lowest(heights)), 5, mode="nearest")
+    usual = inpaint(around.lowest(heights), first=around.first_block)
+    usual = ndimage.median_filter(usual, 5, mode="nearest")
     below = heights < around.interpolated(usual, heights.shape) - _NOISE_DEPTH
     if not below.any():
         return noise
     lowest = blocks.lowest(heights)
     candidates = np.isfinite(blocks.lowest(np.where(below, heights, np.nan)))
-    relief = Relief(lowest, blocks.size, covered(np.isfinite(lowest)))
+    relief = Relief(lowest, blocks.size, covered(np.isfinite(lowest)), blocks.first_block)
     pits = relief.pits(candidates, _NOISE_DEPTH, _NOISE_WIDTH)
     depth = blocks.lowest(around.interpolated(usual, heights.shape)) - lowest
-    pits &= ~supported(lowest, blocks.size, pits, depth)
+    pits &= ~supported(lowest, blocks.size, pits, depth, blocks.first_block)
     return noise | (below & blocks.repeated(pits, heights.shape))
 
 
@@ -344,8 +345,9 @@ def _tall_objects(
     """
     lowest = blocks.lowest(heights)
     thresholds, size = parameters.height_thresholds, blocks.size
-    objects = raised_objects(lowest, size, thresholds, parameters.max_object_size, progress)
-    surface = inpaint(np.where(objects, np.nan, lowest), _RELAXATIONS)
+    largest, first = parameters.max_object_size, blocks.first_block
+    objects = raised_objects(lowest, size, thresholds, largest, progress, first=first)
+    surface = inpaint(np.where(objects, np.nan, lowest), _RELAXATIONS, first)
     rise = size * np.minimum(steepness(surface, size), _STEEPEST)
     highest = surface + min(thresholds) + rise
     above = heights > blocks.interpolated(highest, heights.shape)
@@ -355,7 +357,7 @@ def _tall_objects(
 def _without_low_objects(
     ground: np.ndarray,
     heights: np.ndarray,
-    size: float,
+    cells: Cells,
     parameters: GridMinimum,
     progress: Progress,
 ) -> np.ndarray:
@@ -366,7 +368,7 @@ def _without_low_objects(
     """
     inside = covered(np.isfinite(heights))
     for done in range(_FINAL_PASSES):
-        relief = Relief(ground, size, inside)
+        relief = Relief(ground, cells.size, inside, cells.first)
         regions, rims = relief.regions_and_rims(parameters.final_height, _RIM_ROUGHNESS)
         ground[regions.raised(parameters.max_object_size) | rims] = np.nan
         progress((done + 1) / (_FINAL_PASSES + 1))

@@ -259,17 +259,18 @@ def _on_many_scales(points: Points, parameters: SlopeFilter, progress: Progress)
     lowest = cells.minimum(points.z)
     progress(0.2)
     # One after the other: a deep outlier would hide a shallow one beside it.
-    lowest[low_outliers(lowest, cells.size, _OUTLIER_SLOPE)] = np.nan
+    lowest[low_outliers(lowest, cells.size, _OUTLIER_SLOPE, cells.first)] = np.nan
     around = _SURROUNDINGS * parameters.search_radius
-    lowest[low_clusters(lowest, cells.size, _CLUSTER_SLOPE, _CLUSTER_WIDTH, around)] = np.nan
-    objects = _objects(lowest, cells.size, parameters, progress.part(0.3, 0.6))
+    pits = low_clusters(lowest, cells.size, _CLUSTER_SLOPE, _CLUSTER_WIDTH, around, cells.first)
+    lowest[pits] = np.nan
+    objects = _objects(lowest, cells, parameters, progress.part(0.3, 0.6))
     lowest[objects] = np.nan
     if not np.isfinite(lowest).any():
         raise BareEarthError(
             "No point can be taken for ground with certainty. Check the thresholds and the"
             " selection of points."
         )
-    surface = inpaint(lowest)
+    surface = inpaint(lowest, first=cells.first)
     rise = parameters.slope_tolerance * steepness(surface, cells.size)
     tolerance = parameters.height_threshold + rise
     limits = np.stack((surface - tolerance, surface + tolerance), axis=-1)
@@ -277,18 +278,18 @@ def _on_many_scales(points: Points, parameters: SlopeFilter, progress: Progress)
 
 
 def _objects(
-    lowest: np.ndarray, size: float, parameters: SlopeFilter, progress: Progress
+    lowest: np.ndarray, cells: Cells, parameters: SlopeFilter, progress: Progress
 ) -> np.ndarray:
     """Return which cells stand above another, on any scale, by more than the terrain allows.
 
     The allowance at a distance is that of the disc's radius: a staircase on Vosselman's line.
     """
-    known = np.isfinite(lowest)
+    known, size = np.isfinite(lowest), cells.size
     reach = max(round(parameters.search_radius / size, 6), 1.0)
     # Single precision (better than a millimetre) halves the time that the discs take.
     heights = np.where(known, lowest, np.inf).astype(np.float32)
     eroded = erosion(heights, reach)
-    slope = math.tan(math.radians(parameters.slope_threshold)) + _slope(eroded, size, reach)
+    slope = math.tan(math.radians(parameters.slope_threshold)) + _slope(eroded, cells, reach)
     if parameters.slope_norm:
         opened = -erosion(np.where(np.isfinite(eroded), -eroded, np.float32(np.inf)), reach)
         heights[known] -= opened[known]
@@ -303,7 +304,7 @@ def _objects(
     return objects
 
 
-def _slope(eroded: np.ndarray, size: float, reach: float) -> np.ndarray:
+def _slope(eroded: np.ndarray, cells: Cells, reach: float) -> np.ndarray:
     """Return the slope of the terrain, rise over run, averaged over about the search radius.
 
     The eroded surface has no objects. Its gradient is averaged, not its height, which a border
@@ -312,9 +313,9 @@ def _slope(eroded: np.ndarray, size: float, reach: float) -> np.ndarray:
 
     from scipy import ndimage
 
-    surface = inpaint(np.where(np.isfinite(eroded), eroded, np.nan))
+    surface = inpaint(np.where(np.isfinite(eroded), eroded, np.nan), first=cells.first)
     window = 2 * max(round(reach / 2), 1) + 1
-    slopes = gradient(surface, size)
+    slopes = gradient(surface, cells.size)
     for _ in range(2):
         slopes = [ndimage.uniform_filter(each, window, mode="nearest") for each in slopes]
     return np.hypot(*slopes)

@@ -272,7 +272,8 @@ def classify(
     cells, heights = survey.cells, survey.heights
     objects = survey.objects(resolved.max_building_size, progress.part(0.1, 0.25))
     radius = resolved.max_building_size / 2.0
-    ground = ground_cells(heights, _CELL, objects, radius, progress=progress.part(0.25, 0.7))
+    part = progress.part(0.25, 0.7)
+    ground = ground_cells(heights, _CELL, objects, radius, progress=part, first=cells.first)
     seeds = ground.ravel()[survey.cell]
     first = survey.lowest[seeds]
     waiting = survey.lowest[~seeds & np.isfinite(heights).ravel()[survey.cell]]
@@ -287,7 +288,7 @@ def classify(
         )
     rules, part = _rules(resolved), progress.part(0.7, 0.8)
     vertices = densified(points, first, waiting, heights, cells, survey.spacing, rules, part)
-    limits = _limits(inpaint(vertices), resolved)
+    limits = _limits(inpaint(vertices, first=cells.first), resolved)
     found = near_surface(points, cells, limits, progress.part(0.8, 0.95))
     return _key_points(points, found, resolved, progress.part(0.95, 1.0))
 

@@ -41,7 +41,7 @@ def below_ground(
     if not ground.any():
         return below
     cells = Cells.over(points, _CELL)
-    surface = inpaint(cells.minimum(np.where(ground, points.z, np.inf)))
+    surface = inpaint(cells.minimum(np.where(ground, points.z, np.inf)), first=cells.first)
     limit = surface - depth - _rise(surface)
     progress(0.5)
     for first in range(0, points.count, _CHUNK):

@@ -99,7 +99,7 @@ def densified(
     numpy.ndarray of float64, shape (rows, columns)
         `heights` with the candidates that join.
     """
-    surface, holding = inpaint(heights), np.isfinite(heights)
+    surface, holding = inpaint(heights, first=cells.first), np.isfinite(heights)
     in_gap = _counts_round(holding) <= _MOST_VERTICES_ROUND
     waiting = waiting[in_gap.ravel()[cells.index[waiting]]]
     candidates = points.take(waiting)

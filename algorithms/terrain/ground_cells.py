@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..progress import SILENT, Progress
-from .inpaint import inpaint
+from .inpaint import First, inpaint
 from .morphology import in_steps, opening
 
 # A first, strict opening (rise over run) gives the surface from which the terrain's slope is taken.
@@ -69,6 +69,7 @@ def ground_cells(
     largest_window: float,
     allowance: Allowance = Allowance(),
     progress: Progress = SILENT,
+    first: First = (0, 0),
 ) -> np.ndarray:
     """Return which cells of a minimum grid are ground.
 
@@ -86,6 +87,8 @@ def ground_cells(
         What may stand out and still be terrain.
     progress : Progress
         Receives progress.
+    first : tuple of int
+        Row and column of the first cell in the grid of the CRS.
 
     Returns
     -------
@@ -93,15 +96,15 @@ def ground_cells(
         False also where there is no height.
     """
     known = np.isfinite(heights)
-    filled = inpaint(heights).astype(np.float32)
-    first, limit = _standing_out(filled, size, largest_window, allowance, progress.part(0.0, 0.7))
-    surface = inpaint(np.where(known & ~first & ~objects, heights, np.nan))
+    filled = inpaint(heights, first=first).astype(np.float32)
+    strict, limit = _standing_out(filled, size, largest_window, allowance, progress.part(0.0, 0.7))
+    surface = inpaint(np.where(known & ~strict & ~objects, heights, np.nan), first=first)
     smooth, which = _smooth(surface, size, _SLOPE_SMOOTHING), np.flatnonzero(limit > 0.0)
     slope = np.hypot(*(_slope_at(smooth, axis, which, size) for axis in (0, 1)))
     raised = objects.copy()
     raised.ravel()[which] |= np.minimum(slope, _LARGEST_SLOPE) < limit.ravel()[which]
     progress(0.8)
-    surface = inpaint(np.where(known & ~raised, heights, np.nan))
+    surface = inpaint(np.where(known & ~raised, heights, np.nan), first=first)
     progress(0.85)
     raised &= objects | ~_gentle_regions(filled, raised, surface, size, allowance)
     progress(1.0)

@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from .inpaint import inpaint
+from .inpaint import First, inpaint
 from .morphology import opening
 from .outliers import supported
 
 
 def low_clusters(
-    grid: np.ndarray, size: float, slope: float, widest: float, around: float
+    grid: np.ndarray,
+    size: float,
+    slope: float,
+    widest: float,
+    around: float,
+    first: First = (0, 0),
 ) -> np.ndarray:
     """Return which cells of a minimum grid lie in a small pit below the terrain.
 
@@ -31,13 +36,15 @@ def low_clusters(
         Diameter of the widest pit in metres.
     around : float
         Radius of the surroundings in metres.
+    first : tuple of int
+        Row and column of the first cell in the grid of the CRS.
 
     Returns
     -------
     numpy.ndarray of bool, shape (rows, columns)
     """
     # Single precision halves the time that the discs take.
-    filled = inpaint(grid).astype(np.float32)
+    filled = inpaint(grid, first=first).astype(np.float32)
     depth = np.zeros(grid.shape)
     for radius in range(1, max(round(widest / size / 2), 1) + 1):
         deep = slope * radius * size
@@ -46,7 +53,7 @@ def low_clusters(
     depth[supported(grid, size, depth > 0.0, depth)] = 0.0
     if not depth.any():
         return depth > 0.0
-    others = inpaint(np.where(depth > 0.0, np.nan, grid)).astype(np.float32)
+    others = inpaint(np.where(depth > 0.0, np.nan, grid), first=first).astype(np.float32)
     below = filled < opening(others, round(around / size, 6)) - depth
     return (depth > 0.0) & below & np.isfinite(grid)
 

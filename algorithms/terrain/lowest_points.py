@@ -49,11 +49,11 @@ class LowestPoints:
         self.cell = self.cells.index[self.lowest]
         heights = np.full(self.cells.rows * self.cells.columns, np.nan)
         heights[self.cell] = points.z[self.lowest]
-        self.heights = self._without_outliers(heights.reshape(self.cells.shape), size)
+        self.heights = self._without_outliers(heights.reshape(self.cells.shape), self.cells)
 
     @staticmethod
-    def _without_outliers(heights: np.ndarray, size: float) -> np.ndarray:
-        heights[low_outliers(heights, size, _OUTLIER_SLOPE)] = np.nan
+    def _without_outliers(heights: np.ndarray, cells: Cells) -> np.ndarray:
+        heights[low_outliers(heights, cells.size, _OUTLIER_SLOPE, cells.first)] = np.nan
         return heights
 
     @cached_property
@@ -62,18 +62,18 @@ class LowestPoints:
         if self.spacing <= self.cells.size:
             return self.cells, self.heights
         cells = Cells.over(self._points, self.spacing)
-        return cells, self._without_outliers(cells.minimum(self._points.z), cells.size)
+        return cells, self._without_outliers(cells.minimum(self._points.z), cells)
 
     @cached_property
     def tall(self) -> Regions:
         """The regions between the drops of tall objects."""
         cells, heights = self._wide
-        return bounded_regions(heights, cells.size, _OBJECT_HEIGHTS[0])
+        return bounded_regions(heights, cells.size, _OBJECT_HEIGHTS[0], cells.first)
 
     def objects(self, max_size: float, progress: Progress) -> np.ndarray:
         """Return which of `cells` belong to tall objects bounded by drops all round."""
         wide, heights = self._wide
         found = raised_objects(
-            heights, wide.size, _OBJECT_HEIGHTS, max_size, progress, first=self.tall
+            heights, wide.size, _OBJECT_HEIGHTS, max_size, progress, self.tall, wide.first
         )
         return wide.resampled(found, self.cells)

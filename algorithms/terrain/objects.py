@@ -13,7 +13,7 @@ import numpy as np
 
 from ..progress import SILENT, Progress
 from ..threads import in_threads
-from .inpaint import inpaint
+from .inpaint import First, inpaint
 from .trend import Rises, Trend
 
 # East, north and the two diagonals: with their opposites, the eight neighbours of a cell.
@@ -47,7 +47,8 @@ def raised_objects(
     thresholds: Sequence[float],
     max_size: float,
     progress: Progress = SILENT,
-    first: Regions | None = None,
+    known: Regions | None = None,
+    first: First = (0, 0),
 ) -> np.ndarray:
     """Return which cells of a minimum grid belong to objects that stand out all round.
 
@@ -64,8 +65,10 @@ def raised_objects(
         Largest width (shorter side) of an object in metres.
     progress : Progress
         Receives progress.
-    first : Regions, optional
-        The `bounded_regions` of the first threshold, if they are known.
+    known : Regions, optional
+        The `bounded_regions` of the first threshold, where they are known.
+    first : tuple of int
+        Row and column of the first cell in the grid of the CRS.
 
     Returns
     -------
@@ -75,25 +78,28 @@ def raised_objects(
     rest = heights.copy()
     objects = np.zeros(heights.shape, dtype=bool)
     for done, threshold in enumerate(thresholds):
-        known = first if done == 0 else None
-        found = (known or Relief(rest, size, inside).regions(threshold)).raised(max_size)
+        regions = known if done == 0 else None
+        regions = regions or Relief(rest, size, inside, first).regions(threshold)
+        found = regions.raised(max_size)
         rest[found] = np.nan
         objects |= found
         progress((done + 1) / len(thresholds))
     return objects
 
 
-def bounded_regions(heights: np.ndarray, size: float, threshold: float) -> Regions:
+def bounded_regions(
+    heights: np.ndarray, size: float, threshold: float, first: First = (0, 0)
+) -> Regions:
     """Return the regions between the drops of a minimum grid.
 
     Parameters
     ----------
-    heights, size
+    heights, size, first
         As for `raised_objects`.
     threshold : float
         Least height in metres of a drop.
     """
-    return Relief(heights, size, covered(np.isfinite(heights))).regions(threshold)
+    return Relief(heights, size, covered(np.isfinite(heights)), first).regions(threshold)
 
 
 def covered(known: np.ndarray, reach: int = 4) -> np.ndarray:
@@ -127,11 +133,15 @@ class Relief:
         Side of a cell in metres.
     inside : numpy.ndarray of bool, shape (rows, columns)
         Cells that were surveyed (see `covered`); nothing is known of the others.
+    first : tuple of int
+        Row and column of the first cell in the grid of the CRS.
     """
 
-    def __init__(self, heights: np.ndarray, size: float, inside: np.ndarray) -> None:
-        surface = inpaint(heights, _RELAXATIONS).astype(np.float32)
-        self._trend = Trend(surface, size)
+    def __init__(
+        self, heights: np.ndarray, size: float, inside: np.ndarray, first: First = (0, 0)
+    ) -> None:
+        surface = inpaint(heights, _RELAXATIONS, first).astype(np.float32)
+        self._trend = Trend(surface, size, first)
         self._size, self._step = size, max(round(_STEP / size), 1)
         # A frame without height ends each row, so that neighbours are an offset apart.
         self._inside = np.pad(inside, self._step)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .inpaint import inpaint
+from .inpaint import First, inpaint
 from .morphology import within_square
 
 # Metres from a pit between which cells bear witness: nearer ones may belong to the same fault.
@@ -20,7 +20,7 @@ _LEAST_SHARE = 0.15
 _EVEN = 0.3
 
 
-def low_outliers(grid: np.ndarray, size: float, slope: float) -> np.ndarray:
+def low_outliers(grid: np.ndarray, size: float, slope: float, first: First = (0, 0)) -> np.ndarray:
     """Return which cells of a minimum grid lie in a narrow pit that terrain does not have.
 
     The grid is closed by 3 x 3 cells (the opening of -z). What the closing fills deeper than
@@ -34,6 +34,8 @@ def low_outliers(grid: np.ndarray, size: float, slope: float) -> np.ndarray:
         Side of a cell in metres.
     slope : float
         Rise over run, far above that of any terrain.
+    first : tuple of int
+        Row and column of the first cell in the grid of the CRS.
 
     Returns
     -------
@@ -44,14 +46,20 @@ def low_outliers(grid: np.ndarray, size: float, slope: float) -> np.ndarray:
     Pingel, T., Clarke, K., McBride, W. (2013): An improved simple morphological filter for the
     terrain classification of airborne LIDAR data. ISPRS Journal 77, section 2.2.
     """
-    filled = inpaint(grid)
+    filled = inpaint(grid, first=first)
     closed = within_square(np.minimum, within_square(np.maximum, filled, 1), 1)
     depth = np.where(np.isfinite(grid), closed - filled, 0.0)
     pits = depth > slope * size
-    return pits & ~supported(grid, size, pits, depth)
+    return pits & ~supported(grid, size, pits, depth, first)
 
 
-def supported(grid: np.ndarray, size: float, pits: np.ndarray, depth: np.ndarray) -> np.ndarray:
+def supported(
+    grid: np.ndarray,
+    size: float,
+    pits: np.ndarray,
+    depth: np.ndarray,
+    first: First = (0, 0),
+) -> np.ndarray:
     """Return the pits that are ground: others lie as low, some metres away.
 
     Under dense canopy the few cells that see the ground are pits, but they lie on one surface.
@@ -68,6 +76,8 @@ def supported(grid: np.ndarray, size: float, pits: np.ndarray, depth: np.ndarray
         Cells that lie far below those next to them.
     depth : numpy.ndarray of float, shape (rows, columns)
         How far, in metres.
+    first : tuple of int
+        Row and column of the first cell in the grid of the CRS.
 
     Returns
     -------
@@ -80,7 +90,7 @@ def supported(grid: np.ndarray, size: float, pits: np.ndarray, depth: np.ndarray
     rows, columns, level = _witnesses(size)
     reach = int(np.ceil(_FARTHEST / size))
     heights = np.pad(grid.astype(np.float32), reach, constant_values=np.nan)
-    even = np.pad(_even(grid), reach)
+    even = np.pad(_even(grid, first), reach)
     width = heights.shape[1]
     centre = (row + reach) * width + column + reach
     own, heights, even = heights.take(centre), heights.ravel(), even.ravel()
@@ -108,9 +118,10 @@ def _witnesses(size: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return rows[ring], columns[ring], _LEVEL + _LEVEL_SLOPE * distance[ring]
 
 
-def _even(grid: np.ndarray) -> np.ndarray:
+def _even(grid: np.ndarray, first: First) -> np.ndarray:
     """Return which cells of a grid lie on an even surface."""
     from scipy import ndimage
 
-    middle = ndimage.median_filter(inpaint(grid, 2).astype(np.float32), 3, mode="nearest")
+    filled = inpaint(grid, 2, first).astype(np.float32)
+    middle = ndimage.median_filter(filled, 3, mode="nearest")
     return np.abs(grid - middle) <= _EVEN
