@@ -29,9 +29,8 @@ _REACHABLE = 3.0
 # With more vertices in the 3 x 3 cells round a candidate its triangle is too small to take it.
 _MOST_VERTICES_ROUND = 4
 
+# Rounds end where none is added: how many are far away must not matter.
 _MOST_ROUNDS = 8
-# Rounds that add less than this share of the vertices are not worth a triangulation.
-_LEAST_SHARE = 0.005
 
 
 @dataclass(frozen=True)
@@ -172,17 +171,24 @@ def _counts_round(mask: np.ndarray) -> np.ndarray:
 
 
 def _ring(cells: Cells, surface: np.ndarray) -> Points:
-    """Return virtual points round all cells.
+    """Return virtual points round all cells, at multiples of their spacing wherever these begin.
 
     Without them, ground beyond the hull of the seeds would have no triangle to be judged by.
     """
-    south, west = cells.first_row * cells.size, cells.first_column * cells.size
-    height, width = cells.rows * cells.size, cells.columns * cells.size
-    x = west + width * np.linspace(0.0, 1.0, max(int(width / _RING_SPACING), 1) + 1)
-    y = south + height * np.linspace(0.0, 1.0, max(int(height / _RING_SPACING), 1) + 1)
-    ring_x = np.concatenate((x, x, np.full(len(y), west), np.full(len(y), west + width)))
-    ring_y = np.concatenate((np.full(len(x), south), np.full(len(x), south + height), y, y))
+    (south, north), (west, east) = (
+        (first * cells.size, (first + count) * cells.size)
+        for first, count in zip(cells.first, cells.shape)
+    )
+    x, y = _multiples(west, east), _multiples(south, north)
+    ring_x = np.concatenate((x, x, np.full(len(y), west), np.full(len(y), east)))
+    ring_y = np.concatenate((np.full(len(x), south), np.full(len(x), north), y, y))
     return Points(ring_x, ring_y, cells.at(surface, ring_x, ring_y))
+
+
+def _multiples(start: float, end: float) -> np.ndarray:
+    """Return both ends of a line and the multiples of the ring's spacing between them."""
+    first, last = math.ceil(start / _RING_SPACING), math.floor(end / _RING_SPACING)
+    return np.unique(np.r_[start, np.arange(first, last + 1) * _RING_SPACING, end])
 
 
 def _joined(
@@ -201,7 +207,7 @@ def _joined(
         candidates = survey.points.take(waiting)
         new, mirrored = _round(tin, triangle, candidates, rules)
         vertices = np.concatenate((vertices, waiting[new]))
-        if len(new) <= _LEAST_SHARE * len(first):
+        if not len(new):
             break
         # The others lie in the same triangle as before, which did not take them.
         changed = mirrored | tin.lost(triangle, candidates.x[new], candidates.y[new])
