@@ -1,0 +1,97 @@
+"""The labels of a place depend on what is near it, not on how far the survey reaches."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from realdata import real
+from surveys import cut, finished, points_of, strip, write
+
+from bare_earth.algorithms.classification import classify
+from bare_earth.algorithms.filters import METHODS, method_of
+from bare_earth.algorithms.filters.grid_minimum import GridMinimum
+from bare_earth.algorithms.filters.slope import SlopeFilter
+from bare_earth.algorithms.filters.tin_densification import TinDensification
+from bare_earth.algorithms.pointcloud.reading import read_cloud
+from bare_earth.algorithms.tiles import classify_tiles
+
+PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
+COLUMNS = ("x", "y", "z", "classification", "return_number", "number_of_returns", "withheld")
+
+
+def some(cloud, which):
+    """Return some points of a cloud."""
+    columns = {name: getattr(cloud, name)[which] for name in COLUMNS}
+    return dataclasses.replace(cloud, **columns, scanner_channel=None, records=None)
+
+
+def with_stray(cloud, east, north, up):
+    """Return a cloud with one more point, so many metres from the smallest x and y."""
+    more = some(cloud, np.r_[np.arange(cloud.count), 0])
+    unit = cloud.crs.horizontal_unit
+    more.x[-1] = cloud.x.min() + east / unit / cloud.scale[0]
+    more.y[-1] = cloud.y.min() + north / unit / cloud.scale[1]
+    more.z[-1] = np.median(cloud.z) + up / cloud.scale[2]
+    more.withheld[-1] = False
+    return more
+
+
+@pytest.fixture(scope="module")
+def wide(tmp_path_factory):
+    """Return a generated survey that is far wider than what a filter looks at."""
+    integers = strip(45_000, 700.0, 60.0)
+    return read_cloud(write(tmp_path_factory.mktemp("wide") / "in.las", integers))
+
+
+def crops(cloud):
+    """Yield which points of a cloud are left, and how many metres each is from the cut."""
+    x, y = (
+        (values - values.min()) * scale * cloud.crs.horizontal_unit
+        for values, scale in zip((cloud.x, cloud.y), cloud.scale)
+    )
+    west, east, south = 0.37 * x.max(), 0.6 * x.max(), 0.4 * y.max()
+    for left, far in ((x >= west, x - west), (x <= east, east - x), (y >= south, y - south)):
+        yield np.flatnonzero(left), far[left]
+
+
+@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
+def test_what_is_cut_off_changes_nothing_farther_away_than_the_filter_looks(parameters, wide):
+    whole, _ = classify(wide, parameters)
+    assert 0.3 < np.mean(whole == 2) < 0.98
+    reach = method_of(parameters).reach(parameters)
+    for left, distance in crops(wide):
+        found, _ = classify(some(wide, left), parameters)
+        far = distance > reach
+        assert np.array_equal(found[far], whole[left][far])
+        assert np.mean(found != whole[left]) < 0.01
+
+
+@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
+@pytest.mark.parametrize("name", ["isprs/samp31.laz", "real/ahn3_urban.laz"])
+def test_crops_and_stray_points_of_real_surveys_change_nothing_far_away(parameters, name):
+    cloud = read_cloud(real(name))
+    if cloud.count > 500_000:  # half of them are quicker
+        cloud = some(cloud, slice(None, None, 2))
+    whole, _ = classify(cloud, parameters)
+    reach = method_of(parameters).reach(parameters)
+    for left, distance in crops(cloud):
+        found, _ = classify(some(cloud, left), parameters)
+        far = distance > reach
+        assert np.array_equal(found[far], whole[left][far])
+    for stray in ((-400.0, 50.0, 0.0), (700.0, 600.0, 40.0), (-5000.0, 0.0, -30.0)):
+        found, _ = classify(with_stray(cloud, *stray), parameters)
+        assert np.array_equal(found[:-1], whole)
+
+
+@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
+def test_files_in_the_west_change_nothing_far_away(parameters, wide, tmp_path):
+    integers = np.column_stack((wide.x, wide.y, wide.z)).astype(np.int64)
+    reach = method_of(parameters).reach(parameters)
+    east = integers[integers[:, 0] > 30_000]
+    cut(tmp_path / "some", east, 4)
+    cut(tmp_path / "all", integers, 4)
+    for name in ("some", "all"):
+        classify_tiles([tmp_path / name], tmp_path / f"{name} done", parameters)
+    found, whole = (points_of(finished(tmp_path / f"{name} done")) for name in ("some", "all"))
+    found, whole = (each[each[:, 0] > 30_000 + 100 * reach] for each in (found, whole))
+    assert len(found) > 15_000 and np.array_equal(found, whole)
