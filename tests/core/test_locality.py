@@ -12,8 +12,11 @@ from bare_earth.algorithms.filters import METHODS, method_of
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.filters.tin_densification import TinDensification
+from bare_earth.algorithms.pointcloud.cloud import survey_frame
 from bare_earth.algorithms.pointcloud.reading import read_cloud
 from bare_earth.algorithms.tiles import classify_tiles
+from bare_earth.algorithms.tiling.cloudstore import CloudStore, Part
+from bare_earth.algorithms.tiling.ground import blocks_of, label_ground
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
 COLUMNS = ("x", "y", "z", "classification", "return_number", "number_of_returns", "withheld")
@@ -95,3 +98,16 @@ def test_files_in_the_west_change_nothing_far_away(parameters, wide, tmp_path):
     found, whole = (points_of(finished(tmp_path / f"{name} done")) for name in ("some", "all"))
     found, whole = (each[each[:, 0] > 30_000 + 100 * reach] for each in (found, whole))
     assert len(found) > 15_000 and np.array_equal(found, whole)
+
+
+@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
+def test_quartering_crowded_blocks_changes_no_label_of_a_real_survey(parameters):
+    cloud, labels = read_cloud(real("isprs/samp11.laz")), []
+    for most in (10_000_000, 10_000):
+        blocks = dataclasses.replace(blocks_of(parameters), most_points=most)
+        every = Part(cloud, np.ones(cloud.count, dtype=bool))
+        store = CloudStore([every], survey_frame(cloud.crs), blocks)
+        assert (len(list(blocks.over(store))) > 1) == (most == 10_000)
+        label_ground(store, parameters, blocks)
+        labels.append(store.labels[0])
+    assert np.array_equal(*labels)
