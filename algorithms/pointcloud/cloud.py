@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -120,7 +119,7 @@ class PointCloud:
             math.floor((minimum * scale + offset) / _ORIGINS) * _ORIGINS
             for minimum, scale, offset in zip(self.lowest, self.scale, self.offset)
         )
-        return dataclasses.replace(survey_frame(self.crs), origin=origin)
+        return replace(survey_frame(self.crs), origin=origin)
 
     def points(self, which: np.ndarray | slice, frame: Frame | None = None) -> Points:
         """Return coordinates in metres, relative to the origin of a frame.

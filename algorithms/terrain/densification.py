@@ -87,7 +87,7 @@ def densified(
     cells : Cells
         Those of the points; each holds one vertex or candidate, as a rule.
     spacing : float
-        Mean distance in metres between the points of the survey.
+        Usual distance in metres between the points of the survey.
     rules : DensificationRules
         Which candidates join.
     progress : Progress

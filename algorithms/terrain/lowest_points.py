@@ -30,7 +30,7 @@ class LowestPoints:
     Attributes
     ----------
     spacing : float
-        Mean distance between points in metres.
+        Usual distance between points in metres.
     cells : Cells
         Those whose lowest points are wanted.
     lowest : numpy.ndarray of intp
