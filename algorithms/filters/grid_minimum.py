@@ -24,6 +24,7 @@ from ..terrain.cells import Cells
 from ..terrain.gradient import steepness
 from ..terrain.inpaint import inpaint
 from ..terrain.near_surface import near_surface
+from ..terrain.outliers import low_outliers, supported
 from ..terrain.objects import Relief, covered, raised_objects
 
 # Points that a cell should hold on average: with fewer, gaps break the rims.
@@ -42,6 +43,7 @@ _RIM_ROUGHNESS = 2.0
 # Low noise: narrower than this, and this far below the lowest points of the neighbourhood.
 _NOISE_WIDTH = 10.0
 _NOISE_DEPTH = 2.0
+_OUTLIER_SLOPE = 5.0
 _STEEPEST = 5.0
 _RELAXATIONS = 2
 # Metres beyond which points do not matter: so many times the largest object, but at least this.
@@ -316,16 +318,20 @@ def _noise(heights: np.ndarray, cells: Cells, blocks: CellBlocks) -> np.ndarray:
 
     from scipy import ndimage
 
+    noise = low_outliers(heights, cells.size, _OUTLIER_SLOPE)
+    heights = np.where(noise, np.nan, heights)
     around = CellBlocks.over(cells, _NOISE_WIDTH)
     usual = ndimage.median_filter(inpaint(around.lowest(heights)), 5, mode="nearest")
     below = heights < around.interpolated(usual, heights.shape) - _NOISE_DEPTH
     if not below.any():
-        return below
+        return noise
     lowest = blocks.lowest(heights)
     candidates = np.isfinite(blocks.lowest(np.where(below, heights, np.nan)))
     relief = Relief(lowest, blocks.size, covered(np.isfinite(lowest)))
     pits = relief.pits(candidates, _NOISE_DEPTH, _NOISE_WIDTH)
-    return below & blocks.repeated(pits, heights.shape)
+    depth = blocks.lowest(around.interpolated(usual, heights.shape)) - lowest
+    pits &= ~supported(lowest, blocks.size, pits, depth)
+    return noise | (below & blocks.repeated(pits, heights.shape))
 
 
 def _tall_objects(

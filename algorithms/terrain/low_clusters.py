@@ -6,6 +6,7 @@ import numpy as np
 
 from .inpaint import inpaint
 from .morphology import opening
+from .outliers import supported
 
 
 def low_clusters(
@@ -42,6 +43,7 @@ def low_clusters(
         deep = slope * radius * size
         pits = _compact(-opening(-filled, radius) - filled > deep, 2 * radius + 1)
         depth[pits] = np.maximum(depth[pits], deep)
+    depth[supported(grid, size, depth > 0.0, depth)] = 0.0
     if not depth.any():
         return depth > 0.0
     others = inpaint(np.where(depth > 0.0, np.nan, grid)).astype(np.float32)
