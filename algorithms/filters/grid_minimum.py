@@ -24,8 +24,8 @@ from ..terrain.cells import Cells
 from ..terrain.gradient import steepness
 from ..terrain.inpaint import inpaint
 from ..terrain.near_surface import near_surface
-from ..terrain.outliers import low_outliers, supported
 from ..terrain.objects import Relief, covered, raised_objects
+from ..terrain.outliers import low_outliers, supported
 
 # Points that a cell should hold on average: with fewer, gaps break the rims.
 _POINTS_PER_CELL = 1.0

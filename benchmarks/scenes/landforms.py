@@ -59,7 +59,7 @@ def open_cast(site: Site) -> Landscape:
         climb = across + phase + bend(x, y)
         return 180.0 + steps(climb, width, site.settings.height, face) + rough(x, y) + 0.01 * along
 
-    return Landscape(terrain)
+    return Landscape(terrain, trees=(single_trees(site, 60, 6.0),))
 
 
 @kind(height=30.0, size=160.0, density=8.0)
@@ -82,9 +82,12 @@ def sea_cliff(site: Site) -> Landscape:
         z = np.maximum(z, -2.0 + 0.75 * tall * bank(out, 3.5))
         return z + rough(x, y) + roll(x, y) * smooth(inland / 20.0)
 
+    def low(x, y):
+        return terrain(x, y) < 0.5 * tall
+
     return Landscape(
-        terrain, plants=(undergrowth(site, 0.9, 0.4, 0.15),),
-        water=lambda x, y: terrain(x, y) < 0.0,
+        terrain, trees=(single_trees(site, 60, 6.0, low),),
+        plants=(undergrowth(site, 0.9, 0.4, 0.15),), water=lambda x, y: terrain(x, y) < 0.0,
     )  # fmt: skip
 
 
@@ -121,7 +124,8 @@ def sharp_ridge(site: Site) -> Landscape:
         fall = np.abs(across + bend(x, y))
         return 900.0 - site.settings.slope * fall + 0.05 * along + rough(x, y)
 
-    return Landscape(terrain, plants=(undergrowth(site, 0.8, 0.4, 0.15),))
+    trees = single_trees(site, 90, 9.0)
+    return Landscape(terrain, trees=(trees,), plants=(undergrowth(site, 0.8, 0.4, 0.1),))
 
 
 @kind(height=20.0)
@@ -136,7 +140,8 @@ def mesa(site: Site) -> Landscape:
         scree = 0.35 * tall * np.clip(1.0 - out / (0.6 * tall), 0.0, 1.0)
         return 500.0 + np.maximum(tall * bank(-out, 3.0), scree) + rough(x, y) + roll(x, y)
 
-    return Landscape(terrain, plants=(undergrowth(site, 1.0, 0.4, 0.1),))
+    trees = single_trees(site, 60, 7.0)
+    return Landscape(terrain, trees=(trees,), plants=(undergrowth(site, 1.0, 0.4, 0.1),))
 
 
 @kind(height=5.0)
@@ -151,7 +156,8 @@ def dunes(site: Site) -> Landscape:
         shape = np.where(share < 0.78, smooth(share / 0.78), smooth((1.0 - share) / 0.22))
         return 8.0 + site.settings.height * shape * (1.0 + tall(x, y)) + rough(x, y)
 
-    return Landscape(terrain, plants=(undergrowth(site, 0.6, 0.35, 0.3, 12.0),))
+    trees = single_trees(site, 30, 6.0)
+    return Landscape(terrain, trees=(trees,), plants=(undergrowth(site, 0.8, 0.35, 0.2, 12.0),))
 
 
 @kind(height=2.0, slope=0.15)
@@ -175,7 +181,7 @@ def boulders(site: Site) -> Landscape:
         shape = np.shape(x)
         return terrain(np.ravel(x), np.ravel(y)).reshape(shape)
 
-    return Landscape(flat, plants=(meadow(site),))
+    return Landscape(flat, trees=(single_trees(site, 80, 10.0),), plants=(meadow(site),))
 
 
 def _terraced(site: Site, width: float, face: float, wild: float, vines: float) -> Landscape:
@@ -231,7 +237,9 @@ def paddy_fields(site: Site) -> Landscape:
         edge = np.mod(climb, width)
         return (np.mod(number, 4) == 1) & (edge > 1.0) & (edge < width - 1.5)
 
-    return Landscape(terrain, plants=(undergrowth(site, 0.4, 0.3, 0.3),), water=wet)
+    trees = single_trees(site, 40, 7.0, wet)
+    crops = undergrowth(site, 0.6, 0.3, 0.15)
+    return Landscape(terrain, trees=(trees,), plants=(crops,), water=wet)
 
 
 @kind(height=15.0, slope=1.0, penetration=0.12)

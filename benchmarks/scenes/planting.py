@@ -44,7 +44,8 @@ def wood(
 
 
 def single_trees(site: Site, count: int, height: float = 10.0, clear: object = None) -> Trees:
-    """Return trees that stand alone; none where `clear` says so."""
+    """Return trees that stand alone, `count` on 2 ha; none where `clear` says so."""
+    count = max(round(count * site.settings.size**2 / 20_000.0), 4)
     x, y = site.random.uniform(-site.half, site.half, (2, count))
     kept = np.ones(count, dtype=bool) if clear is None else ~clear(x, y)
     if not kept.any():
@@ -75,4 +76,4 @@ def undergrowth(
 
 def meadow(site: Site) -> Plants:
     """Return grass here and there."""
-    return undergrowth(site, 0.35, 0.2, 0.3)
+    return undergrowth(site, 0.6, 0.08, 0.3)

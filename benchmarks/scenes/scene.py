@@ -48,7 +48,7 @@ class Settings:
     """
 
     density: float = 4.0
-    size: float = 200.0
+    size: float = 160.0
     slope: float = 0.0
     height: float = 5.0
     penetration: float = 0.3
@@ -97,8 +97,7 @@ class Scene:
     points : Points
         Metres from `ORIGIN`; the square lies somewhere to the north-east of it.
     classes : numpy.ndarray of uint8, shape (n,)
-        The true class of every point. Only class 2 is ground: water (9), a place of its own in
-        LAS, gives no ground points.
+        The true class of every point. Only class 2 is ground; water is 9.
     return_number, number_of_returns : numpy.ndarray of uint8, shape (n,)
         Of the pulse that a point belongs to.
     kind : str
@@ -160,17 +159,21 @@ class Kind(NamedTuple):
             Fields of `Settings` that differ from the defaults of the kind.
         """
         settings = replace(self.defaults, **changes)
-        random = np.random.default_rng((zlib.crc32(self.name.encode()), seed))
-        site = Site(settings, random, float(random.uniform(0, 2 * np.pi)))
-        landscape = self.build(site)
+        landscape, random = self.landscape(seed, settings)
         returns = survey(landscape, settings, random)
-        corner = tuple(np.round(random.uniform(200.0, 900.0, 2) + site.half, 3).tolist())
+        corner = tuple(np.round(random.uniform(200.0, 900.0, 2) + settings.size / 2, 3).tolist())
         moved = (returns.x + corner[0], returns.y + corner[1], returns.z)
         points = Points(*(np.rint(each / SCALE) * SCALE for each in moved))
         return Scene(
             points, returns.classes, returns.number, returns.count, self.name, seed, settings,
             corner, landscape.terrain,
         )  # fmt: skip
+
+    def landscape(self, seed: int, settings: Settings) -> tuple[Landscape, np.random.Generator]:
+        """Return the land of a seed, which costs little, and the dice to survey it with."""
+        random = np.random.default_rng((zlib.crc32(self.name.encode()), seed))
+        site = Site(settings, random, float(random.uniform(0, 2 * np.pi)))
+        return self.build(site), random
 
 
 def kind(**defaults: object) -> Callable[[Callable[[Site], Landscape]], Kind]:

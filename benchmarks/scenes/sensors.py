@@ -36,7 +36,7 @@ def multipath(site: Site) -> Landscape:
 def water_gaps(site: Site) -> Landscape:
     """Ponds and a river without points, gaps between strips, buildings at the shore."""
     plain, bend = waves(site.random, 1.5, 90.0), waves(site.random, 10.0, 90.0)
-    ponds = site.random.uniform(-70.0, 70.0, (3, 2))
+    ponds = site.random.uniform(-0.7, 0.7, (3, 2)) * site.half
     sizes = site.random.uniform(12.0, 30.0, 3)
     gap = site.between(30.0, 60.0) * site.random.choice((-1.0, 1.0))
 
@@ -115,10 +115,10 @@ def _plot(site: Site) -> Landscape:
     x, y = site.place(site.between(-7, 7), ditch - np.copysign(min(9.0, 0.5 * site.half), ditch))
     base = float(terrain(np.array([x]), np.array([y]))[0])
     shed = Box(x, y, 5.0, 3.5, site.angle + 0.3, base, 2.4, SHED, 0.12)
-    return Landscape(terrain, (Boxes([shed]),), plants=(Plants(top, 0.85, 0.4),))
+    return Landscape(terrain, (Boxes([shed]),), plants=(Plants(top, 0.85, 0.6),))
 
 
-_DRONE = {"size": 50.0, "height": 0.5, "slope": 0.04}
+_DRONE = {"size": 50.0, "height": 0.5, "slope": 0.04, "low_outliers": 5e-6}
 
 
 @kind(density=50.0, noise=0.02, **_DRONE)
@@ -133,7 +133,7 @@ def drone_noisy(site: Site) -> Landscape:
     return _plot(site)
 
 
-@kind(density=500.0, noise=0.03, photogrammetric=True, low_outliers=1e-4, **_DRONE)
+@kind(density=500.0, noise=0.03, photogrammetric=True, **_DRONE)
 def drone_images(site: Site) -> Landscape:
     """The same from images, 500 points/m2, noise 3 cm."""
     return _plot(site)

@@ -35,6 +35,8 @@ _FARTHEST = 12.0
 _DEAD_ZONE = 0.7
 _MOST_RETURNS = 5
 _BEAM = 0.2
+# What is lower counts as ground, as those who edit surveys by hand have it.
+_LOWEST_PLANT = 0.25
 _COARSE = 1.0
 
 
@@ -299,7 +301,7 @@ def _into_plants(
         top = each.top(pulses.x, pulses.y)
         hit = (pulses.classes == GROUND) & (top > 0.05) & (random.random(len(top)) < each.share)
         rise = top * random.uniform(each.least, 1.0, len(top))
-        hit &= rise > 0.1
+        hit &= rise > _LOWEST_PLANT
         code = np.select([rise > 2.0, rise > 0.5], [HIGH_VEGETATION, MEDIUM_VEGETATION], 3)
         pulses = pulses._replace(
             z=np.where(hit, pulses.z + rise, pulses.z),
@@ -332,7 +334,7 @@ def _from_images(
         z, classes = np.where(on, top, z), np.where(on, HIGH_VEGETATION, classes)
     for plants in landscape.plants:
         top = plants.top(x, y) * random.uniform(max(plants.least, 0.5), 1.0, len(x))
-        on = (classes == GROUND) & (top > 0.12) & (random.random(len(x)) < 0.92)
+        on = (classes == GROUND) & (top > _LOWEST_PLANT) & (random.random(len(x)) < 0.92)
         z, classes = np.where(on, z + top, z), np.where(on, LOW_VEGETATION, classes)
     ones = np.ones(len(x), dtype=np.uint8)
     returns = Returns(x, y, z, classes.astype(np.uint8), ones, ones.copy())

@@ -36,7 +36,7 @@ def dense_conifers(site: Site) -> Landscape:
 
     def standing(x, y):
         along, across = site.axes(x, y)
-        return (np.abs(np.mod(across, ride) - ride / 2) > 2.5) | (np.abs(along) > 80)
+        return (np.abs(np.mod(across, ride) - ride / 2) > 2.5) | (np.abs(along) > 0.8 * site.half)
 
     trees = wood(site, 3.2, site.settings.height, True, standing, stem=0.1, radius=0.95)
     return Landscape(_forest_floor(site, 3.0), trees=(trees,))

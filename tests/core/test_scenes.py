@@ -5,13 +5,13 @@ import pytest
 
 from benchmarks.scenes import KINDS, REPORTING_SEEDS, TUNING_SEEDS, make
 
-# Kinds that are large by themselves are made smaller here.
-SMALL = {"drone_images": {"size": 20.0}, "drone_2000": {"size": 12.0}}
+# Smaller than they are by default, for time's sake.
+SHARE = {"drone_images": 0.4, "drone_noisy": 0.5, "drone_2000": 0.6}
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_truth_of_every_kind_is_true(kind):
-    scene = make(kind, seed=4, **SMALL.get(kind, {}))
+    scene = make(kind, seed=4, size=SHARE.get(kind, 0.7) * KINDS[kind].defaults.size)
     x, y, z = scene.points
     above = z - scene.terrain(x, y)
     ground = scene.ground
@@ -48,7 +48,7 @@ def test_changes_are_heard():
     tall, low = (make("hall_flat", 0, height=height) for height in (12.0, 3.0))
     assert np.ptp(tall.points.z[tall.classes == 6]) > 5 + np.ptp(low.points.z[low.classes == 6])
     dense, thin = (make("open_forest", 0, penetration=share) for share in (0.05, 0.6))
-    assert dense.ground.mean() < 0.5 * thin.ground.mean()
+    assert dense.ground.mean() < 0.6 * thin.ground.mean()
     quiet, loud = (make("hills", 0, noise=noise) for noise in (0.01, 0.2))
     for scene, noise in ((quiet, 0.01), (loud, 0.2)):
         ground = scene.points.take(scene.ground)
