@@ -193,11 +193,17 @@ def main(arguments: Sequence[str] | None = None) -> None:
         isprs = measure_isprs(filters, samples, PHASES[: max(options.phases, 1)])
     if options.real or everything or not any(parts):
         real = measure_real(filters)
+    scenes = {}
+    if options.scenes or everything:
+        for seeds in SEEDS if everything else (options.seeds,):
+            scenes[seeds] = measure_scenes(options.method, seeds, options.kinds, not options.no_dtm)
     if options.sensitivity or everything:
         moved = measure_sensitivity(options.method, samples)
     if everything:
         chosen = Filter(best({name: isprs[name] for name in METHODS}))
-        report.write(isprs, real, moved, report.draw(chosen, isprs[chosen.name]), report.PAGE)
+        pictures = report.draw(chosen, isprs[chosen.name])
+        pictures += report.draw_scenes(chosen, scenes["reporting"], SEEDS["reporting"])
+        report.write(isprs, real, scenes, moved, pictures, report.PAGE)
         print(f"\nWritten: {report.PAGE}")
 
 

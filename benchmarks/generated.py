@@ -18,7 +18,7 @@ from bare_earth.algorithms.terrain.raster import RasterGrid
 from . import cache, scenes
 from .measure import Filter
 from .scenes import KINDS, Scene, make
-from .scenes.classes import WATER
+from .scenes.classes import LOW_VEGETATION, WATER
 from .scenes.scene import SCALE
 from .work import side_by_side
 
@@ -34,6 +34,8 @@ class SceneScore(NamedTuple):
     ----------
     type_1, type_2 : float
         Share in percent of the ground that was missed, and of the rest that was kept.
+    type_2_high : float
+        The same without plants up to half a metre (class 3).
     dtm_rmse : float
         Of the terrain model against the true terrain, in metres.
     share_wrong_1m : float
@@ -46,6 +48,7 @@ class SceneScore(NamedTuple):
 
     type_1: float
     type_2: float
+    type_2_high: float
     dtm_rmse: float
     share_wrong_1m: float
     kept: dict[int, float]
@@ -124,7 +127,8 @@ def score_scene(
         rmse = float(np.sqrt(np.mean(known**2))) if len(known) else rmse
     others = [int(value) for value in np.unique(scene.classes[~scene.ground])]
     kept = {value: 100.0 * float(np.mean(ground[scene.classes == value])) for value in others}
-    shares = 100.0 * float(np.mean(~found[truth])), 100.0 * float(np.mean(found[~truth]))
+    high = found[~truth & (scene.classes[counted] != LOW_VEGETATION)]
+    shares = (100.0 * float(np.mean(each)) for each in (~found[truth], found[~truth], high))
     return SceneScore(*shares, rmse, wrong, kept)
 
 

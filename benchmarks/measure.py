@@ -131,7 +131,7 @@ class TileScore(NamedTuple):
     dtm : DtmError or None
         Of the terrain model.
     shares : dict of int to float
-        Share in percent of each class left out of the assessment that is taken for ground.
+        Share in percent of each class that the tile tells of that is taken for ground.
     seconds : float
         What the filter took; next to nothing if its answer was remembered.
     problem : str
@@ -188,7 +188,7 @@ def score_tile(
             seconds = time.perf_counter() - start
             assessment = compare(ground, reference, options) if tile.is_trusted else None
             shares = {
-                value: 100.0 * float(np.mean(ground[reference == value])) for value in tile.left_out
+                value: 100.0 * float(np.mean(ground[reference == value])) for value in tile.told
             }
             results[each.name] = TileScore(assessment, model.error(ground), shares, seconds)
         except Exception as error:
