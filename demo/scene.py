@@ -14,7 +14,7 @@ import numpy as np
 from laspy.vlrs.known import WktCoordinateSystemVlr
 from scipy.spatial import cKDTree
 
-from .landscape import (
+from benchmarks.scenes.mixed import (
     BRIDGE,
     GROUND,
     SIDE,

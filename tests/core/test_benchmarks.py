@@ -4,7 +4,6 @@ import re
 
 import numpy as np
 import pytest
-from scenes import village
 
 from bare_earth.algorithms.assessment import AssessmentOptions, compare
 from bare_earth.algorithms.filters import METHODS
@@ -13,6 +12,7 @@ from bare_earth.algorithms.pointcloud.reading import read_cloud
 from benchmarks import accuracy, cache, data, maps, measure, peers, report, tables
 from benchmarks.measure import Filter
 from benchmarks.scenes import KINDS, make
+from benchmarks.scenes.simple import village
 
 pytest.importorskip("matplotlib")
 

@@ -46,7 +46,7 @@ def test_every_kind_of_thing_is_there(survey):
 
 
 def test_the_truth_is_true(demo, survey):
-    terrain = demo("landscape").terrain(survey["x"], survey["y"])
+    terrain = importlib.import_module("benchmarks.scenes.mixed").terrain(survey["x"], survey["y"])
     above = survey["z"] - terrain
     kind = survey["kind"]
     # Slanting pulses and noise of position: on the bank some centimetres become decimetres.
@@ -59,7 +59,7 @@ def test_the_truth_is_true(demo, survey):
 
 
 def test_the_terrain_is_rolling_and_has_a_steep_bank(demo):
-    landscape = demo("landscape")
+    landscape = importlib.import_module("benchmarks.scenes.mixed")
     x, y = np.meshgrid(np.arange(0.5, 300.0), np.arange(0.5, 300.0))
     z = landscape.terrain(x, y)
     slope = np.degrees(np.arctan(np.hypot(*np.gradient(z))))
@@ -69,7 +69,11 @@ def test_the_terrain_is_rolling_and_has_a_steep_bank(demo):
 
 def test_the_large_building_is_wider_than_a_house(demo):
     random = np.random.default_rng(0)
-    flat = [each for each in demo("landscape").make_solids(random) if each.kind == "flat"]
+    flat = [
+        each
+        for each in importlib.import_module("benchmarks.scenes.mixed").make_solids(random)
+        if each.kind == "flat"
+    ]
     assert len(flat) == 1 and min(flat[0].length, flat[0].width) >= 40.0
 
 
