@@ -211,8 +211,8 @@ def _march(
         top, _ = landscape.surface(*pulses.at(middle))
         inside = top > middle
         below, above = np.where(inside, middle, below), np.where(inside, above, middle)
-    # A hair inside, so that a wall is told from the ground in front of it.
-    top, codes = landscape.surface(*pulses.at(below - 0.03))
+    # Just inside: so a wall is told from the ground in front of it.
+    top, codes = landscape.surface(*pulses.at(below))
     return np.where(np.abs(top - below) < 0.2, top, below), codes
 
 
