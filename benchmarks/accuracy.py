@@ -4,6 +4,10 @@ Every class is set to 0 first and noise is left in; every filter runs with its d
 labelled samples each point counts. On tiles whose reference ground is thinned the terrain models
 are compared: both TINs on the same 1 m grid, inside the convex hull of the reference.
 
+Figures of ours on the samples are means over the phases of the grid (`benchmarks/phases.py`), with
+their range. Generated scenes (`benchmarks/scenes`) are made from seeds of which one half is for
+tuning: `--scenes --method tin --seeds tuning --no-dtm`.
+
 Without options everything is measured, for our filters and the peers that are installed, printed,
 and written to docs/accuracy.md. Answers of peers are remembered in ~/.cache/bare-earth/benchmarks
 (or $BARE_EARTH_CACHE); the data are sought in $BARE_EARTH_DATA.
@@ -20,6 +24,7 @@ from bare_earth.algorithms.assessment import AssessmentOptions
 from bare_earth.algorithms.filters import METHODS
 
 from . import data, peers, report, tables
+from .generated import score_scenes
 from .measure import (
     Filter,
     GroundFilter,
@@ -30,9 +35,14 @@ from .measure import (
     score_tile,
     sensitivity,
 )
+from .phases import PHASES, shifted
+from .scenes import KINDS, REPORTING_SEEDS, TUNING_SEEDS
 
 # The dense tile that sensitivity is measured on besides the samples.
 DENSE_TILE = "ahn3_urban"
+# Phases of the samples that sensitivity is measured in, for time's sake.
+SENSITIVITY_PHASES = 3
+SEEDS = {"tuning": TUNING_SEEDS, "reporting": REPORTING_SEEDS}
 
 
 def tell(text: str) -> None:
@@ -46,9 +56,13 @@ def show(*blocks: Sequence[str]) -> None:
         print("", *lines, sep="\n", flush=True)
 
 
-def measure_isprs(filters: Sequence[GroundFilter], samples: Sequence[Path]) -> Scores:
-    """Measure the filters on the samples and print the figures."""
-    results = score(filters, samples)
+def measure_isprs(
+    filters: Sequence[GroundFilter],
+    samples: Sequence[Path],
+    phases: Sequence[tuple[float, float]] = PHASES,
+) -> Scores:
+    """Measure the filters on the samples in some phases and print the figures."""
+    results = score(filters, samples, phases)
     show(*(tables.isprs(results, title) for title in tables.FIGURES), tables.quoted())
     if any(name in METHODS for name in results):
         show(tables.goals(results))
@@ -73,11 +87,32 @@ def measure_real(filters: Sequence[GroundFilter]) -> tables.TileScores:
     return results
 
 
+def measure_scenes(
+    methods: Sequence[str], seeds: str, kinds: Sequence[str], with_dtm: bool = True
+) -> tables.SceneScores:
+    """Measure filters of ours on generated scenes and print the figures, the worst kinds last."""
+    tell(f"Scenes, {seeds} seeds ...")
+    filters = [Filter(each) for each in methods]
+    results = score_scenes(filters, SEEDS[seeds], kinds, with_dtm)
+    for name, lines in tables.scenes(results).items():
+        show([f"{METHODS[name].label}, {seeds} seeds"], lines)
+    show(tables.scene_totals(results))
+    return results
+
+
 def measure_sensitivity(
     methods: Sequence[str], samples: Sequence[Path]
 ) -> dict[str, dict[str, list[Sensitivity]]]:
     """Halve and double each default, on the samples and on a dense tile; print the figures."""
-    clouds = {"ISPRS samples": [(*data.load(path), AssessmentOptions()) for path in samples]}
+    phases = PHASES[:: len(PHASES) // SENSITIVITY_PHASES]
+    loaded = [data.load(path) for path in samples]
+    clouds = {
+        "ISPRS samples": [
+            (shifted(cloud, *phase), reference, AssessmentOptions())
+            for cloud, reference in loaded
+            for phase in phases
+        ]
+    }
     for tile in data.REAL:
         if tile.title == DENSE_TILE and data.real(tile.name).exists():
             options = AssessmentOptions(ignored_classes=tile.left_out)
@@ -92,6 +127,14 @@ def measure_sensitivity(
     return results
 
 
+def method_name(text: str) -> str:
+    """Return the method whose name begins as told."""
+    found = [name for name in METHODS if name.startswith(text)]
+    if len(found) != 1:
+        raise argparse.ArgumentTypeError(f"'{text}' is not one of {', '.join(METHODS)}")
+    return found[0]
+
+
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the benchmark that the command line asks for."""
     parser = argparse.ArgumentParser(
@@ -100,9 +143,29 @@ def main(arguments: Sequence[str] | None = None) -> None:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
-        "--method", nargs="+", choices=list(METHODS), default=list(METHODS), help="some of ours"
+        "--method", nargs="+", type=method_name, default=list(METHODS), help="some of ours"
     )
     parser.add_argument("--isprs", action="store_true", help="the ISPRS samples")
+    parser.add_argument(
+        "--phases",
+        type=int,
+        nargs="?",
+        const=len(PHASES),
+        default=len(PHASES),
+        metavar="N",
+        help="only the first N of the phases of the grid",
+    )
+    parser.add_argument("--scenes", action="store_true", help="the generated scenes")
+    parser.add_argument("--seeds", choices=list(SEEDS), default="reporting", help="of the scenes")
+    parser.add_argument(
+        "--kinds",
+        nargs="+",
+        choices=list(KINDS),
+        default=list(KINDS),
+        metavar="KIND",
+        help="some kinds of scenes",
+    )
+    parser.add_argument("--no-dtm", action="store_true", help="no terrain models of scenes: faster")
     parser.add_argument("--real", action="store_true", help="the real tiles")
     parser.add_argument("--sensitivity", action="store_true", help="halve and double each default")
     parser.add_argument("--peers", action="store_true", help="the peers as well")
@@ -111,9 +174,12 @@ def main(arguments: Sequence[str] | None = None) -> None:
     )
     options = parser.parse_args(arguments)
     samples = data.isprs()
+    parts = options.isprs, options.real, options.sensitivity, options.scenes
+    if options.scenes and not any((*parts[:3], options.write)):
+        measure_scenes(options.method, options.seeds, options.kinds, not options.no_dtm)
+        return
     if not samples:
         parser.exit(1, f"There is no labelled data in {data.FOLDER.resolve()}.\n")
-    parts = options.isprs, options.real, options.sensitivity
     everything = options.write or not (any(parts) or options.peers)
     if everything and options.method != list(METHODS):
         parser.error("docs/accuracy.md is about all methods: leave --method out, or choose a part.")
@@ -124,14 +190,20 @@ def main(arguments: Sequence[str] | None = None) -> None:
             print(f"Not installed: pip install {package}")
     isprs = real = moved = {}
     if options.isprs or everything or not any(parts):
-        isprs = measure_isprs(filters, samples)
+        isprs = measure_isprs(filters, samples, PHASES[: max(options.phases, 1)])
     if options.real or everything or not any(parts):
         real = measure_real(filters)
+    scenes = {}
+    if options.scenes or everything:
+        for seeds in SEEDS if everything else (options.seeds,):
+            scenes[seeds] = measure_scenes(options.method, seeds, options.kinds, not options.no_dtm)
     if options.sensitivity or everything:
         moved = measure_sensitivity(options.method, samples)
     if everything:
         chosen = Filter(best({name: isprs[name] for name in METHODS}))
-        report.write(isprs, real, moved, report.draw(chosen, isprs[chosen.name]), report.PAGE)
+        pictures = report.draw(chosen, isprs[chosen.name])
+        pictures += report.draw_scenes(chosen, scenes["reporting"], SEEDS["reporting"])
+        report.write(isprs, real, scenes, moved, pictures, report.PAGE)
         print(f"\nWritten: {report.PAGE}")
 
 

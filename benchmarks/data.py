@@ -28,22 +28,33 @@ class RealTile(NamedTuple):
         from it is a fair reference.
     left_out : tuple of int
         Classes of the reference of which it is open whether they are ground.
+    watched : tuple of int
+        Classes that count as other, and of which it is told how many are taken for ground.
     """
 
     name: str
     is_trusted: bool = False
     left_out: tuple[int, ...] = ()
+    watched: tuple[int, ...] = ()
 
     @property
     def title(self) -> str:
         """The name without the file's ending."""
         return self.name.split(".")[0]
 
+    @property
+    def told(self) -> tuple[int, ...]:
+        """Classes of which the share that is taken for ground is told."""
+        return (*self.left_out, *self.watched)
+
 
 REAL = (
     RealTile("ahn3_urban.laz", True),
     RealTile("ign_sparse_urban.laz", True),
     RealTile("nrw_rural.laz", True, (17, 26)),
+    RealTile("corse_cliff.laz", True, (65,)),
+    RealTile("ign_bridge.laz", True, (66, 67), (17,)),
+    RealTile("megaplot.laz"),
     RealTile("forest_topography.laz"),
     RealTile("mixed_conifer.laz"),
     RealTile("oregon_conifer.laz"),

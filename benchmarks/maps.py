@@ -13,7 +13,9 @@ from bare_earth.algorithms.terrain.cells import Cells, spacing
 from bare_earth.algorithms.terrain.hillshade import hillshade
 from bare_earth.algorithms.terrain.inpaint import inpaint
 
+from .generated import SceneScore, TrueModel
 from .measure import GROUND, ReferenceModel
+from .scenes import Scene
 
 TYPE_1, TYPE_2 = "#1565d8", "#e02020"
 _INCHES, _DOTS_PER_INCH = 7.5, 110
@@ -21,6 +23,8 @@ _INCHES, _DOTS_PER_INCH = 7.5, 110
 _MARGIN = 0.7
 # Dots of wrong points are about as wide as the distance between points, but never a mere speck.
 _SMALLEST_DOT = 1.2
+# Metres of error that are not drawn, and above these, those that are drawn in full colour.
+_SMALL_ERROR, _LARGE_ERROR = 0.2, 1.0
 # Cells of the model that are a longer way off are skipped in the picture of a large tile.
 _MOST_CELLS = 900
 
@@ -74,6 +78,37 @@ def relief_pair(
         shade = np.ma.masked_equal(hillshade(values, model.cell_size * step), 0)
         each.imshow(shade, cmap="gray", vmin=1, vmax=255, interpolation="nearest")
         each.set_title(title, fontsize=10, loc="left")
+    _save(figure, target)
+
+
+def scene_map(
+    scene: Scene,
+    model: TrueModel,
+    ground: np.ndarray,
+    score: SceneScore,
+    title: str,
+    target: Path,
+) -> None:
+    """Draw the terrain model of a ground mask in relief, and its errors beside it."""
+    from matplotlib.colors import to_rgba
+
+    error = model.error(scene, ground)
+    own = model.heights + error
+    figure, axes = _figure(2, own.shape[0] / own.shape[1])
+    shade = np.ma.masked_equal(hillshade(own, 1.0), 0)
+    axes[0].imshow(shade, cmap="gray", vmin=1, vmax=255, interpolation="nearest")
+    axes[0].set_title(f"{title}, terrain model", fontsize=10, loc="left")
+    truth = hillshade(model.heights, 1.0).astype(float)
+    axes[1].imshow(truth, cmap="gray", vmin=-120, vmax=255, interpolation="nearest")
+    # Blue where ground is missing, red where something was kept; up to _SMALL_ERROR it is clear.
+    colours = np.where((error < 0)[..., None], to_rgba(TYPE_1), to_rgba(TYPE_2))
+    colours[..., 3] = np.clip((np.abs(np.nan_to_num(error)) - _SMALL_ERROR) / _LARGE_ERROR, 0, 0.9)
+    axes[1].imshow(colours, interpolation="nearest")
+    axes[1].set_title(
+        f"{scene.kind}: type I {score.type_1:.1f} %, II {score.type_2:.1f} %, RMSE"
+        f" {score.dtm_rmse:.2f} m; red too high, blue too low",
+        fontsize=9, loc="left",
+    )  # fmt: skip
     _save(figure, target)
 
 

@@ -24,6 +24,8 @@ from bare_earth.algorithms.terrain.model import interpolate
 from bare_earth.algorithms.terrain.raster import RasterGrid
 
 from . import data
+from .phases import PHASES, Phased, shifted
+from .work import side_by_side
 
 GROUND = 2
 FACTORS = (0.5, 2.0)
@@ -51,20 +53,48 @@ class Filter:
 
 
 # Name of the filter, name of the sample.
-Scores = dict[str, dict[str, Assessment]]
+Scores = dict[str, dict[str, Phased]]
 
 
-def score(filters: Sequence[GroundFilter], samples: Sequence[Path]) -> Scores:
-    """Return the assessment of every filter on every labelled sample."""
+class SampleJob(NamedTuple):
+    """What one process does at a time: one filter on one sample, in all phases."""
+
+    filter: GroundFilter
+    path: Path
+    phases: tuple[tuple[float, float], ...]
+
+
+def score(
+    filters: Sequence[GroundFilter],
+    samples: Sequence[Path],
+    phases: Sequence[tuple[float, float]] = PHASES,
+) -> Scores:
+    """Return the assessments of every filter on every labelled sample.
+
+    Ours are measured in each phase. Peers begin their grids at the points, so that moving these
+    changes nothing: they are measured once.
+    """
     results: Scores = {each.name: {} for each in filters}
+    ours = [each for each in filters if isinstance(each, Filter)]
+    jobs = [SampleJob(each, path, tuple(phases)) for path in samples for each in ours]
+    for job, phased in zip(jobs, side_by_side(assess_phases, jobs)):
+        results[job.filter.name][job.path.stem] = phased
     for path in samples:
-        cloud, reference = data.load(path)
         for each in filters:
-            results[each.name][path.stem] = compare(each.ground(cloud), reference)
+            if each not in ours:
+                job = SampleJob(each, path, tuple(phases[:1]))
+                results[each.name][path.stem] = assess_phases(job)
     return results
 
 
-def mean(assessments: dict[str, Assessment], figure: str) -> float:
+def assess_phases(job: SampleJob) -> Phased:
+    """Return the assessment in each phase of a job."""
+    cloud, reference = data.load(job.path)
+    clouds = (shifted(cloud, *phase) if any(phase) else cloud for phase in job.phases)
+    return Phased(tuple(compare(job.filter.ground(each), reference) for each in clouds))
+
+
+def mean(assessments: dict[str, Assessment | Phased], figure: str) -> float:
     """Return the mean of one figure over the samples."""
     return float(np.mean([getattr(each, figure) for each in assessments.values()]))
 
@@ -101,7 +131,7 @@ class TileScore(NamedTuple):
     dtm : DtmError or None
         Of the terrain model.
     shares : dict of int to float
-        Share in percent of each class left out of the assessment that is taken for ground.
+        Share in percent of each class that the tile tells of that is taken for ground.
     seconds : float
         What the filter took; next to nothing if its answer was remembered.
     problem : str
@@ -158,7 +188,7 @@ def score_tile(
             seconds = time.perf_counter() - start
             assessment = compare(ground, reference, options) if tile.is_trusted else None
             shares = {
-                value: 100.0 * float(np.mean(ground[reference == value])) for value in tile.left_out
+                value: 100.0 * float(np.mean(ground[reference == value])) for value in tile.told
             }
             results[each.name] = TileScore(assessment, model.error(ground), shares, seconds)
         except Exception as error:
@@ -260,10 +290,10 @@ def _change(
     is_limited = any(limited for _, limited in moved)
     try:
         assessments = {
-            str(cloud.path): compare(
+            str(number): compare(
                 Filter(method, **{declaration.name: value}).ground(cloud), reference, options
             )
-            for (value, _), (cloud, reference, options) in zip(moved, clouds)
+            for number, ((value, _), (cloud, reference, options)) in enumerate(zip(moved, clouds))
         }
     except BareEarthError as error:
         return Change(texts, is_limited, float("nan"), float("nan"), str(error))

@@ -6,17 +6,22 @@ from pathlib import Path
 from string import Template
 from typing import Iterable, NamedTuple, Sequence
 
-from bare_earth.algorithms.assessment import Assessment
 from bare_earth.algorithms.filters import METHODS
 
 from . import data, maps, peers, tables
+from .generated import remembered_scene, worst_kinds
 from .measure import GroundFilter, ReferenceModel, Scores, Sensitivity, mean
+from .phases import Phased
+from .scenes import KINDS
 
 PAGE = Path(__file__).parents[1] / "docs" / "accuracy.md"
 IMAGES = PAGE.parent / "images"
 TEMPLATE = Path(__file__).parent / "accuracy.md"
+# What was tried, written by hand.
+TRIED = Path(__file__).parent / "tried.md"
 WORST_NAME, RELIEF_NAME = "accuracy-worst-", "accuracy-relief-"
-WORST = 3
+SCENE_NAME = "accuracy-scene-"
+WORST, WORST_SCENES = 3, 5
 RELIEF_TILES = ("hawaii_forest", "ahn3_urban")
 
 _SITES = {
@@ -33,6 +38,9 @@ _TILES = {
     "ahn3_urban": "dense Dutch town, AHN3, 14.6 points/m²",
     "ign_sparse_urban": "coast and town, IGN LiDAR HD thinned to 0.26 points/m²",
     "nrw_rural": "farmland with ditches and dikes, NRW, 3.6 points/m²",
+    "corse_cliff": "cliff and sea stack, 40 m of relief on 48 x 40 m, 16 points/m²",
+    "ign_bridge": "road bridges, wood and village, IGN, 0.3 points/m²",
+    "megaplot": "dense canopy with few ground points, 1.7 points/m²",
     "forest_topography": "forested hill with a lake, 0.9 points/m²",
     "mixed_conifer": "conifer plot, 4.7 points/m²",
     "oregon_conifer": "conifer stand, 5.4 points/m²",
@@ -53,18 +61,18 @@ class Picture(NamedTuple):
     caption: str
 
 
-def worst(assessments: dict[str, Assessment], count: int = WORST) -> list[str]:
+def worst(assessments: dict[str, Phased], count: int = WORST) -> list[str]:
     """Return the names of the samples with the largest total error, the worst first."""
     return sorted(assessments, key=lambda name: -assessments[name].total_error)[:count]
 
 
-def draw(chosen: GroundFilter, assessments: dict[str, Assessment]) -> list[Picture]:
+def draw(chosen: GroundFilter, assessments: dict[str, Phased]) -> list[Picture]:
     """Draw the error maps of the worst samples and the relief of the real tiles."""
     pictures, title = [], METHODS[chosen.name].label
     paths = {path.stem: path for path in data.isprs()}
     for rank, sample in enumerate(worst(assessments), 1):
         cloud, reference = data.load(paths[sample])
-        name, one = f"{WORST_NAME}{rank}.png", assessments[sample]
+        name, one = f"{WORST_NAME}{rank}.png", assessments[sample].assessments[0]
         ground = chosen.ground(cloud)
         target = IMAGES / name
         maps.error_map(cloud, ground, reference, one, f"{title}, {sample}", target)
@@ -81,9 +89,25 @@ def draw(chosen: GroundFilter, assessments: dict[str, Assessment]) -> list[Pictu
     return pictures
 
 
+def draw_scenes(chosen: GroundFilter, scores: tables.SceneScores, seeds: Sequence[int]) -> list:
+    """Draw terrain model and errors of the worst kinds of scenes, each on its worst seed."""
+    pictures, own = [], scores[chosen.name]
+    for rank, kind in enumerate(worst_kinds(own)[: -WORST_SCENES - 1 : -1], 1):
+        errors = [each.type_1 + each.type_2 for each in own[kind]]
+        seed = seeds[errors.index(max(errors))]
+        scene, model = remembered_scene(kind, seed)
+        name = f"{SCENE_NAME}{rank}.png"
+        score = own[kind][seeds.index(seed)]
+        title = METHODS[chosen.name].label
+        maps.scene_map(scene, model, chosen.ground(scene.cloud()), score, title, IMAGES / name)
+        pictures.append(Picture(name, f"{kind}, seed {seed}: {KINDS[kind].description}"))
+    return pictures
+
+
 def write(
     isprs: Scores,
     real: tables.TileScores,
+    scenes: dict[str, tables.SceneScores],
     moved: Moved,
     pictures: Sequence[Picture],
     target: Path,
@@ -101,6 +125,9 @@ def write(
         "doubtful": tables.doubtful(real),
         "dtm": _blocks(tables.dtm(real, *each) for each in tables.DTM_FIGURES),
         "relief": _pictures(pictures, RELIEF_NAME),
+        "scenes": _scenes(scenes),
+        "scenes_worst": _pictures(pictures, SCENE_NAME),
+        "tried": TRIED.read_text(encoding="utf-8").strip().splitlines(),
         "sensitivity": _moved(moved, isprs, real),
         "problems": [f"- **What failed**: {each}." for each in tables.problems(real)],
     }
@@ -118,6 +145,16 @@ def _peers() -> list[str]:
     if missing:
         lines.append(f"- Not installed when this page was made: {', '.join(missing)}.")
     return lines
+
+
+def _scenes(scenes: dict[str, tables.SceneScores]) -> list[str]:
+    reporting, tuning = scenes["reporting"], scenes["tuning"]
+    described = [
+        f"- **{name}**: {KINDS[name].description}." for name in next(iter(reporting.values()))
+    ]
+    blocks = [[f"### {METHODS[name].label}", "", *lines] for name, lines in
+              tables.scenes(reporting, tuning).items()]  # fmt: skip
+    return _blocks([described, tables.scene_totals(reporting), *blocks])
 
 
 def _moved(moved: Moved, isprs: Scores, real: tables.TileScores) -> list[str]:

@@ -1,8 +1,9 @@
 """The benchmark on a scene small enough for every run: no data, no peers, so that it cannot rot."""
 
+import re
+
 import numpy as np
 import pytest
-from scenes import village
 
 from bare_earth.algorithms.assessment import AssessmentOptions, compare
 from bare_earth.algorithms.filters import METHODS
@@ -10,15 +11,21 @@ from bare_earth.algorithms.parameters import Declaration
 from bare_earth.algorithms.pointcloud.reading import read_cloud
 from benchmarks import accuracy, cache, data, maps, measure, peers, report, tables
 from benchmarks.measure import Filter
+from benchmarks.scenes import KINDS, make
+from benchmarks.scenes.simple import village
 
 pytest.importorskip("matplotlib")
 
 
 def write_village(path):
-    """Write the scene as LAS with classes 2 and 1, as the data of the benchmark are."""
+    """Write a village whose ground is easy to find."""
+    write_labelled(path, *village(size=60.0, density=1.0))
+
+
+def write_labelled(path, points, ground):
+    """Write points as LAS with classes 2 and 1, as the data of the benchmark are."""
     import laspy
 
-    points, ground = village(size=60.0, density=1.0)
     las = laspy.LasData(laspy.LasHeader(version="1.2", point_format=0))
     las.header.scales, las.header.offsets = [0.01] * 3, [0.0] * 3
     las.x, las.y, las.z = points
@@ -67,6 +74,10 @@ class Broken:
 
 def test_the_whole_benchmark_writes_the_page(folder, capsys, monkeypatch):
     monkeypatch.setattr(accuracy, "DENSE_TILE", "")  # for time's sake
+    kinds = {name: KINDS[name] for name in ("drone_50", "dense_canopy")}
+    monkeypatch.setattr(accuracy, "KINDS", kinds)
+    hard = make("hillside_village", 1, size=70.0, density=1.0)
+    write_labelled(folder / "data" / "isprs" / "samp52.laz", hard.points, hard.ground)
     accuracy.main([])
     printed, page = capsys.readouterr().out, (folder / "accuracy.md").read_text(encoding="utf-8")
     assert "pip install no-such-package==1" in printed
@@ -80,7 +91,11 @@ def test_the_whole_benchmark_writes_the_page(folder, capsys, monkeypatch):
     assert "| lowest " in page
     assert "PDAL SMRF (quoted)" in page
     assert "$" not in page
-    for picture in ("accuracy-worst-1.png", "accuracy-relief-ahn3-urban.png"):
+    assert "### What was tried" in page
+    assert "| drone_50 " in page and "tuning: I" in page
+    assert re.search(r"\*\*Slope filter\*\*.* \d+\.\d\d \(\d+\.\d to \d+\.\d\)", page)
+    pictures = "accuracy-worst-1.png", "accuracy-relief-ahn3-urban.png", "accuracy-scene-2.png"
+    for picture in pictures:
         assert f"(images/{picture})" in page
         assert (folder / "images" / picture).stat().st_size > 1000
 

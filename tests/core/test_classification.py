@@ -4,7 +4,6 @@ from pathlib import Path
 import laspy
 import numpy as np
 import pytest
-from scenes import village
 
 from bare_earth.algorithms import classification
 from bare_earth.algorithms.classification import classify, classify_file
@@ -22,6 +21,7 @@ from bare_earth.algorithms.points import Points
 from bare_earth.algorithms.progress import SILENT
 from bare_earth.algorithms.terrain.below_ground import below_ground
 from bare_earth.algorithms.tiling import cloudstore, ground
+from benchmarks.scenes.simple import village
 
 EAST, NORTH = 500_000.0, 5_700_000.0
 FOOT = 0.3048

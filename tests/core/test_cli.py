@@ -6,7 +6,6 @@ import sys
 import laspy
 import numpy as np
 import pytest
-from scenes import village
 
 from bare_earth.algorithms import classification
 from bare_earth.algorithms.cli import main
@@ -15,6 +14,7 @@ from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.parameters import ParameterSet
 from bare_earth.algorithms.pointcloud.selection import Selection
 from bare_earth.algorithms.terrain.model import TerrainModel
+from benchmarks.scenes.simple import village
 
 EAST, NORTH = 500_000.0, 5_700_000.0
 # Another value than the default for each kind of parameter, and how it is written.

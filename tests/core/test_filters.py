@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from scenes import village
 
 from bare_earth.algorithms.assessment import compare
 from bare_earth.algorithms.errors import Cancelled
@@ -11,6 +10,7 @@ from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.points import Points
 from bare_earth.algorithms.progress import Progress
 from benchmarks import data
+from benchmarks.scenes.simple import village
 
 PARAMETERS = [
     *(method.parameters() for method in METHODS.values()),

@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from scenes import error, scatter, surveyed, village
 
 from bare_earth.algorithms.errors import BareEarthError
 from bare_earth.algorithms.filters.grid_minimum import PRESETS, GridMinimum, classify
 from bare_earth.algorithms.points import Points
 from bare_earth.algorithms.progress import Progress
+from benchmarks.scenes.simple import error, scatter, surveyed, village
 
 
 class Log(Progress):

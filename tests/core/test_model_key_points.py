@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from scenes import scatter
 
 from bare_earth.algorithms.errors import BareEarthError
 from bare_earth.algorithms.points import Points
 from bare_earth.algorithms.terrain.model_key_points import ModelKeyPoints, model_key_points
 from bare_earth.algorithms.terrain.tin import Tin
+from benchmarks.scenes.simple import scatter
 
 
 def _hills(size=100.0, density=1.5, noise=0.02):

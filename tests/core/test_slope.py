@@ -4,7 +4,6 @@ import dataclasses
 
 import numpy as np
 import pytest
-from scenes import error, scatter, surveyed, village
 
 from bare_earth.algorithms.errors import BareEarthError
 from bare_earth.algorithms.filters.slope import SlopeFilter, classify
@@ -15,6 +14,7 @@ from bare_earth.algorithms.terrain.cell_bounds import CellBounds
 from bare_earth.algorithms.terrain.low_clusters import low_clusters
 from bare_earth.algorithms.terrain.neighbourhood import Neighbourhood
 from bare_earth.algorithms.threads import may_use
+from benchmarks.scenes.simple import error, scatter, surveyed, village
 
 CLASSIC = SlopeFilter(preset="whitebox")
 

@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-from scenes import error, scatter, surveyed, village
 
 from bare_earth.algorithms.errors import BareEarthError
 from bare_earth.algorithms.filters.tin_densification import TinDensification, classify
 from bare_earth.algorithms.points import Points
 from bare_earth.algorithms.progress import Progress
 from bare_earth.algorithms.terrain.tin import Tin
+from benchmarks.scenes.simple import error, scatter, surveyed, village
 
 
 def test_houses_trees_and_low_noise_are_told_from_the_slope_they_stand_on():
