@@ -22,7 +22,7 @@ from .morphology import within_square
 # distance, to which this share of the spacing of the points is added.
 _DROP, _DROP_SLOPE, _DROP_SPACING = 0.5, 1.0, 0.75
 # Where a deck is proven, it goes on for so many metres, or spacings, if it is raised by this.
-_GROWTH, _GROWTH_SPACINGS, _WEAK_RULE = 2.0, 2.0, Rule(0.25, 0.9, False)
+_GROWTH, _GROWTH_SPACINGS, _WEAK_RULE = 2.0, 2.5, Rule(0.25, 0.9, False)
 _LEAST_AREA, _LEAST_SPAN, _LEAST_SPACINGS = 12.0, 3.0, 2.0
 # Ground at an end must be level with the deck: metres, and metres a metre.
 _LEVEL, _LEVEL_SLOPE = 0.3, 0.1
@@ -75,7 +75,7 @@ def _decks(relief: Relief) -> np.ndarray:
     if not len(sections.steps):
         return decks
     crossed = ndimage.binary_closing(sections.cells_of(relief), square)
-    label, count = ndimage.label(crossed, square)
+    label, _ = ndimage.label(crossed, square)
     is_large = np.bincount(label.ravel()) * relief.cell**2 >= _LEAST_AREA
     reach = math.ceil(_END / relief.cell)
     for number, box in enumerate(ndimage.find_objects(label), start=1):
@@ -109,9 +109,7 @@ def _is_carried(relief: Relief, deck: np.ndarray) -> bool:
     return any(_has_ends(relief, row, column, *axis) for axis in axes.T)
 
 
-def _has_ends(
-    relief: Relief, row: np.ndarray, column: np.ndarray, up: float, right: float
-) -> bool:
+def _has_ends(relief: Relief, row: np.ndarray, column: np.ndarray, up: float, right: float) -> bool:
     """Return whether a deck, given by its cells, has ground at both ends in a direction."""
     along = relief.cell * (row * up + column * right)
     span = float(np.ptp(along)) + relief.cell
@@ -158,9 +156,7 @@ def _surface(relief: Relief, decks: np.ndarray) -> np.ndarray:
     from scipy import ndimage
 
     unknown = ~decks | np.isnan(relief.heights)
-    nearest = ndimage.distance_transform_edt(
-        unknown, return_distances=False, return_indices=True
-    )
+    nearest = ndimage.distance_transform_edt(unknown, return_distances=False, return_indices=True)
     return relief.heights[tuple(nearest)]
 
 

@@ -27,6 +27,7 @@ _FILLED = 1.5
 _STEP, _STEP_SLOPE = 0.2, 0.2
 # Directions of cross-sections over a whole turn, and the longest in metres.
 _DIRECTIONS, _LONGEST = 96, 70.0
+_SHARED = 4
 # Along a cross-section the surface may be unknown over so many metres.
 _GAP = 3.0
 # How far in metres beyond an edge its foot may lie, and how far beyond water or another void.
@@ -151,9 +152,7 @@ class Sections(NamedTuple):
         return crossed
 
 
-def raised_sections(
-    relief: Relief, within: Callable[[Relief], np.ndarray], rule: Rule
-) -> Sections:
+def raised_sections(relief: Relief, within: Callable[[Relief], np.ndarray], rule: Rule) -> Sections:
     """Return the cross-sections of smooth surfaces that are raised at both ends.
 
     Beyond both ends the ground must be lower, and nearly as low at one as at the other.
@@ -172,9 +171,12 @@ def raised_sections(
     if len(start):
         start = start[within(relief).ravel()[start]]
     compass = _Compass.of(relief)
-    # Half a turn will do: it is found from one end or the other.
-    direction = np.tile(np.arange(_DIRECTIONS // 2), len(start))
-    lines = Sections(np.repeat(start, _DIRECTIONS // 2), direction, np.zeros_like(direction))
+    # Half a turn will do: it is found from one end or the other. Neighbours share the directions.
+    row, column = np.divmod(start, relief.heights.shape[1])
+    turn = (row + column) % _SHARED
+    direction = (np.arange(0, _DIRECTIONS // 2, _SHARED) + turn[:, None]).ravel()
+    start = np.repeat(start, _DIRECTIONS // 2 // _SHARED)
+    lines = Sections(start, direction, np.zeros_like(direction))
     foot, off = _feet(relief, compass, compass.back(lines), rule)
     found = off > 0
     lines, foot, off = lines.take(found), foot[found], off[found]

@@ -30,7 +30,7 @@ _WRONG = 0.01
 _LEVELS = 3
 
 # What a point is labelled; 0 where it is neither.
-GROUND, LOW = 1, 2
+GROUND, LOW, BRIDGE = 1, 2, 3
 
 Box = tuple[float, float, float, float]
 

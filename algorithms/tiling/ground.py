@@ -10,16 +10,18 @@ import numpy as np
 from ..errors import BareEarthError
 from ..filters import Method, method_of
 from ..parameters import ParameterSet
+from ..pointcloud.selection import Special
 from ..progress import SILENT, Progress
 from ..terrain.below_ground import below_ground
-from .blocks import LOW, Block, Blocks, Contents, Store
+from ..terrain.bridges import bridge_decks
+from .blocks import BRIDGE, LOW, Block, Blocks, Contents, Store
 from .memory import Resources
 from .scheduling import run_jobs
 
 # Bytes that a filter takes for each point that it sees, and for each square metre of a window.
 _BYTES_A_POINT, _BYTES_A_SQUARE_METRE = 110, 100
-# The step of low outliers takes this share of the time of a block.
-_LOW_SHARE = 0.1
+# The steps of bridges and of low outliers take these shares of the time of a block.
+_BRIDGES_SHARE, _LOW_SHARE = 0.15, 0.1
 
 
 class _Labelled(NamedTuple):
@@ -39,11 +41,11 @@ def label_ground(
     store: Store,
     parameters: ParameterSet,
     blocks: Blocks,
-    low_noise_depth: float | None = None,
+    special: Special = Special(),
     resources: Resources = Resources(),
     progress: Progress = SILENT,
 ) -> None:
-    """Give every wanted point of a store its label: `GROUND`, `LOW` or 0.
+    """Give every wanted point of a store its label: `GROUND`, `LOW`, `BRIDGE` or 0.
 
     Parameters
     ----------
@@ -53,8 +55,8 @@ def label_ground(
         Those of one method.
     blocks : Blocks
         How the survey is cut; `blocks_of` says.
-    low_noise_depth : float, optional
-        Points that lie so many metres below the ground get `LOW`; none if it is not given.
+    special : Special
+        What gets `LOW`, and whether decks of bridges get `BRIDGE`.
     resources : Resources
         Threads, and the memory for the blocks.
     progress : Progress
@@ -73,7 +75,7 @@ def label_ground(
     todo = list(blocks.over(store))
     counts = [_count(blocks, each, store) for each in todo]
     at_once = _at_once(len(todo), max(counts), blocks, resources)
-    job_of = _job_maker(store, method, parameters, blocks, low_noise_depth)
+    job_of = _job_maker(store, method, parameters, blocks, special)
     jobs = [job_of(each, len(todo) == 1) for each in todo]
     workers = max(1, resources.thread_count // at_once)
     notes = {}
@@ -106,7 +108,7 @@ def _job_maker(
     method: Method,
     parameters: ParameterSet,
     blocks: Blocks,
-    low_noise_depth: float | None,
+    special: Special,
 ) -> Callable[[Block, bool], Callable[[Progress], _Labelled]]:
     def job_of(block: Block, is_only: bool) -> Callable[[Progress], _Labelled]:
         def job(progress: Progress) -> _Labelled:
@@ -118,7 +120,7 @@ def _job_maker(
             labels = np.zeros(len(positions), dtype=np.uint8)
             if notes.count:
                 try:
-                    labels = _labels(contents, method, parameters, low_noise_depth, notes)[core]
+                    labels = _labels(contents, method, parameters, special, notes)[core]
                 except BareEarthError as error:
                     notes.failure = error
             return _Labelled(positions, labels, notes)
@@ -132,12 +134,15 @@ def _labels(
     contents: Contents,
     method: Method,
     parameters: ParameterSet,
-    low_noise_depth: float | None,
+    special: Special,
     progress: Progress,
 ) -> np.ndarray:
     """Return the label of each point of a window."""
-    end = 1.0 if low_noise_depth is None else 1.0 - _LOW_SHARE
-    part = progress.part(0.0, end)
+    depth = special.low_noise_depth
+    finds_bridges = special.bridges == "find"
+    finds_bridges |= special.bridges == "automatic" and not method.is_classic(parameters)
+    end = 1.0 if depth is None else 1.0 - _LOW_SHARE
+    part = progress.part(0.0, end - _BRIDGES_SHARE if finds_bridges else end)
     points, known = contents.points, contents.known
     if known.any() and method.takes_known_ground:
         ground = method.classify(points, parameters, part, known_ground=known)
@@ -145,8 +150,14 @@ def _labels(
         ground = method.classify(points, parameters, part)
     ground |= known
     labels = ground.astype(np.uint8)
-    if low_noise_depth is not None:
-        labels[below_ground(points, ground, low_noise_depth, progress.part(end, 1.0))] = LOW
+    if finds_bridges:
+        decks = bridge_decks(points, ground) & ~known
+        labels[decks] = BRIDGE
+        ground &= ~decks
+        progress(end)
+    if depth is not None:
+        low = below_ground(points, ground, depth, progress.part(end, 1.0))
+        labels[low & (labels == 0)] = LOW
     return labels
 
 
