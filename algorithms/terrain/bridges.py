@@ -15,7 +15,7 @@ import math
 import numpy as np
 
 from ..points import Points
-from .cross_sections import Relief, Rule, raised_sections
+from .cross_sections import Relief, Rule, Sections, raised_sections
 from .morphology import within_square
 
 # At the sides of a deck the ground lies at least so much lower, and so much more for each metre of
@@ -25,7 +25,9 @@ _DROP, _DROP_SLOPE, _DROP_SPACING = 0.5, 1.0, 0.75
 _GROWTH, _GROWTH_SPACINGS, _WEAK_RULE = 2.0, 2.5, Rule(0.25, 0.9, False)
 _LEAST_AREA, _LEAST_SPAN, _LEAST_SPACINGS = 12.0, 3.0, 2.0
 # Ground at an end must be level with the deck: metres, and metres a metre.
-_LEVEL, _LEVEL_SLOPE = 0.3, 0.1
+_LEVEL, _LEVEL_SLOPE = 0.3, 0.06
+# Cross-sections at this angle to the deck are across, and at least this share must be.
+_OBLIQUE, _MOSTLY = math.radians(30.0), 0.5
 # So many metres of it lie within so many metres, over this share of the deck's width.
 _GROUND, _END, _CARRIED = 4.0, 12.0, 0.5
 # Points so near to the surface of a deck in metres are on it.
@@ -78,11 +80,15 @@ def _decks(relief: Relief) -> np.ndarray:
     label, _ = ndimage.label(crossed, square)
     is_large = np.bincount(label.ravel()) * relief.cell**2 >= _LEAST_AREA
     reach = math.ceil(_END / relief.cell)
+    of_section = label.ravel()[sections.start]
+    sections = sections.take(np.argsort(of_section, kind="stable"))
+    first = np.searchsorted(np.sort(of_section), np.arange(len(is_large) + 1))
     for number, box in enumerate(ndimage.find_objects(label), start=1):
         if is_large[number]:
             around = tuple(slice(max(each.start - reach, 0), each.stop + reach) for each in box)
             deck = label[around] == number
-            if _is_carried(relief.part(around), deck):
+            its_sections = sections.take(slice(first[number], first[number + 1]))
+            if _is_carried(relief.part(around), deck, its_sections):
                 decks[around] |= deck
     return _grown(relief, decks) if decks.any() else decks
 
@@ -98,15 +104,21 @@ def _joins_ground(relief: Relief) -> np.ndarray:
     return within_square(np.maximum, has_ground[label], relief.apart + 1)
 
 
-def _is_carried(relief: Relief, deck: np.ndarray) -> bool:
+def _is_carried(relief: Relief, deck: np.ndarray, sections: Sections) -> bool:
     """Return whether the ground goes on level with a deck at both of its ends.
 
     They are sought along the greatest extent of the deck and across: an underpass below a wide
-    road is a deck that is shorter than it is wide.
+    road is a deck that is shorter than it is wide. Most of the cross-sections must lie across:
+    along the uneven edge of a terrace they run with it.
     """
     row, column = np.nonzero(deck & np.isfinite(relief.heights))
     _, axes = np.linalg.eigh(np.cov(row, column))
-    return any(_has_ends(relief, row, column, *axis) for axis in axes.T)
+    for up, right in axes.T:
+        oblique = np.abs(np.sin(sections.angles - math.atan2(up, right))) >= math.sin(_OBLIQUE)
+        mostly = sections.steps[oblique].sum() >= _MOSTLY * sections.steps.sum()
+        if mostly and _has_ends(relief, row, column, up, right):
+            return True
+    return False
 
 
 def _has_ends(relief: Relief, row: np.ndarray, column: np.ndarray, up: float, right: float) -> bool:

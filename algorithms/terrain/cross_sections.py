@@ -27,7 +27,7 @@ _FILLED = 1.5
 _STEP, _STEP_SLOPE = 0.2, 0.2
 # Directions of cross-sections over a whole turn, and the longest in metres.
 _DIRECTIONS, _LONGEST = 96, 70.0
-_SHARED = 4
+_SHARED = 2
 # Along a cross-section the surface may be unknown over so many metres.
 _GAP = 3.0
 # How far in metres beyond an edge its foot may lie, and how far beyond water or another void.
@@ -135,6 +135,11 @@ class Sections(NamedTuple):
     start: np.ndarray
     direction: np.ndarray
     steps: np.ndarray
+
+    @property
+    def angles(self) -> np.ndarray:
+        """Their directions in radians, from east to north."""
+        return 2.0 * math.pi / _DIRECTIONS * self.direction
 
     def take(self, which: np.ndarray) -> Sections:
         """Return those that a mask or an index array names."""
