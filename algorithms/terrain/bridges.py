@@ -23,7 +23,7 @@ from .morphology import within_square
 _DROP, _DROP_SLOPE, _DROP_SPACING = 0.5, 1.0, 0.75
 # Where a deck is proven, it goes on for so many metres, or spacings, if it is raised by this.
 _GROWTH, _GROWTH_SPACINGS, _WEAK_RULE = 2.0, 2.5, Rule(0.25, 0.9, False)
-_LEAST_AREA, _LEAST_SPAN, _LEAST_SPACINGS = 12.0, 3.0, 2.0
+_LEAST_AREA, _LEAST_CELLS, _LEAST_SPAN, _LEAST_SPACINGS = 12.0, 4, 3.0, 2.0
 # Ground at an end must be level with the deck: metres, and metres a metre.
 _LEVEL, _LEVEL_SLOPE = 0.3, 0.06
 # Cross-sections at this angle to the deck are across, and at least this share must be.
@@ -78,18 +78,18 @@ def _decks(relief: Relief) -> np.ndarray:
         return decks
     crossed = ndimage.binary_closing(sections.cells_of(relief), square)
     label, _ = ndimage.label(crossed, square)
-    is_large = np.bincount(label.ravel()) * relief.cell**2 >= _LEAST_AREA
-    reach = math.ceil(_END / relief.cell)
+    counts = np.bincount(label.ravel())
+    is_large = (counts * relief.cell**2 >= _LEAST_AREA) & (counts >= _LEAST_CELLS)
     of_section = label.ravel()[sections.start]
     sections = sections.take(np.argsort(of_section, kind="stable"))
-    first = np.searchsorted(np.sort(of_section), np.arange(len(is_large) + 1))
+    first = np.searchsorted(np.sort(of_section), np.arange(len(counts) + 1))
     for number, box in enumerate(ndimage.find_objects(label), start=1):
         if is_large[number]:
-            around = tuple(slice(max(each.start - reach, 0), each.stop + reach) for each in box)
-            deck = label[around] == number
+            row, column = np.nonzero(label[box] == number)
+            row, column = row + box[0].start, column + box[1].start
             its_sections = sections.take(slice(first[number], first[number + 1]))
-            if _is_carried(relief.part(around), deck, its_sections):
-                decks[around] |= deck
+            if _is_carried(relief, row, column, its_sections):
+                decks[row, column] = True
     return _grown(relief, decks) if decks.any() else decks
 
 
@@ -104,14 +104,13 @@ def _joins_ground(relief: Relief) -> np.ndarray:
     return within_square(np.maximum, has_ground[label], relief.apart + 1)
 
 
-def _is_carried(relief: Relief, deck: np.ndarray, sections: Sections) -> bool:
-    """Return whether the ground goes on level with a deck at both of its ends.
+def _is_carried(relief: Relief, row: np.ndarray, column: np.ndarray, sections: Sections) -> bool:
+    """Return whether the ground goes on level with some cells at both of their ends.
 
-    They are sought along the greatest extent of the deck and across: an underpass below a wide
+    They are sought along the greatest extent of the cells and across: an underpass below a wide
     road is a deck that is shorter than it is wide. Most of the cross-sections must lie across:
     along the uneven edge of a terrace they run with it.
     """
-    row, column = np.nonzero(deck & np.isfinite(relief.heights))
     _, axes = np.linalg.eigh(np.cov(row, column))
     for up, right in axes.T:
         oblique = np.abs(np.sin(sections.angles - math.atan2(up, right))) >= math.sin(_OBLIQUE)
@@ -122,12 +121,12 @@ def _is_carried(relief: Relief, deck: np.ndarray, sections: Sections) -> bool:
 
 
 def _has_ends(relief: Relief, row: np.ndarray, column: np.ndarray, up: float, right: float) -> bool:
-    """Return whether a deck, given by its cells, has ground at both ends in a direction."""
+    """Return whether cells have ground at both ends in a direction."""
     along = relief.cell * (row * up + column * right)
     span = float(np.ptp(along)) + relief.cell
     if span < max(_LEAST_SPAN, _LEAST_SPACINGS * relief.spacing):
         return False
-    width = len(along) * relief.cell**2 / span
+    wanted = _CARRIED * len(along) * relief.cell / span
     aside = np.rint(column * up - row * right).astype(int)
     middle = (along.min() + along.max()) / 2.0
     for sign in (-1.0, 1.0):
@@ -136,7 +135,7 @@ def _has_ends(relief: Relief, row: np.ndarray, column: np.ndarray, up: float, ri
         order = order[np.append(np.diff(aside[order]) > 0, True)]
         order = order[sign * (along[order] - middle) > 0.0]
         level = _comes_to_ground(relief, row[order], column[order], sign * up, sign * right)
-        if np.count_nonzero(level) * relief.cell < _CARRIED * width:
+        if np.count_nonzero(level) < wanted:
             return False
     return True
 
@@ -145,14 +144,13 @@ def _comes_to_ground(
     relief: Relief, row: np.ndarray, column: np.ndarray, up: float, right: float
 ) -> np.ndarray:
     """Return from which cells lines in a direction come to ground without a step, and stay on."""
-    rows, columns = relief.heights.shape
     start = last = relief.heights[row, column]
     on, ground = np.ones(len(row), dtype=bool), np.zeros(len(row), dtype=np.intp)
     for step in range(1, int(_END / relief.cell) + 1):
         if not on.any():
             break
         there_row, there_column = row + round(step * up), column + round(step * right)
-        on &= (there_row >= 0) & (there_row < rows) & (there_column >= 0) & (there_column < columns)
+        on &= ~relief.is_outside(there_row, there_column)
         where = np.where(on, there_row, row), np.where(on, there_column, column)
         there = relief.heights[where]
         known = np.isfinite(there)

@@ -21,13 +21,14 @@ from .morphology import within_square
 
 # Least side of a cell in metres; half the spacing of the points where they are sparse, in steps.
 _CELL, _CELL_STEP = 1.0, 0.5
+# The spacing is rounded to steps of so many metres: one point more must not change it.
+_SPACING_STEP = 0.25
 # A cell has the height of the nearest one that has a point, up to so many spacings off.
 _FILLED = 1.5
 # A surface may rise so much from point to point (m, and m a metre) to be one.
 _STEP, _STEP_SLOPE = 0.2, 0.2
 # Directions of cross-sections over a whole turn, and the longest in metres.
 _DIRECTIONS, _LONGEST = 96, 70.0
-_SHARED = 2
 # Along a cross-section the surface may be unknown over so many metres.
 _GAP = 3.0
 # How far in metres beyond an edge its foot may lie, and how far beyond water or another void.
@@ -53,6 +54,8 @@ class Relief(NamedTuple):
         Side of a cell, and the distance between points if that is larger, in metres.
     border : int
         Cells of the border.
+    parity : int
+        0 or 1, so that a cell is even or odd wherever the grid begins.
     heights : numpy.ndarray of float32, shape (rows, columns)
         Of the lowest ground, else of the lowest point; NaN where there is none near.
     is_ground : numpy.ndarray of bool, shape (rows, columns)
@@ -62,13 +65,14 @@ class Relief(NamedTuple):
     cell: float
     spacing: float
     border: int
+    parity: int
     heights: np.ndarray
     is_ground: np.ndarray
 
     @classmethod
     def over(cls, points: Points, ground: np.ndarray) -> tuple[Relief, Cells]:
         """Return the relief of some points, of which some are ground, and their cells."""
-        apart = spacing(points)
+        apart = _SPACING_STEP * round(spacing(points) / _SPACING_STEP)
         cells = Cells.over(points, max(_CELL, _CELL_STEP * round(apart / 2.0 / _CELL_STEP)))
         lowest = np.full(cells.rows * cells.columns, np.inf)
         lower_at(lowest, cells.index, np.where(ground, points.z, np.inf))
@@ -83,7 +87,8 @@ class Relief(NamedTuple):
         apart = max(apart, cells.size)
         border = math.ceil((_FOOT + apart + _GAP) / cells.size) + 1
         heights = np.pad(heights, border, constant_values=np.nan)
-        relief = cls(cells.size, apart, border, heights, np.pad(is_ground, border))
+        parity = (cells.first_row + cells.first_column) % 2
+        relief = cls(cells.size, apart, border, parity, heights, np.pad(is_ground, border))
         return _filled(relief, _FILLED * apart / cells.size), cells
 
     @property
@@ -100,9 +105,11 @@ class Relief(NamedTuple):
         """Return a grid of the same shape without the border."""
         return grid[self.border : -self.border, self.border : -self.border]
 
-    def part(self, box: tuple[slice, slice]) -> Relief:
-        """Return a part of it, without a border of its own."""
-        return self._replace(border=0, heights=self.heights[box], is_ground=self.is_ground[box])
+    def is_outside(self, row: np.ndarray, column: np.ndarray) -> np.ndarray:
+        """Return which cells lie in the border or beyond."""
+        rows, columns = (side - self.border for side in self.heights.shape)
+        outside = (row < self.border) | (row >= rows)
+        return outside | (column < self.border) | (column >= columns)
 
 
 class Rule(NamedTuple):
@@ -178,9 +185,9 @@ def raised_sections(relief: Relief, within: Callable[[Relief], np.ndarray], rule
     compass = _Compass.of(relief)
     # Half a turn will do: it is found from one end or the other. Neighbours share the directions.
     row, column = np.divmod(start, relief.heights.shape[1])
-    turn = (row + column) % _SHARED
-    direction = (np.arange(0, _DIRECTIONS // 2, _SHARED) + turn[:, None]).ravel()
-    start = np.repeat(start, _DIRECTIONS // 2 // _SHARED)
+    odd = (row + column + relief.parity) % 2
+    direction = (np.arange(0, _DIRECTIONS // 2, 2) + odd[:, None]).ravel()
+    start = np.repeat(start, _DIRECTIONS // 4)
     lines = Sections(start, direction, np.zeros_like(direction))
     foot, off = _feet(relief, compass, compass.back(lines), rule)
     found = off > 0
