@@ -22,10 +22,10 @@ from .morphology import within_square
 # distance, to which this share of the spacing of the points is added.
 _DROP, _DROP_SLOPE, _DROP_SPACING = 0.5, 1.0, 0.75
 # Where a deck is proven, it goes on for so many metres, or spacings, if it is raised by this.
-_GROWTH, _GROWTH_SPACINGS, _WEAK_RULE = 2.0, 2.5, Rule(0.25, 0.9, False)
+_GROWTH, _GROWTH_SPACINGS, _WEAK_RULE = 4.0, 2.5, Rule(0.25, 0.9, False)
 _LEAST_AREA, _LEAST_CELLS, _LEAST_SPAN, _LEAST_SPACINGS = 12.0, 4, 3.0, 2.0
 # Ground at an end must be level with the deck: metres, and metres a metre.
-_LEVEL, _LEVEL_SLOPE = 0.3, 0.06
+_LEVEL, _LEVEL_SLOPE = 0.25, 0.03
 # Cross-sections at this angle to the deck are across, and at least this share must be.
 _OBLIQUE, _MOSTLY = math.radians(30.0), 0.5
 # So many metres of it lie within so many metres, over this share of the deck's width.
@@ -58,26 +58,32 @@ def bridge_decks(points: Points, ground: np.ndarray) -> np.ndarray:
     if not ground.any():
         return none
     relief, cells = Relief.over(points, ground)
-    decks = _decks(relief)
+    decks, crossed = _decks(relief)
     if not decks.any():
         return none
-    surface = _surface(relief, decks)
+    surface = _surface(relief, decks & crossed)
     on_deck = relief.inside(decks).ravel()[cells.index]
-    surface = relief.inside(surface).ravel()[cells.index]
+    surface = relief.inside(surface).ravel()[cells.index] + relief.level
     return on_deck & (np.abs(points.z - surface) <= _NEAR)
 
 
-def _decks(relief: Relief) -> np.ndarray:
-    """Return the cells of decks: boolean, shape (rows, columns)."""
+def _decks(relief: Relief) -> tuple[np.ndarray, np.ndarray]:
+    """Return the cells of decks, and those that cross-sections cross.
+
+    Other cells of decks are holes: cars, or what is seen through gaps.
+    """
     from scipy import ndimage
 
     decks, square = np.zeros(relief.heights.shape, dtype=bool), np.ones((3, 3))
     rule = Rule(_DROP + _DROP_SLOPE * _DROP_SPACING * relief.spacing, _DROP_SLOPE, True)
     sections = raised_sections(relief, _joins_ground, rule)
     if not len(sections.steps):
-        return decks
-    crossed = ndimage.binary_closing(sections.cells_of(relief), square)
-    label, _ = ndimage.label(crossed, square)
+        return decks, decks
+    crossed = sections.cells_of(relief)
+    # Along the uneven edge of a terrace what is raised at both ends is narrow.
+    narrowest = np.ones((relief.apart + 2, relief.apart + 2))
+    wide = ndimage.binary_opening(ndimage.binary_closing(crossed, square), narrowest)
+    label, _ = ndimage.label(wide, square)
     counts = np.bincount(label.ravel())
     is_large = (counts * relief.cell**2 >= _LEAST_AREA) & (counts >= _LEAST_CELLS)
     of_section = label.ravel()[sections.start]
@@ -90,7 +96,7 @@ def _decks(relief: Relief) -> np.ndarray:
             its_sections = sections.take(slice(first[number], first[number + 1]))
             if _is_carried(relief, row, column, its_sections):
                 decks[row, column] = True
-    return _grown(relief, decks) if decks.any() else decks
+    return _grown(relief, decks, crossed) if decks.any() else (decks, crossed)
 
 
 def _joins_ground(relief: Relief) -> np.ndarray:
@@ -161,21 +167,21 @@ def _comes_to_ground(
     return ground * relief.cell >= _GROUND
 
 
-def _surface(relief: Relief, decks: np.ndarray) -> np.ndarray:
-    """Return the heights of the decks, each cell with that of the nearest known cell of a deck."""
+def _surface(relief: Relief, known: np.ndarray) -> np.ndarray:
+    """Return the heights of the decks, for each cell that of the nearest known one."""
     from scipy import ndimage
 
-    unknown = ~decks | np.isnan(relief.heights)
+    unknown = ~known | np.isnan(relief.heights)
     nearest = ndimage.distance_transform_edt(unknown, return_distances=False, return_indices=True)
     return relief.heights[tuple(nearest)]
 
 
-def _grown(relief: Relief, decks: np.ndarray) -> np.ndarray:
-    """Return decks with what is raised beside them, up to a few metres off."""
+def _grown(relief: Relief, decks: np.ndarray, crossed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the same as `_decks` with what is raised beside the decks, up to a few metres off."""
     from scipy import ndimage
 
     reach = round(max(_GROWTH, _GROWTH_SPACINGS * relief.spacing) / relief.cell)
     near = within_square(np.maximum, decks, reach)
     weak = raised_sections(relief, lambda _: near, _WEAK_RULE).cells_of(relief) & near
     label, _ = ndimage.label(weak | decks, np.ones((3, 3)))
-    return np.isin(label, np.unique(label[decks]))
+    return np.isin(label, np.unique(label[decks])), crossed | weak

@@ -56,6 +56,8 @@ class Relief(NamedTuple):
         Cells of the border.
     parity : int
         0 or 1, so that a cell is even or odd wherever the grid begins.
+    level : float
+        What is to be added to the heights, in metres.
     heights : numpy.ndarray of float32, shape (rows, columns)
         Of the lowest ground, else of the lowest point; NaN where there is none near.
     is_ground : numpy.ndarray of bool, shape (rows, columns)
@@ -66,6 +68,7 @@ class Relief(NamedTuple):
     spacing: float
     border: int
     parity: int
+    level: float
     heights: np.ndarray
     is_ground: np.ndarray
 
@@ -82,13 +85,15 @@ class Relief(NamedTuple):
         others = others[~is_ground[cells.index[others]]]
         lower_at(lowest, cells.index[others], points.z[others])
         lowest[np.isinf(lowest)] = np.nan
-        heights = lowest.astype(np.float32).reshape(cells.shape)
+        level = float(np.floor(np.nanmin(lowest)))
+        heights = (lowest - level).astype(np.float32).reshape(cells.shape)
         is_ground = is_ground.reshape(cells.shape)
         apart = max(apart, cells.size)
         border = math.ceil((_FOOT + apart + _GAP) / cells.size) + 1
         heights = np.pad(heights, border, constant_values=np.nan)
         parity = (cells.first_row + cells.first_column) % 2
-        relief = cls(cells.size, apart, border, parity, heights, np.pad(is_ground, border))
+        is_ground = np.pad(is_ground, border)
+        relief = cls(cells.size, apart, border, parity, level, heights, is_ground)
         return _filled(relief, _FILLED * apart / cells.size), cells
 
     @property
