@@ -41,6 +41,9 @@ _TILT, _TILT_SLOPE = 0.5, 0.08
 _FEET = 0.5
 # Between this share of a drop and the rest of it no ground may lie beside the edge.
 _FACE = 0.25
+# Beyond its foot the ground must stay below this share of the drop for so many metres: else it is
+# a pit, of low outliers for one.
+_PIT, _BEYOND = 0.5, 4.0
 # Rings in which the lowest ground is compared with an edge, in cells from it.
 _RINGS = (0, 1, 2, 4)
 
@@ -89,7 +92,7 @@ class Relief(NamedTuple):
         heights = (lowest - level).astype(np.float32).reshape(cells.shape)
         is_ground = is_ground.reshape(cells.shape)
         apart = max(apart, cells.size)
-        border = math.ceil((_FOOT + apart + _GAP) / cells.size) + 1
+        border = math.ceil((_FOOT + apart + _BEYOND) / cells.size) + 2
         heights = np.pad(heights, border, constant_values=np.nan)
         parity = (cells.first_row + cells.first_column) % 2
         is_ground = np.pad(is_ground, border)
@@ -124,13 +127,13 @@ class Rule(NamedTuple):
     ----------
     drop, slope : float
         Metres, and metres a metre of distance.
-    looks_at_faces : bool
-        Whether there must be no ground between, beside the edge.
+    is_strict : bool
+        Whether there must be no ground between, beside the edge, and no rise beyond.
     """
 
     drop: float
     slope: float
-    looks_at_faces: bool
+    is_strict: bool
 
 
 class Sections(NamedTuple):
@@ -208,11 +211,11 @@ def raised_sections(relief: Relief, within: Callable[[Relief], np.ndarray], rule
     found = other_off > 0
     lower = np.minimum(heights[lines.start] - foot, heights[end] - other_foot)
     found[found] = np.abs(foot - other_foot)[found] <= _FEET * lower[found]
-    if rule.looks_at_faces:
+    if rule.is_strict:
         some = lines.take(found)
-        clear = ~_has_face(relief, compass, compass.back(some), foot[found], off[found])
+        clear = _is_clear(relief, compass, compass.back(some), foot[found], off[found])
         some = some._replace(start=end[found])
-        clear &= ~_has_face(relief, compass, some, other_foot[found], other_off[found])
+        clear &= _is_clear(relief, compass, some, other_foot[found], other_off[found])
         found[found] = clear
     return lines.take(found)
 
@@ -336,23 +339,26 @@ def _lengths(relief: Relief, compass: _Compass, lines: Sections) -> np.ndarray:
     return steps
 
 
-def _has_face(
+def _is_clear(
     relief: Relief, compass: _Compass, lines: Sections, foot: np.ndarray, off: np.ndarray
 ) -> np.ndarray:
-    """Return where ground beside an edge lies at heights between it and its foot."""
+    """Return where no ground beside an edge lies between it and its foot, which is in no pit."""
     heights, is_ground = relief.heights.ravel(), relief.is_ground.ravel()
     edge = heights[lines.start]
     drop = edge - foot
     low, high = foot + _FACE * drop, edge - _FACE * drop
-    has_face = np.zeros(len(edge), dtype=bool)
+    clear = np.ones(len(edge), dtype=bool)
     apart, columns = relief.apart, relief.heights.shape[1]
     for share in (0.25, 0.5, 0.75):
         middle = compass.at(lines, np.rint(share * off).astype(np.intp))
         for up, right in itertools.product((-apart, 0, apart), repeat=2):
             cell = middle + (up * columns + right)
             there = heights[cell]
-            has_face |= is_ground[cell] & (there > low) & (there < high)
-    return has_face
+            clear &= ~(is_ground[cell] & (there > low) & (there < high))
+    for step in range(1, round(_BEYOND / relief.cell) + 1):
+        cell = compass.at(lines, off + step)
+        clear &= ~(is_ground[cell] & (heights[cell] > edge - _PIT * drop))
+    return clear
 
 
 def _filled(relief: Relief, farthest: float) -> Relief:

@@ -91,7 +91,7 @@ def test_neither_the_order_of_the_points_nor_where_they_lie_matters():
 
 def test_ground_below_a_deck_is_not_of_it():
     points, deck = over_a_path()
-    below = np.flatnonzero(deck)[::40]
+    below = np.flatnonzero(deck)[::120]
     lower = points.z.copy()
     lower[below] = 100.0
     found = bridge_decks(Points(points.x, points.y, lower), ~deck)
