@@ -86,7 +86,7 @@ def _decks(relief: Relief) -> tuple[np.ndarray, np.ndarray]:
     label, _ = ndimage.label(wide, square)
     counts = np.bincount(label.ravel())
     is_large = (counts * relief.cell**2 >= _LEAST_AREA) & (counts >= _LEAST_CELLS)
-    of_section = label.ravel()[sections.start]
+    of_section = label.ravel()[sections.middles(relief)]
     sections = sections.take(np.argsort(of_section, kind="stable"))
     first = np.searchsorted(np.sort(of_section), np.arange(len(counts) + 1))
     for number, box in enumerate(ndimage.find_objects(label), start=1):
@@ -120,7 +120,7 @@ def _is_carried(relief: Relief, row: np.ndarray, column: np.ndarray, sections: S
     _, axes = np.linalg.eigh(np.cov(row, column))
     for up, right in axes.T:
         oblique = np.abs(np.sin(sections.angles - math.atan2(up, right))) >= math.sin(_OBLIQUE)
-        mostly = sections.steps[oblique].sum() >= _MOSTLY * sections.steps.sum()
+        mostly = sections.steps[oblique].sum() > _MOSTLY * sections.steps.sum()
         if mostly and _has_ends(relief, row, column, up, right):
             return True
     return False

@@ -160,6 +160,10 @@ class Sections(NamedTuple):
         """Return those that a mask or an index array names."""
         return Sections(*(each[which] for each in self))
 
+    def middles(self, relief: Relief) -> np.ndarray:
+        """Return the cells halfway, in the flattened grid."""
+        return _Compass.of(relief).at(self, self.steps // 2)
+
     def cells_of(self, relief: Relief) -> np.ndarray:
         """Return which cells of the grid they cross; boolean, shape (rows, columns)."""
         crossed = np.zeros(relief.heights.shape, dtype=bool)
