@@ -15,8 +15,9 @@ import math
 import numpy as np
 
 from ..points import Points
-from .cross_sections import Relief, Rule, Sections, raised_sections
+from .cross_sections import Rule, Sections, raised_sections
 from .morphology import within_square
+from .relief import Relief
 
 # At the sides of a deck the ground lies at least so much lower, and so much more for each metre of
 # distance, to which this share of the spacing of the points is added.

@@ -15,18 +15,9 @@ from typing import Callable, NamedTuple
 
 import numpy as np
 
-from ..points import Points
-from .cells import Cells, lower_at, spacing
 from .morphology import within_square
+from .relief import BORDER, STEP, STEP_SLOPE, Relief
 
-# Least side of a cell in metres; half the spacing of the points where they are sparse, in steps.
-_CELL, _CELL_STEP = 1.0, 0.5
-# The spacing is rounded to steps of so many metres: one point more must not change it.
-_SPACING_STEP = 0.25
-# A cell has the height of the nearest one that has a point, up to so many spacings off.
-_FILLED = 1.5
-# A surface may rise so much from point to point (m, and m a metre) to be one.
-_STEP, _STEP_SLOPE = 0.2, 0.2
 # Directions of cross-sections over a whole turn, and the longest in metres.
 _DIRECTIONS, _LONGEST = 96, 70.0
 # Along a cross-section the surface may be unknown over so many metres.
@@ -42,82 +33,10 @@ _FEET = 0.5
 # Between this share of a drop and the rest of it no ground may lie beside the edge.
 _FACE = 0.25
 # Beyond its foot the ground must stay below this share of the drop for so many metres: else it is
-# a pit, of low outliers for one.
-_PIT, _BEYOND = 0.5, 4.0
+# a pit, of low outliers for one. (As far as the border of the relief lets one look.)
+_PIT, _BEYOND = 0.5, BORDER - _FOOT
 # Rings in which the lowest ground is compared with an edge, in cells from it.
 _RINGS = (0, 1, 2, 4)
-
-
-class Relief(NamedTuple):
-    """Heights on a grid, with a border of unknown cells.
-
-    Attributes
-    ----------
-    cell, spacing : float
-        Side of a cell, and the distance between points if that is larger, in metres.
-    border : int
-        Cells of the border.
-    parity : int
-        0 or 1, so that a cell is even or odd wherever the grid begins.
-    level : float
-        What is to be added to the heights, in metres.
-    heights : numpy.ndarray of float32, shape (rows, columns)
-        Of the lowest ground, else of the lowest point; NaN where there is none near.
-    is_ground : numpy.ndarray of bool, shape (rows, columns)
-        Whether it is ground.
-    """
-
-    cell: float
-    spacing: float
-    border: int
-    parity: int
-    level: float
-    heights: np.ndarray
-    is_ground: np.ndarray
-
-    @classmethod
-    def over(cls, points: Points, ground: np.ndarray) -> tuple[Relief, Cells]:
-        """Return the relief of some points, of which some are ground, and their cells."""
-        apart = _SPACING_STEP * round(spacing(points) / _SPACING_STEP)
-        cells = Cells.over(points, max(_CELL, _CELL_STEP * round(apart / 2.0 / _CELL_STEP)))
-        lowest = np.full(cells.rows * cells.columns, np.inf)
-        lower_at(lowest, cells.index, np.where(ground, points.z, np.inf))
-        is_ground = np.isfinite(lowest)
-        # Of other points only where there is no ground.
-        others = np.flatnonzero(~ground)
-        others = others[~is_ground[cells.index[others]]]
-        lower_at(lowest, cells.index[others], points.z[others])
-        lowest[np.isinf(lowest)] = np.nan
-        level = float(np.floor(np.nanmin(lowest)))
-        heights = (lowest - level).astype(np.float32).reshape(cells.shape)
-        is_ground = is_ground.reshape(cells.shape)
-        apart = max(apart, cells.size)
-        border = math.ceil((_FOOT + apart + _BEYOND) / cells.size) + 2
-        heights = np.pad(heights, border, constant_values=np.nan)
-        parity = (cells.first_row + cells.first_column) % 2
-        is_ground = np.pad(is_ground, border)
-        relief = cls(cells.size, apart, border, parity, level, heights, is_ground)
-        return _filled(relief, _FILLED * apart / cells.size), cells
-
-    @property
-    def apart(self) -> int:
-        """The spacing in cells."""
-        return round(self.spacing / self.cell)
-
-    @property
-    def step(self) -> float:
-        """How much a surface may rise from point to point, in metres."""
-        return _STEP + _STEP_SLOPE * self.spacing
-
-    def inside(self, grid: np.ndarray) -> np.ndarray:
-        """Return a grid of the same shape without the border."""
-        return grid[self.border : -self.border, self.border : -self.border]
-
-    def is_outside(self, row: np.ndarray, column: np.ndarray) -> np.ndarray:
-        """Return which cells lie in the border or beyond."""
-        rows, columns = (side - self.border for side in self.heights.shape)
-        outside = (row < self.border) | (row >= rows)
-        return outside | (column < self.border) | (column >= columns)
 
 
 class Rule(NamedTuple):
@@ -334,7 +253,7 @@ def _lengths(relief: Relief, compass: _Compass, lines: Sections) -> np.ndarray:
         there = heights[compass.at(lines.take(left), step)]
         gap = (step - steps[left]) * length[left]
         rise = np.abs(there - last[left])
-        on = rise <= _STEP + _STEP_SLOPE * np.maximum(gap, relief.spacing)
+        on = rise <= STEP + STEP_SLOPE * np.maximum(gap, relief.spacing)
         last[left[on]], steps[left[on]] = there[on], step
         left = left[on | (np.isnan(rise) & (gap < _GAP))]
         wide = step * length[left] > _LONGEST
@@ -363,28 +282,3 @@ def _is_clear(
         cell = compass.at(lines, off + step)
         clear &= ~(is_ground[cell] & (heights[cell] > edge - _PIT * drop))
     return clear
-
-
-def _filled(relief: Relief, farthest: float) -> Relief:
-    """Return a relief whose unknown cells are as the nearest known one, up to so many cells off."""
-    heights, is_ground = relief.heights.ravel().copy(), relief.is_ground.ravel().copy()
-    rows, columns = relief.heights.shape
-    reach = int(farthest)
-    offsets = [
-        (math.hypot(up, right), up * columns + right)
-        for up, right in itertools.product(range(-reach, reach + 1), repeat=2)
-    ]
-    inner = np.zeros(relief.heights.shape, dtype=bool)
-    relief.inside(inner)[:] = True
-    left = np.flatnonzero(np.isnan(heights) & inner.ravel())
-    for distance, offset in sorted(offsets)[1:]:
-        if distance > farthest or not len(left):
-            break
-        there = relief.heights.ravel()[left + offset]
-        found = np.isfinite(there)
-        heights[left[found]] = there[found]
-        is_ground[left[found]] = relief.is_ground.ravel()[left[found] + offset]
-        left = left[~found]
-    return relief._replace(
-        heights=heights.reshape(rows, columns), is_ground=is_ground.reshape(rows, columns)
-    )
