@@ -123,13 +123,13 @@ def _in_memory(
     known = selection.known_ground(cloud, selected) if selection.seed_classes else None
     part = Part(cloud, selected, known, inside)
     store = CloudStore([part], survey_frame(cloud.crs), blocks, progress.part(0.1, 0.2))
-    depth = selection.low_noise_depth if selection.low_noise_class else None
-    label_ground(store, parameters, blocks, depth, resources, progress.part(0.2, 0.95))
+    part = progress.part(0.2, 0.95)
+    label_ground(store, parameters, blocks, selection.special, resources, part)
     outcome = Outcome(cloud, np.empty(cloud.count, dtype=np.uint8), cloud.frame)
     for where, some in cloud.parts():
         outcome.add(where.start, some, store.labels[0][where], inside[where], selection)
         progress(0.95 + 0.05 * where.stop / cloud.count)
-    scope.tell_of_low(outcome.area_low_count, progress)
+    scope.tell_of_special(outcome.area_low_count, outcome.area_deck_count, progress)
     return outcome, inside, selected
 
 

@@ -269,7 +269,8 @@ class _Plan:
         self._todo: list[_Needs] = []
         for number, tile in enumerate(collection.tiles, start=1):
             try:
-                check_class(tile.path, tile.point_format, survey.selection.to_class, "the ground")
+                for value, name in survey.selection.new_classes():
+                    check_class(tile.path, tile.point_format, value, name)
                 self._todo.append(self._needs(tile))
             except BareEarthError as error:
                 self.failures[tile.path] = str(error)

@@ -25,6 +25,8 @@ class Method(NamedTuple):
         ``classify(points, parameters, progress)``, a pure function that returns the ground mask.
     reach : callable
         ``reach(parameters)``, the metres beyond which a point does not matter for another.
+    classic : str
+        The preset that does just what an original does: nothing is added to it.
     takes_known_ground : bool
         Whether `classify` takes the keyword ``known_ground``, a mask of points that are surely
         ground, and starts from them.
@@ -35,7 +37,12 @@ class Method(NamedTuple):
     parameters: type[ParameterSet]
     classify: Callable[..., np.ndarray]
     reach: Callable[..., float]
+    classic: str
     takes_known_ground: bool = False
+
+    def is_classic(self, parameters: ParameterSet) -> bool:
+        """Return whether parameters ask for what an original does."""
+        return parameters.preset == self.classic
 
 
 # The most accurate one.
@@ -49,6 +56,7 @@ METHODS = {
             tin_densification.TinDensification,
             tin_densification.classify,
             tin_densification.reach,
+            "lidar360",
             takes_known_ground=True,
         ),
         Method(
@@ -57,8 +65,9 @@ METHODS = {
             grid_minimum.GridMinimum,
             grid_minimum.classify,
             grid_minimum.reach,
+            "paper",
         ),
-        Method("slope", "Slope filter", slope.SlopeFilter, slope.classify, slope.reach),
+        Method("slope", "Slope filter", slope.SlopeFilter, slope.classify, slope.reach, "whitebox"),
     )
 }
 

@@ -115,11 +115,13 @@ class Scope:
                 " another area, or other returns or classes."
             )
 
-    def tell_of_low(self, count: int, progress: Progress) -> None:
-        """Tell how many low outliers there are in the area, where they are looked for."""
+    def tell_of_special(self, low_count: int, deck_count: int, progress: Progress) -> None:
+        """Tell how many low outliers and points on bridges there are in the area."""
         if self.selection.low_noise_class:
             depth = self.selection.low_noise_depth
-            progress.info(f"{count:,} points lie more than {depth:g} m below the ground.")
+            progress.info(f"{low_count:,} points lie more than {depth:g} m below the ground.")
+        if deck_count:
+            progress.info(f"{deck_count:,} points lie on decks of bridges: they are not ground.")
 
     def _bounds(self) -> tuple[float, ...]:
         scale, offset = self._first.scale, self._first.offset

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -17,6 +18,23 @@ NEVER_CLASSIFIED, UNCLASSIFIED, GROUND = 0, 1, 2
 LOW_NOISE = 7
 NOISE = (LOW_NOISE, 18)
 _STEP = 1 << 20
+
+
+class Special(NamedTuple):
+    """What is looked for beside the ground.
+
+    Attributes
+    ----------
+    low_noise_depth : float or None
+        Points that lie so many metres below the ground are low outliers; none are looked for if it
+        is None.
+    bridges : str
+        Whether decks of bridges are: ``find``, ``keep`` (as ground), or ``automatic`` if that is
+        for the method to say.
+    """
+
+    low_noise_depth: float | None = None
+    bridges: str = "automatic"
 
 
 @dataclass(frozen=True)
@@ -90,6 +108,34 @@ class Selection(ParameterSet):
         " slopes the rise of the ground over 1 m is added. Only where low outliers are put into"
         " class 7.",
     )
+    bridges: str = parameter(
+        "automatic",
+        label="Bridges",
+        choices={
+            "automatic": "Not ground, but with a classic preset",
+            "find": "Not ground",
+            "keep": "Ground, if the method takes them for it",
+        },
+        help="What becomes of the decks of bridges. They are found by cross-sections that fall to"
+        " lower ground on both sides; ramps, dams and embankments stay ground. A classic preset"
+        " (Whitebox, LiDAR360's, the paper's) does just what the original does.",
+    )
+    bridge_class: int | None = parameter(
+        None,
+        kind="integer",
+        label="Class of bridges",
+        minimum=0,
+        maximum=255,
+        advanced=True,
+        empty="as other points",
+        help="The class that decks of bridges get; 17 in the LAS specification, which point formats"
+        " 0 to 5 hold as well. Only where bridges are not ground.",
+    )
+
+    @property
+    def special(self) -> Special:
+        """What is to be looked for beside the ground."""
+        return Special(self.low_noise_depth if self.low_noise_class else None, self.bridges)
 
     def select(
         self, cloud: PointCloud, progress: Progress, within: np.ndarray | None = None
@@ -129,7 +175,13 @@ class Selection(ParameterSet):
             If the CRS is geographic, or the points cannot hold the class.
         """
         cloud.require_projected()
-        check_class(cloud.path, cloud.point_format, self.to_class, "the ground")
+        for value, name in self.new_classes():
+            check_class(cloud.path, cloud.point_format, value, name)
+
+    def new_classes(self) -> list[tuple[int, str]]:
+        """Return the classes that the user chose for points, each with what gets it."""
+        chosen = ((self.to_class, "the ground"), (self.bridge_class, "bridges"))
+        return [(value, name) for value, name in chosen if value is not None]
 
     def choose(
         self, part: PointCloud, tally: Tally, within: np.ndarray | None = None
@@ -207,6 +259,7 @@ class Selection(ParameterSet):
         ground: np.ndarray,
         low: np.ndarray | None = None,
         inside: np.ndarray | None = None,
+        decks: np.ndarray | None = None,
     ) -> np.ndarray:
         """Return the new class of every point.
 
@@ -220,6 +273,8 @@ class Selection(ParameterSet):
             Which of the others are low outliers.
         inside : numpy.ndarray of bool, shape (n,), optional
             Points outside keep their class; all are inside where it is not given.
+        decks : numpy.ndarray of bool, shape (n,), optional
+            Which of the others lie on decks of bridges.
 
         Returns
         -------
@@ -236,6 +291,8 @@ class Selection(ParameterSet):
         np.copyto(classes, self.to_class, where=eligible & ground)
         if low is not None:
             np.copyto(classes, LOW_NOISE, where=eligible & low)
+        if decks is not None and self.bridge_class is not None:
+            np.copyto(classes, self.bridge_class, where=eligible & decks)
         return classes
 
     def _eligible(self, cloud: PointCloud, within: np.ndarray | None) -> np.ndarray:

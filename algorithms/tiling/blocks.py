@@ -33,7 +33,7 @@ _POINTS_A_PART = 1 << 15
 _LEVELS = 4
 
 # What a point is labelled; 0 where it is neither.
-GROUND, LOW = 1, 2
+GROUND, LOW, BRIDGE = 1, 2, 3
 
 Box = tuple[float, float, float, float]
 # x and y in metres.

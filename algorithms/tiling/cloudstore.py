@@ -55,7 +55,7 @@ class CloudStore:
     Attributes
     ----------
     labels : list of numpy.ndarray of uint8, shape (n,)
-        For each file `GROUND`, `LOW` (far below it) or 0 for each point.
+        For each file `GROUND`, `LOW` (far below it), `BRIDGE` or 0 for each point.
     leaves, has_known
         As `Store` says.
     """

@@ -10,17 +10,19 @@ import numpy as np
 from ..errors import BareEarthError
 from ..filters import Method, method_of
 from ..parameters import ParameterSet
+from ..pointcloud.selection import Special
 from ..progress import SILENT, Progress, Unsaid
 from ..terrain.below_ground import below_ground
+from ..terrain.bridges import bridge_decks
 from ..terrain.cells import apart
-from .blocks import LOW, Block, Blocks, Contents, Store
+from .blocks import BRIDGE, LOW, Block, Blocks, Contents, Store
 from .memory import Resources
 from .scheduling import run_jobs
 
 # Bytes that a filter takes for each point that it sees, and for each square metre of a window.
 _BYTES_A_POINT, _BYTES_A_SQUARE_METRE = 110, 100
-# The step of low outliers takes this share of the time of a block.
-_LOW_SHARE = 0.1
+# The steps of bridges and of low outliers take these shares of the time of a block.
+_BRIDGES_SHARE, _LOW_SHARE = 0.15, 0.1
 
 
 class _Labelled(NamedTuple):
@@ -40,11 +42,11 @@ def label_ground(
     store: Store,
     parameters: ParameterSet,
     blocks: Blocks,
-    low_noise_depth: float | None = None,
+    special: Special = Special(),
     resources: Resources = Resources(),
     progress: Progress = SILENT,
 ) -> None:
-    """Give every wanted point of a store its label: `GROUND`, `LOW` or 0.
+    """Give every wanted point of a store its label: `GROUND`, `LOW`, `BRIDGE` or 0.
 
     Parameters
     ----------
@@ -54,8 +56,8 @@ def label_ground(
         Those of one method.
     blocks : Blocks
         How the survey is cut; `blocks_of` says.
-    low_noise_depth : float, optional
-        Points that lie so many metres below the ground get `LOW`; none if it is not given.
+    special : Special
+        What gets `LOW`, and whether decks of bridges get `BRIDGE`.
     resources : Resources
         Threads, and the memory for the blocks.
     progress : Progress
@@ -74,7 +76,7 @@ def label_ground(
     todo = list(blocks.over(store))
     counts = [_count(blocks, each, store) for each in todo]
     at_once = _at_once(len(todo), max(counts), blocks, resources)
-    job_of = _job_maker(store, blocks, _Filter(method, parameters, low_noise_depth))
+    job_of = _job_maker(store, blocks, _Filter(method, parameters, special))
     jobs = [job_of(each, len(todo) == 1) for each in todo]
     workers = max(1, resources.thread_count // at_once)
     notes = {}
@@ -111,19 +113,20 @@ class _Filter(NamedTuple):
         The ground filter.
     parameters : ParameterSet
         Those of the method.
-    low_noise_depth : float or None
+    special : Special
         As for `label_ground`.
     """
 
     method: Method
     parameters: ParameterSet
-    low_noise_depth: float | None
+    special: Special
 
     def label(self, contents: Contents, progress: Progress) -> np.ndarray:
         """Return the label of each point."""
-        depth, method = self.low_noise_depth, self.method
+        depth, method = self.special.low_noise_depth, self.method
         end = 1.0 if depth is None else 1.0 - _LOW_SHARE
-        part = progress.part(0.0, end)
+        finds_bridges = self._finds_bridges
+        part = progress.part(0.0, end - _BRIDGES_SHARE if finds_bridges else end)
         points, known = contents.points, contents.known
         if known.any() and method.takes_known_ground:
             ground = method.classify(points, self.parameters, part, known_ground=known)
@@ -131,9 +134,22 @@ class _Filter(NamedTuple):
             ground = method.classify(points, self.parameters, part)
         ground |= known
         labels = ground.astype(np.uint8)
+        if finds_bridges:
+            decks = bridge_decks(points, ground) & ~known
+            labels[decks] = BRIDGE
+            ground &= ~decks
+            progress(end)
         if depth is not None:
-            labels[below_ground(points, ground, depth, progress.part(end, 1.0))] = LOW
+            low = below_ground(points, ground, depth, progress.part(end, 1.0))
+            labels[low & (labels == 0)] = LOW
         return labels
+
+    @property
+    def _finds_bridges(self) -> bool:
+        wanted = self.special.bridges
+        return wanted == "find" or (
+            wanted == "automatic" and not self.method.is_classic(self.parameters)
+        )
 
 
 def _job_maker(

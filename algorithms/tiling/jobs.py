@@ -22,7 +22,7 @@ from ..pointcloud.window import read_window
 from ..pointcloud.writing import layers_kept, write_changed
 from ..progress import Progress, Unsaid
 from ..threads import may_use
-from .blocks import GROUND, LOW
+from .blocks import BRIDGE, GROUND, LOW
 from .cloudstore import CloudStore, Part
 from .ground import label_ground
 from .memory import GIGABYTE, Resources
@@ -107,11 +107,12 @@ class LabelJob(NamedTuple):
         labels, failure = [np.zeros(part.cloud.count, np.uint8) for part in parts], ""
         if any(part.wanted.any() and part.selected.any() for part in parts):
             store = CloudStore(parts, survey.frame, survey.blocks, progress.part(0.3, 0.35))
-            selection = survey.selection
-            depth = selection.low_noise_depth if selection.low_noise_class else None
             rest = progress.part(0.35, 0.95)
             try:
-                label_ground(store, survey.parameters, survey.blocks, depth, share.resources, rest)
+                label_ground(
+                    store, survey.parameters, survey.blocks, survey.selection.special,
+                    share.resources, rest,
+                )  # fmt: skip
                 labels = store.labels
             except BareEarthError as error:
                 failure = str(error)
@@ -222,7 +223,8 @@ class TileJob(NamedTuple):
             end = start + part.count
             if end > len(classes):
                 raise kept.changed()
-            classes[start:end] = selection.classes(part, labels == GROUND, labels == LOW)
+            low, decks = labels == LOW, labels == BRIDGE
+            classes[start:end] = selection.classes(part, labels == GROUND, low, decks=decks)
             start = end
         selection.tell(tally, path, progress)
         kept.check()

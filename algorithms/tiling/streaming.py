@@ -16,7 +16,7 @@ from ..pointcloud.selection import Selection, count_classes
 from ..points import Frame, Points
 from ..progress import SILENT, Progress, Unsaid
 from ..terrain.model import TerrainModel, vertices_of
-from .blocks import GROUND, LOW
+from .blocks import BRIDGE, GROUND, LOW
 from .ground import blocks_of, label_ground
 from .memory import GIGABYTE, Resources
 from .spill import Spill
@@ -47,6 +47,8 @@ class Outcome:
         Points of the class of the ground in the area.
     area_low_count : int
         Points in the area that are labelled as low outliers.
+    area_deck_count : int
+        Points in the area that are labelled as decks of bridges.
     ground : Points or None
         The points of the class of the ground that a terrain model needs, if it is wanted.
     frame : Frame
@@ -59,6 +61,7 @@ class Outcome:
     class_counts: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
     area_ground_count: int = 0
     area_low_count: int = 0
+    area_deck_count: int = 0
     ground: Points | None = None
 
     def add(
@@ -89,13 +92,14 @@ class Outcome:
         numpy.ndarray of bool, shape (k,)
             Which have the class of the ground now.
         """
-        low = labels == LOW
-        classes = selection.classes(part, labels == GROUND, low, inside)
+        low, decks = labels == LOW, labels == BRIDGE
+        classes = selection.classes(part, labels == GROUND, low, inside, decks)
         is_ground = classes == selection.to_class
         self.classification[start : start + part.count] = classes
         self.class_counts += count_classes(classes)
         self.area_ground_count += int(np.count_nonzero(is_ground & inside))
         self.area_low_count += int(np.count_nonzero(low & inside))
+        self.area_deck_count += int(np.count_nonzero(decks & inside))
         return is_ground
 
 
@@ -165,9 +169,8 @@ def classify_parts(
         frame = spill.finish(scope.lowest)
         if terrain is not None:
             _check_terrain(spill, terrain, resources)
-        depth = selection.low_noise_depth if selection.low_noise_class else None
-        fewer = _for_blocks(resources)
-        label_ground(spill, parameters, blocks, depth, fewer, progress.part(0.3, 0.8))
+        fewer, special = _for_blocks(resources), selection.special
+        label_ground(spill, parameters, blocks, special, fewer, progress.part(0.3, 0.8))
         classification = np.empty(scope.tally.points, dtype=np.uint8)
         outcome = Outcome(spill.cloud, classification, frame)
         thinned = None if terrain is None else _Thinned(terrain, frame)
@@ -180,7 +183,7 @@ def classify_parts(
                 thinned.add(part, is_ground)
             start += part.count
             taken += int(np.count_nonzero(selected))
-        scope.tell_of_low(outcome.area_low_count, progress)
+        scope.tell_of_special(outcome.area_low_count, outcome.area_deck_count, progress)
     if thinned is not None:
         outcome.ground = thinned.points()
     return outcome

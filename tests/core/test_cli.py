@@ -21,7 +21,7 @@ EAST, NORTH = 500_000.0, 5_700_000.0
 OTHER_VALUES = {
     "boolean": lambda each: (not each.default, None),
     "choice": lambda each: next((key, key) for key in each.choices if key != each.default),
-    "integer": lambda each: (each.default + 3, str(each.default + 3)),
+    "integer": lambda each: ((each.default or 14) + 3, str((each.default or 14) + 3)),
     "number": lambda each: ((each.default or 2.0) * 0.75, str((each.default or 2.0) * 0.75)),
     "integers": lambda each: ((1, 5), "1 5"),
     "numbers": lambda each: ((4.0, 1.5), "4 1.5"),

@@ -32,7 +32,7 @@ from bare_earth.algorithms.progress import SILENT, Progress
 from bare_earth.algorithms.tiles import classify_tiles
 from bare_earth.algorithms.tiling import jobs as jobs_module
 from bare_earth.algorithms.tiling import workers as workers_module
-from bare_earth.algorithms.tiling.blocks import GROUND, LOW, Blocks
+from bare_earth.algorithms.tiling.blocks import BRIDGE, GROUND, LOW, Blocks
 from bare_earth.algorithms.tiling.cloudstore import CloudStore, Part
 from bare_earth.algorithms.tiling.ground import label_ground
 from bare_earth.algorithms.tiling.memory import Resources
@@ -74,14 +74,13 @@ def whole_classes(path, parameters, selection=Selection(), blocks=BLOCKS):
         survey_frame(cloud.crs),
         blocks,
     )
-    depth = selection.low_noise_depth if selection.low_noise_class else None
-    label_ground(store, parameters, blocks, depth)
+    label_ground(store, parameters, blocks, selection.special)
     labels = store.labels[0]
-    low = labels == LOW if depth is not None else None
     rows = points_of([path])
     unsorted = np.column_stack((cloud.x, cloud.y, cloud.z)).astype(np.int64)
     shift = np.round((np.array(cloud.offset) - (500_000.0, 5_700_000.0, 0.0)) / cloud.scale)
-    classes = selection.classes(cloud, labels == GROUND, low)
+    low, decks = labels == LOW, labels == BRIDGE
+    classes = selection.classes(cloud, labels == GROUND, low, decks=decks)
     found = np.column_stack((unsorted + shift.astype(np.int64), classes))
     found = found[np.lexsort(found.T[::-1])]
     assert np.array_equal(found[:, :3], rows[:, :3])

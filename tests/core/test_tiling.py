@@ -16,6 +16,7 @@ from bare_earth.algorithms.filters.tin_densification import TinDensification
 from bare_earth.algorithms.pointcloud.cloud import PointCloud, survey_frame
 from bare_earth.algorithms.pointcloud.crs import Crs
 from bare_earth.algorithms.pointcloud.reading import read_cloud
+from bare_earth.algorithms.pointcloud.selection import Special
 from bare_earth.algorithms.progress import SILENT, Progress
 from bare_earth.algorithms.threads import workers
 from bare_earth.algorithms.tiling import ground as ground_module
@@ -62,7 +63,7 @@ def survey(count=30_000, width=300.0, depth=130.0, seed=3):
 def labels_of(parts, parameters, blocks, threads=1, depth=1.0, known=None, progress=SILENT):
     frame = survey_frame(parts[0].crs)
     store = CloudStore([Part(each, np.ones(each.count, bool)) for each in parts], frame, blocks)
-    label_ground(store, parameters, blocks, depth, Resources(threads=threads), progress)
+    label_ground(store, parameters, blocks, Special(depth), Resources(threads=threads), progress)
     return store.labels
 
 

@@ -1,0 +1,240 @@
+"""Decks of bridges are found, whatever a filter made of them; what only looks like one stays."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from realdata import real
+from scenes import scatter, surveyed
+
+from bare_earth.algorithms.classification import classify
+from bare_earth.algorithms.errors import BareEarthError
+from bare_earth.algorithms.filters.grid_minimum import GridMinimum
+from bare_earth.algorithms.filters.slope import SlopeFilter
+from bare_earth.algorithms.filters.tin_densification import TinDensification
+from bare_earth.algorithms.pointcloud.cloud import PointCloud
+from bare_earth.algorithms.pointcloud.crs import Crs
+from bare_earth.algorithms.pointcloud.reading import read_cloud
+from bare_earth.algorithms.pointcloud.selection import Selection
+from bare_earth.algorithms.points import Points
+from bare_earth.algorithms.terrain.bridges import bridge_decks
+
+SIZE = 120.0
+
+
+def turned(angle, density=3.0, seed=0):
+    """Return places, and how far they lie across and along an axis through the middle."""
+    x, y = scatter(SIZE, density, seed)
+    angle = np.radians(angle)
+    east, north = x - SIZE / 2, y - SIZE / 2
+    across = east * np.cos(angle) + north * np.sin(angle)
+    return x, y, across, north * np.cos(angle) - east * np.sin(angle)
+
+
+def over_a_river(angle=20.0, density=3.0, width=8.0, has_water=True):
+    """Return a valley with a bridge over it, its deck, and which points there would be."""
+    x, y, across, along = turned(angle, density)
+    z = 100.0 - np.clip((20.0 - np.abs(along)) * 0.7, 0.0, 6.0)
+    deck = (np.abs(across) < width / 2) & (np.abs(along) < 20.0)
+    z[deck] = 100.2
+    seen = deck | (np.abs(along) > 9.0) | has_water
+    return Points(x, y, surveyed(x, y, z)).take(seen), deck[seen]
+
+
+def over_a_path(angle=20.0, density=3.0, width=30.0):
+    """Return an embankment with a path below it, and the deck: shorter than it is wide."""
+    x, y, across, along = turned(angle, density)
+    z = 100.0 + np.clip((width / 2 + 9.0 - np.abs(along)) * 0.67, 0.0, 6.0)
+    passage = np.abs(across) < 4.0
+    deck = passage & (np.abs(along) < width / 2)
+    z[passage] = 100.0
+    z[deck] = 106.0
+    return Points(x, y, surveyed(x, y, z)), deck
+
+
+# What is found
+
+SCENES = {
+    "river": over_a_river(),
+    "river without echo": over_a_river(has_water=False),
+    "along the axes": over_a_river(0.0),
+    "few points": over_a_river(70.0, 0.6),
+    "many points": over_a_river(45.0, 12.0),
+    "underpass": over_a_path(),
+    "underpass, few points": over_a_path(65.0, 0.6),
+}
+
+
+@pytest.mark.parametrize("kept", [1.0, 0.5, 0.0], ids=["all", "half", "nothing"])
+@pytest.mark.parametrize("name", SCENES)
+def test_a_deck_is_found_whatever_of_it_a_filter_took_for_ground(name, kept):
+    points, deck = SCENES[name]
+    ground = ~deck
+    # Filters keep the ends and lose the middle.
+    off = np.hypot(points.x - SIZE / 2, points.y - SIZE / 2)
+    ground |= deck & (off >= np.quantile(off[deck], 1.0 - kept))
+    found = bridge_decks(points, ground)
+    assert found[deck].mean() > 0.75
+    assert np.count_nonzero(found & ~deck) < 0.006 * points.count
+
+
+def test_neither_the_order_of_the_points_nor_where_they_lie_matters():
+    points, deck = over_a_river()
+    ground = np.ones(points.count, bool)
+    found = bridge_decks(points, ground)
+    order = np.random.default_rng(2).permutation(points.count)
+    assert np.array_equal(bridge_decks(points.take(order), ground), found[order])
+    moved = Points(points.x + 36.0, points.y - 14.0, points.z + 250.0)
+    assert np.array_equal(bridge_decks(moved, ground), found)
+    assert found[deck].mean() > 0.75
+
+
+def test_ground_below_a_deck_is_not_of_it():
+    points, deck = over_a_path()
+    below = np.flatnonzero(deck)[::120]
+    lower = points.z.copy()
+    lower[below] = 100.0
+    found = bridge_decks(Points(points.x, points.y, lower), ~deck)
+    assert not found[below].any()
+    assert found[deck].mean() > 0.7
+
+
+# What is left alone
+
+
+def embankment(slope=0.67):
+    x, y, _, along = turned(15.0)
+    return x, y, 100.0 + np.clip((5.0 + 6.0 / slope - np.abs(along)) * slope, 0.0, 6.0)
+
+
+def dam():
+    x, y, across, along = turned(10.0)
+    z = 100.0 - np.clip((25.0 - np.abs(along)) * 0.6, 0.0, 10.0)
+    wall = np.where(across > -3.0, 100.0 - np.clip(across - 3.0, 0.0, None) * 1.2, 97.0)
+    return x, y, np.maximum(z, wall)
+
+
+def terraces():
+    x, y, _, along = turned(12.0)
+    return x, y, 100.0 + 4.0 * np.floor(along / 15.0)
+
+
+def ramp():
+    x, y, across, along = turned(15.0)
+    z = np.where(along > 30.0, 105.0, 100.0)
+    on = (np.abs(across) < 4.0) & (along > -20.0) & (along <= 30.0)
+    return x, y, np.where(on, 105.0 - (30.0 - along) * 0.1, z)
+
+
+def ridge():
+    x, y, across, _ = turned(25.0)
+    return x, y, 120.0 - np.minimum(np.abs(across), 20.0)
+
+
+def hall(slope=0.0):
+    x, y, across, along = turned(10.0)
+    on = (np.abs(across) < 15.0) & (np.abs(along) < 25.0)
+    return x, y, np.where(on, 107.0, 100.0 + slope * (x - SIZE / 2))
+
+
+def jetty():
+    x, y, across, along = turned(0.0)
+    on = (along > 0.0) | ((np.abs(across) < 4.0) & (along > -40.0))
+    return x, y, np.where(on, 103.0, 100.0)
+
+
+LAND = {
+    "embankment": embankment(),
+    "steep embankment": embankment(1.0),
+    "dam": dam(),
+    "terraces": terraces(),
+    "ramp": ramp(),
+    "ridge": ridge(),
+    "hall": hall(),
+    "hall on a slope": hall(0.15),
+    "jetty": jetty(),
+}
+
+
+@pytest.mark.parametrize("name", LAND)
+def test_what_is_no_bridge_stays_ground(name):
+    x, y, z = LAND[name]
+    points = Points(x, y, surveyed(x, y, z))
+    assert not bridge_decks(points, np.ones(points.count, bool)).any()
+
+
+def test_without_ground_there_is_no_bridge():
+    points, _ = over_a_river()
+    assert not bridge_decks(points, np.zeros(points.count, bool)).any()
+
+
+# What becomes of them
+
+
+def cloud_of(points, classes=1, point_format=6):
+    ones = np.ones(points.count, np.uint8)
+    return PointCloud(
+        Path("in.las"), *(np.round(each * 100).astype(np.int32) for each in points), (0.01,) * 3,
+        (0.0,) * 3, classes * ones, ones, ones, np.zeros(points.count, bool), point_format, Crs(),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("parameters", [TinDensification(), GridMinimum(), SlopeFilter()])
+def test_a_bridge_is_other_or_of_the_class_that_is_wanted(parameters, las):
+    points, deck = SCENES["underpass"]
+    cloud, heard = cloud_of(points), las.Heard()
+    kept, _ = classify(cloud, parameters, Selection(bridges="keep"))
+    other, _ = classify(cloud, parameters, progress=heard)
+    marked, _ = classify(cloud, parameters, Selection(bridge_class=17))
+    assert np.mean(kept[deck] == 2) > 0.5
+    assert np.mean(other[deck] == 2) < 0.15
+    assert set(np.unique(other)) == {1, 2}
+    assert np.array_equal(marked == 2, other == 2)
+    assert np.mean(marked[deck] == 17) > 0.75
+    assert np.mean(marked[~deck] == 17) < 0.006
+    found = np.count_nonzero(marked == 17)
+    assert f"{found:,} points lie on decks of bridges: they are not ground." in heard.infos
+
+
+@pytest.mark.parametrize(
+    "parameters",
+    [TinDensification(preset="lidar360"), GridMinimum(preset="paper"), SlopeFilter("whitebox")],
+)
+def test_a_classic_preset_knows_no_bridges_unless_told_to_find_them(parameters):
+    points, deck = SCENES["underpass"]
+    cloud = cloud_of(points)
+    kept, usual, found = (
+        classify(cloud, parameters, selection)[0] == 2
+        for selection in (Selection(bridges="keep"), Selection(), Selection(bridges="find"))
+    )
+    assert np.array_equal(usual, kept)
+    assert np.count_nonzero(found & deck) < 0.3 * np.count_nonzero(kept & deck)
+
+
+def test_known_ground_and_low_outliers_stay_what_they_are():
+    points, deck = SCENES["underpass"]
+    low = np.flatnonzero(~deck)[::2000]
+    z = points.z.copy()
+    z[low] -= 20.0
+    classes = np.where(deck, 8, 1).astype(np.uint8)
+    cloud = cloud_of(Points(points.x, points.y, z), classes)
+    selection = Selection(seed_classes=(8,), low_noise_class=True, bridge_class=17)
+    found, _ = classify(cloud, TinDensification(), selection)
+    assert (found[deck] == 2).all()
+    assert (found[low] == 7).all()
+
+
+def test_a_class_that_the_points_cannot_hold_is_refused():
+    points, _ = SCENES["underpass"]
+    with pytest.raises(BareEarthError, match="bridges"):
+        classify(cloud_of(points, point_format=0), SlopeFilter(), Selection(bridge_class=64))
+
+
+@pytest.mark.parametrize("parameters", [TinDensification(), GridMinimum(), SlopeFilter()])
+def test_the_bridges_of_a_real_survey_are_not_ground(parameters):
+    cloud = read_cloud(real("real/ign_bridge.laz"))
+    deck, ground = cloud.classification == 17, cloud.classification == 2
+    cloud.classification[:] = 0
+    found, _ = classify(cloud, parameters, Selection(bridge_class=17))
+    assert np.mean(found[deck] == 2) <= 0.25
+    assert np.count_nonzero(found[ground] == 17) < 20
