@@ -22,6 +22,7 @@ from ..points import Points
 from ..progress import SILENT, Progress
 from ..terrain.cells import Cells
 from ..terrain.densification import DensificationRules, densified, with_lower
+from ..terrain.breaks import at_breaks
 from ..terrain.gradient import steepness
 from ..terrain.ground_cells import ground_cells
 from ..terrain.inpaint import inpaint
@@ -269,15 +270,27 @@ def classify(
     resolved = parameters._resolved(survey)
     if resolved != parameters:
         progress.info(_in_words(resolved))
-    cells, heights = survey.cells, survey.heights
-    objects = survey.objects(resolved.max_building_size, progress.part(0.1, 0.25))
-    radius = resolved.max_building_size / 2.0
-    part = progress.part(0.25, 0.7)
-    ground = ground_cells(heights, _CELL, objects, radius, progress=part, first=cells.first)
-    seeds = ground.ravel()[survey.cell]
-    first = survey.lowest[seeds]
-    waiting = survey.lowest[~seeds & np.isfinite(heights).ravel()[survey.cell]]
-    heights = np.where(ground, heights, np.nan)
+    cells = survey.cells
+    which, seeds, free = _seeds(survey, resolved)
+    if MODE:
+        moved = points._replace(x=points.x + 0.5 * _CELL, y=points.y + 0.5 * _CELL)
+        other = _seeds(LowestPoints(moved, _CELL), resolved)
+        state = np.zeros((2, points.count), dtype=np.int8)
+        for k, (w, s, f) in enumerate(((which, seeds, free), other)):
+            state[k, w] = 1 + s.astype(np.int8) + 0  # 1 candidate, 2 seed
+            state[k, w[~f & ~s]] = 3  # object or outlier
+        which = np.flatnonzero(state.any(axis=0))
+        a, b = state[:, which]
+        if MODE == 1:
+            seeds = (a == 2) | (b == 2)
+        elif MODE in (2, 3, 5):
+            seeds = ((a == 2) & ((b == 2) | (b == 0))) | ((b == 2) & (a == 0))
+        free = ~((a == 3) | (b == 3)) if MODE == 2 else ((a == 1) | (b == 1) | (a == 2) | (b == 2))
+        if MODE == 5:
+            free = ((a == 1) | (a == 2)) & ((b == 1) | (b == 2)) | (a == 2) | (b == 2)
+    seeds = at_breaks(points, which, seeds, free, survey.spacing, cells)
+    first, waiting = which[seeds], which[~seeds & free]
+    heights = with_lower(np.full(cells.shape, np.nan), cells, points, first)
     if known_ground is not None and known_ground.any():
         known = _lowest_of(points, np.flatnonzero(known_ground))
         first, heights = np.append(first, known), with_lower(heights, cells, points, known)
@@ -287,10 +300,24 @@ def classify(
             " the selection of points."
         )
     rules, part = _rules(resolved), progress.part(0.7, 0.8)
-    vertices = densified(points, first, waiting, heights, cells, survey.spacing, rules, part)
-    limits = _limits(inpaint(vertices, first=cells.first), resolved)
+    joined = densified(points, first, waiting, heights, cells, survey.spacing, rules, part)
+    from ..terrain.final import final_limits
+    limits = final_limits(points, np.append(first, joined), cells, survey.spacing, resolved)
     found = near_surface(points, cells, limits, progress.part(0.8, 0.95))
     return _key_points(points, found, resolved, progress.part(0.95, 1.0))
+
+
+MODE = 3
+
+
+def _seeds(survey: LowestPoints, resolved: TinDensification):
+    heights = survey.heights
+    objects = survey.objects(resolved.max_building_size, SILENT)
+    radius = resolved.max_building_size / 2.0
+    ground = ground_cells(heights, _CELL, objects, radius, first=survey.cells.first)
+    seeds = ground.ravel()[survey.cell]
+    free = np.isfinite(heights).ravel()[survey.cell] & ~objects.ravel()[survey.cell]
+    return survey.lowest, seeds, free
 
 
 def _in_words(parameters: TinDensification) -> str:

@@ -110,7 +110,7 @@ def densified(
     reach = math.ceil(max(spacing / cells.size, 1.0))
     survey = _Survey(points, cells, _ring(cells, surface), reach)
     joined = _joined(survey, first, waiting, rules, progress.part(0.1, 1.0))
-    return with_lower(heights, cells, points, joined)
+    return joined
 
 
 def with_lower(heights: np.ndarray, cells: Cells, points: Points, which: np.ndarray) -> np.ndarray:

@@ -21,14 +21,18 @@ import numpy as np
 
 from ..progress import SILENT, Progress
 from .inpaint import First, inpaint
-from .morphology import in_steps, opening
+from .morphology import in_steps, opening, within_square
 
 # A first, strict opening (rise over run) gives the surface from which the terrain's slope is taken.
 _FIRST_SLOPE = 0.12
+_TOGETHER = 4
 # Metres over which that slope is smoothed, and the most of it that counts.
 _SLOPE_SMOOTHING, _LARGEST_SLOPE = 5.0, 0.6
 # Metres over which the surface is smoothed to tell a step from the terrain's own rise.
 _TREND_SMOOTHING = 2.0
+
+
+OPT = dict(share=0.3, wide=500.0, wide_share=0.12, passes=4, rise=1.0, run=0.4, rescue_objects=False)
 
 
 @dataclass(frozen=True)
@@ -97,7 +101,14 @@ def ground_cells(
     """
     known = np.isfinite(heights)
     filled = inpaint(heights, first=first).astype(np.float32)
-    strict, limit = _standing_out(filled, size, largest_window, allowance, progress.part(0.0, 0.7))
+    # Cells are taken together in fours, wherever the grid starts.
+    lead = tuple((each % _TOGETHER, 0) for each in first)
+    part = progress.part(0.0, 0.7)
+    padded = np.pad(filled, lead, mode="edge")
+    strict, limit = (
+        each[lead[0][0] :, lead[1][0] :].copy()
+        for each in _standing_out(padded, size, largest_window, allowance, part)
+    )
     surface = inpaint(np.where(known & ~strict & ~objects, heights, np.nan), first=first)
     smooth, which = _smooth(surface, size, _SLOPE_SMOOTHING), np.flatnonzero(limit > 0.0)
     slope = np.hypot(*(_slope_at(smooth, axis, which, size) for axis in (0, 1)))
@@ -106,7 +117,7 @@ def ground_cells(
     progress(0.8)
     surface = inpaint(np.where(known & ~raised, heights, np.nan), first=first)
     progress(0.85)
-    raised &= objects | ~_gentle_regions(filled, raised, surface, size, allowance)
+    raised &= (objects & ~np.array(OPT['rescue_objects'])) | ~_gentle_regions(filled, known, raised, surface, size, allowance)
     progress(1.0)
     return known & ~raised
 
@@ -123,26 +134,56 @@ def _standing_out(
     limit : numpy.ndarray of float32, shape (rows, columns)
         The terrain's slope (rise over run) below which a cell stands out by the allowance.
     """
-    first = np.zeros(filled.size, dtype=bool)
-    limit = np.full(filled.size, -np.inf, dtype=np.float32)
-    last, step = in_steps(filled)
-    largest = max(round(largest_window / size), 1)
-    for radius in range(1, largest + 1):
-        opened = opening(last, radius)
+    first = np.zeros(filled.shape, dtype=bool)
+    limit = np.full(filled.shape, -np.inf, dtype=np.float32)
+    steps, step = in_steps(filled)
+    radii = _radii(largest_window / size)
+    last, zoom = steps, 1
+    for done, (radius, coarse) in enumerate(radii, start=1):
+        if coarse != zoom:
+            last, zoom = _lowest_of_blocks(last, coarse // zoom), coarse
+        opened = opening(last, radius / zoom)
         last -= opened
         # As unsigned numbers, differences do not overflow.
-        cut, last = last.view(np.uint16).ravel(), opened
+        cut, last = last.view(np.uint16).astype(np.int32), opened
         metres = radius * size
         level = allowance.base + allowance.per_radius * metres
+        if zoom > 1:
+            # What is cut off a block tells of its neighbours as well, whose lowest cell may lie
+            # beside the object.
+            most = _finer(within_square(np.maximum, cut, 1), zoom, filled.shape)
+            own = steps.astype(np.int32) - _finer(opened, zoom, filled.shape)
+            cut = np.clip(own, 0, most)
+        cut = cut.ravel()
         # Most cells lose too little to stand out on any slope.
         which = np.flatnonzero(cut > int(min(_FIRST_SLOPE * metres, level) / step))
         lost = cut[which] * np.float32(step)
-        first[which[lost > _FIRST_SLOPE * metres]] = True
+        first.ravel()[which[lost > _FIRST_SLOPE * metres]] = True
         slope = (lost - np.float32(level)) / np.float32(max(allowance.per_slope * metres, 1e-6))
         slope[lost > allowance.largest] = np.inf
-        limit[which] = np.maximum(limit[which], slope)
-        progress(radius / largest)
-    return first.reshape(filled.shape), limit.reshape(filled.shape)
+        limit.ravel()[which] = np.maximum(limit.ravel()[which], slope)
+        progress(done / len(radii))
+    return first, limit
+
+
+def _radii(largest: float) -> list[tuple[int, int]]:
+    """Return radii in cells that grow by a tenth or so, and how many cells are taken together."""
+    radii = []
+    for zoom, first, last in ((1, 1, 24), (2, 26, 48), (4, 52, 10_000)):
+        radii += [(r, zoom) for r in range(first, min(last, max(round(largest), 1)) + 1, zoom)]
+    return radii
+
+
+def _lowest_of_blocks(grid: np.ndarray, width: int) -> np.ndarray:
+    rows, columns = grid.shape
+    padded = np.pad(grid, ((0, -rows % width), (0, -columns % width)), mode="edge")
+    rows = np.minimum.reduce([padded[k::width] for k in range(width)])
+    return np.minimum.reduce([rows[:, k::width] for k in range(width)])
+
+
+def _finer(grid: np.ndarray, zoom: int, shape: tuple[int, int]) -> np.ndarray:
+    fine = np.repeat(np.repeat(grid, zoom, axis=0), zoom, axis=1)
+    return fine[: shape[0], : shape[1]].astype(np.int32)
 
 
 def _smooth(surface: np.ndarray, size: float, smoothing: float) -> np.ndarray:
@@ -180,7 +221,7 @@ def _slope_at(surface: np.ndarray, axis: int, cells: np.ndarray, size: float) ->
 
 
 def _gentle_regions(
-    filled: np.ndarray, raised: np.ndarray, surface: np.ndarray, size: float, allowance: Allowance
+    filled: np.ndarray, known: np.ndarray, raised: np.ndarray, surface: np.ndarray, size: float, allowance: Allowance
 ) -> np.ndarray:
     """Return the raised cells whose region passes into the ground without an edge.
 
@@ -191,7 +232,7 @@ def _gentle_regions(
     from scipy.sparse.csgraph import connected_components
 
     smooth = _smooth(surface, size, _TREND_SMOOTHING)
-    sides = [_steps(filled, raised, smooth, axis, size, allowance) for axis in (0, 1)]
+    sides = [_steps(filled, known, raised, smooth, axis, size, allowance) for axis in (0, 1)]
     one, other, sign = (np.concatenate(each) for each in zip(*sides))
     up = raised.ravel()
     cells = np.flatnonzero(up)
@@ -201,15 +242,31 @@ def _gentle_regions(
     pairs = (region[one[inside]], region[other[inside]])
     graph = coo_matrix((np.ones(len(pairs[0]), dtype=bool), pairs), shape=(len(cells),) * 2)
     count, region[cells] = connected_components(graph, directed=False)
-    gentle, sharp = np.zeros(count), np.zeros(count)
-    for from_, to, drop in ((one, other, sign == -1), (other, one, sign == 1)):
-        at_ground = up[from_] & ~up[to] & (sign == 0)
-        gentle += np.bincount(region[from_[at_ground]], minlength=count)
-        at_drop = up[from_] & drop & (region[from_] != region[to])
-        sharp += np.bincount(region[from_[at_drop]], minlength=count)
     area = np.bincount(region[cells], minlength=count) * size**2
-    is_terrain = (gentle > 0) & (gentle >= allowance.gentle_share * (gentle + sharp))
-    is_terrain &= area >= allowance.gentle_area
+    share = np.where(area >= OPT["wide"], OPT["wide_share"], OPT["share"])
+    is_terrain = np.zeros(count, dtype=bool)
+    pairs = []
+    for from_, to, drop, rise in (
+        (one, other, sign == -1, sign == 1),
+        (other, one, sign == 1, sign == -1),
+    ):
+        differ = up[from_] & (region[from_] != region[to])
+        pairs.append(tuple(
+            (region[from_[differ & each]], region[to[differ & each]])
+            for each in (sign == 0, drop, rise)
+        ))
+    for _ in range(OPT["passes"]):
+        ground = np.append(is_terrain, True)  # the last: what is not raised
+        gentle, sharp, rises = np.zeros(count), np.zeros(count), np.zeros(count)
+        for level, drop, rise in pairs:
+            gentle += np.bincount(level[0][ground[level[1]]], minlength=count)
+            sharp += np.bincount(drop[0], minlength=count)
+            rises += np.bincount(rise[0][ground[rise[1]]], minlength=count)
+        gentle += OPT["rise"] * rises
+        new = (gentle > 0) & (gentle >= share * (gentle + sharp)) & (area >= allowance.gentle_area)
+        if not (new & ~is_terrain).any():
+            break
+        is_terrain |= new
     result = np.zeros(up.size, dtype=bool)
     result[cells] = is_terrain[region[cells]]
     return result.reshape(raised.shape)
@@ -217,6 +274,7 @@ def _gentle_regions(
 
 def _steps(
     filled: np.ndarray,
+    known: np.ndarray,
     raised: np.ndarray,
     smooth: np.ndarray,
     axis: int,
@@ -242,4 +300,24 @@ def _steps(
     rise = filled.ravel()[other] - filled.ravel()[one] - trend
     allowed = allowance.gentle_step + np.abs(trend)
     sign = (rise > allowed).astype(np.int8) - (rise < -allowed).astype(np.int8)
+    if OPT["run"]:
+        stepped = np.flatnonzero(sign)
+        sign[stepped[_on_slope(filled, known, one[stepped], axis)]] = 0
     return one, other, sign
+
+
+def _on_slope(filled: np.ndarray, known: np.ndarray, one: np.ndarray, axis: int) -> np.ndarray:
+    """Return which steps from cells to the next ones are part of a slope: two more follow suit."""
+    flat = np.where(known, filled, np.nan).ravel()
+    offset = filled.shape[1] if axis == 0 else 1
+    place = np.divmod(one, filled.shape[1])[axis]
+    count = filled.shape[axis]
+    at = [flat[one + offset * (np.clip(place + k, 0, count - 1) - place)] for k in range(-2, 4)]
+    rises = [after - before for before, after in zip(at, at[1:])]  # steps -2..2, own is [2]
+    on = np.zeros(len(one), dtype=bool)
+    for first in range(3):
+        three = np.stack(rises[first : first + 3])
+        same = (three > 0).all(axis=0) | (three < 0).all(axis=0)
+        three = np.abs(three)
+        on |= same & (three.min(axis=0) >= OPT["run"] * three.max(axis=0))
+    return on
