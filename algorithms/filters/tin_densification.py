@@ -11,7 +11,6 @@ algorithm for airborne LiDAR data in forested areas. ISPRS Journal 117, 79-91.
 from __future__ import annotations
 
 import dataclasses
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,49 +19,44 @@ from ..errors import BareEarthError
 from ..parameters import ParameterSet, parameter, parameter_of
 from ..points import Points
 from ..progress import SILENT, Progress
-from ..terrain.cells import Cells
+from ..terrain.breaks import checked_seeds
+from ..terrain.cells import Cells, spacing
 from ..terrain.densification import DensificationRules, densified, with_lower
-from ..terrain.breaks import at_breaks
-from ..terrain.gradient import steepness
-from ..terrain.ground_cells import ground_cells
-from ..terrain.inpaint import inpaint
+from ..terrain.ground_limits import Tolerance, ground_limits, plain_limits
 from ..terrain.lowest_points import LowestPoints
 from ..terrain.model_key_points import ModelKeyPoints, model_key_points
 from ..terrain.near_surface import near_surface
-from ..threads import in_threads
+from ..terrain.seeds import classic_seeds, seeds_of_two_grids
 
-# Side of the cells whose lowest points may become vertices of the TIN.
-_CELL = 1.0
-# Metres over which the final surface is smoothed to take its slope.
-_FACET_SMOOTHING = 0.7
-# Rows next to a cell that have a part in its slope then.
-_SMOOTHING_REACH = math.ceil(4.0 * _FACET_SMOOTHING / _CELL) + 1
-# Cells that are worked on at a time: they stay in the processor's cache.
-_CELLS_A_STRIP = 1 << 16
-# Metres: no larger building is expected where none is seen, or looked for.
-_USUAL_BUILDING, _LARGEST_BUILDING = 48.0, 150.0
+# Side in metres of the cells whose lowest points may become vertices of the TIN, that where points
+# are dense, and the metres between points up to which they are.
+_CELL, _DENSE_CELL, _DENSE = 1.0, 0.5, 0.17
+# Metres between points: less is as good as that.
+_LEAST_SPACING = 0.01
 # Metres beyond which points do not matter: so many times the largest building, but at least this.
-_REACH_BUILDINGS, _LEAST_REACH = 2.0, 100.0
+_REACH_BUILDINGS, _LEAST_REACH = 1.2, 100.0
+# The preset that keeps the rules of another program.
+CLASSIC = "lidar360"
 
 
 @dataclass(frozen=True)
 class Preset:
-    """Values for the parameters that are left empty; the building size may be left to the data."""
+    """Values for the parameters that are left empty."""
 
     label: str
-    max_building_size: float | None
+    max_building_size: float
     iteration_angle: float
     iteration_distance: float
 
 
 PRESETS = {
-    "automatic": Preset("Automatic", None, 15.0, 1.4),
+    "automatic": Preset("Automatic", 150.0, 15.0, 1.4),
     "flat": Preset("Flat land, fields", 48.0, 8.0, 0.7),
     "hilly": Preset("Hilly land, forest", 30.0, 15.0, 1.4),
     "steep": Preset("Steep or rugged terrain", 30.0, 25.0, 2.0),
     "town": Preset("Town", 60.0, 12.0, 1.4),
     "city": Preset("City, large halls", 120.0, 12.0, 1.4),
-    "lidar360": Preset("LiDAR360's values", 20.0, 8.0, 1.4),
+    CLASSIC: Preset("LiDAR360's values", 20.0, 8.0, 1.4),
 }
 
 
@@ -211,21 +205,15 @@ class TinDensification(ParameterSet):
         points : Points
             The whole survey: its blocks must all be classified with the same values.
         """
-        return self._resolved(LowestPoints(points, _CELL))
-
-    def _resolved(self, survey: LowestPoints) -> TinDensification:
         preset = PRESETS[self.preset]
         names = ("max_building_size", "iteration_angle", "iteration_distance")
         empty = {name: getattr(preset, name) for name in names if getattr(self, name) is None}
-        if "max_building_size" in empty and empty["max_building_size"] is None:
-            width = survey.tall.largest(_LARGEST_BUILDING)
-            empty["max_building_size"] = float(max(_USUAL_BUILDING, math.ceil(width)))
         return dataclasses.replace(self, **empty)
 
 
 def reach(parameters: TinDensification) -> float:
     """Return the metres beyond which a point does not matter for another."""
-    size = parameters.max_building_size or PRESETS[parameters.preset].max_building_size or 0.0
+    size = parameters.max_building_size or PRESETS[parameters.preset].max_building_size
     return max(_LEAST_REACH, _REACH_BUILDINGS * size)
 
 
@@ -265,66 +253,60 @@ def classify(
     Cancelled
         If the user asked to stop.
     """
-    survey = LowestPoints(points, _CELL)
+    resolved = parameters.resolve(points)
+    is_classic = parameters.preset == CLASSIC
+    apart = spacing(points, _LEAST_SPACING)
+    is_dense = apart <= _DENSE and not is_classic
+    progress.info(_in_words(resolved, apart, is_dense))
+    survey = LowestPoints(points, _DENSE_CELL if is_dense else _CELL, is_classic)
     progress(0.1)
-    resolved = parameters._resolved(survey)
-    if resolved != parameters:
-        progress.info(_in_words(resolved))
+    ground, waiting = _seeds(points, survey, resolved, progress.part(0.1, 0.7))
     cells = survey.cells
-    which, seeds, free = _seeds(survey, resolved)
-    if MODE:
-        moved = points._replace(x=points.x + 0.5 * _CELL, y=points.y + 0.5 * _CELL)
-        other = _seeds(LowestPoints(moved, _CELL), resolved)
-        state = np.zeros((2, points.count), dtype=np.int8)
-        for k, (w, s, f) in enumerate(((which, seeds, free), other)):
-            state[k, w] = 1 + s.astype(np.int8) + 0  # 1 candidate, 2 seed
-            state[k, w[~f & ~s]] = 3  # object or outlier
-        which = np.flatnonzero(state.any(axis=0))
-        a, b = state[:, which]
-        if MODE == 1:
-            seeds = (a == 2) | (b == 2)
-        elif MODE in (2, 3, 5):
-            seeds = ((a == 2) & ((b == 2) | (b == 0))) | ((b == 2) & (a == 0))
-        free = ~((a == 3) | (b == 3)) if MODE == 2 else ((a == 1) | (b == 1) | (a == 2) | (b == 2))
-        if MODE == 5:
-            free = ((a == 1) | (a == 2)) & ((b == 1) | (b == 2)) | (a == 2) | (b == 2)
-    seeds = at_breaks(points, which, seeds, free, survey.spacing, cells)
-    first, waiting = which[seeds], which[~seeds & free]
-    heights = with_lower(np.full(cells.shape, np.nan), cells, points, first)
+    heights = with_lower(np.full(cells.shape, np.nan), cells, points, ground)
     if known_ground is not None and known_ground.any():
         known = _lowest_of(points, np.flatnonzero(known_ground))
-        first, heights = np.append(first, known), with_lower(heights, cells, points, known)
-    if not len(first):
+        ground, heights = np.append(ground, known), with_lower(heights, cells, points, known)
+    if not len(ground):
         raise BareEarthError(
             "No point can be taken for ground with certainty. Check the maximum building size and"
             " the selection of points."
         )
     rules, part = _rules(resolved), progress.part(0.7, 0.8)
-    joined = densified(points, first, waiting, heights, cells, survey.spacing, rules, part)
-    from ..terrain.final import final_limits
-    limits = final_limits(points, np.append(first, joined), cells, survey.spacing, resolved)
+    joined = densified(points, ground, waiting, heights, cells, survey.spacing, rules, part)
+    vertices = np.append(ground, joined)
+    tolerance = Tolerance(
+        resolved.ground_tolerance, resolved.ground_tolerance_below, resolved.slope_tolerance
+    )
+    if is_classic:
+        limits = plain_limits(points, vertices, cells, tolerance)
+    else:
+        limits = ground_limits(points, vertices, cells, apart, tolerance, is_dense)
     found = near_surface(points, cells, limits, progress.part(0.8, 0.95))
     return _key_points(points, found, resolved, progress.part(0.95, 1.0))
 
 
-MODE = 3
+def _seeds(
+    points: Points, survey: LowestPoints, parameters: TinDensification, progress: Progress
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the indices of the first points of the ground, and of those that may join them."""
+    size = parameters.max_building_size
+    if parameters.preset == CLASSIC:
+        return classic_seeds(survey, size, progress)
+    seeds = seeds_of_two_grids(points, survey, size, progress.part(0.0, 0.8))
+    return checked_seeds(points, *seeds, survey.cells, survey.spacing)
 
 
-def _seeds(survey: LowestPoints, resolved: TinDensification):
-    heights = survey.heights
-    objects = survey.objects(resolved.max_building_size, SILENT)
-    radius = resolved.max_building_size / 2.0
-    ground = ground_cells(heights, _CELL, objects, radius, first=survey.cells.first)
-    seeds = ground.ravel()[survey.cell]
-    free = np.isfinite(heights).ravel()[survey.cell] & ~objects.ravel()[survey.cell]
-    return survey.lowest, seeds, free
-
-
-def _in_words(parameters: TinDensification) -> str:
+def _in_words(parameters: TinDensification, spacing: float, is_dense: bool) -> str:
+    cells = (
+        f", cells of {_DENSE_CELL:g} m and a tolerance that follows the noise, as points lie"
+        f" {spacing:.2g} m apart"
+        if is_dense
+        else ""
+    )
     return (
         f"TIN densification: preset {parameters.preset}, maximum building size"
         f" {parameters.max_building_size:g} m, iteration angle {parameters.iteration_angle:g} deg,"
-        f" iteration distance {parameters.iteration_distance:g} m."
+        f" iteration distance {parameters.iteration_distance:g} m{cells}."
     )
 
 
@@ -353,28 +335,3 @@ def _key_points(
     key = np.zeros(points.count, dtype=bool)
     key[ground] = model_key_points(points.take(ground), closeness, progress)
     return key
-
-
-def _limits(surface: np.ndarray, parameters: TinDensification) -> np.ndarray:
-    """Return between which heights points are ground, shape (rows, columns, 2).
-
-    The slope that adds to the tolerances is that of the smoothed surface: between single lowest
-    points it is too uneven.
-    """
-    from scipy import ndimage
-
-    rows, columns = surface.shape
-    limits = np.empty((rows, columns, 2))
-    strip = max(_CELLS_A_STRIP // columns, _SMOOTHING_REACH)
-
-    def fill(first: int) -> None:
-        last, before = min(first + strip, rows), min(first, _SMOOTHING_REACH)
-        part = surface[first - before : last + _SMOOTHING_REACH]
-        smooth = ndimage.gaussian_filter(part, _FACET_SMOOTHING / _CELL, mode="nearest")
-        inside = slice(before, before + last - first)
-        rise = parameters.slope_tolerance * steepness(smooth, _CELL)[inside]
-        limits[first:last, :, 0] = part[inside] - parameters.ground_tolerance_below - rise
-        limits[first:last, :, 1] = part[inside] + parameters.ground_tolerance + rise
-
-    in_threads(fill, range(0, rows, strip))
-    return limits

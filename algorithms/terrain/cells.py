@@ -230,7 +230,8 @@ def spacing(points: Points, dense: float = 1.0) -> float:
     """Return the usual distance between points in metres, in coarse steps.
 
     It is that of the median of the blocks within the survey, so that neither gaps nor the extent
-    nor a few points matter, and in steps of half a metre, so that a crop hardly ever does.
+    nor a few points matter, and in steps of half a metre, or of a factor of two of the points per
+    square metre below a metre, so that a crop hardly ever does.
 
     Parameters
     ----------
@@ -248,4 +249,7 @@ def spacing(points: Points, dense: float = 1.0) -> float:
     counts = blocks.counts()
     within = ndimage.binary_erosion(counts > 0, np.ones((3, 3)))
     usual = np.median(counts[within if within.any() else counts > 0])
-    return max(dense, _SPACING_STEP * round(_BLOCK / math.sqrt(usual) / _SPACING_STEP))
+    apart = _BLOCK / math.sqrt(usual)
+    if apart >= 1.0:
+        return max(dense, _SPACING_STEP * round(apart / _SPACING_STEP))
+    return max(dense, 2.0 ** (round(2.0 * math.log2(apart)) / 2.0))

@@ -71,7 +71,7 @@ def densified(
     rules: DensificationRules,
     progress: Progress,
 ) -> np.ndarray:
-    """Return the heights of the first vertices and of the candidates that join them.
+    """Return the indices of the candidates that join the first vertices.
 
     Only candidates in gaps between vertices are looked at, and only the vertices are triangulated
     that may bound a triangle in which one lies.
@@ -95,8 +95,7 @@ def densified(
 
     Returns
     -------
-    numpy.ndarray of float64, shape (rows, columns)
-        `heights` with the candidates that join.
+    numpy.ndarray of intp
     """
     surface, holding = inpaint(heights, first=cells.first), np.isfinite(heights)
     in_gap = _counts_round(holding) <= _MOST_VERTICES_ROUND

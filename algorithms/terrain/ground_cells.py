@@ -25,14 +25,18 @@ from .morphology import in_steps, opening, within_square
 
 # A first, strict opening (rise over run) gives the surface from which the terrain's slope is taken.
 _FIRST_SLOPE = 0.12
+# Cells that are taken together for the largest windows, and radii in cells from which on so many
+# are: what is cut off then is large.
 _TOGETHER = 4
+_RADII = ((1, 1, 24), (2, 26, 48), (4, 52, 10_000))
+# How often regions join the ground that others have joined before.
+_JOINING_PASSES = 4
+# Steps are alike if the least is at least this share of the largest.
+_ALIKE = 0.4
 # Metres over which that slope is smoothed, and the most of it that counts.
 _SLOPE_SMOOTHING, _LARGEST_SLOPE = 5.0, 0.6
 # Metres over which the surface is smoothed to tell a step from the terrain's own rise.
 _TREND_SMOOTHING = 2.0
-
-
-OPT = dict(share=0.3, wide=500.0, wide_share=0.12, passes=4, rise=1.0, run=0.4, rescue_objects=False)
 
 
 @dataclass(frozen=True)
@@ -55,6 +59,18 @@ class Allowance:
         Share of the border of a region that must be gentle for it to be terrain.
     gentle_area : float
         Smallest region, in square metres, that may be terrain for that reason.
+    wide_share, wide_area : float
+        The share that suffices for regions of so many square metres or more: a plateau that a
+        ramp joins with the ground. No building is as wide.
+    usual_window : float
+        Radius in metres of windows up to which all of this holds; larger ones are for halls.
+    hall_height : float
+        Larger windows cut off only what is higher by so many metres.
+    rise_counts : bool
+        Whether a border that rises to the ground counts as a gentle one: the tread of a terrace.
+    follows_slopes : bool
+        Whether a step between cells is no edge where those before or after it are as high: a
+        steep slope, or a cliff, of which points lie on the face.
     """
 
     base: float = 0.15
@@ -62,8 +78,20 @@ class Allowance:
     per_slope: float = 0.2
     largest: float = 1.5
     gentle_step: float = 0.3
-    gentle_share: float = 0.5
+    gentle_share: float = 0.35
     gentle_area: float = 20.0
+    wide_share: float = 0.12
+    wide_area: float = 2000.0
+    usual_window: float = 24.0
+    hall_height: float = 2.5
+    rise_counts: bool = True
+    follows_slopes: bool = True
+
+
+# As it was before large windows and slopes were told apart: for presets of other programs.
+CLASSIC = Allowance(
+    gentle_share=0.5, wide_share=0.5, usual_window=1e9, rise_counts=False, follows_slopes=False
+)
 
 
 def ground_cells(
@@ -117,7 +145,8 @@ def ground_cells(
     progress(0.8)
     surface = inpaint(np.where(known & ~raised, heights, np.nan), first=first)
     progress(0.85)
-    raised &= (objects & ~np.array(OPT['rescue_objects'])) | ~_gentle_regions(filled, known, raised, surface, size, allowance)
+    gentle = _gentle_regions(filled, known, raised, surface, size, allowance)
+    raised &= objects | ~gentle
     progress(1.0)
     return known & ~raised
 
@@ -160,21 +189,27 @@ def _standing_out(
         lost = cut[which] * np.float32(step)
         first.ravel()[which[lost > _FIRST_SLOPE * metres]] = True
         slope = (lost - np.float32(level)) / np.float32(max(allowance.per_slope * metres, 1e-6))
-        slope[lost > allowance.largest] = np.inf
+        if metres <= allowance.usual_window:
+            slope[lost > allowance.largest] = np.inf
+        else:
+            slope = np.where(lost > allowance.hall_height, np.inf, -np.inf)
         limit.ravel()[which] = np.maximum(limit.ravel()[which], slope)
         progress(done / len(radii))
     return first, limit
 
 
 def _radii(largest: float) -> list[tuple[int, int]]:
-    """Return radii in cells that grow by a tenth or so, and how many cells are taken together."""
-    radii = []
-    for zoom, first, last in ((1, 1, 24), (2, 26, 48), (4, 52, 10_000)):
-        radii += [(r, zoom) for r in range(first, min(last, max(round(largest), 1)) + 1, zoom)]
-    return radii
+    """Return the radii of windows in cells, and how many cells are taken together for each."""
+    largest = max(round(largest), 1)
+    return [
+        (radius, together)
+        for together, first, last in _RADII
+        for radius in range(first, min(last, largest) + 1, together)
+    ]
 
 
 def _lowest_of_blocks(grid: np.ndarray, width: int) -> np.ndarray:
+    """Return the lowest of each square of so many cells."""
     rows, columns = grid.shape
     padded = np.pad(grid, ((0, -rows % width), (0, -columns % width)), mode="edge")
     rows = np.minimum.reduce([padded[k::width] for k in range(width)])
@@ -182,6 +217,7 @@ def _lowest_of_blocks(grid: np.ndarray, width: int) -> np.ndarray:
 
 
 def _finer(grid: np.ndarray, zoom: int, shape: tuple[int, int]) -> np.ndarray:
+    """Return the value of its square for each cell of a grid of some shape."""
     fine = np.repeat(np.repeat(grid, zoom, axis=0), zoom, axis=1)
     return fine[: shape[0], : shape[1]].astype(np.int32)
 
@@ -221,7 +257,12 @@ def _slope_at(surface: np.ndarray, axis: int, cells: np.ndarray, size: float) ->
 
 
 def _gentle_regions(
-    filled: np.ndarray, known: np.ndarray, raised: np.ndarray, surface: np.ndarray, size: float, allowance: Allowance
+    filled: np.ndarray,
+    known: np.ndarray,
+    raised: np.ndarray,
+    surface: np.ndarray,
+    size: float,
+    allowance: Allowance,
 ) -> np.ndarray:
     """Return the raised cells whose region passes into the ground without an edge.
 
@@ -243,33 +284,62 @@ def _gentle_regions(
     graph = coo_matrix((np.ones(len(pairs[0]), dtype=bool), pairs), shape=(len(cells),) * 2)
     count, region[cells] = connected_components(graph, directed=False)
     area = np.bincount(region[cells], minlength=count) * size**2
-    share = np.where(area >= OPT["wide"], OPT["wide_share"], OPT["share"])
-    is_terrain = np.zeros(count, dtype=bool)
-    pairs = []
-    for from_, to, drop, rise in (
-        (one, other, sign == -1, sign == 1),
-        (other, one, sign == 1, sign == -1),
-    ):
-        differ = up[from_] & (region[from_] != region[to])
-        pairs.append(tuple(
-            (region[from_[differ & each]], region[to[differ & each]])
-            for each in (sign == 0, drop, rise)
-        ))
-    for _ in range(OPT["passes"]):
-        ground = np.append(is_terrain, True)  # the last: what is not raised
-        gentle, sharp, rises = np.zeros(count), np.zeros(count), np.zeros(count)
-        for level, drop, rise in pairs:
-            gentle += np.bincount(level[0][ground[level[1]]], minlength=count)
-            sharp += np.bincount(drop[0], minlength=count)
-            rises += np.bincount(rise[0][ground[rise[1]]], minlength=count)
-        gentle += OPT["rise"] * rises
-        new = (gentle > 0) & (gentle >= share * (gentle + sharp)) & (area >= allowance.gentle_area)
-        if not (new & ~is_terrain).any():
-            break
-        is_terrain |= new
+    borders = [
+        _border(region, up, from_, to, (sign == 0, drop, rise))
+        for from_, to, drop, rise in (
+            (one, other, sign == -1, sign == 1),
+            (other, one, sign == 1, sign == -1),
+        )
+    ]
+    is_terrain = _joined(borders, area, allowance)
     result = np.zeros(up.size, dtype=bool)
     result[cells] = is_terrain[region[cells]]
     return result.reshape(raised.shape)
+
+
+# Regions of the cells on either side of some pairs of cells; -1 for what is not raised.
+_Pairs = tuple[np.ndarray, np.ndarray]
+
+
+def _border(
+    region: np.ndarray, up: np.ndarray, from_: np.ndarray, to: np.ndarray, kinds: tuple
+) -> list[_Pairs]:
+    """Return, for each kind of step, the pairs of regions that it leads from and to."""
+    differ = up[from_] & (region[from_] != region[to])
+    return [(region[from_[differ & each]], region[to[differ & each]]) for each in kinds]
+
+
+def _joined(borders: list[list[_Pairs]], area: np.ndarray, allowance: Allowance) -> np.ndarray:
+    """Return which regions pass into the ground, or into others that do.
+
+    Parameters
+    ----------
+    borders : list of list of pairs
+        Level pairs, drops and rises of each region, for both directions.
+    area : numpy.ndarray of float, shape (regions,)
+        Square metres.
+    allowance : Allowance
+        Which share of the border must be gentle.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (regions,)
+    """
+    count = len(area)
+    share = np.where(area >= allowance.wide_area, allowance.wide_share, allowance.gentle_share)
+    sharp = sum(np.bincount(drop[0], minlength=count) for _, drop, _ in borders)
+    joined = np.zeros(count, dtype=bool)
+    for _ in range(_JOINING_PASSES):
+        ground = np.append(joined, True)  # the last one is what is not raised
+        gentle = np.zeros(count)
+        for level, _, rise in borders:
+            for from_, to in (level, rise) if allowance.rise_counts else (level,):
+                gentle += np.bincount(from_[ground[to]], minlength=count)
+        new = (gentle > 0) & (gentle >= share * (gentle + sharp)) & (area >= allowance.gentle_area)
+        if not (new & ~joined).any():
+            break
+        joined |= new
+    return joined
 
 
 def _steps(
@@ -300,24 +370,26 @@ def _steps(
     rise = filled.ravel()[other] - filled.ravel()[one] - trend
     allowed = allowance.gentle_step + np.abs(trend)
     sign = (rise > allowed).astype(np.int8) - (rise < -allowed).astype(np.int8)
-    if OPT["run"]:
+    if allowance.follows_slopes:
         stepped = np.flatnonzero(sign)
         sign[stepped[_on_slope(filled, known, one[stepped], axis)]] = 0
     return one, other, sign
 
 
 def _on_slope(filled: np.ndarray, known: np.ndarray, one: np.ndarray, axis: int) -> np.ndarray:
-    """Return which steps from cells to the next ones are part of a slope: two more follow suit."""
+    """Return which steps from cells to the next ones are part of a slope: two more are alike.
+
+    Cells without a point do not count: what fills them makes a slope of any wall.
+    """
     flat = np.where(known, filled, np.nan).ravel()
     offset = filled.shape[1] if axis == 0 else 1
-    place = np.divmod(one, filled.shape[1])[axis]
-    count = filled.shape[axis]
+    place, count = np.divmod(one, filled.shape[1])[axis], filled.shape[axis]
     at = [flat[one + offset * (np.clip(place + k, 0, count - 1) - place)] for k in range(-2, 4)]
-    rises = [after - before for before, after in zip(at, at[1:])]  # steps -2..2, own is [2]
+    rises = [after - before for before, after in zip(at, at[1:])]  # the third is that of the step
     on = np.zeros(len(one), dtype=bool)
     for first in range(3):
         three = np.stack(rises[first : first + 3])
         same = (three > 0).all(axis=0) | (three < 0).all(axis=0)
         three = np.abs(three)
-        on |= same & (three.min(axis=0) >= OPT["run"] * three.max(axis=0))
+        on |= same & (three.min(axis=0) >= _ALIKE * three.max(axis=0))
     return on

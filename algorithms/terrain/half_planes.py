@@ -37,9 +37,10 @@ class Sides:
         from scipy.spatial import cKDTree
 
         self._ground, self._reach = ground, reach
-        self._tree = cKDTree(
-            np.column_stack((ground.x, ground.y)), balanced_tree=False, compact_nodes=False
-        ) if ground.count else None
+        self._tree = None
+        if ground.count:
+            places = np.column_stack((ground.x, ground.y))
+            self._tree = cKDTree(places, balanced_tree=False, compact_nodes=False)
 
     def rises(self, points: Points, own: bool) -> tuple[np.ndarray, np.ndarray]:
         """Return how far points lie above the plane of each side, and how well it fits.
@@ -70,15 +71,15 @@ class Sides:
     def _of_some(self, points: Points, own: bool) -> tuple[np.ndarray, np.ndarray]:
         places = np.column_stack((points.x, points.y))
         distance, which = self._tree.query(
-            places, _NEIGHBOURS + own, distance_upper_bound=self._reach
+            places, _NEIGHBOURS + 1 + own, distance_upper_bound=self._reach
         )
         if own:
             distance, which = distance[:, 1:], which[:, 1:]
-        there = np.isfinite(distance)
-        which = np.where(there, which, 0)
+        # Of several that are equally far the tree returns any: then none of them counts.
+        there = distance[:, :-1] < distance[:, -1:]
+        which = np.where(there, which[:, :-1], 0)
         x, y, z = (
-            np.where(there, of[which] - at[:, None], 0.0)
-            for of, at in zip(self._ground, points)
+            np.where(there, of[which] - at[:, None], 0.0) for of, at in zip(self._ground, points)
         )
         angles = 2.0 * np.pi * np.arange(_SIDES) / _SIDES
         ahead = x[:, :, None] * np.cos(angles) + y[:, :, None] * np.sin(angles) >= -1e-6

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-
 import numpy as np
 
 from ..points import Points
 from ..progress import Progress
 from .cells import Cells, spacing
-from .objects import Regions, bounded_regions, raised_objects
+from .objects import CLASSIC_WHOLE_SHARE, WHOLE_SHARE, raised_objects
 from .outliers import low_outliers
 
 _OUTLIER_SLOPE = 5.0
@@ -26,6 +24,9 @@ class LowestPoints:
         All of them.
     size : float
         Side in metres of the cells whose lowest points are wanted.
+    classic : bool
+        True for the rules of other programs' presets: every pit is a low outlier, and less of the
+        border of an object must be a drop.
 
     Attributes
     ----------
@@ -41,8 +42,8 @@ class LowestPoints:
         Their heights, without low outliers; NaN where there is none.
     """
 
-    def __init__(self, points: Points, size: float) -> None:
-        self._points = points
+    def __init__(self, points: Points, size: float, classic: bool = False) -> None:
+        self._points, self._classic = points, classic
         self.spacing = spacing(points)
         self.cells = Cells.over(points, size)
         self.lowest = self.cells.lowest_points(points)
@@ -51,12 +52,11 @@ class LowestPoints:
         heights[self.cell] = points.z[self.lowest]
         self.heights = self._without_outliers(heights.reshape(self.cells.shape), self.cells)
 
-    @staticmethod
-    def _without_outliers(heights: np.ndarray, cells: Cells) -> np.ndarray:
-        heights[low_outliers(heights, cells.size, _OUTLIER_SLOPE, cells.first)] = np.nan
+    def _without_outliers(self, heights: np.ndarray, cells: Cells) -> np.ndarray:
+        spares = not self._classic
+        heights[low_outliers(heights, cells.size, _OUTLIER_SLOPE, cells.first, spares)] = np.nan
         return heights
 
-    @cached_property
     def _wide(self) -> tuple[Cells, np.ndarray]:
         """Cells wide enough to be without gaps, which would break the rims of objects."""
         if self.spacing <= self.cells.size:
@@ -64,16 +64,11 @@ class LowestPoints:
         cells = Cells.over(self._points, self.spacing)
         return cells, self._without_outliers(cells.minimum(self._points.z), cells)
 
-    @cached_property
-    def tall(self) -> Regions:
-        """The regions between the drops of tall objects."""
-        cells, heights = self._wide
-        return bounded_regions(heights, cells.size, _OBJECT_HEIGHTS[0], cells.first)
-
     def objects(self, max_size: float, progress: Progress) -> np.ndarray:
         """Return which of `cells` belong to tall objects bounded by drops all round."""
-        wide, heights = self._wide
+        wide, heights = self._wide()
+        share = CLASSIC_WHOLE_SHARE if self._classic else WHOLE_SHARE
         found = raised_objects(
-            heights, wide.size, _OBJECT_HEIGHTS, max_size, progress, self.tall, wide.first
+            heights, wide.size, _OBJECT_HEIGHTS, max_size, progress, wide.first, share
         )
         return wide.resampled(found, self.cells)

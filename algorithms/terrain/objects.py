@@ -32,7 +32,7 @@ _PIT_SHARE = 0.9
 # Share of an object's border that must be a drop: as far as it is known, and of the whole with
 # what lies beyond the survey.
 _OBJECT_SHARE = 0.65
-_LEAST_SHARE = 0.4
+WHOLE_SHARE, CLASSIC_WHOLE_SHARE = 0.5, 0.4
 # Mean height of the drop over the width of the region: what is lower and wider is terrain.
 _LEAST_STEEPNESS = 0.15
 # Rounds in which what others hid is looked at again.
@@ -47,8 +47,8 @@ def raised_objects(
     thresholds: Sequence[float],
     max_size: float,
     progress: Progress = SILENT,
-    known: Regions | None = None,
     first: First = (0, 0),
+    whole_share: float = WHOLE_SHARE,
 ) -> np.ndarray:
     """Return which cells of a minimum grid belong to objects that stand out all round.
 
@@ -65,10 +65,10 @@ def raised_objects(
         Largest width (shorter side) of an object in metres.
     progress : Progress
         Receives progress.
-    known : Regions, optional
-        The `bounded_regions` of the first threshold, where they are known.
     first : tuple of int
         Row and column of the first cell in the grid of the CRS.
+    whole_share : float
+        See `Regions.raised`.
 
     Returns
     -------
@@ -78,28 +78,12 @@ def raised_objects(
     rest = heights.copy()
     objects = np.zeros(heights.shape, dtype=bool)
     for done, threshold in enumerate(thresholds):
-        regions = known if done == 0 else None
-        regions = regions or Relief(rest, size, inside, first).regions(threshold)
-        found = regions.raised(max_size)
+        regions = Relief(rest, size, inside, first).regions(threshold)
+        found = regions.raised(max_size, whole_share)
         rest[found] = np.nan
         objects |= found
         progress((done + 1) / len(thresholds))
     return objects
-
-
-def bounded_regions(
-    heights: np.ndarray, size: float, threshold: float, first: First = (0, 0)
-) -> Regions:
-    """Return the regions between the drops of a minimum grid.
-
-    Parameters
-    ----------
-    heights, size, first
-        As for `raised_objects`.
-    threshold : float
-        Least height in metres of a drop.
-    """
-    return Relief(heights, size, covered(np.isfinite(heights)), first).regions(threshold)
 
 
 def covered(known: np.ndarray, reach: int = 4) -> np.ndarray:
@@ -392,23 +376,22 @@ class Regions:
         area = np.bincount(number.ravel(), minlength=border.count)
         self.width = _shorter_side(area, border.length() / step) * size
 
-    def raised(self, max_size: float) -> np.ndarray:
+    def raised(self, max_size: float, whole_share: float = WHOLE_SHARE) -> np.ndarray:
         """Return the cells of the regions whose border is mostly a drop.
 
         Parameters
         ----------
         max_size : float
             Largest width in metres.
+        whole_share : float
+            Share of the whole border that must be a drop, what lies beyond the survey included:
+            the topmost tread of a terrace has one drop, and the border of the survey.
 
         Returns
         -------
         numpy.ndarray of bool, shape (rows, columns)
         """
-        return self._bounded(max_size, 1, _OBJECT_SHARE, _LEAST_SHARE, _LEAST_STEEPNESS)
-
-    def largest(self, max_size: float) -> float:
-        """Return the width in metres of the largest that `raised` finds; 0 if there is none."""
-        return float(self.width[self.number[self.raised(max_size)]].max(initial=0.0))
+        return self._bounded(max_size, 1, _OBJECT_SHARE, whole_share, _LEAST_STEEPNESS)
 
     def sunken(self, max_size: float) -> np.ndarray:
         """Return the cells of the regions whose border is a rise nearly all round: of pits.

@@ -11,6 +11,7 @@ from .morphology import within_square
 _NEAREST, _FARTHEST = 3.0, 10.0
 # Cells that lie as low as a pit: within so many metres, and so much for each metre of distance.
 _LEVEL, _LEVEL_SLOPE = 0.5, 0.2
+# But within this share of its depth.
 _DEPTH_SHARE = 0.33
 # So many cells at its level make a pit ground ...
 _LEAST_WITNESSES = 4
@@ -20,7 +21,13 @@ _LEAST_SHARE = 0.15
 _EVEN = 0.3
 
 
-def low_outliers(grid: np.ndarray, size: float, slope: float, first: First = (0, 0)) -> np.ndarray:
+def low_outliers(
+    grid: np.ndarray,
+    size: float,
+    slope: float,
+    first: First = (0, 0),
+    spares_supported: bool = True,
+) -> np.ndarray:
     """Return which cells of a minimum grid lie in a narrow pit that terrain does not have.
 
     The grid is closed by 3 x 3 cells (the opening of -z). What the closing fills deeper than
@@ -36,6 +43,8 @@ def low_outliers(grid: np.ndarray, size: float, slope: float, first: First = (0,
         Rise over run, far above that of any terrain.
     first : tuple of int
         Row and column of the first cell in the grid of the CRS.
+    spares_supported : bool
+        False takes every pit for an outlier.
 
     Returns
     -------
@@ -50,7 +59,7 @@ def low_outliers(grid: np.ndarray, size: float, slope: float, first: First = (0,
     closed = within_square(np.minimum, within_square(np.maximum, filled, 1), 1)
     depth = np.where(np.isfinite(grid), closed - filled, 0.0)
     pits = depth > slope * size
-    return pits & ~supported(grid, size, pits, depth, first)
+    return pits & ~supported(grid, size, pits, depth, first) if spares_supported else pits
 
 
 def supported(
