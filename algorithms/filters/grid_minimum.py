@@ -22,7 +22,9 @@ from ..progress import SILENT, Progress
 from ..terrain.cell_blocks import CellBlocks
 from ..terrain.cells import Cells
 from ..terrain.gradient import steepness
+from ..terrain.ground_cells import ground_cells
 from ..terrain.inpaint import inpaint
+from ..terrain.near_ground import Candidates, Tolerance, near_ground
 from ..terrain.near_surface import near_surface
 from ..terrain.objects import Relief, covered, raised_objects
 from ..terrain.outliers import low_outliers, supported
@@ -46,6 +48,13 @@ _NOISE_DEPTH = 2.0
 _OUTLIER_SLOPE = 5.0
 _STEEPEST = 5.0
 _RELAXATIONS = 2
+# Points per square metre from which a pit is noise at a gentler slope: a lowest point has others
+# close by, which would lie in the pit as well.
+_DENSE, _OUTLIER_SLOPE_WHERE_DENSE = 3.0, 2.0
+# Share of the rise over a wide cell by which its points may lie off the surface.
+_UNEVENNESS = 0.6
+# Least side in metres of the cells of the surface that points are compared with.
+_FINE_CELL = 1.0
 # Metres beyond which points do not matter: so many times the largest object, but at least this.
 _REACH_OBJECTS, _LEAST_REACH = 2.0, 100.0
 
@@ -63,6 +72,8 @@ class Preset(NamedTuple):
         In metres.
     final_height, max_object_size : float
         In metres.
+    ground_tolerance, slope_tolerance : float
+        In metres, and as a share of the rise.
     """
 
     label: str
@@ -70,16 +81,18 @@ class Preset(NamedTuple):
     height_thresholds: tuple[float, ...]
     final_height: float
     max_object_size: float
+    ground_tolerance: float = 0.18
+    slope_tolerance: float = 1.4
 
 
 PRESETS = {
-    "automatic": Preset("Automatic", 1.0, (5.0, 4.5, 2.0), 0.3, 40.0),
+    "automatic": Preset("Automatic", 1.0, (5.0, 4.5, 2.0), 0.3, 100.0),
     "flat": Preset("Flat land, fields", 1.0, (5.0, 4.5, 2.0), 0.25, 40.0),
     "hilly": Preset("Hilly land, forest", 2.0, (5.0, 4.5, 2.0), 0.3, 25.0),
     "steep": Preset("Steep or rugged terrain", 1.0, (5.0, 4.5, 2.0), 0.5, 25.0),
     "town": Preset("Town", 1.0, (5.0, 4.5, 2.0), 0.3, 60.0),
     "city": Preset("City, large halls", 1.0, (5.0, 4.5, 2.0), 0.3, 120.0),
-    "paper": Preset("The paper's values", 0.5, (5.0, 4.5, 2.0), 0.3, 40.0),
+    "paper": Preset("The paper's values", 0.5, (5.0, 4.5, 2.0), 0.3, 40.0, 0.4, 0.6),
 }
 
 
@@ -142,22 +155,29 @@ class GridMinimum(ParameterSet):
         help="Shorter side of the largest building. What is wider is terrain. Empty: from the"
         " preset.",
     )
-    ground_tolerance: float = parameter(
-        0.4,
+    ground_tolerance: float | None = parameter(
+        None,
         label="Ground tolerance",
         unit="m",
         minimum=0.0,
         maximum=10.0,
+        kind="number",
+        empty="automatic",
         advanced=True,
-        help="Points within this height of the ground's surface are ground, in level terrain.",
+        help="Points no higher above the ground's surface are ground, in level terrain. Empty: from"
+        " the preset.",
     )
-    slope_tolerance: float = parameter(
-        0.6,
+    slope_tolerance: float | None = parameter(
+        None,
         label="Ground tolerance on slopes",
         minimum=0.0,
         maximum=10.0,
+        kind="number",
+        empty="automatic",
         advanced=True,
-        help="Share of the ground's rise over one cell that is added to the ground tolerance.",
+        help="Share of the ground's rise from point to point, over a metre at most, that is added"
+        " to the ground tolerance; in the paper's preset, of its rise over one cell. Empty: from"
+        " the preset.",
     )
 
     def __post_init__(self) -> None:
@@ -188,8 +208,11 @@ class GridMinimum(ParameterSet):
 
     def _resolved(self, cells: Cells) -> GridMinimum:
         preset = PRESETS[self.preset]
-        names = ("cell_size", "height_thresholds", "final_height", "max_object_size")
-        empty = {name: getattr(preset, name) for name in names if getattr(self, name) is None}
+        empty = {
+            name: value
+            for name, value in preset._asdict().items()
+            if name != "label" and getattr(self, name) is None
+        }
         if "cell_size" in empty and self.preset != "paper":
             large_enough = _CELL_STEP * _multiple(_density(cells), _CELL_STEP)
             empty["cell_size"] = max(preset.cell_size, large_enough)
@@ -206,8 +229,9 @@ def classify(points: Points, parameters: GridMinimum, progress: Progress = SILEN
     """Tell ground from other points.
 
     Noise is taken out of the grid of lowest points, then objects, the tall ones first and last
-    what is left of rims; cells that are level with the ground beside them grow back. Every point
-    close to the surface through the remaining cells is ground.
+    what is left of rims; cells that are level with the ground beside them grow back. What is wider
+    than its rims tell is sought by openings, and what passes gently into the ground comes back.
+    Every point close to the surface through the remaining lowest points is ground.
 
     Parameters
     ----------
@@ -239,8 +263,13 @@ def classify(points: Points, parameters: GridMinimum, progress: Progress = SILEN
     if cells.size != resolved.cell_size:
         cells = Cells.over(points, resolved.cell_size)
     progress(0.1)
-    limits = _limits(_surface(cells, points.z, resolved, progress.part(0.1, 0.8)), resolved)
-    return near_surface(points, cells, limits, progress.part(0.8, 1.0))
+    grids = _by_rims(cells, points.z, resolved, progress.part(0.1, 0.6))
+    if resolved.preset == "paper":
+        limits = _limits(inpaint(grids.ground, _RELAXATIONS, cells.first), resolved)
+        return near_surface(points, cells, limits, progress.part(0.6, 1.0))
+    candidates, cells = _candidates(points, cells, grids, resolved, progress.part(0.6, 0.8))
+    tolerance = Tolerance(resolved.ground_tolerance, resolved.slope_tolerance)
+    return near_ground(points, cells, candidates, tolerance, progress.part(0.8, 1.0))
 
 
 def _limits(surface: np.ndarray, parameters: GridMinimum) -> np.ndarray:
@@ -251,18 +280,66 @@ def _limits(surface: np.ndarray, parameters: GridMinimum) -> np.ndarray:
     return np.stack((surface - tolerance, surface + tolerance), axis=-1)
 
 
-def _surface(
-    cells: Cells, z: np.ndarray, parameters: GridMinimum, progress: Progress
-) -> np.ndarray:
-    """Return the height of the ground in each cell."""
+class _Grids(NamedTuple):
+    """What the rims tell of each cell, grids of shape (rows, columns).
+
+    Attributes
+    ----------
+    heights, ground : numpy.ndarray of float64
+        Lowest heights without noise, and those of the ground; NaN where there is none.
+    tall : numpy.ndarray of bool
+        What the passes of the height thresholds find.
+    """
+
+    heights: np.ndarray
+    ground: np.ndarray
+    tall: np.ndarray
+
+
+def _by_rims(cells: Cells, z: np.ndarray, parameters: GridMinimum, progress: Progress) -> _Grids:
+    """Tell ground from objects by the rims round them."""
     heights = cells.minimum(z)
     blocks = CellBlocks.over(cells, _BLOCK)
-    heights[_noise(heights, cells, blocks)] = np.nan
+    dense = parameters.preset != "paper" and _density(cells) >= _DENSE
+    heights[_noise(heights, cells, blocks, dense)] = np.nan
     progress(0.2)
-    ground = heights.copy()
-    ground[_tall_objects(heights, blocks, parameters, progress.part(0.2, 0.6))] = np.nan
+    tall = _tall_objects(heights, blocks, parameters, progress.part(0.2, 0.6))
+    ground = np.where(tall, np.nan, heights)
     ground = _without_low_objects(ground, heights, cells, parameters, progress.part(0.6, 1.0))
-    return inpaint(ground, _RELAXATIONS, cells.first)
+    return _Grids(heights, ground, tall)
+
+
+def _candidates(
+    points: Points, cells: Cells, grids: _Grids, parameters: GridMinimum, progress: Progress
+) -> tuple[Candidates, Cells]:
+    """Return the lowest points of fine cells that may be ground, and these cells.
+
+    Rims want cells without gaps; the surface may have finer ones. Their lowest points are ground
+    if their wide cell is, and they are about as low.
+    """
+    heights, widest = grids.heights, parameters.max_object_size
+    ground = ground_cells(
+        heights,
+        cells.size,
+        grids.tall,
+        widest / 2.0,
+        progress=progress,
+        first=cells.first,
+        suspects=np.isnan(grids.ground),
+    )
+    known = np.isfinite(heights)
+    if cells.size <= _FINE_CELL:
+        lowest = cells.lowest_points(points)
+        return Candidates.of_cells(lowest, cells.index[lowest], ground, known), cells
+    fine = Cells.over(points, _FINE_CELL)
+    lowest = fine.lowest_points(points)
+    x, y, z = points.take(lowest)
+    surface = inpaint(np.where(ground, heights, np.nan), _RELAXATIONS, cells.first)
+    rise = cells.size * np.minimum(steepness(surface, cells.size), _STEEPEST)
+    allowed = parameters.final_height + _UNEVENNESS * cells.at(rise, x, y)
+    low = np.abs(z - cells.at(surface, x, y)) <= allowed
+    candidates = Candidates.of_cells(lowest, cells.index[lowest], ground, known)
+    return candidates._replace(ground=candidates.ground & low), fine
 
 
 def _in_words(parameters: GridMinimum) -> str:
@@ -309,7 +386,7 @@ def _density(cells: Cells) -> float:
     return float(np.median(usual)) / blocks.size**2
 
 
-def _noise(heights: np.ndarray, cells: Cells, blocks: CellBlocks) -> np.ndarray:
+def _noise(heights: np.ndarray, cells: Cells, blocks: CellBlocks, dense: bool) -> np.ndarray:
     """Return the cells of narrow pits far below the usual lowest points around.
 
     A gap in the canopy, a yard or a street between roofs is a pit too, but has others as low near
@@ -318,7 +395,8 @@ def _noise(heights: np.ndarray, cells: Cells, blocks: CellBlocks) -> np.ndarray:
 
     from scipy import ndimage
 
-    noise = low_outliers(heights, cells.size, _OUTLIER_SLOPE, cells.first)
+    slope = _OUTLIER_SLOPE_WHERE_DENSE if dense else _OUTLIER_SLOPE
+    noise = low_outliers(heights, cells.size, slope, cells.first)
     heights = np.where(noise, np.nan, heights)
     around = CellBlocks.over(cells, _NOISE_WIDTH)
     usual = inpaint(around.lowest(heights), first=around.first_block)

@@ -14,6 +14,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,20 +23,20 @@ from ..parameters import ParameterSet, parameter
 from ..points import Points
 from ..progress import SILENT, Progress
 from ..terrain.cells import Cells, spacing
-from ..terrain.gradient import gradient, steepness
+from ..terrain.gradient import gradient
+from ..terrain.ground_cells import ground_cells
 from ..terrain.inpaint import inpaint
 from ..terrain.low_clusters import low_clusters
+from ..terrain.lowest_points import LowestPoints
 from ..terrain.morphology import erosion
-from ..terrain.near_surface import near_surface
-from ..terrain.outliers import low_outliers
+from ..terrain.near_ground import Candidates, Tolerance, near_ground
 from ..terrain.standing_above import Rule, stands_above
 
 # Metres between points up to which the automatic radius and cells are the least.
 _DENSE = 2.5
 # Radii grow by this factor from scale to scale: the area of the disc doubles.
 _SCALE_STEP = math.sqrt(2.0)
-# Rise over run of the sides of a pit that holds low outliers, one cell wide or a few metres.
-_OUTLIER_SLOPE = 5.0
+# Rise over run of the sides of a pit some metres wide that holds low outliers.
 _CLUSTER_SLOPE = 2.0
 _CLUSTER_WIDTH = 6.0
 # They must lie below the terrain within this many search radii: the ground seen through a hole in
@@ -44,16 +45,39 @@ _SURROUNDINGS = 3.0
 # Metres beyond which points do not matter: so many times the search radius, on one scale just what
 # erosion, dilation and comparison need, and at least this where it follows from the points.
 _REACH_RADII, _REACH_RADII_ON_ONE_SCALE, _LEAST_REACH = 5.0, 3.01, 100.0
+# The same for the largest building.
+_REACH_BUILDINGS = 2.0
 _WHITEBOX_RADIUS = 2.0
-# Least search radius (m), slope threshold (deg) and height threshold (m) of each preset that
-# looks at many scales.
-_MANY_SCALES = {
-    "automatic": (18.0, 15.0, 0.5),
-    "flat": (24.0, 15.0, 0.4),
-    "hilly": (15.0, 15.0, 0.5),
-    "steep": (12.0, 20.0, 0.5),
-    "town": (24.0, 15.0, 0.5),
-    "city": (50.0, 15.0, 0.5),
+# Largest building where the search radius is given: so many times that.
+_WIDEST = 2.0
+
+
+class ManyScales(NamedTuple):
+    """What a preset stands for that looks at many scales.
+
+    Attributes
+    ----------
+    search_radius : float
+        The least, in metres.
+    slope_threshold : float
+        In degrees.
+    height_threshold, max_building_size : float
+        In metres.
+    """
+
+    search_radius: float
+    slope_threshold: float
+    height_threshold: float
+    max_building_size: float
+
+
+MANY_SCALES = {
+    "automatic": ManyScales(18.0, 15.0, 0.5, 100.0),
+    "flat": ManyScales(24.0, 15.0, 0.4, 100.0),
+    "hilly": ManyScales(15.0, 15.0, 0.5, 30.0),
+    "steep": ManyScales(12.0, 20.0, 0.5, 24.0),
+    "town": ManyScales(24.0, 15.0, 0.5, 100.0),
+    "city": ManyScales(50.0, 15.0, 0.5, 150.0),
 }
 
 
@@ -142,16 +166,37 @@ class SlopeFilter(ParameterSet):
         help="Side of the cells whose lowest points are compared in the automatic preset. Empty:"
         " 1 m, more if points are sparse.",
     )
-    slope_tolerance: float = parameter(
-        1.2,
-        label="Height tolerance on slopes",
+    max_building_size: float | None = parameter(
+        None,
+        label="Maximum building size",
+        unit="m",
+        minimum=0.1,
+        maximum=500.0,
+        kind="number",
+        empty="automatic",
+        help="Shorter side of the largest building, which is found by the drop all round it even"
+        " if it is wider than two search radii. Empty: 100 m, or two search radii where that is"
+        " given. Not for the preset Whitebox.",
+    )
+    ground_tolerance: float = parameter(
+        0.18,
+        label="Ground tolerance",
         unit="m",
         minimum=0.0,
         maximum=10.0,
         advanced=True,
-        help="What a slope of 45 degrees adds to the height threshold when, in the automatic"
-        " preset, points are compared with the ground that was found. Less in proportion on"
-        " gentler slopes.",
+        help="Points no higher above the surface through the ground are ground, in level terrain."
+        " Not for the preset Whitebox.",
+    )
+    slope_tolerance: float = parameter(
+        1.4,
+        label="Ground tolerance on slopes",
+        unit="m",
+        minimum=0.0,
+        maximum=10.0,
+        advanced=True,
+        help="What a slope of 45 degrees adds to the ground tolerance where points are a metre"
+        " apart. Less in proportion on gentler slopes, and where points are closer.",
     )
 
     def resolve(self, points: Points) -> SlopeFilter:
@@ -174,11 +219,13 @@ class SlopeFilter(ParameterSet):
                 "height_threshold": 1.0,
             }
         else:
-            radius, slope, height = _MANY_SCALES[self.preset]
-            chosen = {"slope_threshold": slope, "height_threshold": height}
+            preset = MANY_SCALES[self.preset]
+            chosen = preset._asdict()
+            if self.search_radius is not None:
+                chosen["max_building_size"] = _WIDEST * self.search_radius
             if self.search_radius is None or self.cell_size is None:
                 apart = spacing(points, _DENSE)
-                chosen["search_radius"] = max(radius, round(4.0 * apart, 1))
+                chosen["search_radius"] = max(preset.search_radius, round(4.0 * apart, 1))
                 chosen["cell_size"] = max(1.0, round(0.4 * apart, 1))
         empty = {name: value for name, value in chosen.items() if getattr(self, name) is None}
         return dataclasses.replace(self, **empty)
@@ -189,8 +236,13 @@ def reach(parameters: SlopeFilter) -> float:
     if parameters.preset == "whitebox":
         metres = _REACH_RADII_ON_ONE_SCALE * (parameters.search_radius or _WHITEBOX_RADIUS)
         return max(_LEAST_REACH, metres) if parameters.min_neighbours else metres
-    radius = parameters.search_radius or _MANY_SCALES[parameters.preset][0]
-    return max(_LEAST_REACH, _REACH_RADII * radius)
+    preset = MANY_SCALES[parameters.preset]
+    radius = parameters.search_radius or preset.search_radius
+    size = parameters.max_building_size
+    if size is None:
+        given = parameters.search_radius
+        size = preset.max_building_size if given is None else _WIDEST * given
+    return max(_LEAST_REACH, _REACH_RADII * radius, _REACH_BUILDINGS * size)
 
 
 def classify(points: Points, parameters: SlopeFilter, progress: Progress = SILENT) -> np.ndarray:
@@ -232,7 +284,10 @@ def _in_words(parameters: SlopeFilter) -> str:
     if parameters.preset == "whitebox":
         last = f"minimum number of neighbours {parameters.min_neighbours}"
     else:
-        last = f"cell size {parameters.cell_size:g} m"
+        last = (
+            f"cell size {parameters.cell_size:g} m, maximum building size"
+            f" {parameters.max_building_size:g} m"
+        )
     return (
         f"Slope filter: preset {parameters.preset}, search radius {parameters.search_radius:g} m,"
         f" slope threshold {parameters.slope_threshold:g} deg, height threshold"
@@ -255,26 +310,28 @@ def _on_one_scale(points: Points, parameters: SlopeFilter, progress: Progress) -
 
 def _on_many_scales(points: Points, parameters: SlopeFilter, progress: Progress) -> np.ndarray:
     """Return the ground mask of the filter on the lowest points of cells, scale by scale."""
-    cells = Cells.over(points, parameters.cell_size)
-    lowest = cells.minimum(points.z)
+    survey = LowestPoints(points, parameters.cell_size)
+    cells, heights = survey.cells, survey.heights
     progress(0.2)
-    # One after the other: a deep outlier would hide a shallow one beside it.
-    lowest[low_outliers(lowest, cells.size, _OUTLIER_SLOPE, cells.first)] = np.nan
     around = _SURROUNDINGS * parameters.search_radius
-    pits = low_clusters(lowest, cells.size, _CLUSTER_SLOPE, _CLUSTER_WIDTH, around, cells.first)
-    lowest[pits] = np.nan
-    objects = _objects(lowest, cells, parameters, progress.part(0.3, 0.6))
-    lowest[objects] = np.nan
-    if not np.isfinite(lowest).any():
+    pits = low_clusters(heights, cells.size, _CLUSTER_SLOPE, _CLUSTER_WIDTH, around, cells.first)
+    heights[pits] = np.nan
+    steep = _objects(heights, cells, parameters, progress.part(0.3, 0.5))
+    widest = parameters.max_building_size
+    tall = survey.objects(widest, progress.part(0.5, 0.6))
+    ground = ground_cells(
+        heights, cells.size, tall, widest / 2.0, first=cells.first, suspects=steep
+    )
+    if not ground.any():
         raise BareEarthError(
             "No point can be taken for ground with certainty. Check the thresholds and the"
             " selection of points."
         )
-    surface = inpaint(lowest, first=cells.first)
-    rise = parameters.slope_tolerance * steepness(surface, cells.size)
-    tolerance = parameters.height_threshold + rise
-    limits = np.stack((surface - tolerance, surface + tolerance), axis=-1)
-    return near_surface(points, cells, limits, progress.part(0.6, 1.0))
+    progress(0.7)
+    free = np.isfinite(heights) & ~tall
+    candidates = Candidates.of_cells(survey.lowest, survey.cell, ground, free)
+    tolerance = Tolerance(parameters.ground_tolerance, parameters.slope_tolerance)
+    return near_ground(points, cells, candidates, tolerance, progress.part(0.7, 1.0))
 
 
 def _objects(

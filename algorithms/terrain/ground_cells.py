@@ -102,6 +102,7 @@ def ground_cells(
     allowance: Allowance = Allowance(),
     progress: Progress = SILENT,
     first: First = (0, 0),
+    suspects: np.ndarray | None = None,
 ) -> np.ndarray:
     """Return which cells of a minimum grid are ground.
 
@@ -121,6 +122,9 @@ def ground_cells(
         Receives progress.
     first : tuple of int
         Row and column of the first cell in the grid of the CRS.
+    suspects : numpy.ndarray of bool, shape (rows, columns), optional
+        Cells that stand out by another rule: like those that an opening cut off, they are ground
+        if they pass gently into it.
 
     Returns
     -------
@@ -142,6 +146,8 @@ def ground_cells(
     slope = np.hypot(*(_slope_at(smooth, axis, which, size) for axis in (0, 1)))
     raised = objects.copy()
     raised.ravel()[which] |= np.minimum(slope, _LARGEST_SLOPE) < limit.ravel()[which]
+    if suspects is not None:
+        raised |= suspects & known
     progress(0.8)
     surface = inpaint(np.where(known & ~raised, heights, np.nan), first=first)
     progress(0.85)
