@@ -1,4 +1,4 @@
-"""Heights on a grid: of the ground where there is any, else of what is lowest; small gaps filled."""
+"""Heights on a grid: of the ground where there is any, else of what is lowest; gaps filled."""
 
 from __future__ import annotations
 
