@@ -45,6 +45,10 @@ class Range(NamedTuple):
         return cls(float(np.mean(values)), float(np.min(values)), float(np.max(values)))
 
 
+def _mean_of(figure: str) -> property:
+    return property(lambda phased: phased.range(figure).mean, doc="Mean over the phases.")
+
+
 class Phased(NamedTuple):
     """The assessments of one filter on one sample, one for each phase, that as it came first.
 
@@ -61,25 +65,10 @@ class Phased(NamedTuple):
         """Return one figure over the phases."""
         return Range.of(self.values(figure))
 
-    @property
-    def total_error(self) -> float:
-        """Mean over the phases."""
-        return self.range("total_error").mean
-
-    @property
-    def kappa(self) -> float:
-        """Mean over the phases."""
-        return self.range("kappa").mean
-
-    @property
-    def type_1_error(self) -> float:
-        """Mean over the phases."""
-        return self.range("type_1_error").mean
-
-    @property
-    def type_2_error(self) -> float:
-        """Mean over the phases."""
-        return self.range("type_2_error").mean
+    total_error = _mean_of("total_error")
+    kappa = _mean_of("kappa")
+    type_1_error = _mean_of("type_1_error")
+    type_2_error = _mean_of("type_2_error")
 
 
 def over_samples(results: dict[str, Phased], figure: str) -> Range:
