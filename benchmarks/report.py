@@ -10,9 +10,10 @@ from bare_earth.algorithms.filters import METHODS
 
 from . import data, maps, peers, tables
 from .generated import remembered_scene, worst_kinds
-from .measure import GroundFilter, ReferenceModel, Scores, Sensitivity, mean
+from .measure import GroundFilter, ReferenceModel, Scores, mean
 from .phases import Phased
 from .scenes import KINDS
+from .sensitivity import Moved, Sensitivity
 
 PAGE = Path(__file__).parents[1] / "docs" / "accuracy.md"
 IMAGES = PAGE.parent / "images"
@@ -48,10 +49,6 @@ _TILES = {
     "hawaii_forest": "forest on a crater and lava, steep, 19.2 points/m²",
     "wires_single_return": "power lines and forest, 2.1 points/m²",
 }
-
-
-# Method, then place, then one for each parameter.
-Moved = dict[str, dict[str, list[Sensitivity]]]
 
 
 class Picture(NamedTuple):
