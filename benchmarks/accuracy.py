@@ -27,12 +27,10 @@ from .generated import score_scenes
 from .measure import Filter, GroundFilter, Scores, best, score, score_tile
 from .phases import PHASES
 from .scenes import KINDS, REPORTING_SEEDS, TUNING_SEEDS
-from .sensitivity import Moved, Place, sensitivity
+from .sensitivity import SOME, Moved, Place, sensitivity
 
 # The dense tile that sensitivity is measured on besides the samples.
 DENSE_TILE = "ahn3_urban"
-# Phases of the samples that sensitivity is measured in, for time's sake.
-SENSITIVITY_PHASES = 3
 SEEDS = {"tuning": TUNING_SEEDS, "reporting": REPORTING_SEEDS}
 
 
@@ -93,8 +91,7 @@ def measure_scenes(
 
 def measure_sensitivity(methods: Sequence[str], samples: Sequence[Path]) -> Moved:
     """Halve and double each default, on the samples and on a dense tile; print the figures."""
-    phases = PHASES[:: len(PHASES) // SENSITIVITY_PHASES]
-    places = {"ISPRS samples": Place(tuple(samples), phases)}
+    places = {"ISPRS samples": Place(tuple(samples), PHASES[SOME])}
     for tile in data.REAL:
         if tile.title == DENSE_TILE and data.real(tile.name).exists():
             places[DENSE_TILE] = Place((data.real(tile.name),), left_out=tile.left_out)

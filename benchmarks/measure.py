@@ -66,8 +66,8 @@ def score(
 ) -> Scores:
     """Return the assessments of every filter on every labelled sample.
 
-    Ours are measured in each phase. Peers begin their grids at the points, so that moving these
-    changes nothing: they are measured once.
+    Ours are measured in each phase, peers once, as the points came: most begin their grids at the
+    points, so that moving these changes nothing, and they are slow.
     """
     results: Scores = {each.name: {} for each in filters}
     ours = [each for each in filters if isinstance(each, Filter)]

@@ -13,7 +13,7 @@ from .generated import remembered_scene, worst_kinds
 from .measure import GroundFilter, ReferenceModel, Scores, mean
 from .phases import Phased
 from .scenes import KINDS
-from .sensitivity import Moved, Sensitivity
+from .sensitivity import SOME, Moved, Sensitivity
 
 PAGE = Path(__file__).parents[1] / "docs" / "accuracy.md"
 IMAGES = PAGE.parent / "images"
@@ -158,9 +158,10 @@ def _moved(moved: Moved, isprs: Scores, real: tables.TileScores) -> list[str]:
     lines: list[str] = []
     for method, places in moved.items():
         lines += [f"### {METHODS[method].label}", ""]
+        measured = {at: Phased(each.assessments[SOME]) for at, each in isprs[method].items()}
         for where, rows in places.items():
             one = real[where][method].assessment if where in real else None
-            base = one.total_error if one else mean(isprs[method], "total_error")
+            base = one.total_error if one else mean(measured, "total_error")
             lines += [f"On {where}. {_spread(rows, base)}", "", *tables.sensitivity(rows), ""]
     return lines[:-1]
 
