@@ -20,28 +20,17 @@ import sys
 from pathlib import Path
 from typing import Sequence
 
-from bare_earth.algorithms.assessment import AssessmentOptions
 from bare_earth.algorithms.filters import METHODS
 
 from . import data, peers, report, tables
 from .generated import score_scenes
-from .measure import (
-    Filter,
-    GroundFilter,
-    Scores,
-    Sensitivity,
-    best,
-    score,
-    score_tile,
-    sensitivity,
-)
-from .phases import PHASES, shifted
+from .measure import Filter, GroundFilter, Scores, best, score, score_tile
+from .phases import PHASES
 from .scenes import KINDS, REPORTING_SEEDS, TUNING_SEEDS
+from .sensitivity import SOME, Moved, Place, sensitivity
 
 # The dense tile that sensitivity is measured on besides the samples.
 DENSE_TILE = "ahn3_urban"
-# Phases of the samples that sensitivity is measured in, for time's sake.
-SENSITIVITY_PHASES = 3
 SEEDS = {"tuning": TUNING_SEEDS, "reporting": REPORTING_SEEDS}
 
 
@@ -100,30 +89,17 @@ def measure_scenes(
     return results
 
 
-def measure_sensitivity(
-    methods: Sequence[str], samples: Sequence[Path]
-) -> dict[str, dict[str, list[Sensitivity]]]:
+def measure_sensitivity(methods: Sequence[str], samples: Sequence[Path]) -> Moved:
     """Halve and double each default, on the samples and on a dense tile; print the figures."""
-    phases = PHASES[:: len(PHASES) // SENSITIVITY_PHASES]
-    loaded = [data.load(path) for path in samples]
-    clouds = {
-        "ISPRS samples": [
-            (shifted(cloud, *phase), reference, AssessmentOptions())
-            for cloud, reference in loaded
-            for phase in phases
-        ]
-    }
+    places = {"ISPRS samples": Place(tuple(samples), PHASES[SOME])}
     for tile in data.REAL:
         if tile.title == DENSE_TILE and data.real(tile.name).exists():
-            options = AssessmentOptions(ignored_classes=tile.left_out)
-            clouds[DENSE_TILE] = [(*data.load(data.real(tile.name)), options)]
-    results: dict[str, dict[str, list[Sensitivity]]] = {}
-    for method in methods:
-        results[method] = {}
-        for where, labelled in clouds.items():
-            tell(f"{method} on {where}, halved and doubled ...")
-            results[method][where] = sensitivity(method, labelled)
-            show([f"{method}, {where}"], tables.sensitivity(results[method][where]))
+            places[DENSE_TILE] = Place((data.real(tile.name),), left_out=tile.left_out)
+    tell("Defaults, halved and doubled ...")
+    results = sensitivity(methods, places)
+    for method, moved in results.items():
+        for where, rows in moved.items():
+            show([f"{method}, {where}"], tables.sensitivity(rows))
     return results
 
 

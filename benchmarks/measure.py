@@ -6,7 +6,6 @@ Every class is set to 0 first, noise is left in, and every filter runs with its 
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple, Protocol, Sequence
 
@@ -14,12 +13,9 @@ import numpy as np
 
 from bare_earth.algorithms.assessment import Assessment, AssessmentOptions, compare
 from bare_earth.algorithms.classification import classify
-from bare_earth.algorithms.errors import BareEarthError
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.parameters import Declaration, ParameterSet
+from bare_earth.algorithms.parameters import ParameterSet
 from bare_earth.algorithms.pointcloud.cloud import PointCloud
-from bare_earth.algorithms.pointcloud.selection import Selection
-from bare_earth.algorithms.progress import SILENT
 from bare_earth.algorithms.terrain.model import interpolate
 from bare_earth.algorithms.terrain.raster import RasterGrid
 
@@ -28,7 +24,6 @@ from .phases import PHASES, Phased, shifted
 from .work import side_by_side
 
 GROUND = 2
-FACTORS = (0.5, 2.0)
 
 
 class GroundFilter(Protocol):
@@ -71,8 +66,8 @@ def score(
 ) -> Scores:
     """Return the assessments of every filter on every labelled sample.
 
-    Ours are measured in each phase. Peers begin their grids at the points, so that moving these
-    changes nothing: they are measured once.
+    Ours are measured in each phase, peers once, as the points came: most begin their grids at the
+    points, so that moving these changes nothing, and they are slow.
     """
     results: Scores = {each.name: {} for each in filters}
     ours = [each for each in filters if isinstance(each, Filter)]
@@ -196,106 +191,3 @@ def score_tile(
             problem = f"{type(error).__name__}: {error}".splitlines()[0]
             results[each.name] = TileScore(None, None, {}, time.perf_counter() - start, problem)
     return results
-
-
-@dataclass(frozen=True)
-class Change:
-    """What becomes of the mean errors when one default is multiplied.
-
-    Attributes
-    ----------
-    values : tuple of str
-        The value on each sample, as text; one if it is the same on all.
-    is_limited : bool
-        Whether the value stopped at the parameter's limit.
-    total_error, kappa : float
-        Means over the samples; NaN if the filter refuses.
-    problem : str
-        Why it refuses.
-    """
-
-    values: tuple[str, ...]
-    is_limited: bool
-    total_error: float
-    kappa: float
-    problem: str = ""
-
-
-class Sensitivity(NamedTuple):
-    """How one parameter matters: its default, then each change."""
-
-    declaration: Declaration
-    defaults: tuple[str, ...]
-    changes: tuple[Change, ...]
-
-
-Labelled = Sequence[tuple[PointCloud, np.ndarray, AssessmentOptions]]
-
-
-def sensitivity(method: str, clouds: Labelled) -> list[Sensitivity]:
-    """Return what halving and doubling does, for each parameter that is a number above 0."""
-    results = []
-    for declaration in METHODS[method].parameters.declarations():
-        values = [_default(method, declaration, cloud) for cloud, _, _ in clouds]
-        if all(_is_movable(value) for value in values):
-            changes = tuple(
-                _change(method, declaration, values, factor, clouds) for factor in FACTORS
-            )
-            defaults = tuple(dict.fromkeys(as_text(value) for value in values))
-            results.append(Sensitivity(declaration, defaults, changes))
-    return results
-
-
-def as_text(value: object) -> str:
-    """Return a number or a list of numbers in few digits."""
-    if isinstance(value, tuple):
-        return ", ".join(as_text(each) for each in value)
-    return f"{value:g}"
-
-
-def scaled(declaration: Declaration, value: object, factor: float) -> tuple[object, bool]:
-    """Return a number, or a list as a whole, times a factor, and whether a limit cut it."""
-    if isinstance(value, tuple):
-        parts = [scaled(declaration, each, factor) for each in value]
-        return tuple(part[0] for part in parts), any(part[1] for part in parts)
-    wanted = value * factor
-    least = -np.inf if declaration.minimum is None else declaration.minimum
-    most = np.inf if declaration.maximum is None else declaration.maximum
-    result = float(np.clip(wanted, least, most))
-    is_limited = result != wanted
-    if declaration.kind in ("integer", "integers"):
-        return round(result), is_limited
-    return result, is_limited
-
-
-def _default(method: str, declaration: Declaration, cloud: PointCloud) -> object:
-    """Return the default; where it is chosen from the points, what is chosen for these."""
-    parameters = METHODS[method].parameters()
-    if getattr(parameters, declaration.name) is None and hasattr(parameters, "resolve"):
-        parameters = parameters.resolve(cloud.points(Selection().select(cloud, SILENT)))
-    return getattr(parameters, declaration.name)
-
-
-def _is_movable(value: object) -> bool:
-    if isinstance(value, tuple):
-        return bool(value) and all(map(_is_movable, value))
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and value > 0
-
-
-def _change(
-    method: str, declaration: Declaration, values: Sequence, factor: float, clouds: Labelled
-) -> Change:
-    moved = [scaled(declaration, value, factor) for value in values]
-    texts = tuple(dict.fromkeys(as_text(value) for value, _ in moved))
-    is_limited = any(limited for _, limited in moved)
-    try:
-        assessments = {
-            str(number): compare(
-                Filter(method, **{declaration.name: value}).ground(cloud), reference, options
-            )
-            for number, ((value, _), (cloud, reference, options)) in enumerate(zip(moved, clouds))
-        }
-    except BareEarthError as error:
-        return Change(texts, is_limited, float("nan"), float("nan"), str(error))
-    figures = (mean(assessments, figure) for figure in ("total_error", "kappa"))
-    return Change(texts, is_limited, *figures)

@@ -6,15 +6,13 @@ be luck, so each is the mean of the phases below, given with its range.
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from bare_earth.algorithms.assessment import Assessment
 from bare_earth.algorithms.pointcloud.cloud import PointCloud
-from bare_earth.algorithms.points import Frame
 
 # Metres by which the points are moved to the east and the north: as they came, then spread evenly
 # over a cell of 1 m (the R2 sequence of Roberts 2018, in whole centimetres).
@@ -24,26 +22,14 @@ PHASES = (
 )  # fmt: skip
 
 
-@dataclass
-class _Anchored(PointCloud):
-    """A cloud whose local origin does not move along with its points."""
-
-    @property
-    def frame(self) -> Frame:
-        frame = super().frame
-        return replace(frame, origin=tuple(math.floor(each) for each in frame.origin))
-
-
 def shifted(cloud: PointCloud, east: float, north: float) -> PointCloud:
     """Return the cloud moved by metres; its integers, columns and order stay what they are.
 
-    The local origin is one at whole units of the CRS, so that the points move against the grids.
+    The cells of the filters begin at the zero of the CRS, so that the points move against them.
     """
     unit = cloud.crs.horizontal_unit
     x, y, z = cloud.offset
-    fields = {**{name: getattr(cloud, name) for name in cloud.__dataclass_fields__}}
-    fields["offset"] = (x + east / unit, y + north / unit, z)
-    return _Anchored(**fields)
+    return replace(cloud, offset=(x + east / unit, y + north / unit, z))
 
 
 class Range(NamedTuple):
@@ -57,6 +43,10 @@ class Range(NamedTuple):
     def of(cls, values: np.ndarray) -> Range:
         """Return mean, least and most of some values."""
         return cls(float(np.mean(values)), float(np.min(values)), float(np.max(values)))
+
+
+def _mean_of(figure: str) -> property:
+    return property(lambda phased: phased.range(figure).mean, doc="Mean over the phases.")
 
 
 class Phased(NamedTuple):
@@ -75,25 +65,10 @@ class Phased(NamedTuple):
         """Return one figure over the phases."""
         return Range.of(self.values(figure))
 
-    @property
-    def total_error(self) -> float:
-        """Mean over the phases."""
-        return self.range("total_error").mean
-
-    @property
-    def kappa(self) -> float:
-        """Mean over the phases."""
-        return self.range("kappa").mean
-
-    @property
-    def type_1_error(self) -> float:
-        """Mean over the phases."""
-        return self.range("type_1_error").mean
-
-    @property
-    def type_2_error(self) -> float:
-        """Mean over the phases."""
-        return self.range("type_2_error").mean
+    total_error = _mean_of("total_error")
+    kappa = _mean_of("kappa")
+    type_1_error = _mean_of("type_1_error")
+    type_2_error = _mean_of("type_2_error")
 
 
 def over_samples(results: dict[str, Phased], figure: str) -> Range:

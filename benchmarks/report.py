@@ -10,9 +10,10 @@ from bare_earth.algorithms.filters import METHODS
 
 from . import data, maps, peers, tables
 from .generated import remembered_scene, worst_kinds
-from .measure import GroundFilter, ReferenceModel, Scores, Sensitivity, mean
+from .measure import GroundFilter, ReferenceModel, Scores, mean
 from .phases import Phased
 from .scenes import KINDS
+from .sensitivity import SOME, Moved, Sensitivity
 
 PAGE = Path(__file__).parents[1] / "docs" / "accuracy.md"
 IMAGES = PAGE.parent / "images"
@@ -48,10 +49,6 @@ _TILES = {
     "hawaii_forest": "forest on a crater and lava, steep, 19.2 points/m²",
     "wires_single_return": "power lines and forest, 2.1 points/m²",
 }
-
-
-# Method, then place, then one for each parameter.
-Moved = dict[str, dict[str, list[Sensitivity]]]
 
 
 class Picture(NamedTuple):
@@ -161,9 +158,10 @@ def _moved(moved: Moved, isprs: Scores, real: tables.TileScores) -> list[str]:
     lines: list[str] = []
     for method, places in moved.items():
         lines += [f"### {METHODS[method].label}", ""]
+        measured = {at: Phased(each.assessments[SOME]) for at, each in isprs[method].items()}
         for where, rows in places.items():
             one = real[where][method].assessment if where in real else None
-            base = one.total_error if one else mean(isprs[method], "total_error")
+            base = one.total_error if one else mean(measured, "total_error")
             lines += [f"On {where}. {_spread(rows, base)}", "", *tables.sensitivity(rows), ""]
     return lines[:-1]
 

@@ -10,9 +10,10 @@ from bare_earth.algorithms.filters import METHODS
 from . import data
 from .generated import SceneScores, worst_kinds
 from .generated import mean as scene_mean
-from .measure import Change, Scores, Sensitivity, TileScore, best, mean
+from .measure import Scores, TileScore, best, mean
 from .peers import QUOTED, QUOTED_RMSE
 from .phases import Range, over_samples
+from .sensitivity import Change, Sensitivity
 
 # What stands where there is no figure.
 NONE = "-"

@@ -17,12 +17,12 @@ from benchmarks.scenes.classes import (
     LOW_VEGETATION,
     WATER,
 )
+from benchmarks.scenes.scene import ORIGIN
 
 KIND, SEED = "mixed_land", 2004
 # Water counts as ground, as in a terrain model; noise, the bridge and cars do not.
 GROUND_CLASSES = (GROUND, WATER)
 
-_ORIGIN = (568_000.0, 5_931_000.0)
 _WKT = (
     'PROJCS["ETRS89 / UTM zone 32N",GEOGCS["ETRS89",DATUM["European_Terrestrial_Reference_System_'
     '1989",SPHEROID["GRS 1980",6378137,298.257222101,AUTHORITY["EPSG","7019"]],AUTHORITY["EPSG",'
@@ -61,14 +61,14 @@ def write_scene(cloud: Path, truth: Path, density: float = 8.0, seed: int = SEED
 
 def _las(scene: Scene) -> laspy.LasData:
     header = laspy.LasHeader(point_format=6, version="1.4")
-    header.scales, header.offsets = np.full(3, 0.001), np.array([*_ORIGIN, 0.0])
+    header.scales, header.offsets = np.full(3, 0.001), np.array([*ORIGIN, 0.0])
     header.vlrs.append(WktCoordinateSystemVlr(_WKT))
     header.global_encoding.wkt = True
     header.generating_software = "Bare Earth demo"
     las = laspy.LasData(header)
     # The scene lies anywhere; that of the demo begins at round coordinates.
     west, south = (middle - scene.settings.size / 2 for middle in scene.corner)
-    las.x, las.y = scene.points.x - west + _ORIGIN[0], scene.points.y - south + _ORIGIN[1]
+    las.x, las.y = scene.points.x - west + ORIGIN[0], scene.points.y - south + ORIGIN[1]
     las.z = scene.points.z
     las.classification = scene.classes
     las.return_number, las.number_of_returns = scene.return_number, scene.number_of_returns

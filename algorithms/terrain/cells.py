@@ -22,7 +22,7 @@ _HAS_FAST_AT = np.lib.NumpyVersion(np.__version__) >= "1.25.0"
 _BLOCK = 10.0
 # Times as many points as are dense, on average, where surely most blocks are.
 _SURELY = 4.0
-# Metres of which the usual distance between points is a multiple.
+# Metres of which the usual distance between points is a multiple, if nothing else is said.
 _SPACING_STEP = 0.5
 # Cells along the gap between groups of points, an even number, and the least side of one in metres.
 _CELLS_A_REACH, _LEAST_GAP = 10, 5.0
@@ -226,12 +226,12 @@ def lower_at(target: np.ndarray, index: np.ndarray, values: np.ndarray) -> None:
         left = left[some < target[at]]
 
 
-def spacing(points: Points, dense: float = 1.0) -> float:
+def spacing(points: Points, dense: float = 1.0, step: float = _SPACING_STEP) -> float:
     """Return the usual distance between points in metres, in coarse steps.
 
     It is that of the median of the blocks within the survey, so that neither gaps nor the extent
-    nor a few points matter, and in steps of half a metre, or of a factor of two of the points per
-    square metre below a metre, so that a crop hardly ever does.
+    nor a few points matter, and in steps (below a metre by a factor of two of the points per square
+    metre), so that a crop hardly ever does.
 
     Parameters
     ----------
@@ -239,6 +239,8 @@ def spacing(points: Points, dense: float = 1.0) -> float:
         All points.
     dense : float
         Metres: a smaller spacing is as good as any.
+    step : float
+        Metres of which it is a multiple, from a metre on.
     """
     from scipy import ndimage
 
@@ -251,5 +253,5 @@ def spacing(points: Points, dense: float = 1.0) -> float:
     usual = np.median(counts[within if within.any() else counts > 0])
     apart = _BLOCK / math.sqrt(usual)
     if apart >= 1.0:
-        return max(dense, _SPACING_STEP * round(apart / _SPACING_STEP))
+        return max(dense, step * round(apart / step))
     return max(dense, 2.0 ** (round(2.0 * math.log2(apart)) / 2.0))

@@ -1,4 +1,4 @@
-"""Heights on a grid: of the ground where there is any, else of what is lowest; small gaps filled."""
+"""Heights on a grid: of the ground where there is any, else of what is lowest; gaps filled."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .cells import Cells, lower_at, spacing
 
 # Least side of a cell in metres; half the spacing of the points where they are sparse, in steps.
 _CELL, _CELL_STEP = 1.0, 0.5
-# The spacing is rounded to steps of so many metres: one point more must not change it.
+# Steps of the spacing in metres: finer than elsewhere, as it tells how far a surface may rise.
 _SPACING_STEP = 0.25
 # A cell has the height of the nearest one that has a point, up to so many spacings off.
 _FILLED = 1.5
@@ -53,7 +53,7 @@ class Relief(NamedTuple):
     @classmethod
     def over(cls, points: Points, ground: np.ndarray) -> tuple[Relief, Cells]:
         """Return the relief of some points, of which some are ground, and their cells."""
-        apart = _SPACING_STEP * round(spacing(points) / _SPACING_STEP)
+        apart = spacing(points, step=_SPACING_STEP)
         cells = Cells.over(points, max(_CELL, _CELL_STEP * round(apart / 2.0 / _CELL_STEP)))
         lowest = np.full(cells.rows * cells.columns, np.inf)
         lower_at(lowest, cells.index, np.where(ground, points.z, np.inf))

@@ -106,6 +106,10 @@ class Scene:
         What it was made from.
     settings : Settings
         What it was made with.
+    corner : tuple of float
+        x and y of the middle of the square.
+    bare_earth : callable
+        The true height at x and y, in metres from that middle.
     """
 
     points: Points

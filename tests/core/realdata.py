@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import pytest
 
-FOLDER = Path(os.environ.get("BARE_EARTH_DATA", Path(__file__).parents[3] / "shared" / "data"))
+from benchmarks.data import FOLDER
 
 
 def real(name: str) -> Path:

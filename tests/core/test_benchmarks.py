@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.assessment import AssessmentOptions, compare
+from bare_earth.algorithms.assessment import compare
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.parameters import Declaration
 from bare_earth.algorithms.pointcloud.reading import read_cloud
@@ -13,6 +13,7 @@ from benchmarks import accuracy, cache, data, maps, measure, peers, report, tabl
 from benchmarks.measure import Filter
 from benchmarks.scenes import KINDS, make
 from benchmarks.scenes.simple import village
+from benchmarks.sensitivity import Place, scaled, sensitivity
 
 pytest.importorskip("matplotlib")
 
@@ -194,12 +195,12 @@ class Everything:
 )
 def test_scaling_respects_kind_and_limits(kind, value, factor, expected):
     declaration = Declaration("a", kind, value, "A", "", minimum=1.0, maximum=10.0)
-    assert measure.scaled(declaration, value, factor) == expected
+    assert scaled(declaration, value, factor) == expected
 
 
 def test_sensitivity_moves_defaults_that_are_chosen(folder):
     cloud, reference = data.load(data.isprs()[0])
-    rows = measure.sensitivity("slope", [(cloud, reference, AssessmentOptions())])
+    rows = sensitivity(["slope"], {"here": Place(tuple(data.isprs()))})["slope"]["here"]
     radius = next(row for row in rows if row.declaration.name == "search_radius")
     assert radius.defaults == ("18",)
     assert [change.values for change in radius.changes] == [("9",), ("36",)]

@@ -5,7 +5,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from realdata import real
-from scenes import scatter, surveyed
 
 from bare_earth.algorithms.classification import classify
 from bare_earth.algorithms.errors import BareEarthError
@@ -18,6 +17,7 @@ from bare_earth.algorithms.pointcloud.reading import read_cloud
 from bare_earth.algorithms.pointcloud.selection import Selection
 from bare_earth.algorithms.points import Points
 from bare_earth.algorithms.terrain.bridges import bridge_decks
+from benchmarks.scenes.simple import scatter, surveyed
 
 SIZE = 120.0
 

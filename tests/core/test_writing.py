@@ -1,11 +1,10 @@
 import errno
-import os
 import struct
-from pathlib import Path
 
 import laspy
 import numpy as np
 import pytest
+from realdata import real
 
 from bare_earth.algorithms.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.pointcloud import changes
@@ -15,7 +14,6 @@ from bare_earth.algorithms.pointcloud.writing import check_writable, write_class
 
 VERSIONS = {0: (0, 1), 1: (0, 1), 2: range(4), 3: range(6), 4: range(11)}
 EVERY = [(version, each) for version, formats in VERSIONS.items() for each in formats]
-DATA = Path(os.environ.get("BARE_EARTH_DATA", Path(__file__).parents[3] / "shared" / "data"))
 REAL = ("mixed_conifer.laz", "forest_topography.laz", "ign_pf8.las")
 
 
@@ -297,9 +295,7 @@ def test_a_missing_folder_is_told(las):
 @pytest.mark.parametrize("written", ["las", "laz"])
 @pytest.mark.parametrize("name", REAL)
 def test_real_files_keep_all_but_the_class(las, name, written):
-    source = DATA / "real" / name
-    if not source.exists():
-        pytest.skip(f"{source} is not here")
+    source = real(f"real/{name}")
     target = las.folder / f"out.{written}"
     cloud = read_cloud(source)
     classes = new_classes(cloud.count)
