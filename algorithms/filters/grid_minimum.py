@@ -21,6 +21,7 @@ from ..points import Points
 from ..progress import SILENT, Progress
 from ..terrain.cell_blocks import CellBlocks
 from ..terrain.cells import Cells
+from ..terrain.doubts import tell_of_outliers
 from ..terrain.gradient import steepness
 from ..terrain.inpaint import inpaint
 from ..terrain.near_surface import near_surface
@@ -196,6 +197,11 @@ class GridMinimum(ParameterSet):
         return dataclasses.replace(self, **empty)
 
 
+def largest_object(parameters: GridMinimum) -> float:
+    """Return the width in metres of the largest building that is looked for."""
+    return parameters.max_object_size or PRESETS[parameters.preset].max_object_size
+
+
 def reach(parameters: GridMinimum) -> float:
     """Return the metres beyond which a point does not matter for another."""
     largest = parameters.max_object_size or PRESETS[parameters.preset].max_object_size
@@ -257,7 +263,9 @@ def _surface(
     """Return the height of the ground in each cell."""
     heights = cells.minimum(z)
     blocks = CellBlocks.over(cells, _BLOCK)
+    count = np.count_nonzero(np.isfinite(heights))
     heights[_noise(heights, cells, blocks)] = np.nan
+    tell_of_outliers(count, heights, progress)
     progress(0.2)
     ground = heights.copy()
     ground[_tall_objects(heights, blocks, parameters, progress.part(0.2, 0.6))] = np.nan

@@ -22,6 +22,7 @@ from ..parameters import ParameterSet, parameter
 from ..points import Points
 from ..progress import SILENT, Progress
 from ..terrain.cells import Cells, spacing
+from ..terrain.doubts import tell_of_outliers
 from ..terrain.gradient import gradient, steepness
 from ..terrain.inpaint import inpaint
 from ..terrain.low_clusters import low_clusters
@@ -184,6 +185,13 @@ class SlopeFilter(ParameterSet):
         return dataclasses.replace(self, **empty)
 
 
+def largest_object(parameters: SlopeFilter) -> float:
+    """Return the width in metres of the largest building that is looked for, about."""
+    if parameters.preset == "whitebox":
+        return 2.0 * (parameters.search_radius or _WHITEBOX_RADIUS)
+    return 2.0 * (parameters.search_radius or _MANY_SCALES[parameters.preset][0])
+
+
 def reach(parameters: SlopeFilter) -> float:
     """Return the metres beyond which a point does not matter for another."""
     if parameters.preset == "whitebox":
@@ -258,11 +266,13 @@ def _on_many_scales(points: Points, parameters: SlopeFilter, progress: Progress)
     cells = Cells.over(points, parameters.cell_size)
     lowest = cells.minimum(points.z)
     progress(0.2)
+    count = np.count_nonzero(np.isfinite(lowest))
     # One after the other: a deep outlier would hide a shallow one beside it.
     lowest[low_outliers(lowest, cells.size, _OUTLIER_SLOPE, cells.first)] = np.nan
     around = _SURROUNDINGS * parameters.search_radius
     pits = low_clusters(lowest, cells.size, _CLUSTER_SLOPE, _CLUSTER_WIDTH, around, cells.first)
     lowest[pits] = np.nan
+    tell_of_outliers(count, lowest, progress)
     objects = _objects(lowest, cells, parameters, progress.part(0.3, 0.6))
     lowest[objects] = np.nan
     if not np.isfinite(lowest).any():

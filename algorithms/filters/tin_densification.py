@@ -21,6 +21,7 @@ from ..parameters import ParameterSet, parameter, parameter_of
 from ..points import Points
 from ..progress import SILENT, Progress
 from ..terrain.cells import Cells
+from ..terrain.doubts import tell_of_outliers
 from ..terrain.densification import DensificationRules, densified, with_lower
 from ..terrain.breaks import at_breaks
 from ..terrain.gradient import steepness
@@ -223,6 +224,12 @@ class TinDensification(ParameterSet):
         return dataclasses.replace(self, **empty)
 
 
+def largest_object(parameters: TinDensification) -> float:
+    """Return the width in metres of the largest building that is looked for in any case."""
+    size = parameters.max_building_size or PRESETS[parameters.preset].max_building_size
+    return size or _USUAL_BUILDING
+
+
 def reach(parameters: TinDensification) -> float:
     """Return the metres beyond which a point does not matter for another."""
     size = parameters.max_building_size or PRESETS[parameters.preset].max_building_size or 0.0
@@ -270,6 +277,7 @@ def classify(
     resolved = parameters._resolved(survey)
     if resolved != parameters:
         progress.info(_in_words(resolved))
+    tell_of_outliers(len(survey.lowest), survey.heights, progress)
     cells = survey.cells
     which, seeds, free = _seeds(survey, resolved)
     if MODE:
