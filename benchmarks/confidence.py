@@ -90,26 +90,44 @@ def places(
 def look(place: Place) -> list[Seen]:
     """Run each filter on a scene or a sample, and compare its terrain with the true one."""
     cloud, points, terrain = _load(place)
-    takes_part = Selection().select(cloud, SILENT)
-    points = points.take(takes_part)
+    seed = zlib.crc32(repr(place[:2]).encode())
+    results = []
+    for method in METHODS:
+        try:
+            ground = Filter(method).ground(cloud)
+        except BareEarthError:  # no ground, no terrain
+            continue
+        takes_part = Selection().select(cloud, SILENT)
+        seen = compared(points.take(takes_part), ground[takes_part], terrain, seed)
+        results.append(seen._replace(method=method, is_sample=place.path is not None))
+    return results
+
+
+def compared(points: Points, ground: np.ndarray, terrain: Terrain, seed: int = 0) -> Seen:
+    """Compare the terrain of a ground mask with the true one, at cells drawn by a seed.
+
+    Parameters
+    ----------
+    points : Points
+        All that took part.
+    ground : numpy.ndarray of bool, shape (n,)
+        Which of them are taken for ground.
+    terrain : callable
+        Returns the true heights at some x and y; NaN where they are not known.
+    seed : int
+        Draws the cells.
+    """
     cells = Cells.over(points, CELL)
     at = cells.centres()
     truth = terrain(*at).reshape(cells.shape)
     allowed = TOLERANCE + RISE_SHARE * CELL * steepness(truth, CELL)
-    random = np.random.default_rng(zlib.crc32(repr(place[:2]).encode()))
-    seen = []
-    for method in METHODS:
-        try:
-            ground = Filter(method).ground(cloud)[takes_part]
-        except BareEarthError:  # no ground, no terrain
-            continue
-        heights = _tin(points.take(ground))(*at).reshape(cells.shape)
-        known = np.flatnonzero(np.isfinite(heights) & np.isfinite(allowed))
-        drawn = random.choice(known, min(_CELLS, len(known)), replace=False)
-        right = (np.abs(heights - truth) <= allowed).ravel()[drawn]
-        pieces = [each.ravel()[drawn] for each in evidence(cells, points.z, ground)]
-        seen.append(Seen(method, place.path is not None, np.column_stack(pieces), right))
-    return seen
+    heights = _tin(points.take(ground))(*at).reshape(cells.shape)
+    known = np.flatnonzero(np.isfinite(heights) & np.isfinite(allowed))
+    random = np.random.default_rng(seed)
+    drawn = random.choice(known, min(_CELLS, len(known)), replace=False)
+    right = (np.abs(heights - truth) <= allowed).ravel()[drawn]
+    pieces = [each.ravel()[drawn] for each in evidence(cells, points.z, ground)]
+    return Seen("", False, np.column_stack(pieces), right)
 
 
 def _load(place: Place) -> tuple[PointCloud, Points, Terrain]:
