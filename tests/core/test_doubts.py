@@ -84,7 +84,8 @@ def test_hardly_any_ground_is_told(las):
     # Crowns all over: of the points of a wide disc only the lowest stands above no other.
     crowns = land(100, 100)
     crowns.z[:] = np.random.default_rng(1).uniform(0, 2000, crowns.count)
-    strict = SlopeFilter(preset="whitebox", search_radius=8.0, slope_threshold=1.0)
+    values = {"search_radius": 8.0, "slope_threshold": 0.0, "height_threshold": 0.01}
+    strict = SlopeFilter(preset="whitebox", slope_norm=False, **values)
     (warning,) = warnings_of(crowns, strict, las)
     assert LITTLE in warning and "2 %" in warning
 
