@@ -25,6 +25,10 @@ class Method(NamedTuple):
         ``classify(points, parameters, progress)``, a pure function that returns the ground mask.
     reach : callable
         ``reach(parameters)``, the metres beyond which a point does not matter for another.
+    largest_object : callable
+        ``largest_object(parameters)``, the width in metres of the largest object looked for.
+    size_parameter : str
+        Name of the parameter that says so.
     classic : str
         The preset that does just what an original does: nothing is added to it.
     takes_known_ground : bool
@@ -37,12 +41,19 @@ class Method(NamedTuple):
     parameters: type[ParameterSet]
     classify: Callable[..., np.ndarray]
     reach: Callable[..., float]
+    largest_object: Callable[..., float]
+    size_parameter: str
     classic: str
     takes_known_ground: bool = False
 
     def is_classic(self, parameters: ParameterSet) -> bool:
         """Return whether parameters ask for what an original does."""
         return parameters.preset == self.classic
+
+    def largest(self, parameters: ParameterSet) -> tuple[float, str]:
+        """Return the width in metres of the largest object looked for, and what says so."""
+        labels = {each.name: each.label for each in parameters.declarations()}
+        return self.largest_object(parameters), labels[self.size_parameter]
 
 
 # The most accurate one.
@@ -56,6 +67,8 @@ METHODS = {
             tin_densification.TinDensification,
             tin_densification.classify,
             tin_densification.reach,
+            tin_densification.largest_object,
+            "max_building_size",
             "lidar360",
             takes_known_ground=True,
         ),
@@ -65,9 +78,20 @@ METHODS = {
             grid_minimum.GridMinimum,
             grid_minimum.classify,
             grid_minimum.reach,
+            grid_minimum.largest_object,
+            "max_object_size",
             "paper",
         ),
-        Method("slope", "Slope filter", slope.SlopeFilter, slope.classify, slope.reach, "whitebox"),
+        Method(
+            "slope",
+            "Slope filter",
+            slope.SlopeFilter,
+            slope.classify,
+            slope.reach,
+            slope.largest_object,
+            "search_radius",
+            "whitebox",
+        ),
     )
 }
 

@@ -21,10 +21,12 @@ from ..points import Points
 from ..progress import SILENT, Progress
 from ..terrain.cell_blocks import CellBlocks
 from ..terrain.cells import Cells
+from ..terrain.doubts import tell_of_outliers
 from ..terrain.gradient import steepness
 from ..terrain.ground_cells import ground_cells
+from ..terrain.ground_limits import Tolerance
 from ..terrain.inpaint import inpaint
-from ..terrain.near_ground import Candidates, Tolerance, near_ground
+from ..terrain.near_ground import Candidates, near_ground
 from ..terrain.near_surface import near_surface
 from ..terrain.objects import Relief, covered, raised_objects
 from ..terrain.outliers import low_outliers, supported
@@ -219,6 +221,11 @@ class GridMinimum(ParameterSet):
         return dataclasses.replace(self, **empty)
 
 
+def largest_object(parameters: GridMinimum) -> float:
+    """Return the width in metres of the largest building that is looked for."""
+    return parameters.max_object_size or PRESETS[parameters.preset].max_object_size
+
+
 def reach(parameters: GridMinimum) -> float:
     """Return the metres beyond which a point does not matter for another."""
     largest = parameters.max_object_size or PRESETS[parameters.preset].max_object_size
@@ -301,7 +308,9 @@ def _by_rims(cells: Cells, z: np.ndarray, parameters: GridMinimum, progress: Pro
     heights = cells.minimum(z)
     blocks = CellBlocks.over(cells, _BLOCK)
     dense = parameters.preset != "paper" and _density(cells) >= _DENSE
+    count = np.count_nonzero(np.isfinite(heights))
     heights[_noise(heights, cells, blocks, dense)] = np.nan
+    tell_of_outliers(count, heights, progress)
     progress(0.2)
     tall = _tall_objects(heights, blocks, parameters, progress.part(0.2, 0.6))
     ground = np.where(tall, np.nan, heights)

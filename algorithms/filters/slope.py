@@ -23,13 +23,15 @@ from ..parameters import ParameterSet, parameter
 from ..points import Points
 from ..progress import SILENT, Progress
 from ..terrain.cells import Cells, spacing
+from ..terrain.doubts import tell_of_outliers
 from ..terrain.gradient import gradient
 from ..terrain.ground_cells import ground_cells
+from ..terrain.ground_limits import Tolerance
 from ..terrain.inpaint import inpaint
 from ..terrain.low_clusters import low_clusters
 from ..terrain.lowest_points import LowestPoints
 from ..terrain.morphology import erosion
-from ..terrain.near_ground import Candidates, Tolerance, near_ground
+from ..terrain.near_ground import Candidates, near_ground
 from ..terrain.standing_above import Rule, stands_above
 
 # Metres between points up to which the automatic radius and cells are the least.
@@ -231,6 +233,13 @@ class SlopeFilter(ParameterSet):
         return dataclasses.replace(self, **empty)
 
 
+def largest_object(parameters: SlopeFilter) -> float:
+    """Return the width in metres of the largest building that is looked for, about."""
+    if parameters.preset == "whitebox":
+        return 2.0 * (parameters.search_radius or _WHITEBOX_RADIUS)
+    return 2.0 * (parameters.search_radius or MANY_SCALES[parameters.preset].search_radius)
+
+
 def reach(parameters: SlopeFilter) -> float:
     """Return the metres beyond which a point does not matter for another."""
     if parameters.preset == "whitebox":
@@ -316,6 +325,7 @@ def _on_many_scales(points: Points, parameters: SlopeFilter, progress: Progress)
     around = _SURROUNDINGS * parameters.search_radius
     pits = low_clusters(heights, cells.size, _CLUSTER_SLOPE, _CLUSTER_WIDTH, around, cells.first)
     heights[pits] = np.nan
+    tell_of_outliers(len(survey.lowest), heights, progress)
     steep = _objects(heights, cells, parameters, progress.part(0.3, 0.5))
     widest = parameters.max_building_size
     tall = survey.objects(widest, progress.part(0.5, 0.6))

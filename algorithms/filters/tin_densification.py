@@ -22,6 +22,7 @@ from ..progress import SILENT, Progress
 from ..terrain.breaks import checked_seeds
 from ..terrain.cells import Cells, spacing
 from ..terrain.densification import DensificationRules, densified, with_lower
+from ..terrain.doubts import tell_of_outliers
 from ..terrain.ground_limits import Tolerance, ground_limits, plain_limits
 from ..terrain.lowest_points import LowestPoints
 from ..terrain.model_key_points import ModelKeyPoints, model_key_points
@@ -35,6 +36,8 @@ _CELL, _DENSE_CELL, _DENSE = 1.0, 0.5, 0.17
 _LEAST_SPACING = 0.01
 # Metres beyond which points do not matter: so many times the largest building, but at least this.
 _REACH_BUILDINGS, _LEAST_REACH = 1.2, 100.0
+# Metres: larger buildings than that are looked for, but hardly ever there.
+_USUAL_BUILDING = 48.0
 # The preset that keeps the rules of another program.
 CLASSIC = "lidar360"
 
@@ -211,6 +214,13 @@ class TinDensification(ParameterSet):
         return dataclasses.replace(self, **empty)
 
 
+def largest_object(parameters: TinDensification) -> float:
+    """Return the width in metres of the largest building that is to be expected."""
+    if parameters.max_building_size is None and parameters.preset == "automatic":
+        return _USUAL_BUILDING
+    return parameters.max_building_size or PRESETS[parameters.preset].max_building_size
+
+
 def reach(parameters: TinDensification) -> float:
     """Return the metres beyond which a point does not matter for another."""
     size = parameters.max_building_size or PRESETS[parameters.preset].max_building_size
@@ -260,6 +270,7 @@ def classify(
     progress.info(_in_words(resolved, apart, is_dense))
     survey = LowestPoints(points, _DENSE_CELL if is_dense else _CELL, is_classic)
     progress(0.1)
+    tell_of_outliers(len(survey.lowest), survey.heights, progress)
     ground, waiting = _seeds(points, survey, resolved, progress.part(0.1, 0.7))
     cells = survey.cells
     heights = with_lower(np.full(cells.shape, np.nan), cells, points, ground)
@@ -275,7 +286,7 @@ def classify(
     joined = densified(points, ground, waiting, heights, cells, survey.spacing, rules, part)
     vertices = np.append(ground, joined)
     tolerance = Tolerance(
-        resolved.ground_tolerance, resolved.ground_tolerance_below, resolved.slope_tolerance
+        resolved.ground_tolerance, resolved.slope_tolerance, resolved.ground_tolerance_below
     )
     if is_classic:
         limits = plain_limits(points, vertices, cells, tolerance)

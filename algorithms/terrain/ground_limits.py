@@ -39,15 +39,17 @@ class Tolerance(NamedTuple):
 
     Attributes
     ----------
-    above, below : float
+    above : float
         Metres in level terrain.
     on_slopes : float
-        Metres that a slope of 45 degrees adds to both, where points are a metre apart or more.
+        Metres that a slope of 45 degrees adds, where points are a metre apart or more.
+    below : float
+        Metres in level terrain; more than above, as the surface is smooth where points are not.
     """
 
     above: float
-    below: float
     on_slopes: float
+    below: float = 0.6
 
 
 def plain_limits(

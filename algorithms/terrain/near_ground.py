@@ -8,23 +8,14 @@ import numpy as np
 
 from ..points import Points
 from ..progress import SILENT, Progress
-from .breaks import at_breaks
-from .cells import Cells, lower_at, spacing
-from .gradient import gradient, steepness
-from .inpaint import inpaint
+from .breaks import checked_seeds
+from .cells import Cells, spacing
+from .ground_limits import Tolerance, ground_limits
 from .near_surface import near_surface
 
-# Metres over which the surface is smoothed to move heights along it, and to take its slope.
-_TREND, _FACET = 1.5, 0.7
-# No height is moved along a steeper slope (rise over run).
-_STEEPEST = 1.5
-# The usual distance in metres between points, beyond which the tolerance on slopes is no other.
-_CLOSEST, _FARTHEST = 0.25, 1.0
-# Points that lie closer (metres) leave no gaps in which breaks would be lost.
-_GAPLESS = 0.4
-# Metres below the surface that are ground as well: it lies through the lowest points, and is
-# smooth where they are not.
-_BELOW = 0.6
+# Metres between points: less is as good as that. Up to the second the noise is measured, and up to
+# the third there are no gaps in which breaks would be lost.
+_CLOSEST, _DENSE, _GAPLESS = 0.01, 0.17, 0.4
 
 
 class Candidates(NamedTuple):
@@ -50,22 +41,6 @@ class Candidates(NamedTuple):
     ) -> Candidates:
         """Return candidates from grids (rows, columns) and the cell of each lowest point."""
         return cls(lowest, ground.ravel()[cell], free.ravel()[cell])
-
-
-class Tolerance(NamedTuple):
-    """How far above the surface a point may lie and be ground.
-
-    Attributes
-    ----------
-    level : float
-        Metres in level terrain.
-    on_slopes : float
-        Metres that a slope of 45 degrees adds where points are a metre apart; less in proportion
-        on gentler slopes, and where points are closer.
-    """
-
-    level: float
-    on_slopes: float
 
 
 def near_ground(
@@ -99,55 +74,10 @@ def near_ground(
         True for ground.
     """
     apart = spacing(points, _CLOSEST)
-    ground = candidates.ground
+    seeds = candidates.lowest[candidates.ground]
     if apart > _GAPLESS:
-        ground = at_breaks(points, candidates.lowest, ground, candidates.free, apart, cells)
+        waiting = candidates.lowest[candidates.free & ~candidates.ground]
+        seeds, _ = checked_seeds(points, seeds, waiting, cells, max(apart, cells.size))
     progress(0.5)
-    surface = _surface(points, candidates.lowest[ground], cells)
-    limits = _limits(surface, cells, tolerance, apart)
+    limits = ground_limits(points, seeds, cells, apart, tolerance, apart <= _DENSE)
     return near_surface(points, cells, limits, progress.part(0.6, 1.0))
-
-
-def _surface(points: Points, which: np.ndarray, cells: Cells) -> np.ndarray:
-    """Return the height at the centre of each cell.
-
-    A lowest point lies downhill from the centre of its cell, and hence below the ground there; it
-    is moved to the centre along the slope of the surface.
-    """
-    from scipy import ndimage
-
-    x, y, z = points.take(which)
-    cell = cells.index[which]
-    row, column = np.divmod(cell, cells.columns)
-    north = (row + cells.first_row + 0.5) * cells.size - y
-    east = (column + cells.first_column + 0.5) * cells.size - x
-    moved = z
-    for _ in range(2):
-        surface = _through(moved, cell, cells)
-        smooth = ndimage.gaussian_filter(surface, _TREND / cells.size, mode="nearest")
-        rises = (each.ravel()[cell] for each in gradient(smooth, cells.size))
-        north_rise, east_rise = (np.clip(each, -_STEEPEST, _STEEPEST) for each in rises)
-        moved = z + north * north_rise + east * east_rise
-    return _through(moved, cell, cells)
-
-
-def _through(z: np.ndarray, cell: np.ndarray, cells: Cells) -> np.ndarray:
-    lowest = np.full(cells.rows * cells.columns, np.inf)
-    lower_at(lowest, cell, z)
-    lowest[np.isinf(lowest)] = np.nan
-    return inpaint(lowest.reshape(cells.shape), first=cells.first)
-
-
-def _limits(surface: np.ndarray, cells: Cells, tolerance: Tolerance, apart: float) -> np.ndarray:
-    """Return between which heights points are ground, shape (rows, columns, 2).
-
-    The slope that adds to the tolerance is that of the smoothed surface: between single lowest
-    points it is too uneven. Where points are dense the surface is known better.
-    """
-    from scipy import ndimage
-
-    smooth = ndimage.gaussian_filter(surface, _FACET / cells.size, mode="nearest")
-    share = min(max(apart, _CLOSEST), _FARTHEST) / _FARTHEST
-    rise = tolerance.on_slopes * share * steepness(smooth, cells.size)
-    below = max(_BELOW, tolerance.level)
-    return np.stack((surface - below - rise, surface + tolerance.level + rise), axis=-1)

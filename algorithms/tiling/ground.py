@@ -15,6 +15,7 @@ from ..progress import SILENT, Progress, Unsaid
 from ..terrain.below_ground import below_ground
 from ..terrain.bridges import bridge_decks
 from ..terrain.cells import apart
+from ..terrain.doubts import tell_of_extent, tell_of_little_ground
 from .blocks import BRIDGE, LOW, Block, Blocks, Contents, Store
 from .memory import Resources
 from .scheduling import run_jobs
@@ -128,11 +129,13 @@ class _Filter(NamedTuple):
         finds_bridges = self._finds_bridges
         part = progress.part(0.0, end - _BRIDGES_SHARE if finds_bridges else end)
         points, known = contents.points, contents.known
+        tell_of_extent(points, *method.largest(self.parameters), progress)
         if known.any() and method.takes_known_ground:
             ground = method.classify(points, self.parameters, part, known_ground=known)
         else:
             ground = method.classify(points, self.parameters, part)
         ground |= known
+        tell_of_little_ground(points, ground, progress)
         labels = ground.astype(np.uint8)
         if finds_bridges:
             decks = bridge_decks(points, ground) & ~known

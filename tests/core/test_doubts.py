@@ -1,0 +1,96 @@
+"""What a filter is not sure of is told, once and in words."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bare_earth.algorithms.classification import classify
+from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.filters.grid_minimum import GridMinimum
+from bare_earth.algorithms.filters.slope import SlopeFilter
+from bare_earth.algorithms.filters.tin_densification import TinDensification
+from bare_earth.algorithms.pointcloud.cloud import PointCloud, survey_frame
+from bare_earth.algorithms.pointcloud.crs import Crs
+from bare_earth.algorithms.tiling.blocks import Blocks
+from bare_earth.algorithms.tiling.cloudstore import CloudStore, Part
+from bare_earth.algorithms.tiling.ground import label_ground
+
+PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
+METHODS_BY_TYPE = {method.parameters: method for method in METHODS.values()}
+EXTENT, LITTLE, OUTLIERS = "reach less far", "Hardly any ground", "low outliers"
+
+
+def land(width, depth, outliers=0.0, density=2.0, seed=4):
+    """Return a cloud of level land, some of whose points lie 20 m too low."""
+    random = np.random.default_rng(seed)
+    count = round(width * depth * density)
+    x, y = random.uniform(0, width, count), random.uniform(0, depth, count)
+    z = random.normal(0, 0.03, count)
+    z[random.random(count) < outliers] -= random.uniform(15, 60)
+    integers = [np.round(each * 100).astype(np.int32) for each in (x, y, z)]
+    ones = np.ones(count, np.uint8)
+    return PointCloud(
+        Path("in.las"), *integers, (0.01,) * 3, (0.0,) * 3, ones, ones, ones,
+        np.zeros(count, bool), 6, Crs(),
+    )  # fmt: skip
+
+
+def warnings_of(cloud, parameters, las):
+    heard = las.Heard()
+    classify(cloud, parameters, progress=heard)
+    return heard.warnings
+
+
+@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
+def test_a_wide_and_clean_survey_is_not_doubted(parameters, las):
+    assert warnings_of(land(150, 150, outliers=0.001), parameters, las) == []
+
+
+@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
+def test_an_extent_smaller_than_the_largest_object_is_told(parameters, las):
+    (warning,) = warnings_of(land(150, 30), parameters, las)
+    assert EXTENT in warning
+    declared = {each.name: each.label for each in parameters.declarations()}
+    assert declared[METHODS_BY_TYPE[type(parameters)].size_parameter] in warning
+
+
+@pytest.mark.parametrize(
+    ("parameters", "width"),
+    [
+        (TinDensification(max_building_size=20.0), 20),
+        (GridMinimum(preset="city"), 120),
+        (SlopeFilter(search_radius=10.0), 20),
+        (SlopeFilter(preset="whitebox"), 4),
+    ],
+)
+def test_the_size_is_what_was_given(parameters, width, las):
+    assert METHODS_BY_TYPE[type(parameters)].largest_object(parameters) == width
+    told = [EXTENT in "".join(warnings_of(land(140, side), parameters, las)) for side in (3, 135)]
+    assert told == [True, False]
+
+
+def test_the_same_warning_of_several_blocks_is_told_once(las):
+    cloud, heard = land(400, 30), las.Heard()
+    blocks = Blocks(100.0, 50.0)
+    part = Part(cloud, np.ones(cloud.count, bool))
+    store = CloudStore([part], survey_frame(cloud.crs), blocks)
+    label_ground(store, GridMinimum(), blocks, progress=heard)
+    (warning,) = heard.warnings
+    assert EXTENT in warning and "blocks" not in warning
+
+
+def test_hardly_any_ground_is_told(las):
+    # Crowns all over: of the points of a wide disc only the lowest stands above no other.
+    crowns = land(100, 100)
+    crowns.z[:] = np.random.default_rng(1).uniform(0, 2000, crowns.count)
+    values = {"search_radius": 8.0, "slope_threshold": 0.0, "height_threshold": 0.01}
+    strict = SlopeFilter(preset="whitebox", slope_norm=False, **values)
+    (warning,) = warnings_of(crowns, strict, las)
+    assert LITTLE in warning and "2 %" in warning
+
+
+@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
+def test_many_low_outliers_are_told(parameters, las):
+    (warning,) = warnings_of(land(150, 150, outliers=0.04), parameters, las)
+    assert OUTLIERS in warning and "class 7" in warning
