@@ -109,12 +109,12 @@ def watched(monkeypatch, result=None, takes_known_ground=False):
 @pytest.mark.parametrize("unit", [1.0, FOOT])
 def test_the_method_sees_what_lies_near_the_area_and_no_more(unit, long_scene, monkeypatch):
     given, cloud = watched(monkeypatch), cloud_of(long_scene, unit=unit)
-    classify(cloud, SlopeFilter(), area=box(220, 5, 260, 35, unit))
+    classify(cloud, SlopeFilter(max_building_size=40.0), area=box(220, 5, 260, 35, unit))
     assert np.ptp(given["points"].x) == pytest.approx(240, abs=0.5)
     # Metres from the corner of the block.
     assert given["points"].x.min() == pytest.approx(EAST * unit % 2000 + 120, abs=0.5)
     # More where a parameter is larger.
-    classify(cloud, SlopeFilter(search_radius=40.0), area=box(220, 5, 260, 35, unit))
+    classify(cloud, SlopeFilter(max_building_size=100.0), area=box(220, 5, 260, 35, unit))
     assert np.ptp(given["points"].x) == pytest.approx(440, abs=0.5)
 
 
