@@ -144,7 +144,7 @@ def _standing_out(
     limit = np.full(filled.shape, -np.inf, dtype=np.float32)
     steps, step = in_steps(filled)
     radii = _radii(largest_window / size)
-    last, zoom = steps, 1
+    last, zoom = steps.copy(), 1
     for done, (radius, coarse) in enumerate(radii, start=1):
         if coarse != zoom:
             last, zoom = _lowest_of_blocks(last, coarse // zoom), coarse
