@@ -307,9 +307,12 @@ def _by_rims(cells: Cells, z: np.ndarray, parameters: GridMinimum, progress: Pro
     """Tell ground from objects by the rims round them."""
     heights = cells.minimum(z)
     blocks = CellBlocks.over(cells, _BLOCK)
-    dense = parameters.preset != "paper" and _density(cells) >= _DENSE
     count = np.count_nonzero(np.isfinite(heights))
-    heights[_noise(heights, cells, blocks, dense)] = np.nan
+    heights[_noise(heights, cells, blocks)] = np.nan
+    if parameters.preset != "paper" and _density(cells) >= _DENSE:
+        # After the clusters, which would lose their rims.
+        slope = _OUTLIER_SLOPE_WHERE_DENSE
+        heights[low_outliers(heights, cells.size, slope, cells.first)] = np.nan
     tell_of_outliers(count, heights, progress)
     progress(0.2)
     tall = _tall_objects(heights, blocks, parameters, progress.part(0.2, 0.6))
@@ -395,7 +398,7 @@ def _density(cells: Cells) -> float:
     return float(np.median(usual)) / blocks.size**2
 
 
-def _noise(heights: np.ndarray, cells: Cells, blocks: CellBlocks, dense: bool) -> np.ndarray:
+def _noise(heights: np.ndarray, cells: Cells, blocks: CellBlocks) -> np.ndarray:
     """Return the cells of narrow pits far below the usual lowest points around.
 
     A gap in the canopy, a yard or a street between roofs is a pit too, but has others as low near
@@ -404,8 +407,7 @@ def _noise(heights: np.ndarray, cells: Cells, blocks: CellBlocks, dense: bool) -
 
     from scipy import ndimage
 
-    slope = _OUTLIER_SLOPE_WHERE_DENSE if dense else _OUTLIER_SLOPE
-    noise = low_outliers(heights, cells.size, slope, cells.first)
+    noise = low_outliers(heights, cells.size, _OUTLIER_SLOPE, cells.first)
     heights = np.where(noise, np.nan, heights)
     around = CellBlocks.over(cells, _NOISE_WIDTH)
     usual = inpaint(around.lowest(heights), first=around.first_block)

@@ -46,6 +46,29 @@ def village(
     return Points(x, y, z), ground
 
 
+def large_hall(slope: float) -> tuple[Points, np.ndarray]:
+    """Return a slope with a hall of 120 x 80 m, level on top, and which points are ground."""
+    x, y = scatter(220.0, 4.0)
+    hall = (np.abs(x - 110.0) < 60.0) & (np.abs(y - 110.0) < 40.0)
+    z = surveyed(x, y, np.where(hall, 170.0 * slope + 9.0, slope * x))
+    return Points(x, y, z), ~hall
+
+
+def terraces(height: float = 1.5, width: float = 12.0) -> Points:
+    """Return terraces with upright walls, which are ground throughout."""
+    x, y = scatter(100.0, 4.0)
+    return Points(x, y, surveyed(x, y, height * np.floor(x / width)))
+
+
+def dense_canopy(share: float = 0.03) -> tuple[Points, np.ndarray]:
+    """Return a closed canopy through which a few points see the ground, and which these are."""
+    x, y = scatter(100.0, 4.0)
+    random = np.random.default_rng(11)
+    ground = random.random(len(x)) < share
+    z = surveyed(x, y, 0.15 * x) + np.where(ground, 0.0, random.uniform(12.0, 20.0, len(x)))
+    return Points(x, y, z), ground
+
+
 def error(found: np.ndarray, truth: np.ndarray) -> float:
     """Return the total error in percent."""
     return 100.0 * float(np.mean(found != truth))
