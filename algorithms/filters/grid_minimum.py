@@ -28,7 +28,13 @@ from ..terrain.ground_limits import Tolerance
 from ..terrain.inpaint import inpaint
 from ..terrain.near_ground import Candidates, near_ground
 from ..terrain.near_surface import near_surface
-from ..terrain.objects import Relief, covered, raised_objects
+from ..terrain.objects import (
+    CLASSIC_WHOLE_SHARE,
+    WHOLE_SHARE,
+    Relief,
+    covered,
+    raised_objects,
+)
 from ..terrain.outliers import low_outliers, supported
 
 # Points that a cell should hold on average: with fewer, gaps break the rims.
@@ -307,9 +313,9 @@ def _by_rims(cells: Cells, z: np.ndarray, parameters: GridMinimum, progress: Pro
     """Tell ground from objects by the rims round them."""
     heights = cells.minimum(z)
     blocks = CellBlocks.over(cells, _BLOCK)
-    count = np.count_nonzero(np.isfinite(heights))
-    heights[_noise(heights, cells, blocks)] = np.nan
-    if parameters.preset != "paper" and _density(cells) >= _DENSE:
+    count, classic = np.count_nonzero(np.isfinite(heights)), parameters.preset == "paper"
+    heights[_noise(heights, cells, blocks, classic)] = np.nan
+    if not classic and _density(cells) >= _DENSE:
         # After the clusters, which would lose their rims.
         slope = _OUTLIER_SLOPE_WHERE_DENSE
         heights[low_outliers(heights, cells.size, slope, cells.first)] = np.nan
@@ -398,7 +404,7 @@ def _density(cells: Cells) -> float:
     return float(np.median(usual)) / blocks.size**2
 
 
-def _noise(heights: np.ndarray, cells: Cells, blocks: CellBlocks) -> np.ndarray:
+def _noise(heights: np.ndarray, cells: Cells, blocks: CellBlocks, classic: bool) -> np.ndarray:
     """Return the cells of narrow pits far below the usual lowest points around.
 
     A gap in the canopy, a yard or a street between roofs is a pit too, but has others as low near
@@ -407,8 +413,10 @@ def _noise(heights: np.ndarray, cells: Cells, blocks: CellBlocks) -> np.ndarray:
 
     from scipy import ndimage
 
-    noise = low_outliers(heights, cells.size, _OUTLIER_SLOPE, cells.first)
-    heights = np.where(noise, np.nan, heights)
+    noise = np.zeros(heights.shape, dtype=bool)
+    if not classic:
+        noise = low_outliers(heights, cells.size, _OUTLIER_SLOPE, cells.first)
+        heights = np.where(noise, np.nan, heights)
     around = CellBlocks.over(cells, _NOISE_WIDTH)
     usual = inpaint(around.lowest(heights), first=around.first_block)
     usual = ndimage.median_filter(usual, 5, mode="nearest")
@@ -419,9 +427,15 @@ def _noise(heights: np.ndarray, cells: Cells, blocks: CellBlocks) -> np.ndarray:
     candidates = np.isfinite(blocks.lowest(np.where(below, heights, np.nan)))
     relief = Relief(lowest, blocks.size, covered(np.isfinite(lowest)), blocks.first_block)
     pits = relief.pits(candidates, _NOISE_DEPTH, _NOISE_WIDTH)
-    depth = blocks.lowest(around.interpolated(usual, heights.shape)) - lowest
-    pits &= ~supported(lowest, blocks.size, pits, depth, blocks.first_block)
+    if not classic:
+        depth = blocks.lowest(around.interpolated(usual, heights.shape)) - lowest
+        pits &= ~supported(lowest, blocks.size, pits, depth, blocks.first_block)
     return noise | (below & blocks.repeated(pits, heights.shape))
+
+
+def _whole_share(parameters: GridMinimum) -> float:
+    """Return which share of the whole border of an object must be a drop."""
+    return CLASSIC_WHOLE_SHARE if parameters.preset == "paper" else WHOLE_SHARE
 
 
 def _tall_objects(
@@ -435,7 +449,8 @@ def _tall_objects(
     lowest = blocks.lowest(heights)
     thresholds, size = parameters.height_thresholds, blocks.size
     largest, first = parameters.max_object_size, blocks.first_block
-    objects = raised_objects(lowest, size, thresholds, largest, progress, first=first)
+    share = _whole_share(parameters)
+    objects = raised_objects(lowest, size, thresholds, largest, progress, first, share)
     surface = inpaint(np.where(objects, np.nan, lowest), _RELAXATIONS, first)
     rise = size * np.minimum(steepness(surface, size), _STEEPEST)
     highest = surface + min(thresholds) + rise
@@ -459,7 +474,8 @@ def _without_low_objects(
     for done in range(_FINAL_PASSES):
         relief = Relief(ground, cells.size, inside, cells.first)
         regions, rims = relief.regions_and_rims(parameters.final_height, _RIM_ROUGHNESS)
-        ground[regions.raised(parameters.max_object_size) | rims] = np.nan
+        raised = regions.raised(parameters.max_object_size, _whole_share(parameters))
+        ground[raised | rims] = np.nan
         progress((done + 1) / (_FINAL_PASSES + 1))
     kept = relief.regrown(np.isfinite(ground), heights, parameters.final_height)
     progress(1.0)

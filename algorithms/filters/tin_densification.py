@@ -267,7 +267,8 @@ def classify(
     is_classic = parameters.preset == CLASSIC
     apart = spacing(points, _LEAST_SPACING)
     is_dense = apart <= _DENSE and not is_classic
-    progress.info(_in_words(resolved, apart, is_dense))
+    if resolved != parameters or is_dense:
+        progress.info(_in_words(resolved, apart, is_dense))
     survey = LowestPoints(points, _DENSE_CELL if is_dense else _CELL, is_classic)
     progress(0.1)
     tell_of_outliers(len(survey.lowest), survey.heights, progress)
