@@ -23,7 +23,7 @@ from .relief import Relief
 # distance, to which this share of the spacing of the points is added.
 _DROP, _DROP_SLOPE, _DROP_SPACING = 0.5, 1.0, 0.75
 # Where a deck is proven, it goes on for so many metres, or spacings, if it is raised by this.
-_GROWTH, _GROWTH_SPACINGS, _WEAK_RULE = 4.0, 2.5, Rule(0.25, 0.9, False)
+_GROWTH, _GROWTH_SPACINGS, _WEAK_RULE = 8.0, 4.0, Rule(0.25, 0.9, False)
 _LEAST_AREA, _LEAST_CELLS, _LEAST_SPAN, _LEAST_SPACINGS = 12.0, 4, 3.0, 2.0
 # Ground at an end must be level with the deck: metres, and metres a metre.
 _LEVEL, _LEVEL_SLOPE = 0.25, 0.03

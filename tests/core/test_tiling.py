@@ -71,15 +71,15 @@ def labels_of(parts, parameters, blocks, threads=1, depth=1.0, known=None, progr
 
 
 def test_blocks_are_two_kilometres_or_four_times_the_reach():
-    assert Blocks.of(100.0) == blocks_of(TinDensification())
+    assert Blocks.of(180.0) == blocks_of(TinDensification())
     assert (Blocks.of(100.0).side, Blocks.of(100.0).buffer) == (2000.0, 100.0)
     assert (Blocks.of(501.0).side, Blocks.of(501.0).buffer) == (2100.0, 501.0)
-    assert blocks_of(TinDensification(max_building_size=300)).buffer == 600
-    assert blocks_of(TinDensification(preset="city")).buffer == 240
+    assert blocks_of(TinDensification(max_building_size=300)).buffer == 360
+    assert blocks_of(TinDensification(preset="city")).buffer == 144
     assert blocks_of(GridMinimum(max_object_size=400)).side == 3200
     assert blocks_of(SlopeFilter(preset="whitebox")).buffer == pytest.approx(6.02)
     assert blocks_of(SlopeFilter(preset="whitebox", min_neighbours=5)).buffer == 100
-    assert blocks_of(SlopeFilter(preset="city")).buffer == 250
+    assert blocks_of(SlopeFilter(preset="city")).buffer == 300
 
 
 @pytest.mark.parametrize("overhang", [-0.1, 0.0, 0.9])
