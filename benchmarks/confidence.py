@@ -222,12 +222,13 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--fit", action="store_true", help="fit the weights on the tuning half")
     parser.add_argument("--kinds", nargs="+", default=list(KINDS), help="only these scenes")
+    parser.add_argument("--seeds", type=int, default=2, help="scenes of each kind, on either side")
     chosen = parser.parse_args()
     samples, weights = data.isprs(), Weights()
     if chosen.fit:
-        weights = fitted(_looked(places(TUNING_SEEDS, samples[::2], chosen.kinds)))
+        weights = fitted(_looked(places(TUNING_SEEDS[: chosen.seeds], samples[::2], chosen.kinds)))
         print(weights, flush=True)
-    print(table(_looked(places(REPORTING_SEEDS, samples[1::2], chosen.kinds)), weights))
+    print(table(_looked(places(REPORTING_SEEDS[: chosen.seeds], samples[1::2], chosen.kinds)), weights))
 
 
 def _looked(where: list[Place]) -> list[Seen]:

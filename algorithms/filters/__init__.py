@@ -9,6 +9,9 @@ import numpy as np
 from ..parameters import ParameterSet
 from . import grid_minimum, slope, tin_densification
 
+# Metres: few buildings are wider.
+_USUAL_OBJECT = 50.0
+
 
 class Method(NamedTuple):
     """One ground filter.
@@ -51,9 +54,15 @@ class Method(NamedTuple):
         return parameters.preset == self.classic
 
     def largest(self, parameters: ParameterSet) -> tuple[float, str]:
-        """Return the width in metres of the largest object looked for, and what says so."""
+        """Return the width in metres of the largest object to be expected, and what says so.
+
+        Where nobody said so, it is that of a usual one: larger ones are looked for, but are few.
+        """
         labels = {each.name: each.label for each in parameters.declarations()}
-        return self.largest_object(parameters), labels[self.size_parameter]
+        size = self.largest_object(parameters)
+        if parameters.preset == "automatic" and size == self.largest_object(self.parameters()):
+            size = min(size, _USUAL_OBJECT)
+        return size, labels[self.size_parameter]
 
 
 # The most accurate one.
@@ -89,7 +98,7 @@ METHODS = {
             slope.classify,
             slope.reach,
             slope.largest_object,
-            "search_radius",
+            "max_building_size",
             "whitebox",
         ),
     )

@@ -234,8 +234,7 @@ def largest_object(parameters: GridMinimum) -> float:
 
 def reach(parameters: GridMinimum) -> float:
     """Return the metres beyond which a point does not matter for another."""
-    largest = parameters.max_object_size or PRESETS[parameters.preset].max_object_size
-    return max(_LEAST_REACH, _REACH_OBJECTS * largest)
+    return max(_LEAST_REACH, _REACH_OBJECTS * largest_object(parameters))
 
 
 def classify(points: Points, parameters: GridMinimum, progress: Progress = SILENT) -> np.ndarray:

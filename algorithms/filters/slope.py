@@ -234,10 +234,13 @@ class SlopeFilter(ParameterSet):
 
 
 def largest_object(parameters: SlopeFilter) -> float:
-    """Return the width in metres of the largest building that is looked for, about."""
+    """Return the width in metres of the largest building that is looked for."""
+    given = parameters.search_radius
     if parameters.preset == "whitebox":
-        return 2.0 * (parameters.search_radius or _WHITEBOX_RADIUS)
-    return 2.0 * (parameters.search_radius or MANY_SCALES[parameters.preset].search_radius)
+        return _WIDEST * (given or _WHITEBOX_RADIUS)
+    if parameters.max_building_size is not None:
+        return parameters.max_building_size
+    return MANY_SCALES[parameters.preset].max_building_size if given is None else _WIDEST * given
 
 
 def reach(parameters: SlopeFilter) -> float:
@@ -247,10 +250,7 @@ def reach(parameters: SlopeFilter) -> float:
         return max(_LEAST_REACH, metres) if parameters.min_neighbours else metres
     preset = MANY_SCALES[parameters.preset]
     radius = parameters.search_radius or preset.search_radius
-    size = parameters.max_building_size
-    if size is None:
-        given = parameters.search_radius
-        size = preset.max_building_size if given is None else _WIDEST * given
+    size = largest_object(parameters)
     return max(_LEAST_REACH, _REACH_RADII * radius, _REACH_BUILDINGS * size)
 
 

@@ -36,8 +36,6 @@ _CELL, _DENSE_CELL, _DENSE = 1.0, 0.5, 0.17
 _LEAST_SPACING = 0.01
 # Metres beyond which points do not matter: so many times the largest building, but at least this.
 _REACH_BUILDINGS, _LEAST_REACH = 1.2, 100.0
-# Metres: larger buildings than that are looked for, but hardly ever there.
-_USUAL_BUILDING = 48.0
 # The preset that keeps the rules of another program.
 CLASSIC = "lidar360"
 
@@ -215,16 +213,13 @@ class TinDensification(ParameterSet):
 
 
 def largest_object(parameters: TinDensification) -> float:
-    """Return the width in metres of the largest building that is to be expected."""
-    if parameters.max_building_size is None and parameters.preset == "automatic":
-        return _USUAL_BUILDING
+    """Return the width in metres of the largest building that is looked for."""
     return parameters.max_building_size or PRESETS[parameters.preset].max_building_size
 
 
 def reach(parameters: TinDensification) -> float:
     """Return the metres beyond which a point does not matter for another."""
-    size = parameters.max_building_size or PRESETS[parameters.preset].max_building_size
-    return max(_LEAST_REACH, _REACH_BUILDINGS * size)
+    return max(_LEAST_REACH, _REACH_BUILDINGS * largest_object(parameters))
 
 
 def classify(

@@ -44,12 +44,12 @@ class Weights(NamedTuple):
         Times the piece of evidence of this name.
     """
 
-    level: float = 4.25
-    holes: float = -1.4
-    roughness: float = -3.8
-    gap: float = -0.31
-    gap_at_step: float = -0.26
-    doubtful: float = -11.7
+    level: float = 5.7
+    holes: float = -2.4
+    roughness: float = -4.2
+    gap: float = -0.33
+    gap_at_step: float = -0.43
+    doubtful: float = -10.0
 
 
 class Evidence(NamedTuple):

@@ -21,7 +21,7 @@ _MOST_OUTLIERS, _LEAST_CELLS = 0.02, 500
 
 
 def tell_of_extent(points: Points, largest: float, name: str, progress: Progress) -> None:
-    """Warn where the points reach no farther than the largest object that a filter looks for.
+    """Warn where the points reach no farther than the largest object that is to be expected.
 
     A building that is as wide as the survey has no ground on two sides of it.
 
@@ -30,7 +30,7 @@ def tell_of_extent(points: Points, largest: float, name: str, progress: Progress
     points : Points
         All that the filter sees.
     largest : float
-        Width in metres of the largest object that is looked for.
+        Its width in metres.
     name : str
         What the parameter is called that says so.
     progress : Progress
@@ -38,9 +38,9 @@ def tell_of_extent(points: Points, largest: float, name: str, progress: Progress
     """
     if min(np.ptp(points.x), np.ptp(points.y)) < largest:
         progress.warning(
-            f"The points reach less far than the largest object that is looked for, {largest:g} m"
-            " wide: one at their border, or all over them, may be taken for ground. Add the points"
-            f" round them, or give what is the largest here ({name})."
+            f"In one direction the points reach less than {largest:g} m, the width of the largest"
+            " object to be expected: one at their border, or all over them, may be taken for"
+            f" ground. Add the points round them, or say how wide the largest is ({name})."
         )
 
 

@@ -18,7 +18,7 @@ from bare_earth.algorithms.tiling.ground import label_ground
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
 METHODS_BY_TYPE = {method.parameters: method for method in METHODS.values()}
-EXTENT, LITTLE, OUTLIERS = "reach less far", "Hardly any ground", "low outliers"
+EXTENT, LITTLE, OUTLIERS = "the points reach less than", "Hardly any ground", "low outliers"
 
 
 def land(width, depth, outliers=0.0, density=2.0, seed=4):
@@ -61,6 +61,7 @@ def test_an_extent_smaller_than_the_largest_object_is_told(parameters, las):
         (TinDensification(max_building_size=20.0), 20),
         (GridMinimum(preset="city"), 120),
         (SlopeFilter(search_radius=10.0), 20),
+        (SlopeFilter(max_building_size=25.0), 25),
         (SlopeFilter(preset="whitebox"), 4),
     ],
 )
