@@ -228,7 +228,8 @@ def main() -> None:
     if chosen.fit:
         weights = fitted(_looked(places(TUNING_SEEDS[: chosen.seeds], samples[::2], chosen.kinds)))
         print(weights, flush=True)
-    print(table(_looked(places(REPORTING_SEEDS[: chosen.seeds], samples[1::2], chosen.kinds)), weights))
+    reporting = places(REPORTING_SEEDS[: chosen.seeds], samples[1::2], chosen.kinds)
+    print(table(_looked(reporting), weights))
 
 
 def _looked(where: list[Place]) -> list[Seen]:
