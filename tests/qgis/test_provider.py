@@ -48,7 +48,7 @@ PARAMETERS = {
     "bareearth:slopefilter": [
         "INPUT",
         "PRESET", "SEARCH_RADIUS", "MIN_NEIGHBOURS", "SLOPE_THRESHOLD", "HEIGHT_THRESHOLD",
-        "SLOPE_NORM", "CELL_SIZE", "SLOPE_TOLERANCE",
+        "SLOPE_NORM", "CELL_SIZE", "MAX_BUILDING_SIZE", "GROUND_TOLERANCE", "SLOPE_TOLERANCE",
         *SHARED_PARAMETERS,
     ],
     "bareearth:classifytiles": [
