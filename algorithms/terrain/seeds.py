@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import threading
 from typing import NamedTuple
 
 import numpy as np
 
 from ..points import Points
-from ..progress import Progress
+from ..progress import SILENT, Progress
+from ..threads import in_threads
 from .ground_cells import CLASSIC, Allowance, ground_cells
 from .lowest_points import LowestPoints
 
@@ -70,11 +72,17 @@ def seeds_of_two_grids(
     size = survey.cells.size
     moved = points._replace(x=points.x + 0.5 * size, y=points.y + 0.5 * size)
     kinds = np.zeros((2, points.count), dtype=np.int8)
-    for number, kind in enumerate(kinds):
+    caller = threading.get_ident()
+
+    def judge(number: int) -> None:
         grid = LowestPoints(moved, size) if number else survey
         part = progress.part(0.5 * number, 0.5 + 0.5 * number)
+        # Progress is for the calling thread only.
+        part = part if threading.get_ident() == caller else SILENT
         ground, is_open = _judged(grid, max_size, Allowance(), part)
-        kind[grid.lowest] = np.where(ground, _GROUND, np.where(is_open, _OPEN, _OBJECT))
+        kinds[number, grid.lowest] = np.where(ground, _GROUND, np.where(is_open, _OPEN, _OBJECT))
+
+    in_threads(judge, range(len(kinds)))
     lowest = np.flatnonzero(kinds.any(axis=0))
     one, other = kinds[:, lowest]
     ground = (one == _GROUND) & ((other == _GROUND) | (other == _HIDDEN))
