@@ -23,15 +23,19 @@ from ..terrain.breaks import checked_seeds
 from ..terrain.cells import Cells, spacing
 from ..terrain.densification import DensificationRules, densified, with_lower
 from ..terrain.doubts import tell_of_outliers
+from ..terrain.ground_cells import CLASSIC as CLASSIC_ALLOWANCE
 from ..terrain.ground_limits import Tolerance, ground_limits, plain_limits
 from ..terrain.lowest_points import LowestPoints
 from ..terrain.model_key_points import ModelKeyPoints, model_key_points
 from ..terrain.near_surface import near_surface
-from ..terrain.seeds import classic_seeds, seeds_of_two_grids
+from ..terrain.seeds import seeds_of_one_grid, seeds_of_two_grids
 
 # Side in metres of the cells whose lowest points may become vertices of the TIN, that where points
 # are dense, and the metres between points up to which they are.
 _CELL, _DENSE_CELL, _DENSE = 1.0, 0.5, 0.17
+# Metres between points up to which each cell holds so many that it hardly matters where it begins,
+# and that no break is lost between them.
+_CROWDED = 0.36
 # Metres between points: less is as good as that.
 _LEAST_SPACING = 0.01
 # Metres beyond which points do not matter: so many times the largest building, but at least this.
@@ -267,7 +271,7 @@ def classify(
     survey = LowestPoints(points, _DENSE_CELL if is_dense else _CELL, is_classic)
     progress(0.1)
     tell_of_outliers(len(survey.lowest), survey.heights, progress)
-    ground, waiting = _seeds(points, survey, resolved, progress.part(0.1, 0.7))
+    ground, waiting = _seeds(points, survey, resolved, apart, progress.part(0.1, 0.7))
     cells = survey.cells
     heights = with_lower(np.full(cells.shape, np.nan), cells, points, ground)
     if known_ground is not None and known_ground.any():
@@ -293,14 +297,23 @@ def classify(
 
 
 def _seeds(
-    points: Points, survey: LowestPoints, parameters: TinDensification, progress: Progress
+    points: Points,
+    survey: LowestPoints,
+    parameters: TinDensification,
+    spacing: float,
+    progress: Progress,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the indices of the first points of the ground, and of those that may join them."""
     size = parameters.max_building_size
     if parameters.preset == CLASSIC:
-        return classic_seeds(survey, size, progress)
-    seeds = seeds_of_two_grids(points, survey, size, progress.part(0.0, 0.8))
-    return checked_seeds(points, *seeds, survey.cells, survey.spacing)
+        return seeds_of_one_grid(survey, size, progress, CLASSIC_ALLOWANCE)
+    part = progress.part(0.0, 0.8)
+    if spacing <= _CROWDED:
+        seeds = seeds_of_one_grid(survey, size, part)
+    else:
+        seeds = seeds_of_two_grids(points, survey, size, part)
+    has_gaps = spacing > _CROWDED
+    return checked_seeds(points, *seeds, survey.cells, survey.spacing, has_gaps)
 
 
 def _in_words(parameters: TinDensification, spacing: float, is_dense: bool) -> str:

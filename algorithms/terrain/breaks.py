@@ -35,7 +35,12 @@ _STEEPEST = 1.5
 
 
 def checked_seeds(
-    points: Points, seeds: np.ndarray, waiting: np.ndarray, cells: Cells, spacing: float
+    points: Points,
+    seeds: np.ndarray,
+    waiting: np.ndarray,
+    cells: Cells,
+    spacing: float,
+    has_gaps: bool = True,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return seeds without plants and outliers, and with the ground at breaks.
 
@@ -49,6 +54,9 @@ def checked_seeds(
         A grid over the points.
     spacing : float
         Usual distance between points in metres, at least the side of a cell.
+    has_gaps : bool
+        Whether there are gaps between the seeds in which breaks may be lost: none are looked for
+        where there are not.
 
     Returns
     -------
@@ -61,7 +69,7 @@ def checked_seeds(
         warnings.simplefilter("ignore", RuntimeWarning)
         wrong = _wrong(points, seeds, cells, spacing, reach)
         waiting, seeds = np.append(waiting, seeds[wrong]), seeds[~wrong]
-        for _ in range(_PASSES):
+        for _ in range(_PASSES if has_gaps else 0):
             joins = _level(points, seeds, waiting, cells, spacing, reach)
             seeds, waiting = np.append(seeds, waiting[joins]), waiting[~joins]
     return seeds, waiting

@@ -33,8 +33,13 @@ class Seeds(NamedTuple):
     waiting: np.ndarray
 
 
-def classic_seeds(survey: LowestPoints, max_size: float, progress: Progress) -> Seeds:
-    """Return the seeds on one grid, by the rules that presets of other programs keep.
+def seeds_of_one_grid(
+    survey: LowestPoints,
+    max_size: float,
+    progress: Progress,
+    allowance: Allowance = Allowance(),
+) -> Seeds:
+    """Return the points that are ground on one grid.
 
     Parameters
     ----------
@@ -44,10 +49,13 @@ def classic_seeds(survey: LowestPoints, max_size: float, progress: Progress) -> 
         Shorter side of the largest object in metres.
     progress : Progress
         Receives progress.
+    allowance : Allowance
+        What may stand out and still be ground. With the classic one, objects may be ground, too.
     """
-    ground, _ = _judged(survey, max_size, CLASSIC, progress)
-    known = np.isfinite(survey.heights).ravel()[survey.cell]
-    return Seeds(survey.lowest[ground], survey.lowest[~ground & known])
+    ground, is_open = _judged(survey, max_size, allowance, progress)
+    if allowance is CLASSIC:
+        is_open = np.isfinite(survey.heights).ravel()[survey.cell]
+    return Seeds(survey.lowest[ground], survey.lowest[~ground & is_open])
 
 
 def seeds_of_two_grids(
