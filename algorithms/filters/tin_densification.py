@@ -34,7 +34,7 @@ from ..terrain.seeds import seeds_of_one_grid, seeds_of_two_grids
 # are dense, and the metres between points up to which they are.
 _CELL, _DENSE_CELL, _DENSE = 1.0, 0.5, 0.17
 # Metres between points up to which each cell holds so many that it hardly matters where it begins,
-# and that no break is lost between them.
+# that its lowest is hardly ever a plant, and that no break is lost between them.
 _CROWDED = 0.36
 # Metres between points: less is as good as that.
 _LEAST_SPACING = 0.01
@@ -308,12 +308,13 @@ def _seeds(
     if parameters.preset == CLASSIC:
         return seeds_of_one_grid(survey, size, progress, CLASSIC_ALLOWANCE)
     part = progress.part(0.0, 0.8)
-    if spacing <= _CROWDED:
-        seeds = seeds_of_one_grid(survey, size, part)
-    else:
+    if spacing > _CROWDED:
         seeds = seeds_of_two_grids(points, survey, size, part)
-    has_gaps = spacing > _CROWDED
-    return checked_seeds(points, *seeds, survey.cells, survey.spacing, has_gaps)
+        return checked_seeds(points, *seeds, survey.cells, survey.spacing)
+    seeds = seeds_of_one_grid(survey, size, part)
+    if spacing > _DENSE:
+        return seeds
+    return checked_seeds(points, *seeds, survey.cells, survey.spacing, has_gaps=False)
 
 
 def _in_words(parameters: TinDensification, spacing: float, is_dense: bool) -> str:
