@@ -78,7 +78,7 @@ METHODS = {
             tin_densification.reach,
             tin_densification.largest_object,
             "max_building_size",
-            "lidar360",
+            tin_densification.CLASSIC,
             takes_known_ground=True,
         ),
         Method(
@@ -89,7 +89,7 @@ METHODS = {
             grid_minimum.reach,
             grid_minimum.largest_object,
             "max_object_size",
-            "paper",
+            grid_minimum.CLASSIC,
         ),
         Method(
             "slope",
@@ -99,7 +99,7 @@ METHODS = {
             slope.reach,
             slope.largest_object,
             "max_building_size",
-            "whitebox",
+            slope.CLASSIC,
         ),
     )
 }

@@ -66,6 +66,9 @@ _FINE_CELL = 1.0
 # Metres beyond which points do not matter: so many times the largest object, but at least this.
 _REACH_OBJECTS, _LEAST_REACH = 2.0, 100.0
 
+# The preset that keeps to the paper.
+CLASSIC = "paper"
+
 
 class Preset(NamedTuple):
     """What a kind of terrain asks for.
@@ -100,7 +103,7 @@ PRESETS = {
     "steep": Preset("Steep or rugged terrain", 1.0, (5.0, 4.5, 2.0), 0.5, 25.0),
     "town": Preset("Town", 1.0, (5.0, 4.5, 2.0), 0.3, 60.0),
     "city": Preset("City, large halls", 1.0, (5.0, 4.5, 2.0), 0.3, 120.0),
-    "paper": Preset("The paper's values", 0.5, (5.0, 4.5, 2.0), 0.3, 40.0, 0.4, 0.6),
+    CLASSIC: Preset("The paper's values", 0.5, (5.0, 4.5, 2.0), 0.3, 40.0, 0.4, 0.6),
 }
 
 
@@ -221,7 +224,7 @@ class GridMinimum(ParameterSet):
             for name, value in preset._asdict().items()
             if name != "label" and getattr(self, name) is None
         }
-        if "cell_size" in empty and self.preset != "paper":
+        if "cell_size" in empty and self.preset != CLASSIC:
             large_enough = _CELL_STEP * _multiple(_density(cells), _CELL_STEP)
             empty["cell_size"] = max(preset.cell_size, large_enough)
         return dataclasses.replace(self, **empty)
@@ -270,13 +273,13 @@ def classify(points: Points, parameters: GridMinimum, progress: Progress = SILEN
     resolved = parameters._resolved(cells)
     if resolved != parameters:
         progress.info(_in_words(resolved))
-    if parameters.cell_size is not None or parameters.preset == "paper":
+    if parameters.cell_size is not None or parameters.preset == CLASSIC:
         _tell_of_gaps(_density(cells), resolved, progress)
     if cells.size != resolved.cell_size:
         cells = Cells.over(points, resolved.cell_size)
     progress(0.1)
     grids = _by_rims(cells, points.z, resolved, progress.part(0.1, 0.6))
-    if resolved.preset == "paper":
+    if resolved.preset == CLASSIC:
         limits = _limits(inpaint(grids.ground, _RELAXATIONS, cells.first), resolved)
         return near_surface(points, cells, limits, progress.part(0.6, 1.0))
     candidates, cells = _candidates(points, cells, grids, resolved, progress.part(0.6, 0.8))
@@ -312,7 +315,7 @@ def _by_rims(cells: Cells, z: np.ndarray, parameters: GridMinimum, progress: Pro
     """Tell ground from objects by the rims round them."""
     heights = cells.minimum(z)
     blocks = CellBlocks.over(cells, _BLOCK)
-    count, classic = np.count_nonzero(np.isfinite(heights)), parameters.preset == "paper"
+    count, classic = np.count_nonzero(np.isfinite(heights)), parameters.preset == CLASSIC
     heights[_noise(heights, cells, blocks, classic)] = np.nan
     if not classic and _density(cells) >= _DENSE:
         # After the clusters, which would lose their rims.
@@ -434,7 +437,7 @@ def _noise(heights: np.ndarray, cells: Cells, blocks: CellBlocks, classic: bool)
 
 def _whole_share(parameters: GridMinimum) -> float:
     """Return which share of the whole border of an object must be a drop."""
-    return CLASSIC_WHOLE_SHARE if parameters.preset == "paper" else WHOLE_SHARE
+    return CLASSIC_WHOLE_SHARE if parameters.preset == CLASSIC else WHOLE_SHARE
 
 
 def _tall_objects(

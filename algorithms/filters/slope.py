@@ -50,6 +50,8 @@ _REACH_RADII, _REACH_RADII_ON_ONE_SCALE, _LEAST_REACH = 5.0, 3.01, 100.0
 # The same for the largest building.
 _REACH_BUILDINGS = 2.0
 _WHITEBOX_RADIUS = 2.0
+# The preset that keeps to Whitebox's filter.
+CLASSIC = "whitebox"
 # Largest building where the search radius is given: so many times that.
 _WIDEST = 2.0
 
@@ -100,7 +102,7 @@ class SlopeFilter(ParameterSet):
             "steep": "Steep or rugged terrain",
             "town": "Town",
             "city": "City, large halls",
-            "whitebox": "Whitebox (one scale, 2 m, 45 deg, 1 m)",
+            CLASSIC: "Whitebox (one scale, 2 m, 45 deg, 1 m)",
         },
         help="Automatic finds buildings as well as shrubs; the kinds of terrain do so with other"
         " values for what is left empty. Whitebox is the classic filter with the"
@@ -214,7 +216,7 @@ class SlopeFilter(ParameterSet):
         SlopeFilter
             Equal to this one if nothing was empty.
         """
-        if self.preset == "whitebox":
+        if self.preset == CLASSIC:
             chosen = {
                 "search_radius": _WHITEBOX_RADIUS,
                 "slope_threshold": 45.0,
@@ -236,7 +238,7 @@ class SlopeFilter(ParameterSet):
 def largest_object(parameters: SlopeFilter) -> float:
     """Return the width in metres of the largest building that is looked for."""
     given = parameters.search_radius
-    if parameters.preset == "whitebox":
+    if parameters.preset == CLASSIC:
         return _WIDEST * (given or _WHITEBOX_RADIUS)
     if parameters.max_building_size is not None:
         return parameters.max_building_size
@@ -245,7 +247,7 @@ def largest_object(parameters: SlopeFilter) -> float:
 
 def reach(parameters: SlopeFilter) -> float:
     """Return the metres beyond which a point does not matter for another."""
-    if parameters.preset == "whitebox":
+    if parameters.preset == CLASSIC:
         metres = _REACH_RADII_ON_ONE_SCALE * (parameters.search_radius or _WHITEBOX_RADIUS)
         return max(_LEAST_REACH, metres) if parameters.min_neighbours else metres
     preset = MANY_SCALES[parameters.preset]
@@ -284,13 +286,13 @@ def classify(points: Points, parameters: SlopeFilter, progress: Progress = SILEN
     resolved = parameters.resolve(points)
     if resolved != parameters:
         progress.info(_in_words(resolved))
-    if resolved.preset == "whitebox":
+    if resolved.preset == CLASSIC:
         return _on_one_scale(points, resolved, progress)
     return _on_many_scales(points, resolved, progress)
 
 
 def _in_words(parameters: SlopeFilter) -> str:
-    if parameters.preset == "whitebox":
+    if parameters.preset == CLASSIC:
         last = f"minimum number of neighbours {parameters.min_neighbours}"
     else:
         last = (

@@ -24,15 +24,15 @@ from ..terrain.cells import Cells, spacing
 from ..terrain.densification import DensificationRules, densified, with_lower
 from ..terrain.doubts import tell_of_outliers
 from ..terrain.ground_cells import CLASSIC as CLASSIC_ALLOWANCE
-from ..terrain.ground_limits import Tolerance, ground_limits, plain_limits
+from ..terrain.ground_limits import NOISE_SPACING, Tolerance, ground_limits, plain_limits
 from ..terrain.lowest_points import LowestPoints
 from ..terrain.model_key_points import ModelKeyPoints, model_key_points
 from ..terrain.near_surface import near_surface
 from ..terrain.seeds import seeds_of_one_grid, seeds_of_two_grids
 
-# Side in metres of the cells whose lowest points may become vertices of the TIN, that where points
-# are dense, and the metres between points up to which they are.
-_CELL, _DENSE_CELL, _DENSE = 1.0, 0.5, 0.17
+# Side in metres of the cells whose lowest points may become vertices of the TIN, and of those where
+# points are so dense that their noise is measured.
+_CELL, _DENSE_CELL = 1.0, 0.5
 # Metres between points up to which each cell holds so many that it hardly matters where it begins,
 # that its lowest is hardly ever a plant, and that no break is lost between them.
 _CROWDED = 0.36
@@ -265,7 +265,7 @@ def classify(
     resolved = parameters.resolve(points)
     is_classic = parameters.preset == CLASSIC
     apart = spacing(points, _LEAST_SPACING)
-    is_dense = apart <= _DENSE and not is_classic
+    is_dense = apart <= NOISE_SPACING and not is_classic
     if resolved != parameters or is_dense:
         progress.info(_in_words(resolved, apart, is_dense))
     survey = LowestPoints(points, _DENSE_CELL if is_dense else _CELL, is_classic)
@@ -312,7 +312,7 @@ def _seeds(
         seeds = seeds_of_two_grids(points, survey, size, part)
         return checked_seeds(points, *seeds, survey.cells, survey.spacing)
     seeds = seeds_of_one_grid(survey, size, part)
-    if spacing > _DENSE:
+    if spacing > NOISE_SPACING:
         return seeds
     return checked_seeds(points, *seeds, survey.cells, survey.spacing, has_gaps=False)
 

@@ -180,7 +180,7 @@ def _standing_out(
         opened = opening(last, radius / zoom)
         last -= opened
         # As unsigned numbers, differences do not overflow.
-        cut, last = last.view(np.uint16).astype(np.int32), opened
+        cut, last = last.view(np.uint16), opened
         metres = radius * size
         level = allowance.base + allowance.per_radius * metres
         if zoom > 1:

@@ -20,6 +20,8 @@ _SLOPE_SMOOTHING, _MOVES, _STEEPEST = 1.5, 2, 1.5
 _FACET_SMOOTHING = 0.7
 # Metres between points from which on, and down to which, the tolerance on slopes follows them.
 _SPARSE, _DENSE = 1.0, 0.25
+# Metres between points up to which their noise is to be measured: the lowest of a cell is biased.
+NOISE_SPACING = 0.17
 # Metres of curvature over a cell from which on there is a break, and what each more adds.
 _BREAK, _BREAK_FACTOR = 0.25, 1.5
 # Metres round the lowest points within which noise is measured, the points that a cell must have

@@ -10,12 +10,12 @@ from ..points import Points
 from ..progress import SILENT, Progress
 from .breaks import checked_seeds
 from .cells import Cells, spacing
-from .ground_limits import Tolerance, ground_limits
+from .ground_limits import NOISE_SPACING, Tolerance, ground_limits
 from .near_surface import near_surface
 
-# Metres between points: less is as good as that. Up to the second the noise is measured, and up to
-# the third there are no gaps in which breaks would be lost.
-_CLOSEST, _DENSE, _GAPLESS = 0.01, 0.17, 0.4
+# Metres between points: less is as good as that. Up to the second there are no gaps in which breaks
+# would be lost.
+_CLOSEST, _GAPLESS = 0.01, 0.4
 
 
 class Candidates(NamedTuple):
@@ -79,5 +79,5 @@ def near_ground(
         waiting = candidates.lowest[candidates.free & ~candidates.ground]
         seeds, _ = checked_seeds(points, seeds, waiting, cells, max(apart, cells.size))
     progress(0.5)
-    limits = ground_limits(points, seeds, cells, apart, tolerance, apart <= _DENSE)
+    limits = ground_limits(points, seeds, cells, apart, tolerance, apart <= NOISE_SPACING)
     return near_surface(points, cells, limits, progress.part(0.6, 1.0))
