@@ -9,7 +9,7 @@ from typing import Callable
 
 import numpy as np
 
-from bare_earth.algorithms.pointcloud.cloud import PointCloud
+from bare_earth.algorithms.las.cloud import PointCloud
 
 FOLDER = Path(
     os.environ.get("BARE_EARTH_CACHE", Path.home() / ".cache" / "bare-earth" / "benchmarks")

@@ -14,14 +14,11 @@ from typing import Callable, Iterable, NamedTuple, Sequence
 
 import numpy as np
 
-from bare_earth.algorithms.errors import BareEarthError
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.pointcloud.cloud import PointCloud
-from bare_earth.algorithms.pointcloud.selection import Selection
-from bare_earth.algorithms.points import Points
-from bare_earth.algorithms.progress import SILENT
-from bare_earth.algorithms.terrain.cells import Cells
-from bare_earth.algorithms.terrain.confidence import (
+from bare_earth.algorithms.filters.shared.confidence import (
     CELL,
     RISE_SHARE,
     TOLERANCE,
@@ -29,9 +26,12 @@ from bare_earth.algorithms.terrain.confidence import (
     evidence,
     probability,
 )
-from bare_earth.algorithms.terrain.gradient import steepness
-from bare_earth.algorithms.terrain.model import vertices_of
-from bare_earth.algorithms.terrain.surface import Surface
+from bare_earth.algorithms.grids.cells import Cells
+from bare_earth.algorithms.grids.gradient import steepness
+from bare_earth.algorithms.grids.surface import Surface
+from bare_earth.algorithms.las.cloud import PointCloud
+from bare_earth.algorithms.products.terrain_model import vertices_of
+from bare_earth.algorithms.survey.selection import Selection
 
 from . import data
 from .generated import remembered_scene

@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bare_earth.algorithms.pointcloud.cloud import PointCloud
-from bare_earth.algorithms.pointcloud.reading import read_cloud
+from bare_earth.algorithms.las.cloud import PointCloud
+from bare_earth.algorithms.las.reading import read_cloud
 
 FOLDER = Path(
     os.environ.get("BARE_EARTH_DATA", Path(__file__).parents[1] / ".." / "shared" / "data")

@@ -10,10 +10,10 @@ from typing import NamedTuple, Sequence
 
 import numpy as np
 
-from bare_earth.algorithms.errors import BareEarthError
-from bare_earth.algorithms.points import Frame, Points
-from bare_earth.algorithms.terrain.model import interpolate, vertices_of
-from bare_earth.algorithms.terrain.raster import RasterGrid
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.points import Frame, Points
+from bare_earth.algorithms.products.terrain_model import interpolate, vertices_of
+from bare_earth.algorithms.rasters.geotiff import RasterGrid
 
 from . import cache, scenes
 from .measure import Filter

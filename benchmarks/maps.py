@@ -6,12 +6,12 @@ from pathlib import Path
 
 import numpy as np
 
-from bare_earth.algorithms.assessment import Assessment
-from bare_earth.algorithms.pointcloud.cloud import PointCloud
-from bare_earth.algorithms.points import Points
-from bare_earth.algorithms.terrain.cells import Cells, spacing
-from bare_earth.algorithms.terrain.hillshade import hillshade
-from bare_earth.algorithms.terrain.inpaint import inpaint
+from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.grids.cells import Cells, spacing
+from bare_earth.algorithms.grids.hillshade import hillshade
+from bare_earth.algorithms.grids.inpaint import inpaint
+from bare_earth.algorithms.las.cloud import PointCloud
+from bare_earth.algorithms.products.assessment import Assessment
 
 from .generated import SceneScore, TrueModel
 from .measure import GROUND, ReferenceModel

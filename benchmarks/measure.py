@@ -11,13 +11,13 @@ from typing import NamedTuple, Protocol, Sequence
 
 import numpy as np
 
-from bare_earth.algorithms.assessment import Assessment, AssessmentOptions, compare
-from bare_earth.algorithms.classification import classify
+from bare_earth.algorithms.core.parameters import ParameterSet
+from bare_earth.algorithms.engine.classification import classify
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.parameters import ParameterSet
-from bare_earth.algorithms.pointcloud.cloud import PointCloud
-from bare_earth.algorithms.terrain.model import interpolate
-from bare_earth.algorithms.terrain.raster import RasterGrid
+from bare_earth.algorithms.las.cloud import PointCloud
+from bare_earth.algorithms.products.assessment import Assessment, AssessmentOptions, compare
+from bare_earth.algorithms.products.terrain_model import interpolate
+from bare_earth.algorithms.rasters.geotiff import RasterGrid
 
 from . import data
 from .phases import PHASES, Phased, shifted

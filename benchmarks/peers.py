@@ -16,7 +16,7 @@ from typing import Iterator
 
 import numpy as np
 
-from bare_earth.algorithms.pointcloud.cloud import PointCloud
+from bare_earth.algorithms.las.cloud import PointCloud
 
 from .cache import remembered
 

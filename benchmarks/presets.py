@@ -9,8 +9,8 @@ from __future__ import annotations
 import argparse
 from typing import Iterator, NamedTuple, Sequence
 
-from bare_earth.algorithms.assessment import AssessmentOptions, compare
 from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.products.assessment import AssessmentOptions, compare
 
 from . import data, measure
 

@@ -8,13 +8,13 @@ from typing import NamedTuple, Sequence
 
 import numpy as np
 
-from bare_earth.algorithms.assessment import AssessmentOptions, compare
-from bare_earth.algorithms.errors import BareEarthError
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.parameters import Declaration
+from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.parameters import Declaration
-from bare_earth.algorithms.pointcloud.cloud import PointCloud
-from bare_earth.algorithms.pointcloud.selection import Selection
-from bare_earth.algorithms.progress import SILENT
+from bare_earth.algorithms.las.cloud import PointCloud
+from bare_earth.algorithms.products.assessment import AssessmentOptions, compare
+from bare_earth.algorithms.survey.selection import Selection
 
 from . import data
 from .measure import Filter, mean

@@ -14,7 +14,7 @@ import sys
 import time
 from pathlib import Path
 
-from bare_earth.algorithms.assessment import AssessmentOptions, assess_files
+from bare_earth.algorithms.products.assessment import AssessmentOptions, assess_files
 
 from .picture import draw
 from .scene import GROUND_CLASSES, write_scene

@@ -8,7 +8,7 @@ import sys
 import traceback
 from typing import Sequence
 
-from ..errors import BareEarthError, Cancelled
+from ..core.errors import BareEarthError, Cancelled
 from . import classifying, comparing, products
 from .command import FAILED, USAGE
 from .options import UsageError

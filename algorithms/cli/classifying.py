@@ -7,21 +7,21 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Sequence
 
-from ..errors import BareEarthError, Cancelled
+from ..core.errors import BareEarthError, Cancelled
 from .command import DONE, FAILED, Command
 from .options import UsageError, add_input, add_json, add_output, add_parameters, chosen
 from .terminal import Terminal, tell
 
 if TYPE_CHECKING:
     from ..filters import Method
-    from ..pointcloud.area import Area
+    from ..survey.area import Area
 
 
 def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..output import Output
-    from ..pointcloud.selection import Selection
-    from ..terrain.model import TerrainModel
-    from ..tiling.memory import Resources
+    from ..engine.memory import Resources
+    from ..engine.output import Output
+    from ..products.terrain_model import TerrainModel
+    from ..survey.selection import Selection
 
     add_input(parser)
     add_output(parser)
@@ -62,7 +62,7 @@ def _add_method(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> Me
 
 
 def _classify(options: argparse.Namespace) -> int:
-    from ..classification import classify_file
+    from ..engine.classification import classify_file
 
     parameters, selection, terrain, output, resources = chosen(options)
     area = _area_of(options)
@@ -89,7 +89,7 @@ def _classify(options: argparse.Namespace) -> int:
 
 def _area_of(options: argparse.Namespace) -> Area | None:
     """Return the area of the options, or None if they name none."""
-    from ..pointcloud.area import Area, read_boundary
+    from ..survey.area import Area, read_boundary
 
     if options.extent is None and options.boundary is None:
         return None
@@ -101,9 +101,9 @@ def _area_of(options: argparse.Namespace) -> Area | None:
 
 
 def _add_classify_tiles(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..pointcloud.selection import Selection
-    from ..tiling.memory import Resources
-    from ..tiling.options import TileInput, TileOutput
+    from ..engine.memory import Resources
+    from ..engine.options import TileInput, TileOutput
+    from ..survey.selection import Selection
 
     parser.add_argument(
         "input", metavar="INPUT", type=Path, nargs="+",
@@ -131,9 +131,9 @@ def _add_classify_tiles(parser: argparse.ArgumentParser, arguments: Sequence[str
 
 
 def _classify_tiles(options: argparse.Namespace) -> int:
-    from ..tiles import classify_tiles
-    from ..tiling.cluster import Cluster
-    from ..tiling.workers import Processes
+    from ..engine.cluster import Cluster
+    from ..engine.tiles import classify_tiles
+    from ..engine.workers import Processes
 
     *policy, resources = chosen(options)
     workers = Processes(resources)

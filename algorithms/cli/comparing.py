@@ -18,7 +18,7 @@ def _add_info(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None
 
 
 def _info(options: argparse.Namespace) -> int:
-    from ..pointcloud.reading import inspect
+    from ..las.reading import inspect
 
     with Terminal(options.verbose) as progress:
         description = inspect(options.input, progress)
@@ -30,7 +30,7 @@ def _info(options: argparse.Namespace) -> int:
 
 
 def _add_assess(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..assessment import AssessmentOptions
+    from ..products.assessment import AssessmentOptions
 
     parser.add_argument("classified", metavar="CLASSIFIED", type=Path, help="the classified file")
     parser.add_argument("reference", metavar="REFERENCE", type=Path, help="the reference")
@@ -44,7 +44,7 @@ def _add_assess(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> No
 
 
 def _assess(options: argparse.Namespace) -> int:
-    from ..assessment import assess_files
+    from ..products.assessment import assess_files
 
     (what,) = chosen(options)
     with Terminal(options.verbose) as progress:

@@ -6,8 +6,8 @@ import argparse
 from pathlib import Path
 from typing import Any, Sequence
 
-from ..errors import BareEarthError
-from ..parameters import Declaration, ParameterSet
+from ..core.errors import BareEarthError
+from ..core.parameters import Declaration, ParameterSet
 
 _NOT_USED = ("none", "automatic")
 

@@ -12,7 +12,7 @@ from .terminal import Terminal, tell
 
 
 def _add_remove_objects(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..terrain.off_terrain import OffTerrain
+    from ..products.off_terrain import OffTerrain
 
     parser.add_argument("input", metavar="INPUT", help="a raster that GDAL reads")
     parser.add_argument("output", metavar="OUTPUT", type=Path, help="GeoTIFF (.tif)")
@@ -21,7 +21,7 @@ def _add_remove_objects(parser: argparse.ArgumentParser, arguments: Sequence[str
 
 
 def _remove_objects(options: argparse.Namespace) -> int:
-    from ..terrain.off_terrain import remove_objects_file
+    from ..products.off_terrain import remove_objects_file
 
     with Terminal(options.verbose) as progress:
         removal = remove_objects_file(options.input, options.output, *chosen(options), progress)
@@ -30,7 +30,7 @@ def _remove_objects(options: argparse.Namespace) -> int:
 
 
 def _add_height(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..products import GroundClasses, HeightOutput
+    from ..engine.products import GroundClasses, HeightOutput
 
     add_input(parser)
     add_output(parser)
@@ -39,7 +39,7 @@ def _add_height(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> No
 
 
 def _height(options: argparse.Namespace) -> int:
-    from ..products import write_height_above_ground
+    from ..engine.products import write_height_above_ground
 
     with Terminal(options.verbose) as progress:
         summary = write_height_above_ground(
@@ -51,8 +51,8 @@ def _height(options: argparse.Namespace) -> int:
 
 
 def _add_key_points(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..products import GroundClasses, KeyPointMark
-    from ..terrain.model_key_points import ModelKeyPoints
+    from ..engine.products import GroundClasses, KeyPointMark
+    from ..grids.model_key_points import ModelKeyPoints
 
     add_input(parser)
     add_output(parser)
@@ -61,7 +61,7 @@ def _add_key_points(parser: argparse.ArgumentParser, arguments: Sequence[str]) -
 
 
 def _key_points(options: argparse.Namespace) -> int:
-    from ..products import write_key_points
+    from ..engine.products import write_key_points
 
     with Terminal(options.verbose) as progress:
         summary = write_key_points(options.input, options.output, *chosen(options), progress)
@@ -71,9 +71,9 @@ def _key_points(options: argparse.Namespace) -> int:
 
 
 def _add_terrain(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..products import GroundClasses
-    from ..terrain.model import TerrainModel
-    from ..terrain.surface_model import SurfaceModel
+    from ..engine.products import GroundClasses
+    from ..products.surface_model import SurfaceModel
+    from ..products.terrain_model import TerrainModel
 
     add_input(parser)
     for name, what in (
@@ -88,7 +88,7 @@ def _add_terrain(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> N
 
 
 def _terrain(options: argparse.Namespace) -> int:
-    from ..products import TerrainFiles, write_terrain_models
+    from ..engine.products import TerrainFiles, write_terrain_models
 
     files = TerrainFiles(options.dtm, options.dsm, options.chm, options.hillshade)
     with Terminal(options.verbose) as progress:

@@ -8,7 +8,7 @@ import json
 import sys
 from typing import Any
 
-from ..progress import Progress
+from ..core.progress import Progress
 
 
 class Terminal(Progress):

@@ -6,8 +6,10 @@ from typing import Callable, NamedTuple
 
 import numpy as np
 
-from ..parameters import ParameterSet
-from . import grid_minimum, slope, tin_densification
+from ..core.parameters import ParameterSet
+from .grid_minimum import filter as grid_minimum
+from .slope import filter as slope
+from .tin_densification import filter as tin_densification
 
 # Metres: few buildings are wider.
 _USUAL_OBJECT = 50.0

@@ -9,9 +9,9 @@ from typing import Callable, NamedTuple
 
 import numpy as np
 
-from bare_earth.algorithms.pointcloud.cloud import PointCloud
-from bare_earth.algorithms.pointcloud.crs import Crs
-from bare_earth.algorithms.points import Points
+from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.crs.reading import Crs
+from bare_earth.algorithms.las.cloud import PointCloud
 
 from .classes import GROUND
 from .landscape import Landscape

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from bare_earth.algorithms.points import Points
+from bare_earth.algorithms.core.points import Points
 
 
 def scatter(

@@ -19,7 +19,7 @@ import tempfile
 from pathlib import Path
 from typing import Callable, Sequence
 
-from bare_earth.algorithms.threads import available_cpus
+from bare_earth.algorithms.core.threads import available_cpus
 
 from .. import data
 from . import profiling, results, tiles

@@ -20,12 +20,12 @@ MOST_POINTS = 10_000_000
 _RATE = 50
 # The outermost of these files on the stack tells which part of the work it is.
 _PARTS = {
-    "algorithms/pointcloud/reading.py": "reading",
-    "algorithms/pointcloud/writing.py": "writing",
+    "algorithms/las/reading.py": "reading",
+    "algorithms/las/writing.py": "writing",
     # Where the main thread waits for the threads of the blocks.
-    "algorithms/tiling/": "filtering",
+    "algorithms/engine/": "filtering",
     "algorithms/filters/": "filtering",
-    "algorithms/terrain/": "filtering",
+    "algorithms/grids/": "filtering",
 }
 _STARTING, _REST = "starting Python", "the rest"
 SHARES = ("reading", "filtering", "writing", _STARTING, _REST)

@@ -8,7 +8,7 @@ from qgis.core import QgsProcessingOutputNumber as Number
 from qgis.core import QgsProcessingParameterFileDestination as File
 from qgis.core import QgsProcessingParameterRasterDestination as Raster
 
-from ...algorithms.assessment import AssessmentOptions, assess_files
+from ...algorithms.products.assessment import AssessmentOptions, assess_files
 from .base import BareEarthAlgorithm, command_line
 from .inputs import PointCloudInput, source_path
 

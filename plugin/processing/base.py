@@ -16,9 +16,9 @@ from qgis.core import (
 )
 from qgis.PyQt.QtGui import QIcon
 
-from ...algorithms.errors import BareEarthError, Cancelled
-from ...algorithms.parameters import ParameterSet
-from ...algorithms.pointcloud.backends import install_hint, missing_packages
+from ...algorithms.core.errors import BareEarthError, Cancelled
+from ...algorithms.core.parameters import ParameterSet
+from ...algorithms.las.backends import install_hint, missing_packages
 from .. import compat
 from .feedback import FeedbackProgress
 from .fields import field_of, help_of, parameters_of, title_of

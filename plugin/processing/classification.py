@@ -11,12 +11,12 @@ from qgis.core import (
     QgsProcessingParameterRasterDestination,
 )
 
+from ...algorithms.core.parameters import ParameterSet
+from ...algorithms.engine.memory import Resources
+from ...algorithms.engine.output import Output
 from ...algorithms.filters import METHODS
-from ...algorithms.output import Output
-from ...algorithms.parameters import ParameterSet
-from ...algorithms.pointcloud.selection import Selection
-from ...algorithms.terrain.model import TerrainModel
-from ...algorithms.tiling.memory import Resources
+from ...algorithms.products.terrain_model import TerrainModel
+from ...algorithms.survey.selection import Selection
 from .. import compat
 from .base import BareEarthAlgorithm, command_line
 from .feedback import FeedbackProgress
@@ -88,7 +88,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
     ) -> dict[str, Any]:
         """Classify the file."""
         # Not at the start of QGIS.
-        from ...algorithms.classification import classify_file
+        from ...algorithms.engine.classification import classify_file
 
         chosen = self.chosen(parameters, context)
         output = self.point_cloud_destination(parameters, "OUTPUT", context)

@@ -8,9 +8,9 @@ from qgis.core import QgsProcessingOutputNumber as Number
 from qgis.core import QgsProcessingParameterFileDestination as File
 from qgis.core import QgsProcessingParameterFolderDestination as Folder
 
-from ...algorithms.pointcloud.selection import Selection
-from ...algorithms.tiling.memory import Resources
-from ...algorithms.tiling.options import TileInput, TileMethod, TileOutput
+from ...algorithms.engine.memory import Resources
+from ...algorithms.engine.options import TileInput, TileMethod, TileOutput
+from ...algorithms.survey.selection import Selection
 from .. import compat
 from .base import BareEarthAlgorithm, command_line
 from .inputs import FOLDER_HELP, add_clouds, clouds_of
@@ -57,8 +57,8 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
 
     def compute(self, parameters, context, progress):
         """Classify the files."""
-        from ...algorithms.tiles import VPC_NAME, classify_tiles
-        from ...algorithms.tiling.workers import Threads
+        from ...algorithms.engine.tiles import VPC_NAME, classify_tiles
+        from ...algorithms.engine.workers import Threads
 
         method, *policy, resources = chosen = self.chosen(parameters, context)
         sources = clouds_of(self, parameters, context)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from qgis.core import QgsProcessingFeedback
 
-from ...algorithms.errors import Cancelled
-from ...algorithms.progress import Progress
+from ...algorithms.core.errors import Cancelled
+from ...algorithms.core.progress import Progress
 
 
 class FeedbackProgress(Progress):

@@ -15,8 +15,8 @@ from qgis.core import (
     QgsProcessingParameterString,
 )
 
-from ...algorithms.errors import BareEarthError
-from ...algorithms.parameters import Declaration, ParameterSet
+from ...algorithms.core.errors import BareEarthError
+from ...algorithms.core.parameters import Declaration, ParameterSet
 from .. import compat
 
 _SYMBOLS = {"deg": "°"}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ...algorithms.products import GroundClasses, HeightOutput, write_height_above_ground
+from ...algorithms.engine.products import GroundClasses, HeightOutput, write_height_above_ground
 from .base import command_line
 from .products import ProductAlgorithm
 

@@ -24,10 +24,10 @@ from qgis.core import (
 )
 from qgis.PyQt.QtCore import QUrl
 
-from ...algorithms.errors import BareEarthError
-from ...algorithms.pointcloud.area import Area, Polygon
-from ...algorithms.pointcloud.crs import read_crs
-from ...algorithms.pointcloud.lasbytes import read_layout
+from ...algorithms.core.errors import BareEarthError
+from ...algorithms.crs.reading import read_crs
+from ...algorithms.las.lasbytes import read_layout
+from ...algorithms.survey.area import Area, Polygon
 from .. import compat
 
 # Name, label and help of the fields of an area.

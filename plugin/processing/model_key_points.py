@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ...algorithms.products import GroundClasses, KeyPointMark, write_key_points
-from ...algorithms.terrain.model_key_points import ModelKeyPoints
+from ...algorithms.engine.products import GroundClasses, KeyPointMark, write_key_points
+from ...algorithms.grids.model_key_points import ModelKeyPoints
 from .base import command_line
 from .outputs import ClassStyle, style
 from .products import ProductAlgorithm

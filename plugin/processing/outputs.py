@@ -16,7 +16,7 @@ from qgis.core import (
 )
 from qgis.PyQt.QtGui import QColor
 
-from ...algorithms.pointcloud.backends import WRITING_COPC, missing_packages
+from ...algorithms.las.backends import WRITING_COPC, missing_packages
 from .. import compat
 
 # QGIS calls them after the algorithm is gone, and owns the C++ half of each: one for each layer,

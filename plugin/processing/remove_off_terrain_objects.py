@@ -10,8 +10,8 @@ from qgis.core import (
     QgsProcessingParameterRasterLayer,
 )
 
-from ...algorithms.errors import BareEarthError
-from ...algorithms.terrain.off_terrain import OffTerrain, remove_objects_file
+from ...algorithms.core.errors import BareEarthError
+from ...algorithms.products.off_terrain import OffTerrain, remove_objects_file
 from .base import BareEarthAlgorithm, command_line
 from .outputs import ElevationStyle, style
 

@@ -6,10 +6,10 @@ from pathlib import Path
 
 from qgis.core import QgsProcessingParameterRasterDestination as Raster
 
-from ...algorithms.errors import BareEarthError
-from ...algorithms.products import GroundClasses, TerrainFiles, write_terrain_models
-from ...algorithms.terrain.model import TerrainModel
-from ...algorithms.terrain.surface_model import SurfaceModel
+from ...algorithms.core.errors import BareEarthError
+from ...algorithms.engine.products import GroundClasses, TerrainFiles, write_terrain_models
+from ...algorithms.products.surface_model import SurfaceModel
+from ...algorithms.products.terrain_model import TerrainModel
 from .base import command_line
 from .outputs import ElevationStyle, style
 from .products import ProductAlgorithm

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.progress import Progress
+from bare_earth.algorithms.core.progress import Progress
 
 LENGTHS = (20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67)
 HEADER_SIZES = (227, 227, 227, 235, 375)

@@ -8,7 +8,7 @@ import signal
 import laspy
 import numpy as np
 
-from bare_earth.algorithms.tiling.jobs import TileJob
+from bare_earth.algorithms.engine.jobs import TileJob
 
 SCALE = (0.01, 0.01, 0.01)
 ORIGIN = (500_000.0, 5_700_000.0, 0.0)

@@ -4,11 +4,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.errors import BareEarthError
-from bare_earth.algorithms.pointcloud import area as area_module
-from bare_earth.algorithms.pointcloud.area import Area, read_boundary
-from bare_earth.algorithms.pointcloud.cloud import PointCloud
-from bare_earth.algorithms.pointcloud.crs import Crs
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.crs.reading import Crs
+from bare_earth.algorithms.las.cloud import PointCloud
+from bare_earth.algorithms.survey import area as area_module
+from bare_earth.algorithms.survey.area import Area, read_boundary
 
 SQUARE = [(0, 0), (10, 0), (10, 10), (0, 10), (0, 0)]
 HOLE = [(4, 4), (4, 6), (6, 6), (6, 4), (4, 4)]

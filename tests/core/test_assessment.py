@@ -10,16 +10,16 @@ import laspy
 import numpy as np
 import pytest
 
-from bare_earth.algorithms import report
-from bare_earth.algorithms.assessment import (
+from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.products import report
+from bare_earth.algorithms.products.assessment import (
     AssessmentOptions,
     Comparison,
     assess_files,
     compare,
 )
-from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.errors import BareEarthError
-from bare_earth.algorithms.points import Points
 
 
 def test_the_four_figures_of_a_known_confusion():

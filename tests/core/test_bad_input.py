@@ -7,12 +7,12 @@ import sys
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.errors import BareEarthError
-from bare_earth.algorithms.files import check_output
-from bare_earth.algorithms.pointcloud import backends, sources
-from bare_earth.algorithms.pointcloud.backends import install_hint, missing_packages, require
-from bare_earth.algorithms.pointcloud.reading import inspect, read_cloud
-from bare_earth.algorithms.pointcloud.writing import check_writable, write_classified
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.files import check_output
+from bare_earth.algorithms.las import backends, sources
+from bare_earth.algorithms.las.backends import install_hint, missing_packages, require
+from bare_earth.algorithms.las.reading import inspect, read_cloud
+from bare_earth.algorithms.las.writing import check_writable, write_classified
 
 
 def refused(path, match, count=60):

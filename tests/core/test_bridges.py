@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 from realdata import real
 
-from bare_earth.algorithms.classification import classify
-from bare_earth.algorithms.errors import BareEarthError
-from bare_earth.algorithms.filters.grid_minimum import GridMinimum
-from bare_earth.algorithms.filters.slope import SlopeFilter
-from bare_earth.algorithms.filters.tin_densification import TinDensification
-from bare_earth.algorithms.pointcloud.cloud import PointCloud
-from bare_earth.algorithms.pointcloud.crs import Crs
-from bare_earth.algorithms.pointcloud.reading import read_cloud
-from bare_earth.algorithms.pointcloud.selection import Selection
-from bare_earth.algorithms.points import Points
-from bare_earth.algorithms.terrain.bridges import bridge_decks
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.crs.reading import Crs
+from bare_earth.algorithms.engine.classification import classify
+from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
+from bare_earth.algorithms.filters.shared.bridges import bridge_decks
+from bare_earth.algorithms.filters.slope.filter import SlopeFilter
+from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
+from bare_earth.algorithms.las.cloud import PointCloud
+from bare_earth.algorithms.las.reading import read_cloud
+from bare_earth.algorithms.survey.selection import Selection
 from benchmarks.scenes.simple import scatter, surveyed
 
 SIZE = 120.0

@@ -7,14 +7,14 @@ import lazrs
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.errors import BareEarthError
-from bare_earth.algorithms.pointcloud import class_layers as module
-from bare_earth.algorithms.pointcloud import writing
-from bare_earth.algorithms.pointcloud.changes import Changes
-from bare_earth.algorithms.pointcloud.class_layers import class_layers
-from bare_earth.algorithms.pointcloud.lasbytes import LASZIP, read_layout
-from bare_earth.algorithms.pointcloud.reading import read_cloud
-from bare_earth.algorithms.pointcloud.writing import write_changed, write_classified
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.las import class_layers as module
+from bare_earth.algorithms.las import writing
+from bare_earth.algorithms.las.changes import Changes
+from bare_earth.algorithms.las.class_layers import class_layers
+from bare_earth.algorithms.las.lasbytes import LASZIP, read_layout
+from bare_earth.algorithms.las.reading import read_cloud
+from bare_earth.algorithms.las.writing import write_changed, write_classified
 
 COUNT, CLASS_LAYER = 120_000, 2
 LAYERS = {6: 9, 7: 10, 8: 11}

@@ -5,22 +5,21 @@ import laspy
 import numpy as np
 import pytest
 
-from bare_earth.algorithms import classification
-from bare_earth.algorithms.classification import classify, classify_file
-from bare_earth.algorithms.errors import BareEarthError
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.core.progress import SILENT
+from bare_earth.algorithms.crs.reading import Crs
+from bare_earth.algorithms.engine import classification, cloudstore, ground
+from bare_earth.algorithms.engine.classification import classify, classify_file
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.grid_minimum import GridMinimum
-from bare_earth.algorithms.filters.slope import SlopeFilter
-from bare_earth.algorithms.filters.tin_densification import TinDensification
-from bare_earth.algorithms.pointcloud import cloud as cloud_module
-from bare_earth.algorithms.pointcloud.area import Area
-from bare_earth.algorithms.pointcloud.cloud import PointCloud
-from bare_earth.algorithms.pointcloud.crs import Crs
-from bare_earth.algorithms.pointcloud.selection import Selection
-from bare_earth.algorithms.points import Points
-from bare_earth.algorithms.progress import SILENT
-from bare_earth.algorithms.terrain.below_ground import below_ground
-from bare_earth.algorithms.tiling import cloudstore, ground
+from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
+from bare_earth.algorithms.filters.shared.below_ground import below_ground
+from bare_earth.algorithms.filters.slope.filter import SlopeFilter
+from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
+from bare_earth.algorithms.las import cloud as cloud_module
+from bare_earth.algorithms.las.cloud import PointCloud
+from bare_earth.algorithms.survey.area import Area
+from bare_earth.algorithms.survey.selection import Selection
 from benchmarks.scenes.simple import village
 
 EAST, NORTH = 500_000.0, 5_700_000.0

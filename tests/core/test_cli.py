@@ -7,13 +7,13 @@ import laspy
 import numpy as np
 import pytest
 
-from bare_earth.algorithms import classification
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.core.parameters import ParameterSet
+from bare_earth.algorithms.engine import classification
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.parameters import ParameterSet
-from bare_earth.algorithms.pointcloud.selection import Selection
-from bare_earth.algorithms.terrain.model import TerrainModel
+from bare_earth.algorithms.products.terrain_model import TerrainModel
+from bare_earth.algorithms.survey.selection import Selection
 from benchmarks.scenes.simple import village
 
 EAST, NORTH = 500_000.0, 5_700_000.0

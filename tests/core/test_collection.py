@@ -3,9 +3,9 @@ import struct
 
 import pytest
 
-from bare_earth.algorithms.errors import BareEarthError
-from bare_earth.algorithms.pointcloud.collection import find_files, open_collection
-from bare_earth.algorithms.pointcloud.vpc import write_vpc
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.survey.collection import find_files, open_collection
+from bare_earth.algorithms.survey.vpc import write_vpc
 
 FEET = 'PROJCS["feet",GEOGCS["g",UNIT["degree",0.0174]],UNIT["US survey foot",0.30480060960]]'
 METRES = 'PROJCS["{}",GEOGCS["g",UNIT["degree",0.0174]],UNIT["metre",1]{}]'

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.classification import classify
+from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.engine.classification import classify
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.points import Points
-from bare_earth.algorithms.terrain.confidence import Weights, confidence
+from bare_earth.algorithms.filters.shared.confidence import Weights, confidence
 from benchmarks.confidence import Seen, compared, fitted, reliability
 from benchmarks.scenes import make
 

@@ -5,11 +5,11 @@ import numpy as np
 import pytest
 from laspy import CopcReader
 
-from bare_earth.algorithms.errors import BareEarthError
-from bare_earth.algorithms.pointcloud import copc
-from bare_earth.algorithms.pointcloud.copc import build_octree
-from bare_earth.algorithms.pointcloud.reading import inspect, read_cloud
-from bare_earth.algorithms.pointcloud.writing import write_classified
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.las import copc
+from bare_earth.algorithms.las.copc import build_octree
+from bare_earth.algorithms.las.reading import inspect, read_cloud
+from bare_earth.algorithms.las.writing import write_classified
 
 NEW_FORMAT = {0: 6, 1: 6, 2: 7, 3: 7, 4: 6, 5: 7, 6: 6, 7: 7, 8: 8, 9: 6, 10: 8}
 FOOT_CRS = 'PROJCS["feet",GEOGCS["g",UNIT["degree",0.0174]],UNIT["US survey foot",0.30480060960]]'

@@ -3,10 +3,10 @@ import sys
 
 import pytest
 
-from bare_earth.algorithms.pointcloud import crs as crs_module
-from bare_earth.algorithms.pointcloud.crs import Crs, compound_wkt, read_crs, unit_name
-from bare_earth.algorithms.pointcloud.lasbytes import read_layout
-from bare_earth.algorithms.pointcloud.wkt import read_wkt
+from bare_earth.algorithms.crs import reading as crs_module
+from bare_earth.algorithms.crs.reading import Crs, compound_wkt, read_crs, unit_name
+from bare_earth.algorithms.crs.wkt import read_wkt
+from bare_earth.algorithms.las.lasbytes import read_layout
 
 SURVEY, FOOT = 1200 / 3937, 0.3048
 BASE_1 = 'GEOGCS["g",DATUM["d",SPHEROID["s",6378137,298.25]],UNIT["degree",0.0174532925199433]]'

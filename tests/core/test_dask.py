@@ -9,15 +9,15 @@ from pathlib import Path
 import pytest
 from surveys import bytes_of, cut, strip
 
-from bare_earth.algorithms import tiles as tiles_module
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.filters.slope import SlopeFilter
-from bare_earth.algorithms.progress import Progress
-from bare_earth.algorithms.tiles import classify_tiles
-from bare_earth.algorithms.tiling import cluster as cluster_module
-from bare_earth.algorithms.tiling.cluster import Cluster
-from bare_earth.algorithms.tiling.options import TileOutput
+from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.core.progress import Progress
+from bare_earth.algorithms.engine import cluster as cluster_module
+from bare_earth.algorithms.engine import tiles as tiles_module
+from bare_earth.algorithms.engine.cluster import Cluster
+from bare_earth.algorithms.engine.options import TileOutput
+from bare_earth.algorithms.engine.tiles import classify_tiles
+from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 
 pytest.importorskip("distributed")
 FAST = SlopeFilter(preset="whitebox")

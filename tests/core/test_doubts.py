@@ -5,16 +5,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.classification import classify
+from bare_earth.algorithms.crs.reading import Crs
+from bare_earth.algorithms.engine.blocks import Blocks
+from bare_earth.algorithms.engine.classification import classify
+from bare_earth.algorithms.engine.cloudstore import CloudStore, Part
+from bare_earth.algorithms.engine.ground import label_ground
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.grid_minimum import GridMinimum
-from bare_earth.algorithms.filters.slope import SlopeFilter
-from bare_earth.algorithms.filters.tin_densification import TinDensification
-from bare_earth.algorithms.pointcloud.cloud import PointCloud, survey_frame
-from bare_earth.algorithms.pointcloud.crs import Crs
-from bare_earth.algorithms.tiling.blocks import Blocks
-from bare_earth.algorithms.tiling.cloudstore import CloudStore, Part
-from bare_earth.algorithms.tiling.ground import label_ground
+from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
+from bare_earth.algorithms.filters.slope.filter import SlopeFilter
+from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
+from bare_earth.algorithms.las.cloud import PointCloud, survey_frame
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
 METHODS_BY_TYPE = {method.parameters: method for method in METHODS.values()}

@@ -6,10 +6,10 @@ import laspy
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.errors import BareEarthError
-from bare_earth.algorithms.pointcloud.changes import Changes
-from bare_earth.algorithms.pointcloud.extrabytes import ExtraDimension
-from bare_earth.algorithms.pointcloud.writing import write_changed
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.las.changes import Changes
+from bare_earth.algorithms.las.extrabytes import ExtraDimension
+from bare_earth.algorithms.las.writing import write_changed
 
 VERSIONS = {0: (0, 1), 1: (0, 1), 2: range(4), 3: range(6), 4: range(11)}
 EVERY = [(version, each) for version, formats in VERSIONS.items() for each in formats]

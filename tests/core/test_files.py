@@ -2,8 +2,8 @@ import errno
 
 import pytest
 
-from bare_earth.algorithms.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.files import check_output, replacing
+from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.core.files import check_output, replacing
 
 
 def test_the_target_appears_only_at_the_end(tmp_path):

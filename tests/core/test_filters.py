@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.assessment import compare
-from bare_earth.algorithms.errors import Cancelled
+from bare_earth.algorithms.core.errors import Cancelled
+from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.filters import METHODS, method_of
-from bare_earth.algorithms.filters.slope import SlopeFilter
-from bare_earth.algorithms.points import Points
-from bare_earth.algorithms.progress import Progress
+from bare_earth.algorithms.filters.slope.filter import SlopeFilter
+from bare_earth.algorithms.products.assessment import compare
 from benchmarks import data
 from benchmarks.scenes.simple import village
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.errors import BareEarthError
-from bare_earth.algorithms.filters.grid_minimum import PRESETS, GridMinimum, classify
-from bare_earth.algorithms.points import Points
-from bare_earth.algorithms.progress import Progress
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.core.progress import Progress
+from bare_earth.algorithms.filters.grid_minimum.filter import PRESETS, GridMinimum, classify
 from benchmarks.scenes.simple import error, scatter, surveyed, village
 
 

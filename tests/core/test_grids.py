@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
-from bare_earth.algorithms.points import Points
-from bare_earth.algorithms.terrain import cells as cells_module
-from bare_earth.algorithms.terrain import morphology
-from bare_earth.algorithms.terrain.cells import Cells, apart, lower_at, spacing
-from bare_earth.algorithms.terrain.inpaint import inpaint
-from bare_earth.algorithms.terrain.morphology import erosion, in_steps, opening, within_square
-from bare_earth.algorithms.terrain.outliers import low_outliers
-from bare_earth.algorithms.threads import may_use
+from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.core.threads import may_use
+from bare_earth.algorithms.filters.shared.outliers import low_outliers
+from bare_earth.algorithms.grids import cells as cells_module
+from bare_earth.algorithms.grids import morphology
+from bare_earth.algorithms.grids.cells import Cells, apart, lower_at, spacing
+from bare_earth.algorithms.grids.inpaint import inpaint
+from bare_earth.algorithms.grids.morphology import erosion, in_steps, opening, within_square
 
 
 def _points(count=500, seed=0):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from bare_earth.algorithms.terrain.ground_cells import Allowance, ground_cells
+from bare_earth.algorithms.filters.shared.ground_cells import Allowance, ground_cells
 
 
 def _ground(heights, objects=None, window=20.0, **allowance):

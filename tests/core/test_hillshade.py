@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.terrain.hillshade import hillshade
+from bare_earth.algorithms.grids.hillshade import hillshade
 
 
 def plane(slope_east, slope_north, size=6, cell=2.0):

@@ -7,16 +7,16 @@ import pytest
 from realdata import real
 from surveys import cut, finished, points_of, strip, write
 
-from bare_earth.algorithms.classification import classify
+from bare_earth.algorithms.engine.classification import classify
+from bare_earth.algorithms.engine.cloudstore import CloudStore, Part
+from bare_earth.algorithms.engine.ground import blocks_of, label_ground
+from bare_earth.algorithms.engine.tiles import classify_tiles
 from bare_earth.algorithms.filters import METHODS, method_of
-from bare_earth.algorithms.filters.grid_minimum import GridMinimum
-from bare_earth.algorithms.filters.slope import SlopeFilter
-from bare_earth.algorithms.filters.tin_densification import TinDensification
-from bare_earth.algorithms.pointcloud.cloud import survey_frame
-from bare_earth.algorithms.pointcloud.reading import read_cloud
-from bare_earth.algorithms.tiles import classify_tiles
-from bare_earth.algorithms.tiling.cloudstore import CloudStore, Part
-from bare_earth.algorithms.tiling.ground import blocks_of, label_ground
+from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
+from bare_earth.algorithms.filters.slope.filter import SlopeFilter
+from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
+from bare_earth.algorithms.las.cloud import survey_frame
+from bare_earth.algorithms.las.reading import read_cloud
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
 COLUMNS = ("x", "y", "z", "classification", "return_number", "number_of_returns", "withheld")

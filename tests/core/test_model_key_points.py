@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.errors import BareEarthError
-from bare_earth.algorithms.points import Points
-from bare_earth.algorithms.terrain.model_key_points import ModelKeyPoints, model_key_points
-from bare_earth.algorithms.terrain.tin import Tin
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints, model_key_points
+from bare_earth.algorithms.grids.tin import Tin
 from benchmarks.scenes.simple import scatter
 
 

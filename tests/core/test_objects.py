@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.terrain.objects import Relief, covered, raised_objects
-from bare_earth.algorithms.terrain.trend import Trend, between_blocks
+from bare_earth.algorithms.filters.shared.objects import Relief, covered, raised_objects
+from bare_earth.algorithms.grids.trend import Trend, between_blocks
 
 
 def plain(side: int = 60, slope: float = 0.0) -> np.ndarray:

@@ -10,24 +10,23 @@ import numpy as np
 import pytest
 from realdata import real
 
-from bare_earth.algorithms import classification
-from bare_earth.algorithms.classification import classify_file
-from bare_earth.algorithms.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.core.progress import Progress
+from bare_earth.algorithms.engine import classification, spill, streaming
+from bare_earth.algorithms.engine.blocks import Blocks
+from bare_earth.algorithms.engine.classification import classify_file
+from bare_earth.algorithms.engine.memory import Resources
+from bare_earth.algorithms.engine.output import Output
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.grid_minimum import GridMinimum
-from bare_earth.algorithms.filters.slope import SlopeFilter
-from bare_earth.algorithms.filters.tin_densification import TinDensification
-from bare_earth.algorithms.output import Output
-from bare_earth.algorithms.pointcloud import reading
-from bare_earth.algorithms.pointcloud.area import Area
-from bare_earth.algorithms.pointcloud.reading import inspect
-from bare_earth.algorithms.pointcloud.selection import Selection
-from bare_earth.algorithms.pointcloud.writing import write_classified
-from bare_earth.algorithms.progress import Progress
-from bare_earth.algorithms.terrain.model import TerrainModel
-from bare_earth.algorithms.tiling import spill, streaming
-from bare_earth.algorithms.tiling.blocks import Blocks
-from bare_earth.algorithms.tiling.memory import Resources
+from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
+from bare_earth.algorithms.filters.slope.filter import SlopeFilter
+from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
+from bare_earth.algorithms.las import reading
+from bare_earth.algorithms.las.reading import inspect
+from bare_earth.algorithms.las.writing import write_classified
+from bare_earth.algorithms.products.terrain_model import TerrainModel
+from bare_earth.algorithms.survey.area import Area
+from bare_earth.algorithms.survey.selection import Selection
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
 LITTLE = Resources(threads=2, memory=0.001)
@@ -239,7 +238,7 @@ import sys
 from pathlib import Path
 import numpy as np
 from bare_earth.algorithms import cli
-from bare_earth.algorithms.tiling import {module}
+from bare_earth.algorithms.engine import {module}
 def late(*arguments, **options):
     print("begun", flush=True)
     {wait}

@@ -6,15 +6,15 @@ import laspy
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.classification import classify_file
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.errors import BareEarthError
-from bare_earth.algorithms.filters.grid_minimum import GridMinimum
-from bare_earth.algorithms.output import HEIGHT_DIMENSION, Output
-from bare_earth.algorithms.pointcloud.changes import Changes
-from bare_earth.algorithms.pointcloud.extrabytes import ExtraDimension
-from bare_earth.algorithms.pointcloud.writing import write_changed
-from bare_earth.algorithms.products import write_height_above_ground
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.engine.classification import classify_file
+from bare_earth.algorithms.engine.output import HEIGHT_DIMENSION, Output
+from bare_earth.algorithms.engine.products import write_height_above_ground
+from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
+from bare_earth.algorithms.las.changes import Changes
+from bare_earth.algorithms.las.extrabytes import ExtraDimension
+from bare_earth.algorithms.las.writing import write_changed
 
 VERSIONS = {0: (0, 1), 1: (0, 1), 2: range(4), 3: range(6), 4: range(11)}
 EVERY = [(version, each) for version, formats in VERSIONS.items() for each in formats]

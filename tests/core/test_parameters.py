@@ -3,10 +3,10 @@ from dataclasses import dataclass
 
 import pytest
 
-from bare_earth.algorithms import parameters
-from bare_earth.algorithms.errors import BareEarthError
+from bare_earth.algorithms.core import parameters
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.parameters import ParameterSet, parameter
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.parameters import ParameterSet, parameter
 
 
 @dataclass(frozen=True)

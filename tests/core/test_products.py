@@ -6,11 +6,11 @@ import laspy
 import numpy as np
 import pytest
 
-from bare_earth.algorithms import products
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.pointcloud.reading import read_cloud
-from bare_earth.algorithms.products import (
+from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.core.progress import Progress
+from bare_earth.algorithms.engine import products
+from bare_earth.algorithms.engine.products import (
     GroundClasses,
     HeightOutput,
     KeyPointMark,
@@ -19,10 +19,10 @@ from bare_earth.algorithms.products import (
     write_key_points,
     write_terrain_models,
 )
-from bare_earth.algorithms.progress import Progress
-from bare_earth.algorithms.terrain.model import TerrainModel
-from bare_earth.algorithms.terrain.model_key_points import ModelKeyPoints
-from bare_earth.algorithms.terrain.surface_model import SurfaceModel, canopy_height
+from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
+from bare_earth.algorithms.las.reading import read_cloud
+from bare_earth.algorithms.products.surface_model import SurfaceModel, canopy_height
+from bare_earth.algorithms.products.terrain_model import TerrainModel
 
 FEET_WKT = (
     'PROJCS["feet",GEOGCS["g",DATUM["d",SPHEROID["s",6378137,298.257]],PRIMEM["Greenwich",0],'

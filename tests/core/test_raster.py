@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.errors import BareEarthError
-from bare_earth.algorithms.points import Frame, Points
-from bare_earth.algorithms.progress import SILENT
-from bare_earth.algorithms.terrain.raster import NODATA, RasterGrid, write_geotiff
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.points import Frame, Points
+from bare_earth.algorithms.core.progress import SILENT
+from bare_earth.algorithms.rasters.geotiff import NODATA, RasterGrid, write_geotiff
 
 rasterio = pytest.importorskip("rasterio")
 

@@ -4,10 +4,10 @@ import laspy
 import numpy as np
 import pytest
 
-from bare_earth.algorithms import progress
-from bare_earth.algorithms.errors import Cancelled
-from bare_earth.algorithms.pointcloud.crs import Crs
-from bare_earth.algorithms.pointcloud.reading import inspect, read_cloud
+from bare_earth.algorithms.core import progress
+from bare_earth.algorithms.core.errors import Cancelled
+from bare_earth.algorithms.crs.reading import Crs
+from bare_earth.algorithms.las.reading import inspect, read_cloud
 
 VERSIONS = {0: (0, 1), 1: (0, 1), 2: range(4), 3: range(6), 4: range(11)}
 EVERY = [(version, each) for version, formats in VERSIONS.items() for each in formats]

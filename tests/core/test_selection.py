@@ -3,11 +3,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.errors import BareEarthError
-from bare_earth.algorithms.pointcloud.cloud import PointCloud
-from bare_earth.algorithms.pointcloud.crs import Crs
-from bare_earth.algorithms.pointcloud.selection import Selection
-from bare_earth.algorithms.progress import SILENT
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.progress import SILENT
+from bare_earth.algorithms.crs.reading import Crs
+from bare_earth.algorithms.las.cloud import PointCloud
+from bare_earth.algorithms.survey.selection import Selection
 
 
 def cloud_of(classes, number=None, total=None, withheld=None, point_format=6, crs=None):

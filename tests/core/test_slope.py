@@ -5,15 +5,15 @@ import dataclasses
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.errors import BareEarthError
-from bare_earth.algorithms.filters.slope import SlopeFilter, classify
-from bare_earth.algorithms.points import Points
-from bare_earth.algorithms.progress import Progress
-from bare_earth.algorithms.terrain import standing_above
-from bare_earth.algorithms.terrain.cell_bounds import CellBounds
-from bare_earth.algorithms.terrain.low_clusters import low_clusters
-from bare_earth.algorithms.terrain.neighbourhood import Neighbourhood
-from bare_earth.algorithms.threads import may_use
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.core.progress import Progress
+from bare_earth.algorithms.core.threads import may_use
+from bare_earth.algorithms.filters.slope.cell_bounds import CellBounds
+from bare_earth.algorithms.filters.slope import standing_above
+from bare_earth.algorithms.filters.slope.filter import SlopeFilter, classify
+from bare_earth.algorithms.filters.slope.low_clusters import low_clusters
+from bare_earth.algorithms.filters.slope.neighbourhood import Neighbourhood
 from benchmarks.scenes.simple import error, scatter, surveyed, village
 
 CLASSIC = SlopeFilter(preset="whitebox")

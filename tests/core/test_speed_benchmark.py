@@ -100,9 +100,9 @@ def test_survey_is_one(survey, tmp_path):
 
 
 def test_survey_has_ground_houses_and_trees(survey):
-    from bare_earth.algorithms.classification import classify
+    from bare_earth.algorithms.engine.classification import classify
     from bare_earth.algorithms.filters import METHODS
-    from bare_earth.algorithms.pointcloud.reading import read_cloud
+    from bare_earth.algorithms.las.reading import read_cloud
 
     cloud = read_cloud(survey)
     landscape = tiles._Landscape(np.random.default_rng(tiles.SEED))
@@ -238,19 +238,19 @@ def test_peer_that_never_ends_took_at_least_its_time():
 def test_profile_tells_parts_and_functions():
     main = "thread (7): MainThread;main (bare_earth/algorithms/cli/__init__.py:23)"
     stacks = [
-        f"{main};read (bare_earth/algorithms/pointcloud/reading.py:25);fill (laspy/a.py:3) 30",
-        f"{main};write (bare_earth/algorithms/pointcloud/writing.py:53);"
-        "chunks (bare_earth/algorithms/pointcloud/reading.py:9) 20",
-        f"{main};slope (bare_earth/algorithms/filters/slope.py:1);wait (threading.py:3) 40",
+        f"{main};read (bare_earth/algorithms/las/reading.py:25);fill (laspy/a.py:3) 30",
+        f"{main};write (bare_earth/algorithms/las/writing.py:53);"
+        "chunks (bare_earth/algorithms/las/reading.py:9) 20",
+        f"{main};slope (bare_earth/algorithms/filters/slope/filter.py:1);wait (threading.py:3) 40",
         f"{main};_find_and_load (<frozen importlib._bootstrap>:1);<module> (numpy/a.py:1) 10",
-        "thread (8): Worker;run (x.py:1);erosion (bare_earth/algorithms/terrain/m.py:8) 70",
+        "thread (8): Worker;run (x.py:1);erosion (bare_earth/algorithms/grids/m.py:8) 70",
     ]
     found = profiling.summed(stacks, "a tile")
     assert found.shares == {
         "reading": 30.0, "writing": 20.0, "filtering": 40.0, "starting Python": 10.0,
         "the rest": 0.0,
     }  # fmt: skip
-    assert found.heaviest[0] == ("erosion (algorithms/terrain/m.py)", pytest.approx(7000 / 130))
+    assert found.heaviest[0] == ("erosion (algorithms/grids/m.py)", pytest.approx(7000 / 130))
     assert "wait" not in str(found.heaviest)
     assert found.seconds == 2.0
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.points import Points
-from bare_earth.algorithms.terrain import surface as module
-from bare_earth.algorithms.terrain.surface import Surface
-from bare_earth.algorithms.terrain.tin import Tin
+from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.grids import surface as module
+from bare_earth.algorithms.grids.surface import Surface
+from bare_earth.algorithms.grids.tin import Tin
 
 
 def _scatter(count=6000, seed=1, size=100.0):

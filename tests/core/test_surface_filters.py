@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.points import Points
-from bare_earth.algorithms.progress import SILENT
 from benchmarks.scenes.simple import (
     dense_canopy,
     large_hall,

@@ -3,11 +3,15 @@
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.errors import BareEarthError
-from bare_earth.algorithms.points import Frame, Points
-from bare_earth.algorithms.terrain.model import TerrainModel, interpolate, write_terrain_model
-from bare_earth.algorithms.terrain.raster import RasterGrid
-from bare_earth.algorithms.terrain.tin import Tin
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.points import Frame, Points
+from bare_earth.algorithms.grids.tin import Tin
+from bare_earth.algorithms.products.terrain_model import (
+    TerrainModel,
+    interpolate,
+    write_terrain_model,
+)
+from bare_earth.algorithms.rasters.geotiff import RasterGrid
 
 FRAME = Frame((1000.0, 2000.0))
 

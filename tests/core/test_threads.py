@@ -4,10 +4,10 @@ import time
 import numpy as np
 import pytest
 
-from bare_earth.algorithms import progress as progress_module
-from bare_earth.algorithms.errors import Cancelled
-from bare_earth.algorithms.progress import SILENT, Progress, paced
-from bare_earth.algorithms.threads import (
+from bare_earth.algorithms.core import progress as progress_module
+from bare_earth.algorithms.core.errors import Cancelled
+from bare_earth.algorithms.core.progress import SILENT, Progress, paced
+from bare_earth.algorithms.core.threads import (
     available_cpus,
     in_threads,
     may_use,

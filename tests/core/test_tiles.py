@@ -14,31 +14,31 @@ import pytest
 from realdata import real
 from surveys import DeadlyJob, bytes_of, cut, finished, points_of, strip, write
 
-from bare_earth.algorithms import tiles as tiles_module
-from bare_earth.algorithms.classification import classify_file
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.core.progress import SILENT, Progress
+from bare_earth.algorithms.engine import jobs as jobs_module
+from bare_earth.algorithms.engine import tiles as tiles_module
+from bare_earth.algorithms.engine import workers as workers_module
+from bare_earth.algorithms.engine.blocks import BRIDGE, GROUND, LOW, Blocks
+from bare_earth.algorithms.engine.classification import classify_file
+from bare_earth.algorithms.engine.cloudstore import CloudStore, Part
+from bare_earth.algorithms.engine.ground import label_ground
+from bare_earth.algorithms.engine.memory import Resources
+from bare_earth.algorithms.engine.options import TileInput, TileMethod, TileOutput
+from bare_earth.algorithms.engine.survey import Place, Survey, frame_of, grouped
+from bare_earth.algorithms.engine.tiles import classify_tiles
+from bare_earth.algorithms.engine.workers import Processes, Threads
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.grid_minimum import GridMinimum
-from bare_earth.algorithms.filters.slope import SlopeFilter
-from bare_earth.algorithms.filters.tin_densification import TinDensification
-from bare_earth.algorithms.pointcloud import reading as reading_module
-from bare_earth.algorithms.pointcloud.cloud import survey_frame
-from bare_earth.algorithms.pointcloud.collection import open_collection
-from bare_earth.algorithms.pointcloud.reading import read_cloud
-from bare_earth.algorithms.pointcloud.selection import Selection
-from bare_earth.algorithms.pointcloud.vpc import read_vpc
-from bare_earth.algorithms.progress import SILENT, Progress
-from bare_earth.algorithms.tiles import classify_tiles
-from bare_earth.algorithms.tiling import jobs as jobs_module
-from bare_earth.algorithms.tiling import workers as workers_module
-from bare_earth.algorithms.tiling.blocks import BRIDGE, GROUND, LOW, Blocks
-from bare_earth.algorithms.tiling.cloudstore import CloudStore, Part
-from bare_earth.algorithms.tiling.ground import label_ground
-from bare_earth.algorithms.tiling.memory import Resources
-from bare_earth.algorithms.tiling.options import TileInput, TileMethod, TileOutput
-from bare_earth.algorithms.tiling.survey import Place, Survey, frame_of, grouped
-from bare_earth.algorithms.tiling.workers import Processes, Threads
+from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
+from bare_earth.algorithms.filters.slope.filter import SlopeFilter
+from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
+from bare_earth.algorithms.las import reading as reading_module
+from bare_earth.algorithms.las.cloud import survey_frame
+from bare_earth.algorithms.las.reading import read_cloud
+from bare_earth.algorithms.survey.collection import open_collection
+from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.survey.vpc import read_vpc
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
 BLOCKS = Blocks(80.0, 30.0, most_points=2500)

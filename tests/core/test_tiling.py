@@ -7,25 +7,25 @@ import numpy as np
 import pytest
 from realdata import real
 
-from bare_earth.algorithms.classification import classify
-from bare_earth.algorithms.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.core.progress import SILENT, Progress
+from bare_earth.algorithms.core.threads import workers
+from bare_earth.algorithms.crs.reading import Crs
+from bare_earth.algorithms.engine import ground as ground_module
+from bare_earth.algorithms.engine.blocks import Blocks
+from bare_earth.algorithms.engine.classification import classify
+from bare_earth.algorithms.engine.cloudstore import CloudStore, Part
+from bare_earth.algorithms.engine.ground import blocks_of, label_ground
+from bare_earth.algorithms.engine.memory import Resources, free_memory
+from bare_earth.algorithms.engine.scheduling import run_jobs
+from bare_earth.algorithms.engine.spill import Spill
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.grid_minimum import GridMinimum
-from bare_earth.algorithms.filters.slope import SlopeFilter
-from bare_earth.algorithms.filters.tin_densification import TinDensification
-from bare_earth.algorithms.pointcloud.cloud import PointCloud, survey_frame
-from bare_earth.algorithms.pointcloud.crs import Crs
-from bare_earth.algorithms.pointcloud.reading import read_cloud
-from bare_earth.algorithms.pointcloud.selection import Special
-from bare_earth.algorithms.progress import SILENT, Progress
-from bare_earth.algorithms.threads import workers
-from bare_earth.algorithms.tiling import ground as ground_module
-from bare_earth.algorithms.tiling.blocks import Blocks
-from bare_earth.algorithms.tiling.cloudstore import CloudStore, Part
-from bare_earth.algorithms.tiling.ground import blocks_of, label_ground
-from bare_earth.algorithms.tiling.memory import Resources, free_memory
-from bare_earth.algorithms.tiling.scheduling import run_jobs
-from bare_earth.algorithms.tiling.spill import Spill
+from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
+from bare_earth.algorithms.filters.slope.filter import SlopeFilter
+from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
+from bare_earth.algorithms.las.cloud import PointCloud, survey_frame
+from bare_earth.algorithms.las.reading import read_cloud
+from bare_earth.algorithms.survey.selection import Special
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
 ORIGIN = (500_000.0, 5_700_000.0, 50.0)

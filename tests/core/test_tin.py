@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial import Delaunay
 
-from bare_earth.algorithms.terrain.tin import Tin
+from bare_earth.algorithms.grids.tin import Tin
 
 
 def _scatter(count=2000, seed=1, size=100.0):

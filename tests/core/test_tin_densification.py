@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.errors import BareEarthError
-from bare_earth.algorithms.filters.tin_densification import TinDensification, classify
-from bare_earth.algorithms.points import Points
-from bare_earth.algorithms.progress import Progress
-from bare_earth.algorithms.terrain.tin import Tin
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.core.progress import Progress
+from bare_earth.algorithms.filters.tin_densification.filter import TinDensification, classify
+from bare_earth.algorithms.grids.tin import Tin
 from benchmarks.scenes.simple import error, scatter, surveyed, village
 
 

@@ -6,11 +6,11 @@ from urllib.request import pathname2url
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.errors import BareEarthError
-from bare_earth.algorithms.pointcloud import wgs84
-from bare_earth.algorithms.pointcloud.crs import wkt_of_epsg
-from bare_earth.algorithms.pointcloud.vpc import read_vpc, write_vpc
-from bare_earth.algorithms.pointcloud.wgs84 import to_wgs84
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.crs import wgs84
+from bare_earth.algorithms.crs.reading import wkt_of_epsg
+from bare_earth.algorithms.crs.wgs84 import to_wgs84
+from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
 
 UTM = "EPSG:32632"
 

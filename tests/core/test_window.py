@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 from conftest import LasKit
 
-from bare_earth.algorithms.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.pointcloud import copc, copc_nodes, reading, writing
-from bare_earth.algorithms.pointcloud.copc import HIERARCHY_ENTRY
-from bare_earth.algorithms.pointcloud.copc_nodes import read_hierarchy
-from bare_earth.algorithms.pointcloud.lasbytes import COPC_INFO, VLR_HEADER, read_layout
-from bare_earth.algorithms.pointcloud.reading import read_cloud
-from bare_earth.algorithms.pointcloud.window import read_window
-from bare_earth.algorithms.pointcloud.writing import write_classified
+from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.las import copc, copc_nodes, reading, writing
+from bare_earth.algorithms.las.copc import HIERARCHY_ENTRY
+from bare_earth.algorithms.las.copc_nodes import read_hierarchy
+from bare_earth.algorithms.las.lasbytes import COPC_INFO, VLR_HEADER, read_layout
+from bare_earth.algorithms.las.reading import read_cloud
+from bare_earth.algorithms.las.writing import write_classified
+from bare_earth.algorithms.survey.window import read_window
 
 POINTS = 12_000
 COLUMNS = ("x", "y", "z", "classification", "return_number", "number_of_returns", "withheld")

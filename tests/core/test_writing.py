@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from realdata import real
 
-from bare_earth.algorithms.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.pointcloud import changes
-from bare_earth.algorithms.pointcloud import records as records_module
-from bare_earth.algorithms.pointcloud.reading import read_cloud
-from bare_earth.algorithms.pointcloud.writing import check_writable, write_classified
+from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.las import changes
+from bare_earth.algorithms.las import records as records_module
+from bare_earth.algorithms.las.reading import read_cloud
+from bare_earth.algorithms.las.writing import check_writable, write_classified
 
 VERSIONS = {0: (0, 1), 1: (0, 1), 2: range(4), 3: range(6), 4: range(11)}
 EVERY = [(version, each) for version, formats in VERSIONS.items() for each in formats]
@@ -264,7 +264,7 @@ def test_a_full_disk_is_told_and_leaves_nothing(las, monkeypatch, name, room):
     source = las.make(count=400)
     for module in ("writing", "copc"):
         monkeypatch.setattr(
-            f"bare_earth.algorithms.pointcloud.{module}.open", opened, raising=False
+            f"bare_earth.algorithms.las.{module}.open", opened, raising=False
         )
     with pytest.raises(BareEarthError, match=r"^Cannot write .*out\.\S+: the disk is full\."):
         write_classified(source, las.folder / name, new_classes(400))

@@ -6,8 +6,8 @@ from typing import Optional
 import pytest
 from qgis.core import QgsProcessingContext, QgsProperty
 
-from bare_earth.algorithms.errors import BareEarthError
-from bare_earth.algorithms.parameters import ParameterSet, parameter
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.parameters import ParameterSet, parameter
 from bare_earth.plugin.processing.base import BareEarthAlgorithm, command_line
 
 

@@ -13,10 +13,10 @@ from qgis.core import (
 )
 from support import ALGORITHM, ROOT
 
-from bare_earth.algorithms.output import Output
-from bare_earth.algorithms.pointcloud.selection import Selection
-from bare_earth.algorithms.terrain.model import TerrainModel
-from bare_earth.algorithms.tiling.memory import Resources
+from bare_earth.algorithms.engine.memory import Resources
+from bare_earth.algorithms.engine.output import Output
+from bare_earth.algorithms.products.terrain_model import TerrainModel
+from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.plugin.processing.classification import ClassificationAlgorithm
 
 SHARED_PARAMETERS = [

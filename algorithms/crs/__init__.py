@@ -1,0 +1,1 @@
+"""What a coordinate reference system says: units, WKT and GeoTIFF keys."""

@@ -1,0 +1,1 @@
+"""Cuts a survey into blocks, computes them and puts the results together."""

@@ -1,0 +1,252 @@
+"""From a point cloud file to a classified one: the one path that every front end takes."""
+
+from __future__ import annotations
+
+import contextlib
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.files import check_output, replacing
+from ..core.parameters import ParameterSet
+from ..core.progress import SILENT, Progress
+from ..core.threads import may_use
+from ..filters import method_of
+from ..las.changes import Changes
+from ..las.cloud import PointCloud, survey_frame
+from ..las.lasbytes import read_layout
+from ..las.reading import read_cloud
+from ..las.writing import check_writable, is_copc, layers_kept, write_changed
+from ..products.terrain_model import TerrainModel, write_terrain_model
+from ..rasters.geotiff import check_raster_output
+from ..survey.area import Area
+from ..survey.scope import Scope
+from ..survey.selection import Selection
+from .cloudstore import CloudStore, Part
+from .ground import blocks_of, label_ground
+from .memory import Resources
+from .output import Output
+from .streaming import Outcome, classify_parts, fits_in_memory
+
+# Bytes of a point, as the file has it, up to which all of it is kept: reading it again for what
+# does not change would take as long as the filter.
+_LONGEST_KEPT = 48
+
+
+@dataclass(frozen=True)
+class Summary:
+    """What a classification did.
+
+    Attributes
+    ----------
+    point_count : int
+        Points in the file.
+    area_count : int
+        Points in the area that was to be classified: all, if none was given.
+    selected_count : int
+        Points in the area that took part in the filter.
+    ground_count : int
+        Points of the target class in the output, in the area and outside.
+    area_ground_count : int
+        Points of the target class in the area.
+    class_counts : dict of int to int
+        Points of each class in the output, in the area and outside.
+    """
+
+    point_count: int
+    area_count: int
+    selected_count: int
+    ground_count: int
+    area_ground_count: int
+    class_counts: dict[int, int] = field(default_factory=dict)
+
+
+def classify(
+    cloud: PointCloud,
+    parameters: ParameterSet,
+    selection: Selection = Selection(),
+    progress: Progress = SILENT,
+    area: Area | None = None,
+    resources: Resources = Resources(),
+) -> tuple[np.ndarray, np.ndarray]:
+    """Classify the points of a cloud in memory.
+
+    Parameters
+    ----------
+    cloud : PointCloud
+        The points, with their present classes.
+    parameters : ParameterSet
+        The parameters of one method; their type chooses the method.
+    selection : Selection
+        Which points take part, and what their classes become.
+    progress : Progress
+        Receives progress and messages.
+    area : Area, optional
+        Points outside keep their class; those near it are still context for the method.
+    resources : Resources
+        How many threads to use, and how much memory.
+
+    Returns
+    -------
+    classification : numpy.ndarray of uint8, shape (n,)
+        The new class of every point, in file order.
+    selected : numpy.ndarray of bool, shape (n,)
+        Which points in the area took part.
+
+    Raises
+    ------
+    BareEarthError
+        If no point is left to classify, or the CRS is geographic.
+    Cancelled
+        If the user asked to stop.
+    """
+    scope = Scope(selection, area, method_of(parameters).reach(parameters))
+    with may_use(resources.thread_count):
+        outcome, inside, selected = _in_memory(cloud, parameters, scope, resources, progress)
+    return outcome.classification, selected & inside
+
+
+def _in_memory(
+    cloud: PointCloud,
+    parameters: ParameterSet,
+    scope: Scope,
+    resources: Resources,
+    progress: Progress,
+) -> tuple[Outcome, np.ndarray, np.ndarray]:
+    """Classify points in memory; return which lie in the area, and which take part, as well."""
+    selection = scope.selection
+    inside, selected = scope.choose_all(cloud, progress.part(0.0, 0.1))
+    scope.tell(progress)
+    blocks = blocks_of(parameters)
+    known = selection.known_ground(cloud, selected) if selection.seed_classes else None
+    part = Part(cloud, selected, known, inside)
+    store = CloudStore([part], survey_frame(cloud.crs), blocks, progress.part(0.1, 0.2))
+    part = progress.part(0.2, 0.95)
+    label_ground(store, parameters, blocks, selection.special, resources, part)
+    outcome = Outcome(cloud, np.empty(cloud.count, dtype=np.uint8), cloud.frame)
+    for where, some in cloud.parts():
+        outcome.add(where.start, some, store.labels[0][where], inside[where], selection)
+        progress(0.95 + 0.05 * where.stop / cloud.count)
+    scope.tell_of_special(outcome.area_low_count, outcome.area_deck_count, progress)
+    return outcome, inside, selected
+
+
+def classify_file(
+    source: Path,
+    target: Path,
+    parameters: ParameterSet,
+    selection: Selection = Selection(),
+    terrain: TerrainModel = TerrainModel(),
+    dtm: Path | None = None,
+    hillshade: Path | None = None,
+    progress: Progress = SILENT,
+    area: Area | None = None,
+    resources: Resources = Resources(),
+    output: Output = Output(),
+) -> Summary:
+    """Classify the ground points of a LAS, LAZ or COPC file and write the file anew.
+
+    Parameters
+    ----------
+    source, target : Path
+        The input, and the output (.las, .laz or .copc.laz). The output equals the input but for
+        the classification, and what `output` asks for.
+    parameters, selection, progress, area, resources
+        As for `classify`.
+    terrain : TerrainModel
+        How to make the terrain model.
+    dtm, hillshade : Path, optional
+        GeoTIFF files of the terrain model to write as well.
+    output : Output
+        Which points are written, and whether with their heights above ground.
+
+    Raises
+    ------
+    BareEarthError
+        If the input cannot be read or an output cannot be written.
+    Cancelled
+        If the user asked to stop; no output is left behind.
+    """
+    check_output(target, (source,))
+    check_writable(target)
+    for raster in filter(None, (dtm, hillshade)):
+        check_raster_output(raster, (source, target))
+    resources = resources.now()
+    scope = Scope(selection, area, method_of(parameters).reach(parameters))
+    model = terrain if dtm or hillshade else None
+    with may_use(resources.thread_count):
+        outcome = _outcome(source, target, parameters, scope, resources, model, output, progress)
+    with contextlib.ExitStack() as outputs:
+        # All outputs or none: the rasters get their names after the cloud is written.
+        rasters = [
+            raster and outputs.enter_context(replacing(raster)) for raster in (dtm, hillshade)
+        ]
+        if any(rasters):
+            write_terrain_model(
+                outcome.ground, outcome.frame, terrain, *rasters, progress.part(0.7, 0.85)
+            )
+        classes = outcome.classification
+        changes = Changes(classification=classes)
+        if output.changes_points:
+            ground = classes == selection.to_class
+            changes = output.changes(outcome.cloud, classes, ground, progress.part(0.85, 0.9))
+        write_changed(source, target, changes, progress.part(0.9, 1.0), outcome.cloud)
+    counts = outcome.class_counts
+    written = [selection.to_class] if output.ground_only else np.flatnonzero(counts)
+    return Summary(
+        point_count=scope.tally.points,
+        area_count=scope.inside_count,
+        selected_count=scope.wanted_count,
+        ground_count=int(counts[selection.to_class]),
+        area_ground_count=outcome.area_ground_count,
+        class_counts={int(value): int(counts[value]) for value in written},
+    )
+
+
+def _outcome(
+    source: Path,
+    target: Path,
+    parameters: ParameterSet,
+    scope: Scope,
+    resources: Resources,
+    terrain: TerrainModel | None,
+    output: Output,
+    progress: Progress,
+) -> Outcome:
+    """Classify the points of a file, in memory if they fit."""
+    layout = read_layout(Path(source))
+    count, length = layout.count, layout.record_length
+    is_copied = not output.changes_points and layers_kept(layout, Path(target)) is not None
+    if fits_in_memory(count, resources):
+        keep = length <= _LONGEST_KEPT and fits_in_memory(count, resources, length)
+        keep = keep and not is_copied
+        cloud = read_cloud(source, progress.part(0.0, 0.2), keep_records=keep)
+        part = progress.part(0.2, 0.7)
+        outcome, *_ = _in_memory(cloud, parameters, scope, resources, part)
+        if terrain is not None:
+            ground = outcome.classification == scope.selection.to_class
+            outcome.ground = cloud.points(ground)
+        return outcome
+    _check_parts_do(target, output, is_copied, count, progress)
+    part = progress.part(0.0, 0.7)
+    return classify_parts(source, target, parameters, scope, resources, terrain, part)
+
+
+def _check_parts_do(
+    target: Path, output: Output, is_copied: bool, count: int, progress: Progress
+) -> None:
+    """Refuse an output that needs all points in memory where they do not fit; tell of the way."""
+    makes_index = is_copc(target) and not is_copied
+    needs = "making a COPC file" if makes_index else "measuring heights above ground"
+    if makes_index or output.height_above_ground:
+        remedy = "Name the output .laz" if makes_index else "Leave out the heights"
+        raise BareEarthError(
+            f"The {count:,} points do not fit into the memory that may be used, which {needs}"
+            f" needs. {remedy}, or give more memory."
+        )
+    progress.info(
+        f"The {count:,} points do not fit into the memory that may be used: they are read twice,"
+        " and wait in a temporary file in the folder of the output meanwhile."
+    )

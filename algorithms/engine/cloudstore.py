@@ -1,0 +1,194 @@
+"""Points in memory that wait for their block."""
+
+from __future__ import annotations
+
+from typing import Iterator, NamedTuple, Sequence
+
+import numpy as np
+
+from ..core.points import Frame
+from ..core.progress import SILENT, Progress
+from ..core.threads import over_parts, parts_of
+from ..las.cloud import PointCloud
+from .blocks import Blocks, Box, Contents, Corner, Leaves, gathered
+from .runs import Runs, Sorted, code_of
+
+# Points that are looked at, sorted, and read together.
+_CHOSEN, _SORTED, _READ = 1 << 19, 1 << 16, 1 << 15
+
+
+class Part(NamedTuple):
+    """The points of one file, in its order.
+
+    Attributes
+    ----------
+    cloud : PointCloud
+        All points of the file.
+    selected : numpy.ndarray of bool, shape (n,)
+        Which take part.
+    known : numpy.ndarray of bool, shape (n,), optional
+        Which of them are surely ground.
+    wanted : numpy.ndarray of bool, shape (n,), optional
+        Which of them are to be labelled; all, if it is not given.
+    """
+
+    cloud: PointCloud
+    selected: np.ndarray
+    known: np.ndarray | None = None
+    wanted: np.ndarray | None = None
+
+
+class CloudStore:
+    """The points of one or more files.
+
+    Parameters
+    ----------
+    parts : sequence of Part
+        The files.
+    frame : Frame
+        That of the survey.
+    blocks : Blocks
+        How it will be cut.
+    progress : Progress
+        Receives progress.
+
+    Attributes
+    ----------
+    labels : list of numpy.ndarray of uint8, shape (n,)
+        For each file `GROUND`, `LOW` (far below it), `BRIDGE` or 0 for each point.
+    leaves, has_known
+        As `Store` says.
+    """
+
+    def __init__(
+        self, parts: Sequence[Part], frame: Frame, blocks: Blocks, progress: Progress = SILENT
+    ) -> None:
+        self._parts, self._frame = [_as_needed(part) for part in parts], frame
+        self.labels = [np.zeros(part.cloud.count, dtype=np.uint8) for part in self._parts]
+        self.has_known = any(part.known is not None for part in self._parts)
+        counts = [part.cloud.count for part in self._parts]
+        self._starts = np.concatenate(([0], np.cumsum(counts)))
+        self._kind = _smallest(self._starts[-1])
+        # Selected points of each file; their places in all of them together are those of the runs.
+        self._orders = [_indices(part, progress.part(0.0, 0.3)) for part in self._parts]
+        self._ends = np.cumsum([len(order) for order in self._orders])
+        self._runs = Runs()
+        is_one = self._is_one_block(blocks)
+        side = blocks.side if is_one else blocks.leaf_side
+        self._start = blocks.start
+        first = self._lowest_block(blocks) if is_one else (0.0, 0.0)
+        self._sort(None if is_one else side, progress.part(0.3, 1.0))
+        row, column, totals = self._runs.finish()
+        x, y = ((n + by) * side + blocks.start for n, by in zip((column, row), first))
+        self.leaves = Leaves(x, y, side, totals)
+
+    def _is_one_block(self, blocks: Blocks) -> bool:
+        if self._ends[-1] > blocks.most_points:
+            return False
+        blocks_of_corners = blocks.number(self._bounds())
+        return bool((blocks_of_corners == blocks_of_corners[:1]).all())
+
+    def _lowest_block(self, blocks: Blocks) -> tuple[float, float]:
+        """Return column and row of the block that holds the smallest x and y."""
+        return tuple(blocks.number(self._bounds().min(axis=0)).tolist())
+
+    def _bounds(self) -> np.ndarray:
+        """Return x and y of two corners of each file, shape (corners, 2)."""
+        return np.array([part.cloud.bounds(self._frame) for part in self._parts]).reshape(-1, 2)
+
+    def _sort(self, side: float | None, progress: Progress) -> None:
+        """Sort the points of each file by leaves; there is but one leaf where `side` is None."""
+        start = 0
+        for number, order in enumerate(self._orders):
+            if side is None:
+                found = [(code_of(np.zeros(1), np.zeros(1)), np.array([len(order)]))]
+            else:
+                found = self._sorted(number, side, progress)
+            for codes, counts in found:
+                self._runs.add(codes, counts, start)
+                start += int(counts.sum())
+
+    def _sorted(
+        self, number: int, side: float, progress: Progress
+    ) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Sort the points of a file; return the leaves and their counts of those sorted together.
+
+        Not all at once: those of a leaf are then read nearly in the order of the file.
+        """
+        cloud, order = self._parts[number].cloud, self._orders[number]
+        found: list = [None] * len(parts_of(len(order), _SORTED))
+
+        def sort(piece: slice) -> None:
+            places = cloud.places(order[piece], self._frame)
+            result = Sorted.of(*(np.floor((each - self._start) / side) for each in places[::-1]))
+            order[piece] = order[piece][result.order]
+            found[piece.start // _SORTED] = result.codes, result.counts
+
+        over_parts(sort, len(order), _SORTED, progress)
+        return found
+
+    def read(
+        self, leaves: np.ndarray, box: Box | None = None, corner: Corner = (0.0, 0.0)
+    ) -> Contents:
+        """Return the points of some leaves, or those of them in a box, relative to a corner."""
+        pieces, frame = list(self._pieces(leaves)), self._frame.moved(corner)
+
+        def read(number: int) -> Contents:
+            return self._contents(*pieces[number], frame)
+
+        return gathered([len(which) for _, which in pieces], read, box, self._kind)
+
+    def _pieces(self, leaves: np.ndarray) -> Iterator[tuple[int, np.ndarray]]:
+        """Yield the number of a file and the indices of some of its points."""
+        starts, counts = self._runs.of(leaves)
+        bounds = np.searchsorted(starts, np.concatenate(([0], self._ends)))
+        for number, order in enumerate(self._orders):
+            runs = slice(bounds[number], bounds[number + 1])
+            firsts = starts[runs] - (self._ends[number] - len(order))
+            spans = zip(firsts.tolist(), counts[runs].tolist())
+            found = [order[first : first + n] for first, n in spans]
+            which = found[0] if len(found) == 1 else np.concatenate([order[:0], *found])
+            for piece in parts_of(len(which), _READ):
+                yield number, which[piece]
+
+    def _contents(self, number: int, which: np.ndarray, frame: Frame) -> Contents:
+        part, start = self._parts[number], self._starts[number]
+        known = np.zeros(len(which), bool) if part.known is None else part.known[which]
+        wanted = np.ones(len(which), bool) if part.wanted is None else part.wanted[which]
+        positions = np.add(which, start, dtype=self._kind)
+        return Contents(part.cloud.points(which, frame), known, wanted, positions)
+
+    def put(self, positions: np.ndarray, labels: np.ndarray) -> None:
+        """Keep the labels of points."""
+        for number, mine in enumerate(self.labels):
+            start, end = self._starts[number], self._starts[number + 1]
+            if len(self.labels) == 1:
+                mine[positions] = labels
+                continue
+            here = (positions >= start) & (positions < end)
+            mine[positions[here] - start] = labels[here]
+
+
+def _as_needed(part: Part) -> Part:
+    """Return a part without flags that say the same of all points."""
+    known = part.known if part.known is not None and part.known.any() else None
+    wanted = part.wanted if part.wanted is not None and not part.wanted.all() else None
+    return part._replace(known=known, wanted=wanted)
+
+
+def _indices(part: Part, progress: Progress) -> np.ndarray:
+    """Return the indices of the points of a part that are selected, in the smallest type."""
+    count = np.count_nonzero(part.selected)
+    indices, end = np.empty(count, dtype=_smallest(part.cloud.count)), 0
+    for some in parts_of(part.cloud.count, _CHOSEN):
+        found = np.flatnonzero(part.selected[some])
+        indices[end : end + len(found)] = found
+        indices[end : end + len(found)] += some.start
+        end += len(found)
+        progress(some.stop / part.cloud.count)
+    return indices
+
+
+def _smallest(count: int) -> type:
+    """Return the smallest integers that hold the index of each of so many points."""
+    return np.int32 if count < 1 << 31 else np.int64

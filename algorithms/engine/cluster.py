@@ -1,0 +1,169 @@
+"""The workers of a Dask cluster, on whatever computers, as those who run the jobs of a survey."""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import threading
+import uuid
+from concurrent.futures import Executor
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from ..core.errors import BareEarthError
+from ..las.backends import require
+from .jobs import Outcome, Share, attempt
+from .memory import Resources, free_memory
+from .workers import SCHEDULER_GONE, Job, JobProgress, Running, Workers
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+_CONNECTING = "15s"
+# Share of the free memory of a computer that the jobs there may use.
+_SHARE = 0.5
+# How many jobs there are for each thread of a worker, so that it need not wait for the next.
+_AHEAD = 2
+
+
+class _Facts(NamedTuple):
+    """What a worker says of itself."""
+
+    version: str
+    sees_folder: bool
+    free: int
+    host: str
+
+
+class Cluster(Workers):
+    """The workers of a Dask scheduler that runs already.
+
+    They need this package, of the same version, and the same folders under the same names. Each
+    thread of a worker runs one job at a time, which uses one thread. The jobs of a worker that dies
+    are done by another.
+
+    Parameters
+    ----------
+    address : str
+        Of the scheduler, such as ``tcp://host:8786``.
+    resources : Resources
+        The memory is that of one job; by default half of what is free on the computer of a worker,
+        divided by its threads. The number of threads is that of the cluster.
+    """
+
+    def __init__(self, address: str, resources: Resources = Resources()) -> None:
+        require("distributed")
+        super().__init__(resources)
+        self._address = address
+        self._client: Client | None = None
+        self._pool: Executor | None = None
+
+    def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
+        """Connect, and check the workers.
+
+        Raises
+        ------
+        BareEarthError
+            If there is no scheduler or no worker, or a worker lacks what it needs.
+        """
+        from distributed import Client
+
+        try:
+            self._client = Client(self._address, timeout=_CONNECTING, set_as_default=False)
+        except (OSError, ValueError) as error:
+            raise BareEarthError(
+                f"There is no Dask scheduler at {self._address}. Start one with 'dask scheduler',"
+                " and give the address that it prints."
+            ) from error
+        facts = self._check(folder)
+        threads = self._client.nthreads()
+        memory = self.resources.bytes
+        if self.resources.memory is None:
+            # Several workers may be on one computer.
+            on_host = {
+                each.host: sum(threads.get(a, 1) for a in facts if facts[a].host == each.host)
+                for each in facts.values()
+            }
+            memory = int(min(_SHARE * each.free / on_host[each.host] for each in facts.values()))
+        self.share = Share(1, memory)
+        self.at_once = self._room()
+        # Each job is done once, whatever Dask still knows of one that is the same.
+        self._pool = self._client.get_executor(pure=False)
+
+    def _room(self) -> int:
+        return max(1, _AHEAD * sum(self._client.nthreads().values()))
+
+    def _check(self, folder: Path) -> dict[str, _Facts]:
+        """Return what the workers say of themselves; refuse those that could not work."""
+        from ... import __version__
+
+        marker = folder / f".{uuid.uuid4().hex}.part"
+        marker.touch()
+        try:
+            facts = self._client.run(_facts, str(marker), on_error="return")
+        except Exception as error:
+            raise BareEarthError(
+                f"The workers of {self._address} cannot load this package ({error}). Install"
+                f" bare-earth {__version__} there."
+            ) from error
+        finally:
+            with contextlib.suppress(OSError):
+                marker.unlink()
+        if not facts:
+            raise BareEarthError(
+                f"The scheduler {self._address} has no workers. Start some with 'dask worker"
+                f" {self._address}'."
+            )
+        for address, each in facts.items():
+            if not isinstance(each, _Facts):
+                raise BareEarthError(
+                    f"The worker {address} cannot load this package ({each}). Install bare-earth"
+                    f" {__version__} there."
+                )
+            if each.version != __version__:
+                raise BareEarthError(
+                    f"The worker {address} has version {each.version} of bare-earth, and this"
+                    f" computer {__version__}. Install the same version on all."
+                )
+            if not each.sees_folder:
+                raise BareEarthError(
+                    f"The worker {address} does not see {folder}. Put inputs and outputs into a"
+                    " folder that all computers have under the same name."
+                )
+        return facts
+
+    def submit(self, job: Job) -> Running:
+        """Begin a job.
+
+        Raises
+        ------
+        BareEarthError
+            If the scheduler is gone.
+        """
+        try:
+            # As a function without arguments: Dask would look into these for results of others.
+            future = self._pool.submit(functools.partial(_on_cluster, job, self.share))
+            self.at_once = self._room()
+        except OSError as error:
+            raise BareEarthError(SCHEDULER_GONE) from error
+        return Running(future, JobProgress(threading.Event()))
+
+    def stop(self) -> None:
+        """Take back the jobs that have not begun, and leave the scheduler."""
+        with contextlib.suppress(OSError):  # the scheduler is gone
+            if self._pool is not None:
+                self._pool.shutdown(wait=False)
+        if self._client is not None:
+            self._client.close()
+
+
+def _facts(marker: str) -> _Facts:
+    import socket
+
+    from ... import __version__
+
+    return _Facts(__version__, Path(marker).exists(), free_memory(), socket.gethostname())
+
+
+def _on_cluster(job: Job, share: Share) -> Outcome:
+    return attempt(job, share, JobProgress(threading.Event()))

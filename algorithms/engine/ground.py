@@ -1,0 +1,260 @@
+"""The ground of a survey, block by block."""
+
+from __future__ import annotations
+
+import collections
+from typing import Callable, NamedTuple
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.parameters import ParameterSet
+from ..core.progress import SILENT, Progress, Unsaid
+from ..filters import Method, method_of
+from ..filters.shared.below_ground import below_ground
+from ..filters.shared.bridges import bridge_decks
+from ..filters.shared.doubts import tell_of_extent, tell_of_little_ground
+from ..grids.cells import apart
+from ..survey.selection import Special
+from .blocks import BRIDGE, LOW, Block, Blocks, Contents, Store
+from .memory import Resources
+from .scheduling import run_jobs
+
+# Bytes that a filter takes for each point that it sees, and for each square metre of a window.
+_BYTES_A_POINT, _BYTES_A_SQUARE_METRE = 110, 100
+# The steps of bridges and of low outliers take these shares of the time of a block.
+_BRIDGES_SHARE, _LOW_SHARE = 0.15, 0.1
+
+
+class _Labelled(NamedTuple):
+    """What a block gave: labels of the points at some positions."""
+
+    positions: np.ndarray
+    labels: np.ndarray
+    notes: _Notes
+
+
+def blocks_of(parameters: ParameterSet) -> Blocks:
+    """Return the blocks in which a method filters any survey."""
+    return Blocks.of(method_of(parameters).reach(parameters))
+
+
+def label_ground(
+    store: Store,
+    parameters: ParameterSet,
+    blocks: Blocks,
+    special: Special = Special(),
+    resources: Resources = Resources(),
+    progress: Progress = SILENT,
+) -> None:
+    """Give every wanted point of a store its label: `GROUND`, `LOW`, `BRIDGE` or 0.
+
+    Parameters
+    ----------
+    store : Store
+        The points.
+    parameters : ParameterSet
+        Those of one method.
+    blocks : Blocks
+        How the survey is cut; `blocks_of` says.
+    special : Special
+        What gets `LOW`, and whether decks of bridges get `BRIDGE`.
+    resources : Resources
+        Threads, and the memory for the blocks.
+    progress : Progress
+        Used in the calling thread only.
+
+    Raises
+    ------
+    BareEarthError
+        If no block has ground.
+    Cancelled
+        If the user asked to stop.
+    """
+    method = method_of(parameters)
+    if store.has_known and not method.takes_known_ground:
+        progress.info(f"{method.label} does not start from known ground: it is only kept.")
+    todo = list(blocks.over(store))
+    counts = [_count(blocks, each, store) for each in todo]
+    at_once = _at_once(len(todo), max(counts), blocks, resources)
+    job_of = _job_maker(store, blocks, _Filter(method, parameters, special))
+    jobs = [job_of(each, len(todo) == 1) for each in todo]
+    workers = max(1, resources.thread_count // at_once)
+    notes = {}
+    for number, result in run_jobs(jobs, counts, at_once, workers, progress):
+        store.put(result.positions, result.labels)
+        if result.notes.count:
+            notes[number] = result.notes
+    _tell(progress, [notes[number] for number in sorted(notes)])
+
+
+def _count(blocks: Blocks, block: Block, store: Store) -> int:
+    """Return about how many points the filter sees for a block."""
+    return int(store.leaves.counts[store.leaves.within(blocks.window(block))].sum())
+
+
+def memory_of_block(count: int, blocks: Blocks) -> int:
+    """Return about how many bytes it takes to filter a block that sees `count` points."""
+    area = (blocks.side + 2.0 * blocks.buffer) ** 2
+    return int(_BYTES_A_POINT * count + _BYTES_A_SQUARE_METRE * area)
+
+
+def _at_once(number: int, largest: int, blocks: Blocks, resources: Resources) -> int:
+    """Return how many blocks may be filtered at the same time."""
+    fitting = resources.bytes // max(memory_of_block(largest, blocks), 1)
+    return int(max(1, min(number, resources.thread_count, fitting)))
+
+
+class _Filter(NamedTuple):
+    """What labels the points of a window.
+
+    Attributes
+    ----------
+    method : Method
+        The ground filter.
+    parameters : ParameterSet
+        Those of the method.
+    special : Special
+        As for `label_ground`.
+    """
+
+    method: Method
+    parameters: ParameterSet
+    special: Special
+
+    def label(self, contents: Contents, progress: Progress) -> np.ndarray:
+        """Return the label of each point."""
+        depth, method = self.special.low_noise_depth, self.method
+        end = 1.0 if depth is None else 1.0 - _LOW_SHARE
+        finds_bridges = self._finds_bridges
+        part = progress.part(0.0, end - _BRIDGES_SHARE if finds_bridges else end)
+        points, known = contents.points, contents.known
+        tell_of_extent(points, *method.largest(self.parameters), progress)
+        if known.any() and method.takes_known_ground:
+            ground = method.classify(points, self.parameters, part, known_ground=known)
+        else:
+            ground = method.classify(points, self.parameters, part)
+        ground |= known
+        tell_of_little_ground(points, ground, progress)
+        labels = ground.astype(np.uint8)
+        if finds_bridges:
+            decks = bridge_decks(points, ground) & ~known
+            labels[decks] = BRIDGE
+            ground &= ~decks
+            progress(end)
+        if depth is not None:
+            low = below_ground(points, ground, depth, progress.part(end, 1.0))
+            labels[low & (labels == 0)] = LOW
+        return labels
+
+    @property
+    def _finds_bridges(self) -> bool:
+        wanted = self.special.bridges
+        return wanted == "find" or (
+            wanted == "automatic" and not self.method.is_classic(self.parameters)
+        )
+
+
+def _job_maker(
+    store: Store, blocks: Blocks, filter_: _Filter
+) -> Callable[[Block, bool], Callable[[Progress], _Labelled]]:
+    def job_of(block: Block, is_only: bool) -> Callable[[Progress], _Labelled]:
+        def job(progress: Progress) -> _Labelled:
+            contents = blocks.contents(block, store)
+            # The only block holds them all.
+            core = contents.wanted.copy()
+            if not is_only:
+                core &= block.holds(contents.points, blocks.corner(block))
+            positions = contents.positions if core.all() else contents.positions[core]
+            notes = _Notes(progress, len(positions), is_only)
+            labels = np.zeros(len(positions), dtype=np.uint8)
+            if notes.count:
+                try:
+                    labels = _labels(contents, core, filter_, blocks.buffer, notes)[core]
+                except BareEarthError as error:
+                    notes.failure = error
+            return _Labelled(positions, labels, notes)
+
+        return job
+
+    return job_of
+
+
+def _labels(
+    contents: Contents, wanted: np.ndarray, filter_: _Filter, reach: float, progress: Progress
+) -> np.ndarray:
+    """Return the label of each point of a window that is wanted.
+
+    Points that no chain of steps as long as the reach of the filter joins do not matter for each
+    other, and are filtered apart: grids end where the points do, and a stray point would move the
+    border of those of all others.
+    """
+    groups, count = apart(contents.points, reach)
+    if count == 1:
+        return filter_.label(contents, progress)
+    sizes = np.bincount(groups, minlength=count)
+    labels, failures, done = np.zeros(len(groups), dtype=np.uint8), [], 0
+    needed = np.flatnonzero(np.bincount(groups[wanted], minlength=count))
+    for group in needed[np.argsort(-sizes[needed], kind="stable")].tolist():
+        which, end = np.flatnonzero(groups == group), done + int(sizes[group])
+        part = progress.part(done / len(groups), end / len(groups))
+        try:
+            # What there is to say of the points is said of the most of them.
+            labels[which] = filter_.label(contents.take(which), Unsaid(part) if done else part)
+        except BareEarthError as error:
+            failures.append(error)
+        done = end
+    if len(failures) == len(needed):
+        raise failures[0]
+    return labels
+
+
+class _Notes(Progress):
+    """Passes on the progress of a block, and keeps its messages until all blocks are done.
+
+    Attributes
+    ----------
+    count : int
+        Points that the block was to label.
+    messages : list of tuple of str
+        Kind and text of each.
+    failure : BareEarthError or None
+        Why it has no ground.
+    """
+
+    def __init__(self, whole: Progress, count: int, is_only: bool) -> None:
+        self._whole, self._is_only, self.count = whole, is_only, count
+        self.messages: list[tuple[str, str]] = []
+        self.failure: BareEarthError | None = None
+
+    def report(self, fraction: float) -> None:
+        self._whole(fraction)
+
+    def info(self, text: str) -> None:
+        self._keep("info", text)
+
+    def warning(self, text: str) -> None:
+        self._keep("warning", text)
+
+    def _keep(self, kind: str, text: str) -> None:
+        if self._is_only:  # nothing to wait for
+            getattr(self._whole, kind)(text)
+        else:
+            self.messages.append((kind, text))
+
+
+def _tell(progress: Progress, blocks: list[_Notes]) -> None:
+    """Tell each message of the blocks once, and how many failed."""
+    failed = [each for each in blocks if each.failure is not None]
+    if failed and len(failed) == len(blocks):
+        raise failed[0].failure
+    messages = collections.Counter(m for each in blocks for m in dict.fromkeys(each.messages))
+    for (kind, text), count in messages.items():
+        if count < len(blocks):
+            text = f"{text.rstrip('.')} (in {count} of {len(blocks)} blocks)."
+        getattr(progress, kind)(text)
+    if failed:
+        progress.warning(
+            f"No ground was found in {len(failed)} of {len(blocks)} blocks: their"
+            f" {sum(each.count for each in failed):,} points are not ground. {failed[0].failure}"
+        )

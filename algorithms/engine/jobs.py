@@ -1,0 +1,332 @@
+"""The jobs of a survey of many files: plain functions of what can be pickled, with files between.
+
+They run in a thread, in another process or on another computer that sees the same folders.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Iterator, NamedTuple
+
+import numpy as np
+
+from ..core.errors import BareEarthError, Cancelled
+from ..core.files import replacing
+from ..core.progress import Progress, Unsaid
+from ..core.threads import may_use
+from ..las.changes import Changes
+from ..las.cloud import PointCloud
+from ..las.lasbytes import read_layout
+from ..las.reading import read_cloud, read_parts
+from ..las.writing import layers_kept, write_changed
+from ..survey.collection import Tile
+from ..survey.selection import Tally
+from ..survey.window import read_window
+from .blocks import BRIDGE, GROUND, LOW
+from .cloudstore import CloudStore, Part
+from .ground import label_ground
+from .memory import GIGABYTE, Resources
+from .record import Record, write_record
+from .streaming import fits_in_memory
+from .survey import Place, Survey, code
+
+_FAILURE = "no ground"
+
+
+class Share(NamedTuple):
+    """What a job may use.
+
+    Attributes
+    ----------
+    threads : int
+        Threads.
+    memory : int
+        Bytes.
+    """
+
+    threads: int
+    memory: int
+
+    @property
+    def resources(self) -> Resources:
+        """The same in the terms of `label_ground`."""
+        return Resources(threads=self.threads, memory=max(self.memory / GIGABYTE, 0.001))
+
+
+class Outcome(NamedTuple):
+    """What became of a job.
+
+    Attributes
+    ----------
+    result : object
+        What it returned.
+    messages : tuple of tuple of str
+        Kind and text of each.
+    failure : str or None
+        Why it failed.
+    """
+
+    result: Any
+    messages: tuple[tuple[str, str], ...] = ()
+    failure: str | None = None
+
+
+class LabelJob(NamedTuple):
+    """Labels the points of some blocks.
+
+    Attributes
+    ----------
+    survey : Survey
+        What all jobs share.
+    places : tuple of Place
+        The blocks.
+    files : tuple of Path
+        Where the labels of each go.
+    sources : tuple of Path
+        The files that may have points which these blocks need.
+    count : float
+        About how many points the blocks hold.
+    """
+
+    survey: Survey
+    places: tuple[Place, ...]
+    files: tuple[Path, ...]
+    sources: tuple[Path, ...]
+    count: float
+
+    def split(self) -> list[LabelJob]:
+        """Return a job for each of the blocks."""
+        count = self.count / len(self.places)
+        pairs = zip(self.places, self.files)
+        return [self._replace(places=(a,), files=(b,), count=count) for a, b in pairs]
+
+    def run(self, share: Share, progress: Progress) -> None:
+        """Do it."""
+        survey = self.survey
+        parts, codes = self._read(progress.part(0.0, 0.3))
+        labels, failure = [np.zeros(part.cloud.count, np.uint8) for part in parts], ""
+        if any(part.wanted.any() and part.selected.any() for part in parts):
+            store = CloudStore(parts, survey.frame, survey.blocks, progress.part(0.3, 0.35))
+            rest = progress.part(0.35, 0.95)
+            try:
+                label_ground(
+                    store, survey.parameters, survey.blocks, survey.selection.special,
+                    share.resources, rest,
+                )  # fmt: skip
+                labels = store.labels
+            except BareEarthError as error:
+                failure = str(error)
+        for place, file in zip(self.places, self.files):
+            self._write(file, code(place), parts, codes, labels, failure)
+        progress(1.0)
+
+    def _read(self, progress: Progress) -> tuple[list[Part], list[np.ndarray]]:
+        """Return the points that the blocks need, and the block of each."""
+        selection, parts, codes = self.survey.selection, [], []
+        window = self.survey.window(self.places)
+        here = np.array([code(place) for place in self.places])
+        for number, source in enumerate(self.sources):
+            start, end = (each / len(self.sources) for each in (number, number + 1))
+            try:
+                part = Unsaid(progress.part(start, end))
+                cloud = read_window(source, window, part, trust_header=True)
+            except BareEarthError as error:
+                progress.warning(
+                    f"The tiles beside {source.name} are classified without its points. {error}"
+                )
+                continue
+            if cloud.count:
+                selected = selection.choose(cloud, Tally())
+                known = selection.known_ground(cloud, selected)
+                codes.append(self.survey.codes(cloud))
+                parts.append(Part(cloud, selected, known, np.isin(codes[-1], here)))
+        return parts, codes
+
+    def _write(
+        self,
+        file: Path,
+        block: int,
+        parts: list[Part],
+        codes: list[np.ndarray],
+        labels: list[np.ndarray],
+        failure: str,
+    ) -> None:
+        """Keep the labels of a block: for each file those of its points there, in its order."""
+        kept = {
+            part.cloud.path.name: values[there == block]
+            for part, there, values in zip(parts, codes, labels)
+        }
+        if failure:
+            kept[_FAILURE] = np.array(failure)
+        with replacing(file) as temporary:
+            np.savez(temporary, **kept)
+
+
+class TileSummary(NamedTuple):
+    """What became of one file.
+
+    Attributes
+    ----------
+    name : str
+        Of the output.
+    point_count, ground_count : int
+        Its points, and those of the target class.
+    """
+
+    name: str
+    point_count: int
+    ground_count: int
+
+    @property
+    def text(self) -> str:
+        """All of it in words."""
+        share = self.ground_count / self.point_count
+        return f"{self.name}: {self.point_count:,} points, {share:.1%} ground"
+
+
+class TileJob(NamedTuple):
+    """Writes a tile with the labels of its blocks.
+
+    Attributes
+    ----------
+    survey : Survey
+        What all jobs share.
+    tile : Tile
+        The input.
+    target : Path
+        The output.
+    places : tuple of Place
+        The blocks that may hold its points.
+    files : tuple of Path
+        Where the labels of each are.
+    record : Record
+        Says from what the output is made; written after it.
+    """
+
+    survey: Survey
+    tile: Tile
+    target: Path
+    places: tuple[Place, ...]
+    files: tuple[Path, ...]
+    record: Record
+
+    def run(self, share: Share, progress: Progress) -> TileSummary:
+        """Do it."""
+        selection, path, tally = self.survey.selection, self.tile.path, Tally()
+        kept = _KeptLabels(self)
+        classes, start = np.zeros(self.tile.count, dtype=np.uint8), 0
+        for part in self._parts(share, Unsaid(progress.part(0.0, 0.4))):
+            if not start:
+                selection.check(part)
+            selection.choose(part, tally)
+            labels = kept.of(part)
+            end = start + part.count
+            if end > len(classes):
+                raise kept.changed()
+            low, decks = labels == LOW, labels == BRIDGE
+            classes[start:end] = selection.classes(part, labels == GROUND, low, decks=decks)
+            start = end
+        selection.tell(tally, path, progress)
+        kept.check()
+        changes, rest = Changes(classification=classes), progress.part(0.4, 1.0)
+        write_changed(path, self.target, changes, rest, part)
+        ground = int(np.count_nonzero(classes == selection.to_class))
+        summary = TileSummary(self.target.name, len(classes), ground)
+        write_record(self.target, self.record, summary._asdict())
+        return summary
+
+    def _parts(self, share: Share, progress: Progress) -> Iterator[PointCloud]:
+        """Yield the points: all at once, to be written without being read again, if they fit."""
+        count, length = self.tile.count, self.tile.record_length
+        if fits_in_memory(count, share.resources, length):
+            keep = not layers_kept(read_layout(self.tile.path), self.target)
+            yield read_cloud(self.tile.path, progress, keep_records=keep)
+        else:
+            yield from read_parts(self.tile.path, progress)
+
+
+class _KeptLabels:
+    """The labels of the points of a tile, as the blocks have them.
+
+    Parameters
+    ----------
+    job : TileJob
+        The tile.
+    """
+
+    def __init__(self, job: TileJob) -> None:
+        self._survey, self._path = job.survey, job.tile.path
+        self._failure, self._any_ground = "", False
+        self._left: dict[int, np.ndarray] = {}
+        for place, file in zip(job.places, job.files):
+            with np.load(file, allow_pickle=False) as kept:
+                if self._path.name in kept:
+                    self._left[code(place)] = kept[self._path.name]
+                    self._failure = self._failure or str(kept.get(_FAILURE, ""))
+
+    def of(self, part: PointCloud) -> np.ndarray:
+        """Return the labels of the next points, in file order.
+
+        Raises
+        ------
+        BareEarthError
+            If there are points where the header says that there are none.
+        """
+        codes, labels = self._survey.codes(part), np.zeros(part.count, dtype=np.uint8)
+        for each in np.unique(codes):
+            here, left = np.flatnonzero(codes == each), self._left.get(int(each))
+            if left is None:
+                raise BareEarthError(
+                    f"The header of {self._path} states a smaller extent than its points have."
+                    " Write the file anew with a program that corrects it."
+                )
+            if len(left) < len(here):
+                raise self.changed()
+            labels[here], self._left[int(each)] = left[: len(here)], left[len(here) :]
+        self._any_ground |= bool((labels == GROUND).any())
+        return labels
+
+    def check(self) -> None:
+        """Refuse a tile of whose labels some are left, or none is ground."""
+        if any(map(len, self._left.values())):
+            raise self.changed()
+        if not self._any_ground:
+            raise BareEarthError(self._failure or f"No ground was found in {self._path}.")
+
+    def changed(self) -> BareEarthError:
+        """Return the error for a file that is not what it was."""
+        return BareEarthError(f"{self._path} changed while it was worked on. Classify it again.")
+
+
+def attempt(job: LabelJob | TileJob, share: Share, progress: Progress) -> Outcome:
+    """Run a job; what goes wrong with it is told, not raised."""
+    notes = _Notes(progress)
+    try:
+        with may_use(share.threads):
+            return Outcome(job.run(share, notes), tuple(notes.messages))
+    except Cancelled:
+        raise
+    except BareEarthError as error:
+        failure = str(error)
+    except MemoryError:
+        failure = "There is not enough memory for it. Allow fewer threads."
+    except Exception as error:
+        failure = f"Unexpected {type(error).__name__}: {error}. Please report it."
+    return Outcome(None, tuple(notes.messages), failure)
+
+
+class _Notes(Progress):
+    """Passes on progress and keeps the messages, each with its kind."""
+
+    def __init__(self, whole: Progress) -> None:
+        self._whole = whole
+        self.messages: list[tuple[str, str]] = []
+
+    def report(self, fraction: float) -> None:
+        self._whole(fraction)
+
+    def info(self, text: str) -> None:
+        self.messages.append(("info", text))
+
+    def warning(self, text: str) -> None:
+        self.messages.append(("warning", text))

@@ -1,0 +1,117 @@
+"""How much memory and how many threads a run may use."""
+
+from __future__ import annotations
+
+import os
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..core.parameters import ParameterSet, parameter
+from ..core.threads import available_cpus
+
+GIGABYTE = 1 << 30
+_UNKNOWN = 4 * GIGABYTE
+_SHARE = 0.5
+_MEMINFO = Path("/proc/meminfo")
+_CGROUP = Path("/sys/fs/cgroup")
+
+
+@dataclass(frozen=True)
+class Resources(ParameterSet):
+    """What a run may use of the computer; the result does not depend on it."""
+
+    threads: int | None = parameter(
+        None,
+        kind="integer",
+        label="Threads",
+        minimum=1,
+        maximum=1024,
+        empty="all processors",
+        advanced=True,
+        help="How many threads compute at the same time. The result does not depend on it.",
+    )
+    memory: float | None = parameter(
+        None,
+        kind="number",
+        label="Memory",
+        unit="GB",
+        minimum=0.001,
+        maximum=100_000.0,
+        empty="half of what is free",
+        advanced=True,
+        help="About how much a run may take. A file that needs more is read twice, with its points"
+        " in a temporary file in the folder of the output meanwhile; of many files, fewer blocks"
+        " are in work at the same time. The result does not depend on it.",
+    )
+
+    @property
+    def thread_count(self) -> int:
+        """Number of threads to use."""
+        return self.threads or available_cpus()
+
+    def now(self) -> Resources:
+        """Return the same with the memory that is free now, where none was given."""
+        return Resources(self.thread_count, max(self.bytes / GIGABYTE, 0.001))
+
+    @property
+    def bytes(self) -> int:
+        """Memory to use."""
+        return int(free_memory() * _SHARE if self.memory is None else self.memory * GIGABYTE)
+
+
+def free_memory() -> int:
+    """Return the bytes of memory that are free; 4 GB where the system does not tell."""
+    free = _windows_free() if sys.platform == "win32" else _linux_free()
+    limits = [_cgroup_free(), _UNKNOWN if free is None else free]
+    return min(each for each in limits if each is not None)
+
+
+def _linux_free() -> int | None:
+    lines = _lines(_MEMINFO)
+    for line in lines:
+        if line.startswith("MemAvailable:"):
+            return int(line.split()[1]) * 1024
+    try:
+        return os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    except (AttributeError, ValueError, OSError):  # Windows and macOS
+        return None
+
+
+def _cgroup_free() -> int | None:
+    """Return what the limit of a container leaves, if there is one."""
+    limit, used = _lines(_CGROUP / "memory.max"), _lines(_CGROUP / "memory.current")
+    if not limit or not used or not limit[0].isdigit():
+        return None
+    # Of what is used, the system gives up the cache of files that nobody has read lately.
+    cached = [line.split()[1] for line in _lines(_CGROUP / "memory.stat") if _is_cache(line)]
+    return max(int(limit[0]) - int(used[0]) + sum(map(int, cached)), 0)
+
+
+def _is_cache(line: str) -> bool:
+    return line.startswith("inactive_file ")
+
+
+def _lines(path: Path) -> list[str]:
+    """Return the lines of a file of the system; none where it has no such file."""
+    try:
+        return path.read_text(encoding="ascii").splitlines()
+    except (OSError, ValueError):
+        return []
+
+
+def _windows_free() -> int | None:
+    import ctypes
+
+    class Status(ctypes.Structure):
+        _fields_ = (
+            ("length", ctypes.c_ulong),
+            ("load", ctypes.c_ulong),
+            *((name, ctypes.c_ulonglong) for name in ("total", "free")),
+            *((f"other_{number}", ctypes.c_ulonglong) for number in range(5)),
+        )
+
+    status = Status(length=ctypes.sizeof(Status))
+    if not ctypes.windll.kernel32.GlobalMemoryStatusEx(ctypes.byref(status)):
+        return None
+    return int(status.free)

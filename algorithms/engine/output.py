@@ -1,0 +1,121 @@
+"""What a classified file holds beside the new classes, and which of its points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.parameters import ParameterSet, parameter
+from ..core.progress import SILENT, Progress
+from ..crs.reading import unit_name
+from ..las.changes import Changes
+from ..las.cloud import PointCloud
+from ..las.extrabytes import ExtraDimension
+from ..products.height_above_ground import height_above_ground
+
+HEIGHT_DIMENSION = "HeightAboveGround"
+
+
+@dataclass(frozen=True)
+class Output(ParameterSet):
+    """What is written of a classified cloud."""
+
+    ground_only: bool = parameter(
+        False,
+        label="Write ground points only",
+        help="Leaves all points out of the output that are not of the class of the ground. The log"
+        " says how many.",
+    )
+    height_above_ground: bool = parameter(
+        False,
+        label="Add the height above ground",
+        help=f"Adds the extra dimension {HEIGHT_DIMENSION}: how high each point stands above the"
+        " ground, in the vertical unit of the CRS.",
+    )
+
+    @property
+    def changes_points(self) -> bool:
+        """Whether points change in more than their classes."""
+        return self.ground_only or self.height_above_ground
+
+    def changes(
+        self,
+        cloud: PointCloud,
+        classification: np.ndarray,
+        ground: np.ndarray,
+        progress: Progress = SILENT,
+    ) -> Changes:
+        """Return what is to become other in a cloud.
+
+        Parameters
+        ----------
+        cloud : PointCloud
+            The points as they are.
+        classification : numpy.ndarray of uint8, shape (n,)
+            Their new classes.
+        ground : numpy.ndarray of bool, shape (n,)
+            Which of them are ground.
+        progress : Progress
+            Receives progress and messages.
+
+        Raises
+        ------
+        BareEarthError
+            If nothing would be left to write, or no height can be measured.
+        """
+        extra = kept = None
+        if self.changes_points and not ground.any():
+            raise BareEarthError(
+                f"{cloud.path} has no ground points, so that there is nothing to write of the"
+                " ground alone, and no height above it. Check the parameters and the selection of"
+                " points."
+            )
+        if self.height_above_ground:
+            # Withheld points are no ground for heights, as in those of a classified file.
+            known = ground & ~cloud.withheld
+            extra = height_dimension(cloud, heights_of(cloud, known, progress))
+        if self.ground_only:
+            kept = ground
+            count = np.count_nonzero(~ground)
+            progress.info(f"{count:,} points that are not ground are left out of the output.")
+        return Changes(classification=classification, extra=extra, kept=kept)
+
+
+def heights_of(cloud: PointCloud, ground: np.ndarray, progress: Progress = SILENT) -> np.ndarray:
+    """Return how high each point of a cloud stands above its ground.
+
+    Parameters
+    ----------
+    cloud : PointCloud
+        The points.
+    ground : numpy.ndarray of bool, shape (n,)
+        Which of them are ground.
+    progress : Progress
+        Receives progress.
+
+    Returns
+    -------
+    numpy.ndarray of float64, shape (n,)
+        In the vertical unit of the CRS.
+
+    Raises
+    ------
+    BareEarthError
+        If no point is ground, or the CRS is geographic.
+    """
+    if not ground.any():
+        raise BareEarthError(
+            f"All ground points of {cloud.path} are withheld, so that no height above ground can be"
+            " measured."
+        )
+    heights = height_above_ground(cloud.points(slice(None)), ground, progress)
+    # Without the noise of rounding: ground points have 0, not -0.
+    return np.round(heights / cloud.crs.vertical_unit, 6) + 0.0
+
+
+def height_dimension(cloud: PointCloud, heights: np.ndarray) -> ExtraDimension:
+    """Return heights above ground as the dimension that keeps them."""
+    unit = unit_name(cloud.crs.vertical_unit)
+    return ExtraDimension(HEIGHT_DIMENSION, f"Above ground, {unit}", heights.astype(np.float32))

@@ -1,0 +1,389 @@
+"""What is made of a classified cloud: heights above ground, model key points, terrain models.
+
+File in, file out; every front end takes this path.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.files import check_output, replacing
+from ..core.parameters import ParameterSet, parameter
+from ..core.progress import SILENT, Progress
+from ..crs.reading import unit_name
+from ..grids.model_key_points import ModelKeyPoints, model_key_points
+from ..las.changes import Changes
+from ..las.cloud import PointCloud
+from ..las.reading import read_cloud
+from ..las.records import check_class
+from ..las.writing import check_writable, write_changed
+from ..products.surface_model import SurfaceModel, canopy_height, surface_heights
+from ..products.terrain_model import TerrainModel, interpolate, write_heights, write_hillshade
+from ..rasters.geotiff import RasterGrid, check_raster_output
+from ..survey.selection import NOISE
+from .output import HEIGHT_DIMENSION, height_dimension, heights_of
+
+_INTEGERS = np.iinfo(np.int32)
+
+
+@dataclass(frozen=True)
+class GroundClasses(ParameterSet):
+    """Which points of a classified cloud are ground."""
+
+    ground_classes: tuple[int, ...] = parameter(
+        (2,),
+        label="Ground classes",
+        minimum=0,
+        maximum=255,
+        help="Classes of the points that are ground. Add 8 where model key points have that class,"
+        " and 9 where water counts as ground. Withheld points are left out.",
+    )
+
+    def of(self, cloud: PointCloud, also: tuple[int, ...] = ()) -> np.ndarray:
+        """Return which points of a cloud are ground; boolean, shape (n,).
+
+        Parameters
+        ----------
+        cloud : PointCloud
+            The points, with their classes.
+        also : tuple of int
+            Classes that are ground as well.
+
+        Raises
+        ------
+        BareEarthError
+            If none is, or the CRS is geographic.
+        """
+        cloud.require_projected()
+        if not self.ground_classes:
+            raise BareEarthError("Choose at least one ground class.")
+        classes = (*self.ground_classes, *also)
+        ground = np.isin(cloud.classification, classes) & ~cloud.withheld
+        if not ground.any():
+            wanted = " or ".join(str(each) for each in self.ground_classes)
+            present = ", ".join(str(each) for each in np.unique(cloud.classification))
+            raise BareEarthError(
+                f"{cloud.path} has no ground points: none is of class {wanted}, there are the"
+                f" classes {present}. Classify its ground first, or choose other ground classes."
+            )
+        return ground
+
+
+@dataclass(frozen=True)
+class HeightOutput(ParameterSet):
+    """Where the heights above ground go."""
+
+    output_as: str = parameter(
+        "dimension",
+        label="Write the heights as",
+        choices={
+            "dimension": f"Extra dimension {HEIGHT_DIMENSION}",
+            "z": "Z, in place of the elevation",
+        },
+        help="An extra dimension keeps all else as it is. In place of the elevation the heights"
+        " show in programs that know no extra dimensions, and the terrain is flat.",
+    )
+
+
+@dataclass(frozen=True)
+class KeyPointMark(ParameterSet):
+    """How model key points are marked."""
+
+    mark_as: str = parameter(
+        "class",
+        label="Mark key points by",
+        choices={
+            "class": "A class of their own",
+            "flag": "The key-point flag of LAS; the class stays",
+        },
+        help="Up to LAS 1.3, and for most programs, key points are a class. LAS 1.4 has a flag for"
+        " them, so that they stay ground.",
+    )
+    key_class: int = parameter(
+        8,
+        label="Class of key points",
+        minimum=0,
+        maximum=255,
+        help="The class that key points get. Points that have it already are taken as ground, and"
+        " get the first of the ground classes again if they are not needed. Point formats 0 to 5"
+        " hold classes up to 31.",
+    )
+
+
+@dataclass(frozen=True)
+class HeightSummary:
+    """What heights above ground were written.
+
+    Attributes
+    ----------
+    point_count, ground_count : int
+        Points of the file, and those of the ground.
+    minimum, maximum : float
+        The lowest and the highest height, in the vertical unit of the CRS.
+    unit : str
+        Name of that unit.
+    """
+
+    point_count: int
+    ground_count: int
+    minimum: float
+    maximum: float
+    unit: str
+
+
+@dataclass(frozen=True)
+class KeyPointSummary:
+    """How many model key points were found.
+
+    Attributes
+    ----------
+    point_count, ground_count, key_point_count : int
+        Points of the file, those of the ground, and those of them that are key points.
+    class_counts : dict of int to int
+        Points of each class in the output.
+    """
+
+    point_count: int
+    ground_count: int
+    key_point_count: int
+    class_counts: dict[int, int] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class TerrainSummary:
+    """What rasters were written.
+
+    Attributes
+    ----------
+    ground_count, surface_count : int
+        Points that the terrain model and the surface model were made of.
+    columns, rows : int
+        Size of the rasters.
+    """
+
+    ground_count: int
+    surface_count: int
+    columns: int
+    rows: int
+
+
+def write_height_above_ground(
+    source: Path,
+    target: Path,
+    ground: GroundClasses = GroundClasses(),
+    output: HeightOutput = HeightOutput(),
+    progress: Progress = SILENT,
+) -> HeightSummary:
+    """Write a point cloud anew with the height of every point above the ground.
+
+    Parameters
+    ----------
+    source, target : Path
+        The input, and the output (.las, .laz or .copc.laz); equal but for the heights.
+    ground : GroundClasses
+        Which points are ground.
+    output : HeightOutput
+        Whether the heights are an extra dimension or replace z; both in the vertical unit.
+    progress : Progress
+        Receives progress and messages.
+
+    Raises
+    ------
+    BareEarthError
+        If the input has no ground or cannot be read, or the output cannot be written.
+    Cancelled
+        If the user asked to stop; no output is left behind.
+    """
+    check_output(target, (source,))
+    check_writable(target)
+    cloud = read_cloud(source, progress.part(0.0, 0.15))
+    is_ground = ground.of(cloud)
+    heights = heights_of(cloud, is_ground, progress.part(0.15, 0.8))
+    if output.output_as == "z":
+        changes = Changes(z=_integers(cloud, heights))
+    else:
+        changes = Changes(extra=height_dimension(cloud, heights))
+    write_changed(source, target, changes, progress.part(0.8, 1.0))
+    return HeightSummary(
+        point_count=cloud.count,
+        ground_count=int(np.count_nonzero(is_ground)),
+        minimum=float(heights.min()),
+        maximum=float(heights.max()),
+        unit=unit_name(cloud.crs.vertical_unit),
+    )
+
+
+def _integers(cloud: PointCloud, heights: np.ndarray) -> np.ndarray:
+    """Return heights as integers of the file's scale and offset."""
+    values = np.rint((heights - cloud.offset[2]) / cloud.scale[2])
+    if values.min() < _INTEGERS.min or values.max() > _INTEGERS.max:
+        raise BareEarthError(
+            f"Heights above ground do not fit the scale {cloud.scale[2]:g} and offset"
+            f" {cloud.offset[2]:g} of z in {cloud.path}. Write them as an extra dimension."
+        )
+    return values.astype(np.int32)
+
+
+def write_key_points(
+    source: Path,
+    target: Path,
+    parameters: ModelKeyPoints = ModelKeyPoints(),
+    ground: GroundClasses = GroundClasses(),
+    mark: KeyPointMark = KeyPointMark(),
+    progress: Progress = SILENT,
+) -> KeyPointSummary:
+    """Write a point cloud anew with its model key points marked.
+
+    Parameters
+    ----------
+    source, target : Path
+        The input, and the output (.las, .laz or .copc.laz); equal but for class or flag.
+    parameters : ModelKeyPoints
+        How closely they follow the ground.
+    ground : GroundClasses
+        Which points are ground.
+    mark : KeyPointMark
+        Whether they get a class or a flag.
+    progress : Progress
+        Receives progress and messages.
+
+    Raises
+    ------
+    BareEarthError
+        If the input has no ground or cannot be read, or the output cannot be written.
+    Cancelled
+        If the user asked to stop; no output is left behind.
+    """
+    check_output(target, (source,))
+    check_writable(target)
+    cloud = read_cloud(source, progress.part(0.0, 0.15))
+    by_class = mark.mark_as == "class"
+    if by_class:
+        check_class(cloud.path, cloud.point_format, mark.key_class, "the key points")
+    old = cloud.classification == mark.key_class
+    is_ground = ground.of(cloud, (mark.key_class,) if by_class else ())
+    points = cloud.points(is_ground)
+    keys = np.zeros(cloud.count, dtype=bool)
+    keys[is_ground] = model_key_points(points, parameters, progress.part(0.15, 0.85))
+    classes = cloud.classification.copy()
+    if by_class:
+        classes[is_ground & old] = ground.ground_classes[0]
+        classes[keys] = mark.key_class
+        changes = Changes(classification=classes)
+    else:
+        flags = np.where(is_ground, 0, -1).astype(np.int8)
+        flags[keys] = 1
+        changes = Changes(key_points=flags)
+    write_changed(source, target, changes, progress.part(0.85, 1.0))
+    counts = np.unique(classes, return_counts=True)
+    return KeyPointSummary(
+        point_count=cloud.count,
+        ground_count=points.count,
+        key_point_count=int(np.count_nonzero(keys)),
+        class_counts={int(value): int(count) for value, count in zip(*counts)},
+    )
+
+
+@dataclass(frozen=True)
+class TerrainFiles:
+    """The rasters to make, GeoTIFF; None for those that are not wanted.
+
+    Attributes
+    ----------
+    dtm, dsm, chm, hillshade : Path or None
+        Terrain, surface (the top of all that stands on the terrain), canopy height (the difference
+        of the two), and hillshade of the terrain.
+    """
+
+    dtm: Path | None = None
+    dsm: Path | None = None
+    chm: Path | None = None
+    hillshade: Path | None = None
+
+
+def write_terrain_models(
+    source: Path,
+    files: TerrainFiles,
+    ground: GroundClasses = GroundClasses(),
+    model: TerrainModel = TerrainModel(),
+    surface: SurfaceModel = SurfaceModel(),
+    progress: Progress = SILENT,
+) -> TerrainSummary:
+    """Write rasters of the terrain and of what stands on it; all of them or none.
+
+    Parameters
+    ----------
+    source : Path
+        A classified .las, .laz or .copc.laz file.
+    files : TerrainFiles
+        What to write.
+    ground : GroundClasses
+        Which points are ground.
+    model, surface : TerrainModel, SurfaceModel
+        Cell size, light, gaps, and which points make the surface.
+    progress : Progress
+        Receives progress and messages.
+
+    Raises
+    ------
+    BareEarthError
+        If no raster is wanted, the input has no ground or cannot be read, or a raster cannot be
+        written.
+    Cancelled
+        If the user asked to stop; no output is left behind.
+    """
+    wanted = [each for each in (files.dtm, files.dsm, files.chm, files.hillshade) if each]
+    if not wanted:
+        raise BareEarthError("Name at least one raster to make.")
+    if len({each.resolve() for each in wanted}) < len(wanted):
+        raise BareEarthError("Two of the rasters have the same name. Choose different names.")
+    for each in wanted:
+        check_raster_output(each, (source,))
+    cloud = read_cloud(source, progress.part(0.0, 0.2))
+    cloud.require_projected()
+    shown = ~np.isin(cloud.classification, NOISE) & ~cloud.withheld
+    needs_terrain, needs_surface = files.dtm or files.chm or files.hillshade, files.dsm or files.chm
+    is_ground = ground.of(cloud) if needs_terrain else np.zeros(cloud.count, dtype=bool)
+    shown |= is_ground
+    top = shown & bool(needs_surface)
+    if surface.surface_returns == "first":
+        top &= cloud.return_number <= 1
+    # One grid for all, whichever of them are wanted, so that they can be subtracted.
+    grid = RasterGrid.over(cloud.points(shown), cloud.frame, model.dtm_cell_size)
+    terrain = heights = None
+    if needs_terrain:
+        terrain = interpolate(
+            cloud.points(is_ground), grid, progress.part(0.2, 0.55), surface.max_edge
+        )
+    if needs_surface:
+        if not top.any():
+            raise BareEarthError(
+                f"{source} has no first returns to make a surface of. Take all returns instead."
+            )
+        heights = surface_heights(
+            cloud.points(top), grid, progress.part(0.55, 0.9), surface.max_edge
+        )
+    with contextlib.ExitStack() as outputs:
+        rasters = {"dtm": terrain, "dsm": heights}
+        if files.chm:
+            rasters["chm"] = canopy_height(heights, terrain)
+        for name, values in rasters.items():
+            if getattr(files, name):
+                temporary = outputs.enter_context(replacing(getattr(files, name)))
+                write_heights(temporary, values, grid, progress)
+        progress(0.95)
+        if files.hillshade:
+            temporary = outputs.enter_context(replacing(files.hillshade))
+            write_hillshade(temporary, terrain, grid, model, progress)
+        progress(1.0)
+    return TerrainSummary(
+        ground_count=int(np.count_nonzero(is_ground)),
+        surface_count=int(np.count_nonzero(top)),
+        columns=grid.columns,
+        rows=grid.rows,
+    )

@@ -1,0 +1,188 @@
+"""Running the jobs of a survey: blocks first, and each tile as soon as its blocks are labelled."""
+
+from __future__ import annotations
+
+import collections
+import re
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, wait
+from pathlib import Path
+
+from ..core.errors import BareEarthError
+from ..core.progress import Progress
+from .jobs import LabelJob, Outcome, TileJob, TileSummary
+from .workers import SCHEDULER_GONE, Job, Running, Workers
+
+_POLL = 0.1
+# Labelling a point takes so many times as long as reading and writing it.
+_LABEL_WEIGHT = 2.0
+_DIED = (
+    "The process that worked on it ended unexpectedly, perhaps for want of memory. Allow fewer"
+    " threads, or less memory."
+)
+
+
+class Run:
+    """The jobs of a survey, and what became of them.
+
+    Parameters
+    ----------
+    labels : list of LabelJob
+        The blocks that are not labelled yet, in groups.
+    tiles : list of TileJob
+        The tiles to write.
+    workers : Workers
+        Who runs them.
+    progress : Progress
+        Used in the calling thread only.
+
+    Attributes
+    ----------
+    done : list of TileSummary
+        The tiles that were written.
+    failures : dict of Path to str
+        Why the others were not, by their inputs.
+    """
+
+    def __init__(
+        self, labels: list[LabelJob], tiles: list[TileJob], workers: Workers, progress: Progress
+    ) -> None:
+        self.done: list[TileSummary] = []
+        self.failures: dict[Path, str] = {}
+        self._workers, self._progress = workers, progress
+        self._labels, self._ready = collections.deque(labels), collections.deque()
+        # Jobs that were running when a worker died: one by one it is found which of them kills.
+        self._suspects: collections.deque[Job] = collections.deque()
+        self._missing = {file for job in labels for file in job.files}
+        self._waiting = list(tiles)
+        self._uses = collections.Counter(file for job in tiles for file in job.files)
+        self._running: dict[Running, Job] = {}
+        self._heard: dict[tuple[str, str], list[str]] = {}
+        self._total = max(sum(map(_weight, (*labels, *tiles))), 1e-9)
+        self._finished = 0.0
+
+    def work(self) -> None:
+        """Run all jobs.
+
+        Raises
+        ------
+        BareEarthError
+            If the workers are gone.
+        Cancelled
+            If the user asked to stop; the workers must be stopped then.
+        """
+        self._find_ready()
+        while self._fill():
+            futures = {each.future: each for each in self._running}
+            ended, _ = wait(futures, _POLL, FIRST_COMPLETED)
+            running = sum(
+                each.progress.fraction * _weight(job) for each, job in self._running.items()
+            )
+            self._progress((self._finished + running) / self._total)
+            for future in ended:
+                self._end(futures[future])
+        self._tell()
+
+    def _fill(self) -> bool:
+        """Begin as many jobs as may run; return whether any is running."""
+        while len(self._running) < (1 if self._suspects else self._workers.at_once):
+            queues = (self._suspects, self._ready, self._labels)
+            queue = next((each for each in queues if each), None)
+            if queue is None:
+                break
+            try:
+                self._running[self._workers.submit(queue[0])] = queue[0]
+                queue.popleft()
+            except BrokenExecutor:  # a worker died between two jobs
+                self._suspect_all()
+        return bool(self._running)
+
+    def _suspect_all(self) -> None:
+        """Begin all running jobs anew, one after the other: one of them may kill its worker."""
+        self._suspects.extend(self._running.values())
+        self._running.clear()
+        self._workers.restart()
+
+    def _end(self, ended: Running) -> None:
+        """Take note of what became of a job."""
+        if ended not in self._running:  # it is a suspect by now
+            return
+        job = self._running[ended]
+        try:
+            outcome = ended.future.result()
+        except BrokenExecutor:
+            is_alone = len(self._running) == 1
+            self._suspect_all()
+            if not is_alone:
+                return
+            self._suspects.pop()
+            outcome = Outcome(None, failure=_DIED)
+        except CancelledError as error:
+            raise BareEarthError(SCHEDULER_GONE) from error
+        except Exception as error:
+            # A cluster gave the job up.
+            failure = f"It could not be done: {error or type(error).__name__}."
+            outcome = Outcome(None, failure=failure)
+        self._running.pop(ended, None)
+        self._finished += _weight(job)
+        self._hear(job, outcome)
+        (self._end_labels if isinstance(job, LabelJob) else self._end_tile)(job, outcome)
+
+    def _end_labels(self, job: LabelJob, outcome: Outcome) -> None:
+        if outcome.failure is not None and len(job.places) > 1:
+            parts = job.split()
+            self._labels.extendleft(parts)
+            self._total += sum(map(_weight, parts))
+            return
+        self._missing -= set(job.files)
+        if outcome.failure is not None:
+            waiting, self._waiting = self._waiting, []
+            for each in waiting:
+                if job.files[0] in each.files:
+                    self._end_tile(each, outcome)
+                else:
+                    self._waiting.append(each)
+        self._find_ready()
+
+    def _find_ready(self) -> None:
+        """Let those tiles be written whose blocks are labelled."""
+        waiting = []
+        for each in self._waiting:
+            is_ready = self._missing.isdisjoint(each.files)
+            (self._ready if is_ready else waiting).append(each)
+        self._waiting = waiting
+
+    def _end_tile(self, job: TileJob, outcome: Outcome) -> None:
+        if outcome.failure is not None:
+            self.failures[job.tile.path] = outcome.failure
+        else:
+            self.done.append(outcome.result)
+            self._progress.info(outcome.result.text)
+        for file in job.files:
+            self._uses[file] -= 1
+            if not self._uses[file] and file not in self._missing:
+                file.unlink(missing_ok=True)
+
+    def _hear(self, job: Job, outcome: Outcome) -> None:
+        """Keep what a job told; of tiles not what only counts their points."""
+        is_tile = isinstance(job, TileJob)
+        for kind, text in outcome.messages:
+            if is_tile and kind == "warning":
+                text = f"{job.tile.path.name}: {text}"
+            if not is_tile or kind == "warning":
+                self._heard.setdefault((kind, _without_numbers(text)), []).append(text)
+
+    def _tell(self) -> None:
+        """Tell each message once, and how many others differ in names and numbers only."""
+        for (kind, _), texts in self._heard.items():
+            more = f" (And {len(texts) - 1:,} times the like.)" if len(texts) > 1 else ""
+            getattr(self._progress, kind)(texts[0] + more)
+
+
+def _without_numbers(text: str) -> str:
+    """Return what messages have in common that differ in names of files and numbers."""
+    return re.sub(r"\S*\d\S*|\S+\.la[sz]\b\S*", "#", text)
+
+
+def _weight(job: Job) -> float:
+    """Return the share of a job in the whole, in points to read and write."""
+    return _LABEL_WEIGHT * job.count if isinstance(job, LabelJob) else float(job.tile.count)

@@ -1,0 +1,112 @@
+"""Jobs in threads, watched by the thread that the user's progress belongs to."""
+
+from __future__ import annotations
+
+import collections
+import threading
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from typing import Any, Callable, Iterator, Sequence
+
+from ..core.errors import Cancelled
+from ..core.progress import Progress
+from ..core.threads import may_use
+
+_POLL = 0.1
+
+Job = Callable[[Progress], Any]
+
+
+def run_jobs(
+    jobs: Sequence[Job],
+    weights: Sequence[float],
+    at_once: int,
+    workers: int,
+    progress: Progress,
+) -> Iterator[tuple[int, Any]]:
+    """Run jobs in threads, and yield the result of each when it is there.
+
+    The calling thread asks `progress` ten times a second: when the user cancels, it leaves at once
+    and waits for nobody. The jobs then end at their next call of the progress that they got.
+
+    Parameters
+    ----------
+    jobs : sequence of callable
+        Each takes a `Progress` and computes; messages to it are relayed in the calling thread.
+    weights : sequence of float
+        The share of each job in the whole.
+    at_once : int
+        How many run at the same time.
+    workers : int
+        How many threads each may use itself.
+    progress : Progress
+        Used in the calling thread only.
+
+    Yields
+    ------
+    tuple of (int, object)
+        Number of a job, and what it returned; in the order in which they end.
+
+    Raises
+    ------
+    Exception
+        What a job raised.
+    Cancelled
+        If the user asked to stop.
+    """
+    stop, total = threading.Event(), max(sum(weights), 1e-9)
+    talks = [_Relay(stop) for _ in jobs]
+
+    def run(number: int) -> Any:
+        with may_use(workers):
+            return jobs[number](talks[number])
+
+    pool = ThreadPoolExecutor(max(1, at_once), thread_name_prefix="block")
+    try:
+        waiting = iter(range(len(jobs)))
+        running: dict[Future, int] = {}
+        # Not all at once: results that nobody has fetched yet would fill the memory.
+        while True:
+            for number in waiting:
+                running[pool.submit(run, number)] = number
+                if len(running) >= max(1, at_once):
+                    break
+            if not running:
+                return
+            done, _ = wait(running, _POLL, FIRST_COMPLETED)
+            for talk in talks:
+                talk.tell(progress)
+            progress(sum(talk.fraction * each for talk, each in zip(talks, weights)) / total)
+            for future in sorted(done, key=running.__getitem__):
+                number = running.pop(future)
+                result = future.result()
+                talks[number].fraction = 1.0
+                yield number, result
+    finally:
+        stop.set()
+        pool.shutdown(wait=False, cancel_futures=True)
+
+
+class _Relay(Progress):
+    """The progress of a job: a note that the calling thread reads."""
+
+    def __init__(self, stop: threading.Event) -> None:
+        self.fraction = 0.0
+        self._stop = stop
+        self._messages: collections.deque[tuple[str, str]] = collections.deque()
+
+    def report(self, fraction: float) -> None:
+        if self._stop.is_set():
+            raise Cancelled
+        self.fraction = fraction
+
+    def info(self, text: str) -> None:
+        self._messages.append(("info", text))
+
+    def warning(self, text: str) -> None:
+        self._messages.append(("warning", text))
+
+    def tell(self, progress: Progress) -> None:
+        """Pass on the messages since the last time."""
+        while self._messages:
+            kind, text = self._messages.popleft()
+            getattr(progress, kind)(text)

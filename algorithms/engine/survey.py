@@ -1,0 +1,189 @@
+"""A survey of many files: which blocks each holds, and which files a block needs.
+
+The blocks are those of the whole survey, whatever its files, so that the files together get the
+labels of one that holds all their points: there is no seam.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass
+from typing import Iterable, Iterator, NamedTuple, Sequence
+
+import numpy as np
+
+from ..core.parameters import ParameterSet
+from ..core.points import Frame
+from ..core.progress import SILENT, Progress
+from ..las.cloud import PointCloud, survey_frame
+from ..las.reading import read_cloud
+from ..survey.area import Box
+from ..survey.collection import Collection, Tile
+from ..survey.selection import Selection
+from .blocks import Block, Blocks
+from .ground import memory_of_block
+
+# Metres by which boxes are read larger than needed: the points are chosen exactly thereafter.
+_MARGIN = 0.1
+# A tile over more blocks than this has stray points: it is looked where its points are.
+_MOST_PLACES = 400
+# Bytes that a point takes in memory while it waits for its block.
+_BYTES_HELD = 48
+# So many times as many groups of blocks as workers, at least, so that none of them is idle long.
+_GROUPS_A_WORKER = 4
+_LARGEST_GROUP = 16
+_STEP, _SHIFT, _HALF = 1 << 20, 32, 1 << 31
+
+
+class Place(NamedTuple):
+    """Column and row of a block of the survey."""
+
+    column: int
+    row: int
+
+
+@dataclass(frozen=True)
+class Survey:
+    """What every job must know, whoever runs it.
+
+    Attributes
+    ----------
+    parameters : ParameterSet
+        Those of one method.
+    selection : Selection
+        Which points take part, and what their classes become.
+    frame : Frame
+        That of all files: the CRS and its zero.
+    blocks : Blocks
+        How the survey is cut.
+    """
+
+    parameters: ParameterSet
+    selection: Selection
+    frame: Frame
+    blocks: Blocks
+
+    def block(self, place: Place) -> Block:
+        """Return the block at a place."""
+        return self.blocks.block(*place)
+
+    def window(self, places: Iterable[Place]) -> Box:
+        """Return the box, in units of the CRS, of all points that some blocks need."""
+        boxes = np.array([self.blocks.window(self.block(place)) for place in places])
+        low, high = boxes[:, :2].min(axis=0) - _MARGIN, boxes[:, 2:].max(axis=0) + _MARGIN
+        corners = np.concatenate([low, high]) / self.frame.horizontal_unit
+        return tuple(float(each) for each in corners + np.tile(self.frame.origin, 2))
+
+    def places_in(self, box: Box) -> tuple[range, range]:
+        """Return the columns and rows of the blocks that a box in units of the CRS touches."""
+        metres = (np.array(box) - np.tile(self.frame.origin, 2)) * self.frame.horizontal_unit
+        west, south, east, north = self.blocks.number(metres).astype(int).tolist()
+        return range(west, east + 1), range(south, north + 1)
+
+    def codes(self, cloud: PointCloud) -> np.ndarray:
+        """Return the `code` of the block of each point.
+
+        Returns
+        -------
+        numpy.ndarray of int64, shape (n,)
+        """
+        codes = np.empty(cloud.count, dtype=np.int64)
+        for first in range(0, cloud.count, _STEP):
+            part = slice(first, first + _STEP)
+            places = cloud.places(part, self.frame)
+            # As `Block.holds`: of the same numbers in the same way.
+            column, row = (self.blocks.number(each) for each in places)
+            codes[part] = (row.astype(np.int64) << _SHIFT) + column.astype(np.int64) + _HALF
+        return codes
+
+
+def code(place: Place) -> int:
+    """Return one number for a place."""
+    return (place.row << _SHIFT) + place.column + _HALF
+
+
+def frame_of(collection: Collection) -> Frame:
+    """Return the frame of a survey, in which its blocks lie."""
+    return survey_frame(collection.crs)
+
+
+def places_of(survey: Survey, tile: Tile, progress: Progress = SILENT) -> list[Place]:
+    """Return the blocks that may hold points of a tile, from south to north.
+
+    Raises
+    ------
+    BareEarthError
+        If its points lie far apart and it cannot be read.
+    """
+    west, south, east, north = tile.box
+    x, y = tile.scale[:2]  # headers are rounded
+    columns, rows = survey.places_in((west - x, south - y, east + x, north + y))
+    if len(columns) * len(rows) <= _MOST_PLACES:
+        return [Place(column, row) for row, column in itertools.product(rows, columns)]
+    codes = np.unique(survey.codes(read_cloud(tile.path, progress)))
+    low = (codes & ((1 << _SHIFT) - 1)) - _HALF
+    return [Place(*each) for each in zip(low.tolist(), (codes >> _SHIFT).tolist())]
+
+
+def memory_of(survey: Survey, collection: Collection, places: Sequence[Place]) -> int:
+    """Return about how many bytes it takes to filter some blocks, one after the other."""
+    count = points_in(collection, survey.window(places))
+    return int(_BYTES_HELD * count) + memory_of_block(
+        min(int(count), survey.blocks.most_points), survey.blocks
+    )
+
+
+def points_in(collection: Collection, box: Box) -> float:
+    """Return about how many points lie in a box, as the headers of the files have it."""
+    count = 0.0
+    for tile in collection.touching(box):
+        shares = (
+            _share(tile.box[axis], tile.box[axis + 2], box[axis], box[axis + 2]) for axis in (0, 1)
+        )
+        count += tile.count * math.prod(shares)
+    return count
+
+
+def _share(low: float, high: float, start: float, end: float) -> float:
+    """Return which share of the range from low to high lies between start and end."""
+    if high <= low:
+        return 1.0
+    return max(0.0, min(high, end) - max(low, start)) / (high - low)
+
+
+def grouped(
+    survey: Survey, collection: Collection, places: Sequence[Place], workers: int, memory: int
+) -> list[list[Place]]:
+    """Return blocks in groups whose files are read together, from south to north.
+
+    Parameters
+    ----------
+    places : sequence of Place
+        The blocks.
+    workers : int
+        How many groups are worked on at the same time.
+    memory : int
+        Bytes for each of them. A block that needs more is alone in its group.
+    """
+    groups, width = [[place] for place in sorted(places, key=_by_row)], 2
+    while width <= _LARGEST_GROUP:
+        wider = list(_squares(places, width))
+        if len(wider) < _GROUPS_A_WORKER * workers:
+            break
+        if max(memory_of(survey, collection, group) for group in wider) > memory:
+            break
+        groups, width = wider, 2 * width
+    return groups
+
+
+def _squares(places: Sequence[Place], width: int) -> Iterator[list[Place]]:
+    def square(place: Place) -> tuple[int, int]:
+        return place.row // width, place.column // width
+
+    for _, group in itertools.groupby(sorted(places, key=square), square):
+        yield sorted(group, key=_by_row)
+
+
+def _by_row(place: Place) -> tuple[int, int]:
+    return place.row, place.column

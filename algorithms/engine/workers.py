@@ -1,0 +1,196 @@
+"""Who runs the jobs of a survey: threads of this process, or processes of this computer."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import threading
+import time
+from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor, wait
+from pathlib import Path
+from typing import NamedTuple, Union
+
+from ..core.errors import Cancelled
+from ..core.files import remove_leftovers
+from ..core.progress import Progress
+from .jobs import LabelJob, Outcome, Share, TileJob, attempt
+from .memory import Resources
+from .record import folders_of
+
+# Seconds that jobs get to stop by themselves when the user cancels.
+_PATIENCE = 0.7
+
+SCHEDULER_GONE = "The scheduler is gone. Start it again, and go on with --resume."
+
+Job = Union[LabelJob, TileJob]
+
+
+class Running(NamedTuple):
+    """A job that runs: the future of its `Outcome`, and how far it is, where that is known."""
+
+    future: Future
+    progress: JobProgress
+
+
+class JobProgress(Progress):
+    """How far a job is, for the thread that looks on; ends the job once `stop` is set."""
+
+    def __init__(self, stop: threading.Event) -> None:
+        self.fraction, self._stop = 0.0, stop
+
+    def report(self, fraction: float) -> None:
+        """Note how far the job is."""
+        if self._stop.is_set():
+            raise Cancelled
+        self.fraction = fraction
+
+
+class Workers:
+    """Base of those who run jobs.
+
+    Parameters
+    ----------
+    resources : Resources
+        Threads and memory for all of them together.
+
+    Attributes
+    ----------
+    at_once : int
+        How many jobs they take at the same time.
+    share : Share
+        What each job may use.
+    """
+
+    def __init__(self, resources: Resources = Resources()) -> None:
+        self.resources = resources
+        self.at_once, self.share = 1, Share(1, 0)
+
+    def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
+        """Be ready for jobs.
+
+        Parameters
+        ----------
+        folder : Path
+            Of the output.
+        least : int
+            Bytes that the largest job needs.
+        blocks, tiles : int
+            How many are to be done.
+        """
+        threads, memory = self.resources.thread_count, self.resources.bytes
+        self.at_once = int(max(1, min(threads, memory // max(least, 1), max(blocks, tiles))))
+        # Blocks take the time: where there are few, each may use the threads that would be idle.
+        together = max(1, min(self.at_once, blocks))
+        self.share = Share(max(1, threads // together), memory // self.at_once)
+
+    def submit(self, job: Job) -> Running:
+        """Begin a job."""
+        raise NotImplementedError
+
+    def restart(self) -> None:
+        """Be ready again after a worker died."""
+
+    def stop(self) -> None:
+        """End, also jobs that run; of what these were writing nothing is left."""
+
+
+class Threads(Workers):
+    """Threads of this process."""
+
+    def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
+        """Be ready for jobs."""
+        super().start(folder, least, blocks, tiles)
+        self._stop, self._futures = threading.Event(), []
+        self._pool = ThreadPoolExecutor(self.at_once, thread_name_prefix="tile")
+
+    def submit(self, job: Job) -> Running:
+        """Begin a job."""
+        progress = JobProgress(self._stop)
+        future = self._pool.submit(attempt, job, self.share, progress)
+        self._futures = [each for each in self._futures if not each.done()] + [future]
+        return Running(future, progress)
+
+    def stop(self) -> None:
+        """End; jobs stop at their next word on how far they are."""
+        self._stop.set()
+        self._pool.shutdown(wait=False, cancel_futures=True)
+        wait(self._futures, _PATIENCE)
+
+
+class Processes(Workers):
+    """Processes of this computer, each begun anew ("spawn"): a fork of threads may hang."""
+
+    def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
+        """Be ready for jobs."""
+        import multiprocessing
+
+        super().start(folder, least, blocks, tiles)
+        self._folder = folder
+        self._context = multiprocessing.get_context("spawn")
+        self._stop = self._context.Event()
+        self._known: dict[int, object] = {}
+        self._open()
+
+    def _open(self) -> None:
+        self._pool = ProcessPoolExecutor(
+            self.at_once, self._context, _begin, (self._stop, self.share.threads)
+        )
+
+    def submit(self, job: Job) -> Running:
+        """Begin a job."""
+        future = self._pool.submit(_in_process, job, self.share)
+        self._known.update(self._pool._processes or {})
+        return Running(future, JobProgress(threading.Event()))
+
+    def restart(self) -> None:
+        """Begin new processes after one died."""
+        self._close()
+        self._open()
+
+    def stop(self) -> None:
+        """End the processes, if need be in the middle of a job."""
+        self._stop.set()
+        self._close()
+
+    def _close(self) -> None:
+        with contextlib.suppress(RuntimeError):  # broken pools
+            self._pool.shutdown(wait=False, cancel_futures=True)
+        end = time.monotonic() + _PATIENCE
+        for process in self._known.values():
+            process.join(max(0.0, end - time.monotonic()))
+            if process.is_alive():
+                process.terminate()
+                process.join(_PATIENCE)
+        for folder in folders_of(self._folder):
+            remove_leftovers(folder, self._known)
+        self._known = {}
+
+
+_stop_of_process: threading.Event | None = None
+
+
+def _begin(stop: threading.Event, threads: int) -> None:
+    """Prepare a new process."""
+    global _stop_of_process
+    _stop_of_process = stop
+    # Ctrl-C reaches all processes of a terminal; the first of them tells the others.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    # The threads that decompress.
+    os.environ["RAYON_NUM_THREADS"] = str(threads)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    """End this process when the one that began it is killed: nobody else would."""
+    import multiprocessing
+    from multiprocessing.connection import wait as wait_for
+
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        wait_for([parent.sentinel])
+        os._exit(1)
+
+
+def _in_process(job: Job, share: Share) -> Outcome:
+    return attempt(job, share, JobProgress(_stop_of_process or threading.Event()))

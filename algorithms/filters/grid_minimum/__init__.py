@@ -1,0 +1,1 @@
+"""The minimum-Z grid filter."""

@@ -1,0 +1,74 @@
+"""Blocks of the cells of a grid: their lowest heights, and values between their middles."""
+
+from __future__ import annotations
+
+import functools
+from typing import NamedTuple
+
+import numpy as np
+
+from ...grids.cells import Cells
+from ...grids.trend import between_blocks
+
+
+class CellBlocks(NamedTuple):
+    """Square blocks of cells, anchored at (0, 0) of the points' frame.
+
+    Attributes
+    ----------
+    size : float
+        Side of a block in metres.
+    side : int
+        Side of a block in cells.
+    first : tuple of int
+        Row and column of the first cell within its block.
+    first_block : tuple of int
+        Row and column of the first block.
+    """
+
+    size: float
+    side: int
+    first: tuple[int, int]
+    first_block: tuple[int, int]
+
+    @classmethod
+    def over(cls, cells: Cells, size: float, least: int = 2) -> CellBlocks:
+        """Return blocks of about a size in metres, at least some cells wide."""
+        side = max(round(size / cells.size), least)
+        blocks, within = zip(*(divmod(each, side) for each in cells.first))
+        return cls(side * cells.size, side, within, blocks)
+
+    def lowest(self, heights: np.ndarray) -> np.ndarray:
+        """Return the lowest height in each block; NaN where there is none."""
+        lowest = self._reduced(np.minimum, np.where(np.isnan(heights), np.inf, heights), np.inf)
+        lowest[np.isinf(lowest)] = np.nan
+        return lowest
+
+    def total(self, counts: np.ndarray) -> np.ndarray:
+        """Return the sum of a count of each cell over each block."""
+        return self._reduced(np.add, counts, 0)
+
+    def repeated(self, values: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
+        """Return the value of its block for each cell of a grid of some shape."""
+        repeated = np.repeat(np.repeat(values, self.side, axis=0), self.side, axis=1)
+        return repeated[self._cells(shape)]
+
+    def interpolated(self, values: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
+        """Return values of blocks, interpolated to each cell of a grid of some shape."""
+        rows, columns = (np.arange(first, first + count) for first, count in zip(self.first, shape))
+        return between_blocks(values, self.side, rows, columns)
+
+    def _reduced(self, function: np.ufunc, grid: np.ndarray, neutral: float) -> np.ndarray:
+        """Reduce the cells of each block to one value."""
+        shape = [
+            -(-(first + count) // self.side) * self.side
+            for first, count in zip(self.first, grid.shape)
+        ]
+        padded = np.full(shape, neutral, dtype=grid.dtype)
+        padded[self._cells(grid.shape)] = grid
+        # Slices, as numpy is slow at reducing axes so short.
+        rows = functools.reduce(function, (padded[at :: self.side] for at in range(self.side)))
+        return functools.reduce(function, (rows[:, at :: self.side] for at in range(self.side)))
+
+    def _cells(self, shape: tuple[int, int]) -> tuple[slice, ...]:
+        return tuple(slice(first, first + count) for first, count in zip(self.first, shape))

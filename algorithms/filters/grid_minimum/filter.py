@@ -1,0 +1,478 @@
+"""Rule-based minimum-Z grid filter.
+
+References
+----------
+Prabhath, Perera and Arachchige: a rule-based minimum-Z grid filter. Only its abstract is public;
+what it leaves open is ours, see docs/grid-minimum.md.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from ...core.errors import BareEarthError
+from ...core.parameters import ParameterSet, parameter
+from ...core.points import Points
+from ...core.progress import SILENT, Progress
+from ...grids.cells import Cells
+from ...grids.gradient import steepness
+from ...grids.inpaint import inpaint
+from ..shared.doubts import tell_of_outliers
+from ..shared.ground_cells import ground_cells
+from ..shared.ground_limits import Tolerance
+from ..shared.near_ground import Candidates, near_ground
+from ..shared.near_surface import near_surface
+from ..shared.objects import CLASSIC_WHOLE_SHARE, WHOLE_SHARE, Relief, covered, raised_objects
+from ..shared.outliers import low_outliers, supported
+from .cell_blocks import CellBlocks
+
+# Points that a cell should hold on average: with fewer, gaps break the rims.
+_POINTS_PER_CELL = 1.0
+# Metres, of which cells are a multiple where points are sparse.
+_CELL_STEP = 0.5
+# Cells smaller than that by so small a share of themselves are not made larger.
+_NEARLY = 0.05
+# Least side in metres of the blocks that the density is counted in.
+_DENSITY_BLOCK = 10.0
+# Side in metres of the blocks of cells, two at least, that tall objects are looked for in.
+_BLOCK = 1.0
+_FINAL_PASSES = 2
+# How many times the unevenness of the terrain is added where rims are taken out for good.
+_RIM_ROUGHNESS = 2.0
+# Low noise: narrower than this, and this far below the lowest points of the neighbourhood.
+_NOISE_WIDTH = 10.0
+_NOISE_DEPTH = 2.0
+_OUTLIER_SLOPE = 5.0
+_STEEPEST = 5.0
+_RELAXATIONS = 2
+# Points per square metre from which a pit is noise at a gentler slope: a lowest point has others
+# close by, which would lie in the pit as well.
+_DENSE, _OUTLIER_SLOPE_WHERE_DENSE = 3.0, 2.0
+# Share of the rise over a wide cell by which its points may lie off the surface.
+_UNEVENNESS = 0.6
+# Least side in metres of the cells of the surface that points are compared with.
+_FINE_CELL = 1.0
+# Metres beyond which points do not matter: so many times the largest object, but at least this.
+_REACH_OBJECTS, _LEAST_REACH = 2.0, 100.0
+
+# The preset that keeps to the paper.
+CLASSIC = "paper"
+
+
+class Preset(NamedTuple):
+    """What a kind of terrain asks for.
+
+    Attributes
+    ----------
+    label : str
+        As in the dialog.
+    cell_size : float
+        Least cell size in metres; larger where points are sparse, but in the paper's preset.
+    height_thresholds : tuple of float
+        In metres.
+    final_height, max_object_size : float
+        In metres.
+    ground_tolerance, slope_tolerance : float
+        In metres, and as a share of the rise.
+    """
+
+    label: str
+    cell_size: float
+    height_thresholds: tuple[float, ...]
+    final_height: float
+    max_object_size: float
+    ground_tolerance: float = 0.18
+    slope_tolerance: float = 1.4
+
+
+PRESETS = {
+    "automatic": Preset("Automatic", 1.0, (5.0, 4.5, 2.0), 0.3, 100.0),
+    "flat": Preset("Flat land, fields", 1.0, (5.0, 4.5, 2.0), 0.25, 40.0),
+    "hilly": Preset("Hilly land, forest", 2.0, (5.0, 4.5, 2.0), 0.3, 25.0),
+    "steep": Preset("Steep or rugged terrain", 1.0, (5.0, 4.5, 2.0), 0.5, 25.0),
+    "town": Preset("Town", 1.0, (5.0, 4.5, 2.0), 0.3, 60.0),
+    "city": Preset("City, large halls", 1.0, (5.0, 4.5, 2.0), 0.3, 120.0),
+    CLASSIC: Preset("The paper's values", 0.5, (5.0, 4.5, 2.0), 0.3, 40.0, 0.4, 0.6),
+}
+
+
+@dataclass(frozen=True)
+class GridMinimum(ParameterSet):
+    """Parameters of the minimum-Z grid filter.
+
+    Those left empty are taken from the preset; `resolve` says which.
+    """
+
+    preset: str = parameter(
+        "automatic",
+        label="Preset",
+        choices={name: preset.label for name, preset in PRESETS.items()},
+        help="Where the values come from that are left empty: what suits most land (automatic) or a"
+        " kind of terrain. The log says which values were used.",
+    )
+    cell_size: float | None = parameter(
+        None,
+        label="Cell size",
+        unit="m",
+        minimum=0.01,
+        maximum=100.0,
+        kind="number",
+        empty="automatic",
+        help="Side of the square cells whose lowest points are compared. Smaller ones follow finer"
+        " terrain, if they hold a point, and hold more rims of low plants. Empty: from the preset;"
+        " where such a cell would hold less than a point, more.",
+    )
+    height_thresholds: tuple[float, ...] | None = parameter(
+        None,
+        label="Height thresholds",
+        unit="m",
+        minimum=0.05,
+        maximum=1000.0,
+        kind="numbers",
+        empty="automatic",
+        help="One pass for each, from the largest: of two neighbouring cells that differ by more,"
+        " the higher is the rim of an object. Empty: from the preset.",
+    )
+    final_height: float | None = parameter(
+        None,
+        label="Final height",
+        unit="m",
+        minimum=0.01,
+        maximum=100.0,
+        kind="number",
+        empty="automatic",
+        help="In the last pass whatever stands this far above the ground beside it is removed:"
+        " bushes, cars, walls. Larger spares rough ground. Empty: from the preset.",
+    )
+    max_object_size: float | None = parameter(
+        None,
+        label="Maximum object size",
+        unit="m",
+        minimum=0.1,
+        maximum=1000.0,
+        kind="number",
+        empty="automatic",
+        help="Shorter side of the largest building. What is wider is terrain. Empty: from the"
+        " preset.",
+    )
+    ground_tolerance: float | None = parameter(
+        None,
+        label="Ground tolerance",
+        unit="m",
+        minimum=0.0,
+        maximum=10.0,
+        kind="number",
+        empty="automatic",
+        advanced=True,
+        help="Points no higher above the ground's surface are ground, in level terrain. Empty: from"
+        " the preset.",
+    )
+    slope_tolerance: float | None = parameter(
+        None,
+        label="Ground tolerance on slopes",
+        minimum=0.0,
+        maximum=10.0,
+        kind="number",
+        empty="automatic",
+        advanced=True,
+        help="Share of the ground's rise from point to point, over a metre at most, that is added"
+        " to the ground tolerance; in the paper's preset, of its rise over one cell. Empty: from"
+        " the preset.",
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        heights = self.height_thresholds
+        if heights is None:
+            return
+        if not heights or any(low > high for high, low in zip(heights, heights[1:])):
+            given = ", ".join(f"{each:g}" for each in heights) or "nothing"
+            raise BareEarthError(
+                f"Height thresholds must be a list from the largest to the smallest, not {given}."
+            )
+
+    def resolve(self, points: Points) -> GridMinimum:
+        """Return the parameters with a value for each that was left empty.
+
+        Parameters
+        ----------
+        points : Points
+            The whole survey: its blocks must all be classified with the same values.
+
+        Returns
+        -------
+        GridMinimum
+            Equal to this one if nothing was empty.
+        """
+        return self._resolved(_counting_cells(points, self))
+
+    def _resolved(self, cells: Cells) -> GridMinimum:
+        preset = PRESETS[self.preset]
+        empty = {
+            name: value
+            for name, value in preset._asdict().items()
+            if name != "label" and getattr(self, name) is None
+        }
+        if "cell_size" in empty and self.preset != CLASSIC:
+            large_enough = _CELL_STEP * _multiple(_density(cells), _CELL_STEP)
+            empty["cell_size"] = max(preset.cell_size, large_enough)
+        return dataclasses.replace(self, **empty)
+
+
+def largest_object(parameters: GridMinimum) -> float:
+    """Return the width in metres of the largest building that is looked for."""
+    return parameters.max_object_size or PRESETS[parameters.preset].max_object_size
+
+
+def reach(parameters: GridMinimum) -> float:
+    """Return the metres beyond which a point does not matter for another."""
+    return max(_LEAST_REACH, _REACH_OBJECTS * largest_object(parameters))
+
+
+def classify(points: Points, parameters: GridMinimum, progress: Progress = SILENT) -> np.ndarray:
+    """Tell ground from other points.
+
+    Noise is taken out of the grid of lowest points, then objects, the tall ones first and last
+    what is left of rims; cells that are level with the ground beside them grow back. What is wider
+    than its rims tell is sought by openings, and what passes gently into the ground comes back.
+    Every point close to the surface through the remaining lowest points is ground.
+
+    Parameters
+    ----------
+    points : Points
+        All points that take part.
+    parameters : GridMinimum
+        Lengths in metres.
+    progress : Progress
+        Receives progress and messages.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (n,)
+        True for ground.
+
+    Raises
+    ------
+    BareEarthError
+        If the points spread too far for a grid.
+    Cancelled
+        If the user asked to stop.
+    """
+    cells = _counting_cells(points, parameters)
+    resolved = parameters._resolved(cells)
+    if resolved != parameters:
+        progress.info(_in_words(resolved))
+    if parameters.cell_size is not None or parameters.preset == CLASSIC:
+        _tell_of_gaps(_density(cells), resolved, progress)
+    if cells.size != resolved.cell_size:
+        cells = Cells.over(points, resolved.cell_size)
+    progress(0.1)
+    grids = _by_rims(cells, points.z, resolved, progress.part(0.1, 0.6))
+    if resolved.preset == CLASSIC:
+        limits = _limits(inpaint(grids.ground, _RELAXATIONS, cells.first), resolved)
+        return near_surface(points, cells, limits, progress.part(0.6, 1.0))
+    candidates, cells = _candidates(points, cells, grids, resolved, progress.part(0.6, 0.8))
+    tolerance = Tolerance(resolved.ground_tolerance, resolved.slope_tolerance)
+    return near_ground(points, cells, candidates, tolerance, progress.part(0.8, 1.0))
+
+
+def _limits(surface: np.ndarray, parameters: GridMinimum) -> np.ndarray:
+    """Return between which heights points are ground, shape (rows, columns, 2)."""
+    tolerance = np.minimum(steepness(surface, parameters.cell_size), _STEEPEST)
+    tolerance *= parameters.slope_tolerance * parameters.cell_size
+    tolerance += parameters.ground_tolerance
+    return np.stack((surface - tolerance, surface + tolerance), axis=-1)
+
+
+class _Grids(NamedTuple):
+    """What the rims tell of each cell, grids of shape (rows, columns).
+
+    Attributes
+    ----------
+    heights, ground : numpy.ndarray of float64
+        Lowest heights without noise, and those of the ground; NaN where there is none.
+    tall : numpy.ndarray of bool
+        What the passes of the height thresholds find.
+    """
+
+    heights: np.ndarray
+    ground: np.ndarray
+    tall: np.ndarray
+
+
+def _by_rims(cells: Cells, z: np.ndarray, parameters: GridMinimum, progress: Progress) -> _Grids:
+    """Tell ground from objects by the rims round them."""
+    heights = cells.minimum(z)
+    blocks = CellBlocks.over(cells, _BLOCK)
+    count, classic = np.count_nonzero(np.isfinite(heights)), parameters.preset == CLASSIC
+    heights[_noise(heights, cells, blocks, classic)] = np.nan
+    if not classic and _density(cells) >= _DENSE:
+        # After the clusters, which would lose their rims.
+        slope = _OUTLIER_SLOPE_WHERE_DENSE
+        heights[low_outliers(heights, cells.size, slope, cells.first)] = np.nan
+    tell_of_outliers(count, heights, progress)
+    progress(0.2)
+    tall = _tall_objects(heights, blocks, parameters, progress.part(0.2, 0.6))
+    ground = np.where(tall, np.nan, heights)
+    ground = _without_low_objects(ground, heights, cells, parameters, progress.part(0.6, 1.0))
+    return _Grids(heights, ground, tall)
+
+
+def _candidates(
+    points: Points, cells: Cells, grids: _Grids, parameters: GridMinimum, progress: Progress
+) -> tuple[Candidates, Cells]:
+    """Return the lowest points of fine cells that may be ground, and these cells.
+
+    Rims want cells without gaps; the surface may have finer ones. Their lowest points are ground
+    if their wide cell is, and they are about as low.
+    """
+    heights, widest = grids.heights, parameters.max_object_size
+    ground = ground_cells(
+        heights,
+        cells.size,
+        grids.tall,
+        widest / 2.0,
+        progress=progress,
+        first=cells.first,
+        suspects=np.isnan(grids.ground),
+    )
+    known = np.isfinite(heights)
+    if cells.size <= _FINE_CELL:
+        lowest = cells.lowest_points(points)
+        return Candidates.of_cells(lowest, cells.index[lowest], ground, known), cells
+    fine = Cells.over(points, _FINE_CELL)
+    lowest = fine.lowest_points(points)
+    x, y, z = points.take(lowest)
+    surface = inpaint(np.where(ground, heights, np.nan), _RELAXATIONS, cells.first)
+    rise = cells.size * np.minimum(steepness(surface, cells.size), _STEEPEST)
+    allowed = parameters.final_height + _UNEVENNESS * cells.at(rise, x, y)
+    low = np.abs(z - cells.at(surface, x, y)) <= allowed
+    candidates = Candidates.of_cells(lowest, cells.index[lowest], ground, known)
+    return candidates._replace(ground=candidates.ground & low), fine
+
+
+def _in_words(parameters: GridMinimum) -> str:
+    heights = ", ".join(f"{each:g}" for each in parameters.height_thresholds)
+    return (
+        f"Grid minimum: preset {parameters.preset}, cell size {parameters.cell_size:g} m, height"
+        f" thresholds {heights} m, final height {parameters.final_height:g} m, maximum object size"
+        f" {parameters.max_object_size:g} m."
+    )
+
+
+def _tell_of_gaps(density: float, parameters: GridMinimum, progress: Progress) -> None:
+    """Warn of cells that are too small for the points per square metre."""
+    size = parameters.cell_size
+    multiple = _multiple(density, size)
+    if multiple > 1:
+        progress.warning(
+            f"{density:.2g} points/m2 are too few for cells of {size:g} m: the rims of objects"
+            f" have gaps. Give {multiple * size:g} m, or leave the cell size to another preset."
+        )
+
+
+def _multiple(density: float, size: float) -> int:
+    """Return how many times larger cells must be to hold a point, or nearly so."""
+    return max(math.ceil(math.sqrt(_POINTS_PER_CELL / density) / size - _NEARLY), 1)
+
+
+def _counting_cells(points: Points, parameters: GridMinimum) -> Cells:
+    """Return cells to count the points in: those of the filter, unless they are far too small."""
+    size = parameters.cell_size or PRESETS[parameters.preset].cell_size
+    if float(np.ptp(points.x)) * float(np.ptp(points.y)) > size**2 * points.count:
+        size = max(_DENSITY_BLOCK, 4.0 * size)
+    return Cells.over(points, size)
+
+
+def _density(cells: Cells) -> float:
+    """Return the median number of points per square metre, of blocks within the survey."""
+    from scipy import ndimage
+
+    blocks = CellBlocks.over(cells, _DENSITY_BLOCK, least=1)
+    counts = blocks.total(cells.counts())
+    within = ndimage.binary_erosion(counts > 0, np.ones((3, 3)))
+    usual = counts[within] if within.any() else counts[counts > 0]
+    return float(np.median(usual)) / blocks.size**2
+
+
+def _noise(heights: np.ndarray, cells: Cells, blocks: CellBlocks, classic: bool) -> np.ndarray:
+    """Return the cells of narrow pits far below the usual lowest points around.
+
+    A gap in the canopy, a yard or a street between roofs is a pit too, but has others as low near
+    it; noise stands alone.
+    """
+
+    from scipy import ndimage
+
+    noise = np.zeros(heights.shape, dtype=bool)
+    if not classic:
+        noise = low_outliers(heights, cells.size, _OUTLIER_SLOPE, cells.first)
+        heights = np.where(noise, np.nan, heights)
+    around = CellBlocks.over(cells, _NOISE_WIDTH)
+    usual = inpaint(around.lowest(heights), first=around.first_block)
+    usual = ndimage.median_filter(usual, 5, mode="nearest")
+    below = heights < around.interpolated(usual, heights.shape) - _NOISE_DEPTH
+    if not below.any():
+        return noise
+    lowest = blocks.lowest(heights)
+    candidates = np.isfinite(blocks.lowest(np.where(below, heights, np.nan)))
+    relief = Relief(lowest, blocks.size, covered(np.isfinite(lowest)), blocks.first_block)
+    pits = relief.pits(candidates, _NOISE_DEPTH, _NOISE_WIDTH)
+    if not classic:
+        depth = blocks.lowest(around.interpolated(usual, heights.shape)) - lowest
+        pits &= ~supported(lowest, blocks.size, pits, depth, blocks.first_block)
+    return noise | (below & blocks.repeated(pits, heights.shape))
+
+
+def _whole_share(parameters: GridMinimum) -> float:
+    """Return which share of the whole border of an object must be a drop."""
+    return CLASSIC_WHOLE_SHARE if parameters.preset == CLASSIC else WHOLE_SHARE
+
+
+def _tall_objects(
+    heights: np.ndarray, blocks: CellBlocks, parameters: GridMinimum, progress: Progress
+) -> np.ndarray:
+    """Return the cells of what the passes of the height thresholds find.
+
+    They look at the lowest points of blocks, so that the gaps of a tree's crown and points
+    half-way down a wall hide no rim; single cells far above the ground of their block go as well.
+    """
+    lowest = blocks.lowest(heights)
+    thresholds, size = parameters.height_thresholds, blocks.size
+    largest, first = parameters.max_object_size, blocks.first_block
+    share = _whole_share(parameters)
+    objects = raised_objects(lowest, size, thresholds, largest, progress, first, share)
+    surface = inpaint(np.where(objects, np.nan, lowest), _RELAXATIONS, first)
+    rise = size * np.minimum(steepness(surface, size), _STEEPEST)
+    highest = surface + min(thresholds) + rise
+    above = heights > blocks.interpolated(highest, heights.shape)
+    return above | blocks.repeated(objects, heights.shape)
+
+
+def _without_low_objects(
+    ground: np.ndarray,
+    heights: np.ndarray,
+    cells: Cells,
+    parameters: GridMinimum,
+    progress: Progress,
+) -> np.ndarray:
+    """Return the heights of the ground, NaN elsewhere.
+
+    What stands out by the final height is cut out, with the rims that are left of larger objects;
+    of these cells those that are level with the rest grow back.
+    """
+    inside = covered(np.isfinite(heights))
+    for done in range(_FINAL_PASSES):
+        relief = Relief(ground, cells.size, inside, cells.first)
+        regions, rims = relief.regions_and_rims(parameters.final_height, _RIM_ROUGHNESS)
+        raised = regions.raised(parameters.max_object_size, _whole_share(parameters))
+        ground[raised | rims] = np.nan
+        progress((done + 1) / (_FINAL_PASSES + 1))
+    kept = relief.regrown(np.isfinite(ground), heights, parameters.final_height)
+    progress(1.0)
+    return np.where(kept, heights, np.nan)

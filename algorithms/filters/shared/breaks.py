@@ -1,0 +1,146 @@
+"""Seeds of the ground, judged by the ground on each side of them.
+
+The lowest point of a cell may be a plant, or lie below the ground. And at a break (the edge of a
+terrace, a ridge, the top of a wall) morphology cuts off ground. The planes through the ground on
+either side tell both.
+"""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+
+from ...core.points import Points
+from ...grids.cells import Cells, lower_at
+from ...grids.gradient import steepness
+from ...grids.inpaint import inpaint
+from ...grids.morphology import within_square
+from .half_planes import Sides
+
+# Metres within which seeds are neighbours: so many times their spacing, but at least this.
+_SPACINGS, _LEAST_REACH = 5.0, 6.0
+# Metres above the planes of all sides from which on a seed is a plant, and below them from which
+# on it is an outlier; the misfit of the plane is added.
+_PLANT, _FAULT = 0.2, 0.7
+# Spacings over which the mean surface is taken that tells which seeds are worth a look.
+_MEAN_SPACINGS = 1.5
+# Metres from the plane of one side within which a point joins the ground, and the largest misfit
+# of that plane.
+_LEVEL, _LARGEST_MISFIT = 0.25, 0.3
+# How often points join the ground that joined before, each time as many spacings farther.
+_PASSES, _STEP_SPACINGS = 2, 1.5
+# Rise over run: no point joins that lies higher above all seeds as near as that, or deeper below.
+_STEEPEST = 1.5
+
+
+def checked_seeds(
+    points: Points,
+    seeds: np.ndarray,
+    waiting: np.ndarray,
+    cells: Cells,
+    spacing: float,
+    has_gaps: bool = True,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return seeds without plants and outliers, and with the ground at breaks.
+
+    Parameters
+    ----------
+    points : Points
+        All points.
+    seeds, waiting : numpy.ndarray of int
+        Indices of the points taken for ground, and of those that may be ground.
+    cells : Cells
+        A grid over the points.
+    spacing : float
+        Usual distance between points in metres, at least the side of a cell.
+    has_gaps : bool
+        Whether there are gaps between the seeds in which breaks may be lost: none are looked for
+        where there are not.
+
+    Returns
+    -------
+    seeds, waiting : numpy.ndarray of int
+        The same after some changed sides.
+    """
+    reach = max(_LEAST_REACH, _SPACINGS * spacing)
+    with warnings.catch_warnings():
+        # Points without neighbours on any side have no rise: nanmin warns of them.
+        warnings.simplefilter("ignore", RuntimeWarning)
+        wrong = _wrong(points, seeds, cells, spacing, reach)
+        waiting, seeds = np.append(waiting, seeds[wrong]), seeds[~wrong]
+        for _ in range(_PASSES if has_gaps else 0):
+            joins = _level(points, seeds, waiting, cells, spacing, reach)
+            seeds, waiting = np.append(seeds, waiting[joins]), waiting[~joins]
+    return seeds, waiting
+
+
+def _wrong(
+    points: Points, seeds: np.ndarray, cells: Cells, spacing: float, reach: float
+) -> np.ndarray:
+    """Return which seeds lie above the planes of all sides, or below all."""
+    from scipy import ndimage
+
+    lowest = _extreme(cells, points, seeds)
+    surface = inpaint(np.where(np.isfinite(lowest), lowest, np.nan), 2, cells.first)
+    width = 2 * int(np.ceil(_MEAN_SPACINGS * spacing / cells.size)) + 1
+    mean = ndimage.uniform_filter(surface, width, mode="nearest")
+    # On a slope a seed departs from the mean by where it lies in its cell.
+    allowed = steepness(mean, cells.size) * cells.size
+    cell, z = cells.index[seeds], points.z[seeds]
+    above, allowed = z - mean.ravel()[cell], allowed.ravel()[cell]
+    doubtful = np.flatnonzero((above - allowed > _PLANT) | (above + allowed < -_FAULT))
+    near = _near(cells, seeds, seeds[doubtful], reach)
+    rise, misfit = Sides(points.take(seeds[near]), reach).rises(
+        points.take(seeds[doubtful]), own=True
+    )
+    plant = np.nanmin(rise - misfit, axis=1) > _PLANT
+    fault = np.nanmax(rise + misfit, axis=1) < -_FAULT
+    wrong = np.zeros(len(seeds), dtype=bool)
+    wrong[doubtful] = plant | fault
+    return wrong
+
+
+def _level(
+    points: Points,
+    seeds: np.ndarray,
+    waiting: np.ndarray,
+    cells: Cells,
+    spacing: float,
+    reach: float,
+) -> np.ndarray:
+    """Return which waiting points lie on the plane of the seeds on one side."""
+    step = int(np.ceil(_STEP_SPACINGS * spacing / cells.size))
+    margin = _LEVEL + _STEEPEST * step * cells.size
+    cell, z = cells.index[waiting], points.z[waiting]
+    low = within_square(np.minimum, _extreme(cells, points, seeds), step).ravel()[cell]
+    high = -within_square(np.minimum, _extreme(cells, points, seeds, -1.0), step).ravel()[cell]
+    candidates = np.flatnonzero((z >= low - margin) & (z <= high + margin))
+    near = _near(cells, seeds, waiting[candidates], reach)
+    rise, misfit = Sides(points.take(seeds[near]), reach).rises(
+        points.take(waiting[candidates]), own=False
+    )
+    joins = np.zeros(len(waiting), dtype=bool)
+    fits = (misfit <= _LARGEST_MISFIT) & (np.abs(rise) <= _LEVEL)
+    joins[candidates] = fits.any(axis=1)
+    return joins
+
+
+def _extreme(cells: Cells, points: Points, which: np.ndarray, sign: float = 1.0) -> np.ndarray:
+    """Return the lowest of some points in each cell; infinite where there is none.
+
+    With a sign of -1, the highest, as the lowest of the negative heights.
+    """
+    lowest = np.full(cells.rows * cells.columns, np.inf, dtype=np.float32)
+    lower_at(lowest, cells.index[which], (sign * points.z[which]).astype(np.float32))
+    return lowest.reshape(cells.shape)
+
+
+def _near(cells: Cells, seeds: np.ndarray, judged: np.ndarray, reach: float) -> np.ndarray:
+    """Return which seeds may be neighbours of points that are judged: most are not."""
+    there = np.zeros(cells.rows * cells.columns, dtype=bool)
+    there[cells.index[judged]] = True
+    around = within_square(
+        np.maximum, there.reshape(cells.shape), int(np.ceil(reach / cells.size)) + 1
+    )
+    return around.ravel()[cells.index[seeds]]

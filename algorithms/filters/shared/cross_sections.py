@@ -1,0 +1,284 @@
+"""Straight cross-sections of a relief that are raised at both ends.
+
+References
+----------
+Sithole, G., Vosselman, G. (2006): Bridge detection in airborne laser scanner data. ISPRS Journal of
+Photogrammetry and Remote Sensing 61 (1), 33-46: cross-sections in many directions. What a raised
+end is, is ours.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from typing import Callable, NamedTuple
+
+import numpy as np
+
+from ...grids.morphology import within_square
+from .relief import BORDER, STEP, STEP_SLOPE, Relief
+
+# Directions of cross-sections over a whole turn, and the longest in metres.
+_DIRECTIONS, _LONGEST = 96, 70.0
+# Along a cross-section the surface may be unknown over so many metres.
+_GAP = 3.0
+# How far in metres beyond an edge its foot may lie, and how far beyond water or another void.
+_FOOT, _VOID_FOOT = 6.0, 60.0
+# There the ground must be lower by so much, and so much a metre.
+_VOID_DROP, _VOID_SLOPE = 2.0, 0.05
+# The ends of a cross-section may differ in height by so much, and so much a metre.
+_TILT, _TILT_SLOPE = 0.5, 0.08
+# The feet may differ by this share of the lower drop.
+_FEET = 0.5
+# Between this share of a drop and the rest of it no ground may lie beside the edge.
+_FACE = 0.25
+# Beyond its foot the ground must stay below this share of the drop for so many metres: else it is
+# a pit, of low outliers for one. (As far as the border of the relief lets one look.)
+_PIT, _BEYOND = 0.5, BORDER - _FOOT
+# Rings in which the lowest ground is compared with an edge, in cells from it.
+_RINGS = (0, 1, 2, 4)
+
+
+class Rule(NamedTuple):
+    """How far the ground must lie below an edge.
+
+    Attributes
+    ----------
+    drop, slope : float
+        Metres, and metres a metre of distance.
+    is_strict : bool
+        Whether there must be no ground between, beside the edge, and no rise beyond.
+    """
+
+    drop: float
+    slope: float
+    is_strict: bool
+
+
+class Sections(NamedTuple):
+    """Cross-sections: cells in a line.
+
+    Attributes
+    ----------
+    start, direction : numpy.ndarray of int, shape (n,)
+        The first cell in the flattened grid, and the number of the direction.
+    steps : numpy.ndarray of int, shape (n,)
+        How many steps the last cell is off.
+    """
+
+    start: np.ndarray
+    direction: np.ndarray
+    steps: np.ndarray
+
+    @property
+    def angles(self) -> np.ndarray:
+        """Their directions in radians, from east to north."""
+        return 2.0 * math.pi / _DIRECTIONS * self.direction
+
+    def take(self, which: np.ndarray) -> Sections:
+        """Return those that a mask or an index array names."""
+        return Sections(*(each[which] for each in self))
+
+    def middles(self, relief: Relief) -> np.ndarray:
+        """Return the cells halfway, in the flattened grid."""
+        return _Compass.of(relief).at(self, self.steps // 2)
+
+    def cells_of(self, relief: Relief) -> np.ndarray:
+        """Return which cells of the grid they cross; boolean, shape (rows, columns)."""
+        crossed = np.zeros(relief.heights.shape, dtype=bool)
+        section = np.repeat(np.arange(len(self.steps)), self.steps + 1)
+        step = np.arange(len(section)) - np.repeat(
+            np.cumsum(self.steps + 1) - (self.steps + 1), self.steps + 1
+        )
+        offsets = _Compass.of(relief).offsets
+        crossed.ravel()[self.start[section] + offsets[self.direction[section], step]] = True
+        return crossed
+
+
+def raised_sections(relief: Relief, within: Callable[[Relief], np.ndarray], rule: Rule) -> Sections:
+    """Return the cross-sections of smooth surfaces that are raised at both ends.
+
+    Beyond both ends the ground must be lower, and nearly as low at one as at the other.
+
+    Parameters
+    ----------
+    relief : Relief
+        Heights.
+    within : callable
+        Returns the cells in which a cross-section may begin: boolean, shape (rows, columns). It is
+        not asked where none could.
+    rule : Rule
+        What is lower.
+    """
+    start = np.flatnonzero(_edges(relief, rule))
+    if len(start):
+        start = start[within(relief).ravel()[start]]
+    compass = _Compass.of(relief)
+    # Half a turn will do: it is found from one end or the other. Neighbours share the directions.
+    row, column = np.divmod(start, relief.heights.shape[1])
+    odd = (row + column + relief.parity) % 2
+    direction = (np.arange(0, _DIRECTIONS // 2, 2) + odd[:, None]).ravel()
+    start = np.repeat(start, _DIRECTIONS // 4)
+    lines = Sections(start, direction, np.zeros_like(direction))
+    foot, off = _feet(relief, compass, compass.back(lines), rule)
+    found = off > 0
+    lines, foot, off = lines.take(found), foot[found], off[found]
+    steps = _lengths(relief, compass, lines)
+    found = steps >= 0
+    lines, foot, off = lines._replace(steps=steps).take(found), foot[found], off[found]
+    heights, end = relief.heights.ravel(), compass.at(lines, lines.steps)
+    length = compass.length[lines.direction] * (lines.steps + 1)
+    found = np.abs(heights[end] - heights[lines.start]) <= _TILT + _TILT_SLOPE * length
+    lines, foot, off, end = lines.take(found), foot[found], off[found], end[found]
+    other_foot, other_off = _feet(relief, compass, lines._replace(start=end), rule)
+    found = other_off > 0
+    lower = np.minimum(heights[lines.start] - foot, heights[end] - other_foot)
+    found[found] = np.abs(foot - other_foot)[found] <= _FEET * lower[found]
+    if rule.is_strict:
+        some = lines.take(found)
+        clear = _is_clear(relief, compass, compass.back(some), foot[found], off[found])
+        some = some._replace(start=end[found])
+        clear &= _is_clear(relief, compass, some, other_foot[found], other_off[found])
+        found[found] = clear
+    return lines.take(found)
+
+
+class _Compass(NamedTuple):
+    """Steps in each direction, from a cell to the next whose centre is near the line.
+
+    Attributes
+    ----------
+    rows, columns, offsets : numpy.ndarray of int, shape (directions, steps)
+        How far a cell is off after so many steps: in rows, in columns and in the flattened grid.
+    length : numpy.ndarray of float, shape (directions,)
+        Metres of a step.
+    """
+
+    rows: np.ndarray
+    columns: np.ndarray
+    offsets: np.ndarray
+    length: np.ndarray
+
+    @classmethod
+    def of(cls, relief: Relief) -> _Compass:
+        angle = 2.0 * math.pi * np.arange(_DIRECTIONS) / _DIRECTIONS
+        up, right = np.sin(angle), np.cos(angle)
+        longest = np.maximum(np.abs(up), np.abs(right))
+        step = np.arange(int((_LONGEST + _GAP) / relief.cell) + 3)
+        rows, columns = (
+            np.rint(np.outer(each / longest, step)).astype(np.intp) for each in (up, right)
+        )
+        length = relief.cell / longest
+        return cls(rows, columns, rows * relief.heights.shape[1] + columns, length)
+
+    def at(self, lines: Sections, step: int | np.ndarray) -> np.ndarray:
+        """Return the cells of some lines after so many steps."""
+        return lines.start + self.offsets[lines.direction, step]
+
+    def back(self, lines: Sections) -> Sections:
+        """Return those that go the other way."""
+        return lines._replace(direction=(lines.direction + _DIRECTIONS // 2) % _DIRECTIONS)
+
+
+def _edges(relief: Relief, rule: Rule) -> np.ndarray:
+    """Return which cells of smooth surfaces may have their foot near, or a void beside."""
+    heights = relief.heights
+    known = np.isfinite(heights)
+    lowest = np.where(relief.is_ground, heights, np.float32(np.inf))
+    edges = within_square(np.maximum, ~known, 1) & known
+    farthest = int((_FOOT + relief.spacing) / relief.cell)
+    for near, far in zip(_RINGS, (*_RINGS[1:], farthest)):
+        lowest = within_square(np.minimum, lowest, far - near)
+        edges |= heights - lowest >= rule.drop + rule.slope * (near + 1) * relief.cell
+    # Few are left: which of them continue some of the eight that lie a spacing off?
+    cells = np.flatnonzero(edges)
+    off, columns = relief.apart, heights.shape[1]
+    like = np.zeros(len(cells), dtype=np.int8)
+    for up, right in itertools.product((-off, 0, off), repeat=2):
+        beside = heights.ravel()[cells + (up * columns + right)]
+        like += np.abs(beside - heights.ravel()[cells]) <= relief.step
+    edges.ravel()[cells] = like > 3  # each is like itself
+    return edges
+
+
+def _feet(
+    relief: Relief, compass: _Compass, lines: Sections, rule: Rule
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the height of the ground below the edges where lines begin, and how many steps off.
+
+    It is 0 steps off where there is none.
+    """
+    heights, is_ground = relief.heights.ravel(), relief.is_ground.ravel()
+    foot = np.full(len(lines.start), np.inf, dtype=np.float32)
+    off = np.zeros(len(lines.start), dtype=np.intp)
+    edge, length = heights[lines.start], compass.length[lines.direction]
+    left, farthest = np.arange(len(edge)), _FOOT + relief.spacing
+    for step in range(1, int(farthest / relief.cell) + 1):
+        left = left[step * length[left] <= farthest]
+        cell = compass.offsets[:, step][lines.direction[left]]
+        cell += lines.start[left]
+        there = heights[cell]
+        found = there <= edge[left] - rule.drop - rule.slope * step * length[left]
+        found &= is_ground[cell]
+        foot[left[found]], off[left[found]] = there[found], step
+        left = left[~found]
+    left = np.flatnonzero((off == 0) & np.isnan(heights[compass.at(lines, 1)]))
+    row, column = np.divmod(lines.start, relief.heights.shape[1])
+    rows, columns = relief.heights.shape
+    for step in range(2, int(_VOID_FOOT / relief.cell) + 1):
+        if not len(left):
+            break
+        some = lines.take(left)
+        there_row = row[left] + compass.rows[some.direction, step]
+        there_column = column[left] + compass.columns[some.direction, step]
+        inside = (there_row >= 0) & (there_row < rows)
+        inside &= (there_column >= 0) & (there_column < columns)
+        left, cell = left[inside], compass.at(some, step)[inside]
+        there = heights[cell]
+        drop = _VOID_DROP + _VOID_SLOPE * step * length[left]
+        found = is_ground[cell] & (there <= edge[left] - drop)
+        foot[left[found]], off[left[found]] = there[found], step
+        left = left[np.isnan(there)]
+    return foot, off
+
+
+def _lengths(relief: Relief, compass: _Compass, lines: Sections) -> np.ndarray:
+    """Return how many steps a surface goes on along lines; -1 where it goes on too far."""
+    heights = relief.heights.ravel()
+    last, length = heights[lines.start], compass.length[lines.direction]
+    steps, left = np.zeros(len(last), dtype=np.intp), np.arange(len(last))
+    step = 0
+    while len(left):
+        step += 1
+        there = heights[compass.at(lines.take(left), step)]
+        gap = (step - steps[left]) * length[left]
+        rise = np.abs(there - last[left])
+        on = rise <= STEP + STEP_SLOPE * np.maximum(gap, relief.spacing)
+        last[left[on]], steps[left[on]] = there[on], step
+        left = left[on | (np.isnan(rise) & (gap < _GAP))]
+        wide = step * length[left] > _LONGEST
+        steps[left[wide]] = -1
+        left = left[~wide]
+    return steps
+
+
+def _is_clear(
+    relief: Relief, compass: _Compass, lines: Sections, foot: np.ndarray, off: np.ndarray
+) -> np.ndarray:
+    """Return where no ground beside an edge lies between it and its foot, which is in no pit."""
+    heights, is_ground = relief.heights.ravel(), relief.is_ground.ravel()
+    edge = heights[lines.start]
+    drop = edge - foot
+    low, high = foot + _FACE * drop, edge - _FACE * drop
+    clear = np.ones(len(edge), dtype=bool)
+    apart, columns = relief.apart, relief.heights.shape[1]
+    for share in (0.25, 0.5, 0.75):
+        middle = compass.at(lines, np.rint(share * off).astype(np.intp))
+        for up, right in itertools.product((-apart, 0, apart), repeat=2):
+            cell = middle + (up * columns + right)
+            there = heights[cell]
+            clear &= ~(is_ground[cell] & (there > low) & (there < high))
+    for step in range(1, round(_BEYOND / relief.cell) + 1):
+        cell = compass.at(lines, off + step)
+        clear &= ~(is_ground[cell] & (heights[cell] > edge - _PIT * drop))
+    return clear

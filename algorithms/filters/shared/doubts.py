@@ -1,0 +1,90 @@
+"""What to tell of points for which a ground filter is not sure, in the same words for all filters.
+
+The texts hold no figure that differs from block to block: equal ones are told once.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...core.points import Points
+from ...core.progress import Progress
+from ...grids.cells import Cells
+
+_CELL = 1.0
+# Share of the cells with points that have ground, below which there is hardly any.
+_LEAST_GROUND = 0.02
+# Above this share of the points, cells need not be counted: they hold much the same of each.
+_SURELY_ENOUGH = 0.1
+# Share of the lowest points that may be low outliers, and so few cells that a share says nothing.
+_MOST_OUTLIERS, _LEAST_CELLS = 0.02, 500
+
+
+def tell_of_extent(points: Points, largest: float, name: str, progress: Progress) -> None:
+    """Warn where the points reach no farther than the largest object that is to be expected.
+
+    A building that is as wide as the survey has no ground on two sides of it.
+
+    Parameters
+    ----------
+    points : Points
+        All that the filter sees.
+    largest : float
+        Its width in metres.
+    name : str
+        What the parameter is called that says so.
+    progress : Progress
+        Receives the warning.
+    """
+    if min(np.ptp(points.x), np.ptp(points.y)) < largest:
+        progress.warning(
+            f"In one direction the points reach less than {largest:g} m, the width of the largest"
+            " object to be expected: one at their border, or all over them, may be taken for"
+            f" ground. Add the points round them, or say how wide the largest is ({name})."
+        )
+
+
+def tell_of_little_ground(points: Points, ground: np.ndarray, progress: Progress) -> None:
+    """Warn where hardly any of the cells with points have ground.
+
+    Parameters
+    ----------
+    points : Points
+        All that the filter sees.
+    ground : numpy.ndarray of bool, shape (n,)
+        Which of them it took for ground.
+    progress : Progress
+        Receives the warning.
+    """
+    if np.count_nonzero(ground) >= _SURELY_ENOUGH * points.count:
+        return
+    cells = Cells.over(points, _CELL)
+    with_ground = np.unique(cells.index[ground])
+    if len(with_ground) < _LEAST_GROUND * np.count_nonzero(cells.occupied):
+        progress.warning(
+            f"Hardly any ground was found: fewer than {100 * _LEAST_GROUND:g} % of the square"
+            " metres with points have some. The terrain between is guessed. Check the"
+            " selection of points (returns, classes) and look at the result; in steep land try the"
+            " preset for it."
+        )
+
+
+def tell_of_outliers(count: int, left: np.ndarray, progress: Progress) -> None:
+    """Warn where many of the lowest points are taken for low outliers.
+
+    Parameters
+    ----------
+    count : int
+        Cells that have a point.
+    left : numpy.ndarray of float, shape (rows, columns)
+        Lowest height of each cell; NaN where it is taken for an outlier, or there is none.
+    progress : Progress
+        Receives the warning.
+    """
+    taken = count - np.count_nonzero(np.isfinite(left))
+    if count >= _LEAST_CELLS and taken > _MOST_OUTLIERS * count:
+        progress.warning(
+            f"More than {100 * _MOST_OUTLIERS:g} % of the lowest points are taken for low outliers."
+            " If they are noise, put them into class 7 to be sure that they take no part. If they"
+            " are the ground below trees or in pits, compare the result with the points there."
+        )

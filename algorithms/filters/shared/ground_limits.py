@@ -1,0 +1,220 @@
+"""Between which heights points are ground: the surface through its vertices, and a tolerance."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ...core.points import Points
+from ...core.progress import SILENT
+from ...core.threads import over_parts
+from ...grids.cells import Cells, lower_at
+from ...grids.gradient import gradient, length, steepness
+from ...grids.inpaint import inpaint
+
+# Metres over which the surface is smoothed for the slope along which vertices are moved, how often
+# they are moved, and the steepest slope (rise over run).
+_SLOPE_SMOOTHING, _MOVES, _STEEPEST = 1.5, 2, 1.5
+# Metres over which it is smoothed for the slope that adds to the tolerances.
+_FACET_SMOOTHING = 0.7
+# Metres between points from which on, and down to which, the tolerance on slopes follows them.
+_SPARSE, _DENSE = 1.0, 0.25
+# Metres between points up to which their noise is to be measured: the lowest of a cell is biased.
+NOISE_SPACING = 0.17
+# Metres of curvature over a cell from which on there is a break, and what each more adds.
+_BREAK, _BREAK_FACTOR = 0.25, 1.5
+# Metres round the lowest points within which noise is measured, the points that a cell must have
+# for that, and the percentile of the cells: most have plants as well.
+_NOISE_WINDOW, _NOISE_POINTS, _NOISE_PERCENTILE = 0.6, 8, 25
+# What is within so many times the noise belongs to the ground; of so many points is the mean taken.
+_NOISE_FACTOR, _MEAN_POINTS, _MEANS = 2.5, 4, 2
+# By so many times the noise the lowest of n points lies below the ground, times sqrt(2 ln n).
+_LOWEST_FACTOR = 0.8
+# Tolerance in metres above a surface through the middle of the noise, and what adds to it.
+_LEAST_ABOVE, _ABOVE, _ABOVE_FACTOR = 0.12, 0.05, 3.0
+_POINTS_A_PART = 1 << 17
+
+
+class Tolerance(NamedTuple):
+    """How far from the surface points are ground.
+
+    Attributes
+    ----------
+    above : float
+        Metres in level terrain.
+    on_slopes : float
+        Metres that a slope of 45 degrees adds, where points are a metre apart or more.
+    below : float
+        Metres in level terrain; more than above, as the surface is smooth where points are not.
+    """
+
+    above: float
+    on_slopes: float
+    below: float = 0.6
+
+
+def plain_limits(
+    points: Points, vertices: np.ndarray, cells: Cells, tolerance: Tolerance
+) -> np.ndarray:
+    """Return the limits for the surface through the lowest vertex of each cell, as it lies.
+
+    Parameters, returns
+        As for `ground_limits`.
+    """
+    lowest = np.full(cells.rows * cells.columns, np.inf)
+    lower_at(lowest, cells.index[vertices], points.z[vertices])
+    lowest[np.isinf(lowest)] = np.nan
+    surface = inpaint(lowest.reshape(cells.shape), first=cells.first)
+    rise = tolerance.on_slopes * _smooth_steepness(surface, cells)
+    return np.stack((surface - tolerance.below - rise, surface + tolerance.above + rise), axis=-1)
+
+
+def ground_limits(
+    points: Points,
+    vertices: np.ndarray,
+    cells: Cells,
+    spacing: float,
+    tolerance: Tolerance,
+    measures_noise: bool = False,
+) -> np.ndarray:
+    """Return between which heights points are ground.
+
+    Each vertex is moved to the middle of its cell along the slope: the lowest point of a cell lies
+    on its lower side. Where points are dense, the surface between them is known better, and the
+    tolerance on slopes is less in proportion. At breaks the surface of cells is too smooth, and
+    more is tolerated.
+
+    Parameters
+    ----------
+    points : Points
+        All points.
+    vertices : numpy.ndarray of int
+        Indices of those of the ground that the surface goes through.
+    cells : Cells
+        A grid over the points.
+    spacing : float
+        Usual distance between points in metres.
+    tolerance : Tolerance
+        How far from the surface points are ground.
+    measures_noise : bool
+        Whether the noise of the points is measured, and the surface laid through its middle: the
+        lowest of many points lies far below the ground. The tolerance above follows the noise then.
+
+    Returns
+    -------
+    numpy.ndarray of float64, shape (rows, columns, 2)
+        Heights in metres of the lower and of the upper surface.
+    """
+    surface, slopes = _centred(points, vertices, cells)
+    above = tolerance.above
+    if measures_noise:
+        rises = _rises(points, cells, surface, slopes)
+        level, noise = _middle(rises, cells.index, surface.size)
+        surface = surface + level.reshape(surface.shape)
+        above = max(_LEAST_ABOVE, _ABOVE + _ABOVE_FACTOR * noise)
+    factor = tolerance.on_slopes * min(max(spacing, _DENSE), _SPARSE) / _SPARSE
+    rise = factor * _smooth_steepness(surface, cells)
+    if spacing < _SPARSE:
+        rise += _BREAK_FACTOR * np.maximum(_curvature(surface) - _BREAK, 0.0)
+    return np.stack((surface - tolerance.below - rise, surface + above + rise), axis=-1)
+
+
+def _smooth(surface: np.ndarray, metres: float, cells: Cells) -> np.ndarray:
+    from scipy import ndimage
+
+    return ndimage.gaussian_filter(surface, metres / cells.size, mode="nearest")
+
+
+def _smooth_steepness(surface: np.ndarray, cells: Cells) -> np.ndarray:
+    """Return the slope of the smoothed surface: between single points it is too uneven."""
+    return steepness(_smooth(surface, _FACET_SMOOTHING, cells), cells.size)
+
+
+def _curvature(surface: np.ndarray) -> np.ndarray:
+    """Return by how many metres each cell departs from the line between its neighbours."""
+    around = np.pad(surface, 1, mode="edge")
+    north = around[2:, 1:-1] + around[:-2, 1:-1]
+    east = around[1:-1, 2:] + around[1:-1, :-2]
+    return np.maximum(np.abs(0.5 * north - surface), np.abs(0.5 * east - surface))
+
+
+def _centred(
+    points: Points, vertices: np.ndarray, cells: Cells
+) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]:
+    """Return the surface at the middles of cells, and its slope towards north and east."""
+    cell, z = cells.index[vertices], points.z[vertices]
+    north, east = _from_middle(points.take(vertices), cells, cell)
+    count = np.bincount(cell, minlength=cells.rows * cells.columns)
+    moved = z
+    for _ in range(_MOVES + 1):
+        total = np.bincount(cell, moved, minlength=count.size)
+        heights = np.where(count > 0, total / np.maximum(count, 1), np.nan)
+        surface = inpaint(heights.reshape(cells.shape), first=cells.first)
+        slopes = _slopes(surface, cells)
+        moved = z - slopes[0].ravel()[cell] * north - slopes[1].ravel()[cell] * east
+    return surface, slopes
+
+
+def _slopes(surface: np.ndarray, cells: Cells) -> tuple[np.ndarray, np.ndarray]:
+    """Return the slope towards north and east, nowhere steeper than is usual for terrain."""
+    north, east = gradient(_smooth(surface, _SLOPE_SMOOTHING, cells), cells.size)
+    share = _STEEPEST / np.maximum(length(north, east), _STEEPEST)
+    return north * share, east * share
+
+
+def _from_middle(points: Points, cells: Cells, cell: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return how many metres north and east of the middle of their cell points lie."""
+    row, column = np.divmod(cell, cells.columns)
+    north = points.y - (row + (cells.first_row + 0.5)) * cells.size
+    east = points.x - (column + (cells.first_column + 0.5)) * cells.size
+    return north, east
+
+
+def _rises(
+    points: Points, cells: Cells, surface: np.ndarray, slopes: tuple[np.ndarray, np.ndarray]
+) -> np.ndarray:
+    """Return the height of each point above the surface, float32."""
+    rises = np.empty(points.count, dtype=np.float32)
+    height, to_north, to_east = (each.ravel() for each in (surface, *slopes))
+
+    def fill(part: slice) -> None:
+        cell = cells.index[part]
+        north, east = _from_middle(points.take(part), cells, cell)
+        under = height[cell] + to_north[cell] * north + to_east[cell] * east
+        rises[part] = points.z[part] - under
+
+    over_parts(fill, points.count, _POINTS_A_PART, SILENT)
+    return rises
+
+
+def _middle(rises: np.ndarray, index: np.ndarray, cells: int) -> tuple[np.ndarray, float]:
+    """Return the middle of the ground points of each cell, and their noise, both in metres.
+
+    The lowest points give a first guess, as they lie below by a multiple of the noise that their
+    number tells; then the points round the guess are averaged.
+    """
+    count, _, spread = _moments(rises, index, np.abs(rises) < _NOISE_WINDOW, cells)
+    enough = count >= _NOISE_POINTS
+    if not enough.any():
+        return np.zeros(cells), 0.0
+    noise = float(np.percentile(spread[enough], _NOISE_PERCENTILE))
+    lowest = np.sqrt(2.0 * np.log(np.maximum(count, 1)))
+    level = _LOWEST_FACTOR * noise * lowest
+    for _ in range(_MEANS):
+        near = np.abs(rises - level[index]) <= _NOISE_FACTOR * noise
+        count, mean, _ = _moments(rises, index, near, cells)
+        level = np.where(count >= _MEAN_POINTS, mean, level)
+    return level, noise
+
+
+def _moments(
+    rises: np.ndarray, index: np.ndarray, which: np.ndarray, cells: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return number, mean and standard deviation of some rises in each cell."""
+    cell, value = index[which], rises[which].astype(np.float64)
+    count = np.bincount(cell, minlength=cells)
+    total = np.maximum(count, 1)
+    mean = np.bincount(cell, value, minlength=cells) / total
+    square = np.bincount(cell, value * value, minlength=cells) / total
+    return count, mean, np.sqrt(np.maximum(square - mean * mean, 0.0))

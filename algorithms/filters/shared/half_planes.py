@@ -1,0 +1,121 @@
+"""Planes through the ground on one side of a point: what the terrain would be there if it went on.
+
+At a break (the edge of a terrace, a ridge, the top of a wall) the surface through the ground all
+round a point is wrong, but that of one side is right. What lies above the planes of all sides is
+not ground; what lies on the plane of one side may be.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...core.points import Points
+
+# Neighbours that are looked at, and how many of them a side must have to be judged by.
+_NEIGHBOURS, _LEAST = 16, 4
+# Sides that are looked at, evenly spread.
+_SIDES = 8
+# Points that are judged at a time.
+_AT_ONCE = 1 << 13
+# Square metres that are added to the spread of the neighbours.
+_STIFFNESS = 0.1
+
+
+class Sides:
+    """The ground round points, side by side.
+
+    Parameters
+    ----------
+    ground : Points
+        Points of the ground.
+    reach : float
+        Metres within which they are neighbours.
+    """
+
+    def __init__(self, ground: Points, reach: float) -> None:
+        # Not at the start of QGIS, which loads this module, and where scipy may be missing.
+        from scipy.spatial import cKDTree
+
+        self._ground, self._reach = ground, reach
+        self._tree = None
+        if ground.count:
+            places = np.column_stack((ground.x, ground.y))
+            self._tree = cKDTree(places, balanced_tree=False, compact_nodes=False)
+
+    def rises(self, points: Points, own: bool) -> tuple[np.ndarray, np.ndarray]:
+        """Return how far points lie above the plane of each side, and how well it fits.
+
+        Parameters
+        ----------
+        points : Points
+            The points to judge.
+        own : bool
+            Whether the points are of the ground themselves: they are no neighbours of their own.
+
+        Returns
+        -------
+        rise : numpy.ndarray of float64, shape (n, 8)
+            Metres; NaN where a side has too few neighbours.
+        misfit : numpy.ndarray of float64, shape (n, 8)
+            Root mean square of what the neighbours depart from the plane, in metres.
+        """
+        rise = np.full((points.count, _SIDES), np.nan)
+        misfit = np.full((points.count, _SIDES), np.nan)
+        if self._tree is None:
+            return rise, misfit
+        for first in range(0, points.count, _AT_ONCE):
+            part = slice(first, first + _AT_ONCE)
+            rise[part], misfit[part] = self._of_some(points.take(part), own)
+        return rise, misfit
+
+    def _of_some(self, points: Points, own: bool) -> tuple[np.ndarray, np.ndarray]:
+        places = np.column_stack((points.x, points.y))
+        distance, which = self._tree.query(
+            places, _NEIGHBOURS + 1 + own, distance_upper_bound=self._reach
+        )
+        if own:
+            distance, which = distance[:, 1:], which[:, 1:]
+        # Of several that are equally far the tree returns any: then none of them counts.
+        there = distance[:, :-1] < distance[:, -1:]
+        which = np.where(there, which[:, :-1], 0)
+        x, y, z = (
+            np.where(there, of[which] - at[:, None], 0.0) for of, at in zip(self._ground, points)
+        )
+        angles = 2.0 * np.pi * np.arange(_SIDES) / _SIDES
+        ahead = x[:, :, None] * np.cos(angles) + y[:, :, None] * np.sin(angles) >= -1e-6
+        sums = (ahead & there[:, :, None]).astype(float).transpose(0, 2, 1) @ np.stack(
+            (np.ones_like(x), x, y, z, x * x, x * y, y * y, x * z, y * z, z * z), axis=-1
+        )
+        return _plane(*np.moveaxis(sums, -1, 0))
+
+
+def _plane(
+    count: np.ndarray,
+    x: np.ndarray,
+    y: np.ndarray,
+    z: np.ndarray,
+    xx: np.ndarray,
+    xy: np.ndarray,
+    yy: np.ndarray,
+    xz: np.ndarray,
+    yz: np.ndarray,
+    zz: np.ndarray,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return how far (0, 0, 0) lies above planes, and their misfit, from sums over neighbours."""
+    total = np.maximum(count, 1.0)
+    x, y, z = x / total, y / total, z / total
+    xx, xy, yy = xx / total - x * x, xy / total - x * y, yy / total - y * y
+    xz, yz, zz = xz / total - x * z, yz / total - y * z, zz / total - z * z
+    # A little stiffness: neighbours on one line have no slope across it.
+    stiff_xx, stiff_yy = xx + _STIFFNESS, yy + _STIFFNESS
+    determinant = stiff_xx * stiff_yy - xy * xy
+    east = (stiff_yy * xz - xy * yz) / determinant
+    north = (stiff_xx * yz - xy * xz) / determinant
+    rise = east * x + north * y - z
+    square = zz - 2.0 * (east * xz + north * yz)
+    square += east * east * xx + 2.0 * east * north * xy + north * north * yy
+    few = count < _LEAST
+    return (
+        np.where(few, np.nan, rise),
+        np.where(few, np.nan, np.sqrt(np.maximum(square, 0.0))),
+    )

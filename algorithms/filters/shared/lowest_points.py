@@ -1,0 +1,74 @@
+"""The lowest points of a survey, on cells for vertices of a TIN and on cells for objects."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...core.points import Points
+from ...core.progress import Progress
+from ...grids.cells import Cells, spacing
+from .objects import CLASSIC_WHOLE_SHARE, WHOLE_SHARE, raised_objects
+from .outliers import low_outliers
+
+_OUTLIER_SLOPE = 5.0
+# Heights in metres of the drops that bound an object, the tall ones first.
+_OBJECT_HEIGHTS = (5.0, 4.5, 2.0)
+
+
+class LowestPoints:
+    """The lowest points of a survey.
+
+    Parameters
+    ----------
+    points : Points
+        All of them.
+    size : float
+        Side in metres of the cells whose lowest points are wanted.
+    classic : bool
+        True for the rules of other programs' presets: every pit is a low outlier, and less of the
+        border of an object must be a drop.
+
+    Attributes
+    ----------
+    spacing : float
+        Usual distance between points in metres.
+    cells : Cells
+        Those whose lowest points are wanted.
+    lowest : numpy.ndarray of intp
+        The lowest point of each occupied cell.
+    cell : numpy.ndarray of int32
+        That cell, in the flattened grid.
+    heights : numpy.ndarray of float64, shape (rows, columns)
+        Their heights, without low outliers; NaN where there is none.
+    """
+
+    def __init__(self, points: Points, size: float, classic: bool = False) -> None:
+        self._points, self._classic = points, classic
+        self.spacing = spacing(points)
+        self.cells = Cells.over(points, size)
+        self.lowest = self.cells.lowest_points(points)
+        self.cell = self.cells.index[self.lowest]
+        heights = np.full(self.cells.rows * self.cells.columns, np.nan)
+        heights[self.cell] = points.z[self.lowest]
+        self.heights = self._without_outliers(heights.reshape(self.cells.shape), self.cells)
+
+    def _without_outliers(self, heights: np.ndarray, cells: Cells) -> np.ndarray:
+        spares = not self._classic
+        heights[low_outliers(heights, cells.size, _OUTLIER_SLOPE, cells.first, spares)] = np.nan
+        return heights
+
+    def _wide(self) -> tuple[Cells, np.ndarray]:
+        """Cells wide enough to be without gaps, which would break the rims of objects."""
+        if self.spacing <= self.cells.size:
+            return self.cells, self.heights
+        cells = Cells.over(self._points, self.spacing)
+        return cells, self._without_outliers(cells.minimum(self._points.z), cells)
+
+    def objects(self, max_size: float, progress: Progress) -> np.ndarray:
+        """Return which of `cells` belong to tall objects bounded by drops all round."""
+        wide, heights = self._wide()
+        share = CLASSIC_WHOLE_SHARE if self._classic else WHOLE_SHARE
+        found = raised_objects(
+            heights, wide.size, _OBJECT_HEIGHTS, max_size, progress, wide.first, share
+        )
+        return wide.resampled(found, self.cells)

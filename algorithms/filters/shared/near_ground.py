@@ -1,0 +1,83 @@
+"""Which points are ground, from lowest points that were found to be: the last steps of a filter."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ...core.points import Points
+from ...core.progress import SILENT, Progress
+from ...grids.cells import Cells, spacing
+from .breaks import checked_seeds
+from .ground_limits import NOISE_SPACING, Tolerance, ground_limits
+from .near_surface import near_surface
+
+# Metres between points: less is as good as that. Up to the second there are no gaps in which breaks
+# would be lost.
+_CLOSEST, _GAPLESS = 0.01, 0.4
+
+
+class Candidates(NamedTuple):
+    """Lowest points of cells that may be ground.
+
+    Attributes
+    ----------
+    lowest : numpy.ndarray of intp, shape (n,)
+        Indices of the points.
+    ground : numpy.ndarray of bool, shape (n,)
+        Those that a filter takes for ground.
+    free : numpy.ndarray of bool, shape (n,)
+        Those that may be ground nevertheless: no outliers, no parts of a large object.
+    """
+
+    lowest: np.ndarray
+    ground: np.ndarray
+    free: np.ndarray
+
+    @classmethod
+    def of_cells(
+        cls, lowest: np.ndarray, cell: np.ndarray, ground: np.ndarray, free: np.ndarray
+    ) -> Candidates:
+        """Return candidates from grids (rows, columns) and the cell of each lowest point."""
+        return cls(lowest, ground.ravel()[cell], free.ravel()[cell])
+
+
+def near_ground(
+    points: Points,
+    cells: Cells,
+    candidates: Candidates,
+    tolerance: Tolerance,
+    progress: Progress = SILENT,
+) -> np.ndarray:
+    """Return which points lie close to the surface through the ground.
+
+    Where points are sparse, the candidates are first looked at from each side: those above the
+    ground on every side go, and those level with the ground of one side, at a break, come back.
+
+    Parameters
+    ----------
+    points : Points
+        All points that take part.
+    cells : Cells
+        Those of the surface.
+    candidates : Candidates
+        Lowest points of cells.
+    tolerance : Tolerance
+        How far from the surface ground may lie.
+    progress : Progress
+        Receives progress.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (n,)
+        True for ground.
+    """
+    apart = spacing(points, _CLOSEST)
+    seeds = candidates.lowest[candidates.ground]
+    if apart > _GAPLESS:
+        waiting = candidates.lowest[candidates.free & ~candidates.ground]
+        seeds, _ = checked_seeds(points, seeds, waiting, cells, max(apart, cells.size))
+    progress(0.5)
+    limits = ground_limits(points, seeds, cells, apart, tolerance, apart <= NOISE_SPACING)
+    return near_surface(points, cells, limits, progress.part(0.6, 1.0))

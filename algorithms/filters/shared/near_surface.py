@@ -1,0 +1,110 @@
+"""Which points lie close to a surface given on a grid."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...core.points import Points
+from ...core.progress import SILENT, Progress
+from ...core.threads import in_threads, over_parts
+from ...grids.cells import Cells
+from ...grids.morphology import within_square
+
+_POINTS_A_PART = 1 << 16
+# Metres by which single precision may be wrong, of heights up to 16 km: what it leaves in doubt is
+# looked at again.
+_IN_DOUBT = np.float32(0.005)
+
+
+def near_surface(
+    points: Points, cells: Cells, limits: np.ndarray, progress: Progress = SILENT
+) -> np.ndarray:
+    """Return which points lie between two surfaces, those of the ground less and more a tolerance.
+
+    Both are interpolated bilinearly between the centres of the cells, and level beyond the
+    outermost. Most points are decided by the least and the greatest of both round their cell; only
+    the others need that.
+
+    Parameters
+    ----------
+    points : Points
+        The points over which `cells` were made.
+    cells : Cells
+        The grid.
+    limits : numpy.ndarray of float64, shape (rows, columns, 2)
+        Heights in metres of the lower and of the upper surface.
+    progress : Progress
+        Receives progress.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (n,)
+    """
+    bounds = _bounds(limits)
+    near = np.empty(points.count, dtype=bool)
+
+    def decide(part: slice) -> None:
+        z = points.z[part].astype(np.float32)
+        least, sure_least, sure_most, most = bounds.take(cells.index[part], axis=0).T
+        open_ = (z >= least) & (z <= most)
+        sure = (z >= sure_least) & (z <= sure_most)
+        open_ = np.flatnonzero(open_ & ~sure) + part.start
+        near[part] = sure
+        north = points.y.take(open_) / cells.size - (cells.first_row + 0.5)
+        east = points.x.take(open_) / cells.size - (cells.first_column + 0.5)
+        least, most = _bilinear(limits, north, east)
+        z = points.z.take(open_)
+        near[open_] = (z >= least) & (z <= most)
+
+    over_parts(decide, points.count, _POINTS_A_PART, progress)
+    return near
+
+
+def _bilinear(
+    grids: np.ndarray, north: np.ndarray, east: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Interpolate two grids (rows, columns, 2) at places counted from the first centre."""
+    rows, columns, _ = grids.shape
+    flat = grids.reshape(-1, 2)
+    south, up = _lower(north, rows)
+    west, right = _lower(east, columns)
+    next_row, next_column = min(rows - 1, 1) * columns, min(columns - 1, 1)
+
+    def between(corner: np.ndarray) -> np.ndarray:
+        value = flat.take(corner, axis=0)
+        return value + (flat.take(corner + next_column, axis=0) - value) * right
+
+    corner = south * columns + west
+    south_side = between(corner)
+    values = south_side + (between(corner + next_row) - south_side) * up
+    return values[:, 0], values[:, 1]
+
+
+def _lower(place: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the lower of the centres on either side of a place, and how far on it lies."""
+    place = np.clip(place, 0.0, count - 1.0)
+    lower = np.minimum(place.astype(np.intp), max(count - 2, 0))
+    return lower, (place - lower)[:, None]
+
+
+def _bounds(limits: np.ndarray) -> np.ndarray:
+    """Return the extremes of two surfaces round each cell.
+
+    Returns
+    -------
+    numpy.ndarray of float32, shape (cells, 4)
+        What no point near the surface is below, what it may be below only if it lies between the
+        cells so, and the same two from above.
+    """
+    rows, columns, _ = limits.shape
+    bounds = np.empty((rows * columns, 4), dtype=np.float32)
+
+    def fill(column: int) -> None:
+        grid = limits[..., column // 2].astype(np.float32)
+        if column % 2:
+            bounds[:, column] = (within_square(np.maximum, grid, 1) + _IN_DOUBT).ravel()
+        else:
+            bounds[:, column] = (within_square(np.minimum, grid, 1) - _IN_DOUBT).ravel()
+
+    in_threads(fill, range(4))
+    return bounds

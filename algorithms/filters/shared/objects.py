@@ -1,0 +1,523 @@
+"""Objects that stand on the ground, found in a grid of lowest points by the rims round them.
+
+A roof, a tree or a car ends in a drop on all sides; a hill, a terrace or a bank does not. A *rim*
+is where the drop is: of two neighbouring cells that differ by more than a threshold, the higher.
+Rims cut the grid into *regions*, and a region whose border is mostly a drop is a raised object.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple, Sequence
+
+import numpy as np
+
+from ...core.progress import SILENT, Progress
+from ...core.threads import in_threads
+from ...grids.inpaint import First, inpaint
+from ...grids.trend import Rises, Trend
+
+# East, north and the two diagonals: with their opposites, the eight neighbours of a cell.
+_DIRECTIONS = ((0, 1), (1, 0), (1, 1), (1, -1))
+# Distance in metres at which heights are compared, unless cells are larger: over less a wall hit
+# half-way up, or a gap filled between roof and ground, makes a staircase of low steps.
+_STEP = 1.0
+# Cells whose steps are computed at a time, so that they stay in the processor's cache.
+_CELLS_A_STRIP = 1 << 15
+# Passes in which rim cells join the region that they are level with.
+_JOINING_PASSES = 2
+# Passes in which cells that are level with the ground grow back.
+_GROWING_PASSES = 4
+# Share of a pit's border that must be a rise.
+_PIT_SHARE = 0.9
+# Share of an object's border that must be a drop: as far as it is known, and of the whole with
+# what lies beyond the survey.
+_OBJECT_SHARE = 0.65
+WHOLE_SHARE, CLASSIC_WHOLE_SHARE = 0.5, 0.4
+# Mean height of the drop over the width of the region: what is lower and wider is terrain.
+_LEAST_STEEPNESS = 0.15
+# Rounds in which what others hid is looked at again.
+_ROUNDS = 3
+# Relaxations of the surface across gaps; what bounds objects is their rim, not the filling.
+_RELAXATIONS = 2
+
+
+def raised_objects(
+    heights: np.ndarray,
+    size: float,
+    thresholds: Sequence[float],
+    max_size: float,
+    progress: Progress = SILENT,
+    first: First = (0, 0),
+    whole_share: float = WHOLE_SHARE,
+) -> np.ndarray:
+    """Return which cells of a minimum grid belong to objects that stand out all round.
+
+    Parameters
+    ----------
+    heights : numpy.ndarray of float, shape (rows, columns)
+        Lowest height of each cell in metres; NaN where there is none.
+    size : float
+        Side of a cell in metres.
+    thresholds : sequence of float
+        Least height in metres of a drop that bounds an object, one for each pass. What one pass
+        finds is cut out before the next: the tall first.
+    max_size : float
+        Largest width (shorter side) of an object in metres.
+    progress : Progress
+        Receives progress.
+    first : tuple of int
+        Row and column of the first cell in the grid of the CRS.
+    whole_share : float
+        See `Regions.raised`.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (rows, columns)
+    """
+    inside = covered(np.isfinite(heights))
+    rest = heights.copy()
+    objects = np.zeros(heights.shape, dtype=bool)
+    for done, threshold in enumerate(thresholds):
+        regions = Relief(rest, size, inside, first).regions(threshold)
+        found = regions.raised(max_size, whole_share)
+        rest[found] = np.nan
+        objects |= found
+        progress((done + 1) / len(thresholds))
+    return objects
+
+
+def covered(known: np.ndarray, reach: int = 4) -> np.ndarray:
+    """Return which cells belong to the surveyed area: the known ones and the small gaps in them.
+
+    Parameters
+    ----------
+    known : numpy.ndarray of bool, shape (rows, columns)
+        Cells with a height.
+    reach : int
+        Gaps up to twice as many cells wide are closed.
+    """
+
+    from scipy import ndimage
+
+    closed = np.pad(known, reach).astype(np.uint8)
+    for extreme in (ndimage.maximum_filter1d, ndimage.minimum_filter1d):
+        for axis in (0, 1):
+            closed = extreme(closed, 2 * reach + 1, axis=axis, mode="nearest")
+    return closed[reach : reach + known.shape[0], reach : reach + known.shape[1]].astype(bool)
+
+
+class Relief:
+    """The steps of a height grid, as against what the trend of the terrain explains.
+
+    Parameters
+    ----------
+    heights : numpy.ndarray of float, shape (rows, columns)
+        Lowest height of each cell in metres; NaN where there is none.
+    size : float
+        Side of a cell in metres.
+    inside : numpy.ndarray of bool, shape (rows, columns)
+        Cells that were surveyed (see `covered`); nothing is known of the others.
+    first : tuple of int
+        Row and column of the first cell in the grid of the CRS.
+    """
+
+    def __init__(
+        self, heights: np.ndarray, size: float, inside: np.ndarray, first: First = (0, 0)
+    ) -> None:
+        surface = inpaint(heights, _RELAXATIONS, first).astype(np.float32)
+        self._trend = Trend(surface, size, first)
+        self._size, self._step = size, max(round(_STEP / size), 1)
+        # A frame without height ends each row, so that neighbours are an offset apart.
+        self._inside = np.pad(inside, self._step)
+        self._heights = np.pad(surface, self._step, constant_values=np.nan).ravel()
+
+    def regions(self, threshold: float) -> Regions:
+        """Return the regions between the rims of a threshold.
+
+        Rim cells belong to the region that they are level with, like the edge of a roof; those
+        that are level with none, like a thin tree, form regions of their own.
+
+        Parameters
+        ----------
+        threshold : float
+            By how many metres a cell must be higher than one of its eight neighbours to be a rim,
+            on level and even ground; the rise of the terrain between the two and its usual
+            unevenness are added.
+        """
+        return self._regions(*self._steps(threshold))
+
+    def regions_and_rims(
+        self, threshold: float, roughness_factor: float
+    ) -> tuple[Regions, np.ndarray]:
+        """Return the `regions`, and which cells are rims if more unevenness is allowed.
+
+        Parameters
+        ----------
+        threshold : float
+            As for `regions`.
+        roughness_factor : float
+            How many times the usual unevenness of the terrain is added for the rims.
+
+        Returns
+        -------
+        Regions
+        numpy.ndarray of bool, shape (rows, columns)
+        """
+        steps, large = self._steps(threshold, (1.0, roughness_factor))
+        return self._regions(steps), self._unframed(self._rims(large))
+
+    def _regions(self, steps: list[_Steps]) -> Regions:
+        from scipy import ndimage
+
+        rim = self._rims(steps)
+        regions, count = ndimage.label(self._inside & ~rim)
+        flat = regions.ravel()
+        cells = np.flatnonzero(rim)
+        for _ in range(_JOINING_PASSES):
+            self._join(flat, cells, steps)
+            cells = cells[flat[cells] == 0]
+        rest = np.zeros(flat.size, dtype=bool)
+        rest[cells] = True
+        own, more = ndimage.label(rest.reshape(rim.shape), np.ones((3, 3)))
+        flat[cells] = own.ravel()[cells] + count
+        count += more + 1
+        border = self._border(flat, count, steps)
+        return Regions(self._unframed(regions), border, self._size, self._step)
+
+    def pits(self, candidates: np.ndarray, threshold: float, max_size: float) -> np.ndarray:
+        """Return the cells of patches that lie below what is round them on all sides.
+
+        Parameters
+        ----------
+        candidates : numpy.ndarray of bool, shape (rows, columns)
+            Cells that may be a pit; those that touch are one patch, however uneven.
+        threshold : float
+            Least height in metres of the rise round it (see `regions`).
+        max_size : float
+            Largest width (shorter side) of a pit, in metres.
+
+        Returns
+        -------
+        numpy.ndarray of bool, shape (rows, columns)
+        """
+
+        from scipy import ndimage
+
+        patches, count = ndimage.label(np.pad(candidates, self._step), np.ones((3, 3)))
+        patches[(patches == 0) & self._inside] = count + 1
+        border = self._border(patches.ravel(), count + 2, *self._steps(threshold))
+        patches = Regions(self._unframed(patches), border, self._size, self._step)
+        return patches.sunken(max_size) & candidates
+
+    def regrown(self, kept: np.ndarray, heights: np.ndarray, threshold: float) -> np.ndarray:
+        """Return `kept` and the cells next to it that are level with it, step by step.
+
+        Parameters
+        ----------
+        kept : numpy.ndarray of bool, shape (rows, columns)
+            Cells of the ground.
+        heights : numpy.ndarray of float, shape (rows, columns)
+            Lowest heights, those of cells that may grow back included; NaN where there is none.
+        threshold : float
+            As for `regions`; a cell is compared with the mean of its kept neighbours.
+
+        Returns
+        -------
+        numpy.ndarray of bool, shape (rows, columns)
+        """
+        kept = np.pad(kept, self._step).ravel()
+        grid = np.pad(heights.astype(np.float32), self._step, constant_values=np.nan).ravel()
+        cells = np.flatnonzero(np.isfinite(grid) & ~kept)
+        trend = self._trend.at(*self._places(cells))
+        for _ in range(_GROWING_PASSES):
+            rises, count = np.zeros(len(cells), np.float32), np.zeros(len(cells), np.float32)
+            for row, column in _DIRECTIONS:
+                offset = row * self._inside.shape[1] + column
+                ahead = row * trend.north + column * trend.east
+                for neighbour, expected in ((cells + offset, ahead), (cells - offset, -ahead)):
+                    rise = grid[neighbour] - grid[cells] - expected
+                    rises += np.where(kept[neighbour], rise, 0)
+                    count += kept[neighbour]
+            allowed = threshold + trend.steepest + trend.roughness
+            level = (count > 0) & (np.abs(rises) <= allowed * count)
+            kept[cells[level]] = True
+            cells = cells[~level]
+            trend = Rises(*(each[~level] for each in trend))
+        return self._unframed(kept.reshape(self._inside.shape))
+
+    def _unframed(self, grid: np.ndarray) -> np.ndarray:
+        return grid[self._step : -self._step, self._step : -self._step]
+
+    def _steps(
+        self, threshold: float, roughness_factors: Sequence[float] = (1.0,)
+    ) -> list[list[_Steps]]:
+        """Return the steps to the neighbours in four directions, for each factor."""
+        width = self._inside.shape[1]
+        directions = [(row * self._step, column * self._step) for row, column in _DIRECTIONS]
+        offsets = [row * width + column for row, column in directions]
+        steps = [
+            [
+                _Steps(*direction, offset, np.empty(self._heights.size - offset, dtype=np.int8))
+                for direction, offset in zip(directions, offsets)
+            ]
+            for _ in roughness_factors
+        ]
+        strip = max(_CELLS_A_STRIP // width, 1)
+
+        def fill(first: int) -> None:
+            trend = self._trend_of_rows(first, min(first + strip, len(self._inside)))
+            for same_direction in zip(*steps):
+                self._compare(same_direction, first * width, trend, threshold, roughness_factors)
+
+        in_threads(fill, range(0, len(self._inside), strip))
+        return steps
+
+    def _compare(
+        self,
+        steps: Sequence[_Steps],
+        start: int,
+        trend: Rises,
+        threshold: float,
+        roughness_factors: Sequence[float],
+    ) -> None:
+        """Fill in the signs of one direction for the cells from `start` on that a trend is of."""
+        step = steps[0]
+        end = min(start + trend.north.size, step.sign.size)
+        if end <= start:
+            return
+        rise = self._heights[start + step.offset : end + step.offset] - self._heights[start:end]
+        north, east, steepest, roughness = (each[: end - start] for each in trend)
+        if step.row:
+            rise -= np.float32(step.row) * north
+        if step.column:
+            rise -= np.float32(step.column) * east
+        for each, factor in zip(steps, roughness_factors):
+            allowed = steepest + np.float32(factor) * roughness
+            allowed *= np.float32(np.hypot(step.row, step.column))
+            allowed += np.float32(threshold)
+            higher = (rise > allowed).view(np.int8)
+            np.subtract(higher, (rise < -allowed).view(np.int8), out=each.sign[start:end])
+
+    def _trend_of_rows(self, first: int, last: int) -> Rises:
+        """Return the trend at each cell of some rows with their frame, where it is 0."""
+        inner = slice(max(first - self._step, 0), max(last - self._step, 0))
+        rows = self._inside.shape[0] - 2 * self._step
+        rises = self._trend.of_rows(inner.start, min(inner.stop, rows))
+        above = inner.start + self._step - first
+        framed = []
+        for each in rises:
+            grid = np.zeros((last - first, self._inside.shape[1]), dtype=np.float32)
+            height = min(inner.stop, rows) - inner.start
+            if height > 0:
+                grid[above : above + height, self._step : -self._step] = each
+            framed.append(grid.ravel())
+        return Rises(*framed)
+
+    def _places(self, cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return row and column of cells; for those in the frame, of the cells beside it."""
+        rows, columns = (side - 2 * self._step for side in self._inside.shape)
+        row, column = np.divmod(cells, self._inside.shape[1])
+        row, column = row - self._step, column - self._step
+        return np.clip(row, 0, rows - 1), np.clip(column, 0, columns - 1)
+
+    def _rise(self, cells: np.ndarray, step: _Steps, backward: bool = False) -> np.ndarray:
+        """Return the rise from some cells to their neighbours in one direction, or its opposite."""
+        first = cells - step.offset if backward else cells
+        rise = self._heights[first + step.offset] - self._heights[first]
+        rise -= self._trend.along(*self._places(first), step.row, step.column)
+        return -rise if backward else rise
+
+    def _rims(self, steps: list[_Steps]) -> np.ndarray:
+        rim = np.zeros(self._inside.size, dtype=bool)
+        for each in steps:
+            rim[: -each.offset] |= each.sign < 0
+            rim[each.offset :] |= each.sign > 0
+        return rim.reshape(self._inside.shape) & self._inside
+
+    def _join(self, regions: np.ndarray, cells: np.ndarray, steps: list[_Steps]) -> None:
+        """Let cells without a region join that of the neighbour they are most level with."""
+        least = np.full(len(cells), np.inf, dtype=np.float32)
+        joined = np.zeros(len(cells), dtype=regions.dtype)
+        for each in steps:
+            for backward in (False, True):
+                neighbour = cells - each.offset if backward else cells + each.offset
+                level = each.sign[neighbour if backward else cells] == 0
+                which = np.flatnonzero(level & (regions[neighbour] > 0))
+                rise = np.abs(self._rise(cells[which], each, backward))
+                better = rise < least[which]
+                which = which[better]
+                least[which] = rise[better]
+                joined[which] = regions[neighbour[which]]
+        regions[cells] = joined
+
+    def _border(self, regions: np.ndarray, count: int, steps: list[_Steps]) -> _Border:
+        parts = []
+        for each in steps:
+            cells = np.flatnonzero(regions[: -each.offset] != regions[each.offset :])
+            rise = self._rise(cells, each)
+            parts.append((regions[cells], regions[cells + each.offset], each.sign[cells], rise))
+        return _Border(count, *(np.concatenate(each) for each in zip(*parts)))
+
+
+class Regions:
+    """The regions between rims.
+
+    Attributes
+    ----------
+    number : numpy.ndarray of int32, shape (rows, columns)
+        The region of each cell; 0 where nothing is known.
+    width : numpy.ndarray of float, shape (count,)
+        Width (shorter side) of each region in metres.
+    """
+
+    def __init__(self, number: np.ndarray, border: _Border, size: float, step: int) -> None:
+        self.number = number
+        self._border = border
+        area = np.bincount(number.ravel(), minlength=border.count)
+        self.width = _shorter_side(area, border.length() / step) * size
+
+    def raised(self, max_size: float, whole_share: float = WHOLE_SHARE) -> np.ndarray:
+        """Return the cells of the regions whose border is mostly a drop.
+
+        Parameters
+        ----------
+        max_size : float
+            Largest width in metres.
+        whole_share : float
+            Share of the whole border that must be a drop, what lies beyond the survey included:
+            the topmost tread of a terrace has one drop, and the border of the survey.
+
+        Returns
+        -------
+        numpy.ndarray of bool, shape (rows, columns)
+        """
+        return self._bounded(max_size, 1, _OBJECT_SHARE, whole_share, _LEAST_STEEPNESS)
+
+    def sunken(self, max_size: float) -> np.ndarray:
+        """Return the cells of the regions whose border is a rise nearly all round: of pits.
+
+        Parameters
+        ----------
+        max_size : float
+            Largest width in metres.
+
+        Returns
+        -------
+        numpy.ndarray of bool, shape (rows, columns)
+        """
+        return self._bounded(max_size, -1, _PIT_SHARE, _PIT_SHARE, 0.0)
+
+    def _bounded(
+        self,
+        max_size: float,
+        sign: int,
+        share: float,
+        least_share: float,
+        least_steepness: float,
+    ) -> np.ndarray:
+        """Return the cells of regions bounded by drops (1) or rises (-1).
+
+        What one round finds is the unknown to the next, which sees what it hid: a roof below a
+        tower, a pit within a pit.
+        """
+        fits = self.width <= max_size
+        fits[0] = False
+        found = np.zeros(len(fits), dtype=bool)
+        for _ in range(_ROUNDS):
+            drops, known, pairs, height = self._border.drops(found, sign)
+            new = fits & ~found & (drops > 0) & (height >= least_steepness * self.width)
+            new &= (drops >= share * known) & (drops > least_share * pairs)
+            if not new.any():
+                break
+            found |= new
+        return found[self.number]
+
+
+class _Steps(NamedTuple):
+    """The differences between neighbouring cells, in one direction.
+
+    Attributes
+    ----------
+    row, column : int
+        The direction.
+    offset : int
+        From a cell to its neighbour, in the flattened grid.
+    sign : numpy.ndarray of int8
+        1 where the neighbour is higher by more than is allowed, -1 where it is lower, else 0.
+    """
+
+    row: int
+    column: int
+    offset: int
+    sign: np.ndarray
+
+
+class _Border(NamedTuple):
+    """The pairs of neighbouring cells that lie in different regions.
+
+    Attributes
+    ----------
+    count : int
+        One more than the largest number of a region.
+    first, second : numpy.ndarray of int32, shape (pairs,)
+        Region of either cell; 0 is the unknown.
+    sign : numpy.ndarray of int8, shape (pairs,)
+        As in `_Steps`, from the first to the second.
+    rise : numpy.ndarray of float32, shape (pairs,)
+        Height of the second above the first in metres, beyond the trend.
+    """
+
+    count: int
+    first: np.ndarray
+    second: np.ndarray
+    sign: np.ndarray
+    rise: np.ndarray
+
+    def length(self) -> np.ndarray:
+        """Return the length of each region's border in cells, if neighbours are one apart."""
+        all_ = np.ones(len(self.sign), dtype=bool)
+        # Each cell of a straight border has three neighbours beyond it.
+        return self._total(all_, all_) / 3.0
+
+    def drops(
+        self, removed: np.ndarray, sign: int = 1
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Sum up where each region drops to its neighbours.
+
+        Parameters
+        ----------
+        removed : numpy.ndarray of bool, shape (count,)
+            Regions that do not count as neighbours.
+        sign : int
+            -1 to sum up where it rises instead.
+
+        Returns
+        -------
+        drops, known, pairs : numpy.ndarray of int, shape (count,)
+            Pairs of cells where the region drops; of these and others, where the neighbour is
+            known; and all.
+        height : numpy.ndarray of float, shape (count,)
+            Mean height of the drops in metres.
+        """
+        pairs = ~(removed[self.first] | removed[self.second])
+        known = pairs & (self.first > 0) & (self.second > 0)
+        down, up = known & (self.sign == -sign), known & (self.sign == sign)
+        drops = self._total(down, up)
+        height = self._total(down, up, np.abs(self.rise)) / np.maximum(drops, 1)
+        return drops, self._total(known, known), self._total(pairs, pairs), height
+
+    def _total(
+        self, first: np.ndarray, second: np.ndarray, weights: np.ndarray | None = None
+    ) -> np.ndarray:
+        """Count, or add up the weights of, some pairs for the region of either cell."""
+        return sum(
+            np.bincount(region[which], weights if weights is None else weights[which], self.count)
+            for region, which in ((self.first, first), (self.second, second))
+        )
+
+
+def _shorter_side(area: np.ndarray, perimeter: np.ndarray) -> np.ndarray:
+    """Return the shorter side of rectangles; the square's for what is rounder than any."""
+    quarter = perimeter / 4.0
+    rest = quarter**2 - area
+    return np.where(rest < 0, np.sqrt(area), quarter - np.sqrt(np.maximum(rest, 0.0)))

@@ -1,0 +1,136 @@
+"""Points far below everything round them: multipath, birds under bridges, sensor faults."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...grids.inpaint import First, inpaint
+from ...grids.morphology import within_square
+
+# Metres from a pit between which cells bear witness: nearer ones may belong to the same fault.
+_NEAREST, _FARTHEST = 3.0, 10.0
+# Cells that lie as low as a pit: within so many metres, and so much for each metre of distance.
+_LEVEL, _LEVEL_SLOPE = 0.5, 0.2
+# But within this share of its depth.
+_DEPTH_SHARE = 0.33
+# So many cells at its level make a pit ground ...
+_LEAST_WITNESSES = 4
+# ... if they are at least this share of the cells of an even surface above it.
+_LEAST_SHARE = 0.15
+# Metres by which a cell of an even surface departs from the median of the 3 x 3 cells round it.
+_EVEN = 0.3
+
+
+def low_outliers(
+    grid: np.ndarray,
+    size: float,
+    slope: float,
+    first: First = (0, 0),
+    spares_supported: bool = True,
+) -> np.ndarray:
+    """Return which cells of a minimum grid lie in a narrow pit that terrain does not have.
+
+    The grid is closed by 3 x 3 cells (the opening of -z). What the closing fills deeper than
+    `slope` times the cell size is an outlier, unless it is `supported`.
+
+    Parameters
+    ----------
+    grid : numpy.ndarray of float, shape (rows, columns)
+        Lowest height of each cell in metres; NaN where there is none.
+    size : float
+        Side of a cell in metres.
+    slope : float
+        Rise over run, far above that of any terrain.
+    first : tuple of int
+        Row and column of the first cell in the grid of the CRS.
+    spares_supported : bool
+        False takes every pit for an outlier.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (rows, columns)
+
+    References
+    ----------
+    Pingel, T., Clarke, K., McBride, W. (2013): An improved simple morphological filter for the
+    terrain classification of airborne LIDAR data. ISPRS Journal 77, section 2.2.
+    """
+    filled = inpaint(grid, first=first)
+    closed = within_square(np.minimum, within_square(np.maximum, filled, 1), 1)
+    depth = np.where(np.isfinite(grid), closed - filled, 0.0)
+    pits = depth > slope * size
+    return pits & ~supported(grid, size, pits, depth, first) if spares_supported else pits
+
+
+def supported(
+    grid: np.ndarray,
+    size: float,
+    pits: np.ndarray,
+    depth: np.ndarray,
+    first: First = (0, 0),
+) -> np.ndarray:
+    """Return the pits that are ground: others lie as low, some metres away.
+
+    Under dense canopy the few cells that see the ground are pits, but they lie on one surface.
+    Faults are scattered: hardly any other lies at their level, or far fewer than lie on the even
+    surface above them.
+
+    Parameters
+    ----------
+    grid : numpy.ndarray of float, shape (rows, columns)
+        Lowest height of each cell in metres; NaN where there is none.
+    size : float
+        Side of a cell in metres.
+    pits : numpy.ndarray of bool, shape (rows, columns)
+        Cells that lie far below those next to them.
+    depth : numpy.ndarray of float, shape (rows, columns)
+        How far, in metres.
+    first : tuple of int
+        Row and column of the first cell in the grid of the CRS.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (rows, columns)
+    """
+    result = np.zeros(grid.shape, dtype=bool)
+    row, column = np.nonzero(pits)
+    if not len(row):
+        return result
+    rows, columns, level = _witnesses(size)
+    reach = int(np.ceil(_FARTHEST / size))
+    heights = np.pad(grid.astype(np.float32), reach, constant_values=np.nan)
+    even = np.pad(_even(grid, first), reach)
+    width = heights.shape[1]
+    centre = (row + reach) * width + column + reach
+    own, heights, even = heights.take(centre), heights.ravel(), even.ravel()
+    near, above, below = np.zeros((3, len(row)), dtype=np.int32)
+    most = (_DEPTH_SHARE * depth[row, column]).astype(np.float32)
+    for offset, at_most in zip((rows * width + columns).tolist(), level.tolist()):
+        allowed = np.minimum(most, np.float32(at_most))
+        there = centre + offset
+        rise = heights.take(there) - own
+        near += np.abs(rise) <= allowed
+        above += (rise > allowed) & even.take(there)
+        below += rise < -allowed
+    enough = np.maximum(_LEAST_WITNESSES, np.maximum(_LEAST_SHARE * above, below))
+    result[row, column] = near >= enough
+    return result
+
+
+def _witnesses(size: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the offsets of the cells that bear witness, in rows and columns, and their level."""
+    reach = int(np.ceil(_FARTHEST / size))
+    steps = np.arange(-reach, reach + 1)
+    rows, columns = (each.ravel() for each in np.meshgrid(steps, steps, indexing="ij"))
+    distance = np.hypot(rows, columns) * size
+    ring = (distance >= _NEAREST) & (distance <= _FARTHEST)
+    return rows[ring], columns[ring], _LEVEL + _LEVEL_SLOPE * distance[ring]
+
+
+def _even(grid: np.ndarray, first: First) -> np.ndarray:
+    """Return which cells of a grid lie on an even surface."""
+    from scipy import ndimage
+
+    filled = inpaint(grid, 2, first).astype(np.float32)
+    middle = ndimage.median_filter(filled, 3, mode="nearest")
+    return np.abs(grid - middle) <= _EVEN

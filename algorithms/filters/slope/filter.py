@@ -1,0 +1,390 @@
+"""Slope filter, exact on one scale or on many.
+
+References
+----------
+Vosselman, G. (2000): Slope based filtering of laser altimetry data. International Archives of
+Photogrammetry and Remote Sensing 33 (B3), 935-942.
+Lindsay, J. (2025): WhiteboxTools, LidarGroundPointFilter. https://www.whiteboxgeo.com/manual/
+Pingel, T., Clarke, K., McBride, W. (2013): An improved simple morphological filter for the terrain
+classification of airborne LIDAR data. ISPRS Journal 77, 21-30.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from ...core.errors import BareEarthError
+from ...core.parameters import ParameterSet, parameter
+from ...core.points import Points
+from ...core.progress import SILENT, Progress
+from ...grids.cells import Cells, spacing
+from ...grids.gradient import gradient
+from ...grids.inpaint import inpaint
+from ...grids.morphology import erosion
+from ..shared.doubts import tell_of_outliers
+from ..shared.ground_cells import ground_cells
+from ..shared.ground_limits import Tolerance
+from ..shared.lowest_points import LowestPoints
+from ..shared.near_ground import Candidates, near_ground
+from .low_clusters import low_clusters
+from .standing_above import Rule, stands_above
+
+# Metres between points up to which the automatic radius and cells are the least.
+_DENSE = 2.5
+# Radii grow by this factor from scale to scale: the area of the disc doubles.
+_SCALE_STEP = math.sqrt(2.0)
+# Rise over run of the sides of a pit some metres wide that holds low outliers.
+_CLUSTER_SLOPE = 2.0
+_CLUSTER_WIDTH = 6.0
+# They must lie below the terrain within this many search radii: the ground seen through a hole in
+# a large roof is a pit as well, but there is ground as low beyond the roof.
+_SURROUNDINGS = 3.0
+# Metres beyond which points do not matter: so many times the search radius, on one scale just what
+# erosion, dilation and comparison need, and at least this where it follows from the points.
+_REACH_RADII, _REACH_RADII_ON_ONE_SCALE, _LEAST_REACH = 5.0, 3.01, 100.0
+# The same for the largest building.
+_REACH_BUILDINGS = 2.0
+_WHITEBOX_RADIUS = 2.0
+# The preset that keeps to Whitebox's filter.
+CLASSIC = "whitebox"
+# Largest building where the search radius is given: so many times that.
+_WIDEST = 2.0
+
+
+class ManyScales(NamedTuple):
+    """What a preset stands for that looks at many scales.
+
+    Attributes
+    ----------
+    search_radius : float
+        The least, in metres.
+    slope_threshold : float
+        In degrees.
+    height_threshold, max_building_size : float
+        In metres.
+    """
+
+    search_radius: float
+    slope_threshold: float
+    height_threshold: float
+    max_building_size: float
+
+
+MANY_SCALES = {
+    "automatic": ManyScales(18.0, 15.0, 0.5, 100.0),
+    "flat": ManyScales(24.0, 15.0, 0.4, 100.0),
+    "hilly": ManyScales(15.0, 15.0, 0.5, 30.0),
+    "steep": ManyScales(12.0, 20.0, 0.5, 24.0),
+    "town": ManyScales(24.0, 15.0, 0.5, 100.0),
+    "city": ManyScales(50.0, 15.0, 0.5, 150.0),
+}
+
+
+@dataclass(frozen=True)
+class SlopeFilter(ParameterSet):
+    """Parameters of the slope filter, named as in Whitebox's *LidarGroundPointFilter*.
+
+    Those left empty are taken from the preset; `resolve` says which.
+    """
+
+    preset: str = parameter(
+        "automatic",
+        label="Preset",
+        choices={
+            "automatic": "Automatic (many scales, follows the terrain)",
+            "flat": "Flat land, fields",
+            "hilly": "Hilly land, forest",
+            "steep": "Steep or rugged terrain",
+            "town": "Town",
+            "city": "City, large halls",
+            CLASSIC: "Whitebox (one scale, 2 m, 45 deg, 1 m)",
+        },
+        help="Automatic finds buildings as well as shrubs; the kinds of terrain do so with other"
+        " values for what is left empty. Whitebox is the classic filter with the"
+        " values of WhiteboxTools: its radius of 2 m cannot see a building.",
+    )
+    search_radius: float | None = parameter(
+        None,
+        label="Search radius",
+        unit="m",
+        minimum=0.1,
+        maximum=500.0,
+        kind="number",
+        empty="automatic",
+        help="How far a point is compared with its neighbours, the largest distance in the"
+        " automatic preset: at least half the shorter side of the largest building. Empty: 18 m"
+        " (more if points are sparse), or 2 m in the preset Whitebox.",
+    )
+    min_neighbours: int = parameter(
+        0,
+        label="Minimum number of neighbours",
+        unit="points",
+        minimum=0,
+        maximum=10_000,
+        help="A point with fewer neighbours within the search radius is compared with this many"
+        " nearest ones. For the preset Whitebox only.",
+    )
+    slope_threshold: float | None = parameter(
+        None,
+        label="Slope threshold",
+        unit="deg",
+        minimum=0.0,
+        maximum=88.0,
+        kind="number",
+        empty="automatic",
+        help="A point is not ground if it stands above a neighbour at a steeper slope than this;"
+        " in the automatic preset, steeper by this than the terrain round it. Empty: 15 deg, or"
+        " 45 deg in the preset Whitebox.",
+    )
+    height_threshold: float | None = parameter(
+        None,
+        label="Height threshold",
+        unit="m",
+        minimum=0.0,
+        maximum=100.0,
+        kind="number",
+        empty="automatic",
+        help="Only points that stand above a neighbour by at least this much are not ground."
+        " Empty: 0.5 m, or 1 m in the preset Whitebox.",
+    )
+    slope_norm: bool = parameter(
+        True,
+        label="Slope normalisation",
+        help="Compare heights above a surface that follows the terrain (white top-hat) instead of"
+        " heights, so that sloping ground is not lost.",
+    )
+    cell_size: float | None = parameter(
+        None,
+        label="Cell size",
+        unit="m",
+        minimum=0.05,
+        maximum=50.0,
+        kind="number",
+        empty="automatic",
+        advanced=True,
+        help="Side of the cells whose lowest points are compared in the automatic preset. Empty:"
+        " 1 m, more if points are sparse.",
+    )
+    max_building_size: float | None = parameter(
+        None,
+        label="Maximum building size",
+        unit="m",
+        minimum=0.1,
+        maximum=500.0,
+        kind="number",
+        empty="automatic",
+        help="Shorter side of the largest building, which is found by the drop all round it even"
+        " if it is wider than two search radii. Empty: 100 m, or two search radii where that is"
+        " given. Not for the preset Whitebox.",
+    )
+    ground_tolerance: float = parameter(
+        0.18,
+        label="Ground tolerance",
+        unit="m",
+        minimum=0.0,
+        maximum=10.0,
+        advanced=True,
+        help="Points no higher above the surface through the ground are ground, in level terrain."
+        " Not for the preset Whitebox.",
+    )
+    slope_tolerance: float = parameter(
+        1.4,
+        label="Ground tolerance on slopes",
+        unit="m",
+        minimum=0.0,
+        maximum=10.0,
+        advanced=True,
+        help="What a slope of 45 degrees adds to the ground tolerance where points are a metre"
+        " apart. Less in proportion on gentler slopes, and where points are closer.",
+    )
+
+    def resolve(self, points: Points) -> SlopeFilter:
+        """Return the parameters with a value for each that was left empty.
+
+        Parameters
+        ----------
+        points : Points
+            The whole survey: its blocks must all be classified with the same values.
+
+        Returns
+        -------
+        SlopeFilter
+            Equal to this one if nothing was empty.
+        """
+        if self.preset == CLASSIC:
+            chosen = {
+                "search_radius": _WHITEBOX_RADIUS,
+                "slope_threshold": 45.0,
+                "height_threshold": 1.0,
+            }
+        else:
+            preset = MANY_SCALES[self.preset]
+            chosen = preset._asdict()
+            if self.search_radius is not None:
+                chosen["max_building_size"] = _WIDEST * self.search_radius
+            if self.search_radius is None or self.cell_size is None:
+                apart = spacing(points, _DENSE)
+                chosen["search_radius"] = max(preset.search_radius, round(4.0 * apart, 1))
+                chosen["cell_size"] = max(1.0, round(0.4 * apart, 1))
+        empty = {name: value for name, value in chosen.items() if getattr(self, name) is None}
+        return dataclasses.replace(self, **empty)
+
+
+def largest_object(parameters: SlopeFilter) -> float:
+    """Return the width in metres of the largest building that is looked for."""
+    given = parameters.search_radius
+    if parameters.preset == CLASSIC:
+        return _WIDEST * (given or _WHITEBOX_RADIUS)
+    if parameters.max_building_size is not None:
+        return parameters.max_building_size
+    return MANY_SCALES[parameters.preset].max_building_size if given is None else _WIDEST * given
+
+
+def reach(parameters: SlopeFilter) -> float:
+    """Return the metres beyond which a point does not matter for another."""
+    if parameters.preset == CLASSIC:
+        metres = _REACH_RADII_ON_ONE_SCALE * (parameters.search_radius or _WHITEBOX_RADIUS)
+        return max(_LEAST_REACH, metres) if parameters.min_neighbours else metres
+    preset = MANY_SCALES[parameters.preset]
+    radius = parameters.search_radius or preset.search_radius
+    size = largest_object(parameters)
+    return max(_LEAST_REACH, _REACH_RADII * radius, _REACH_BUILDINGS * size)
+
+
+def classify(points: Points, parameters: SlopeFilter, progress: Progress = SILENT) -> np.ndarray:
+    """Tell ground from other points.
+
+    A point is not ground if it stands above a neighbour by at least the height threshold and at a
+    slope above the slope threshold (Vosselman 2000, section 2).
+
+    Parameters
+    ----------
+    points : Points
+        All points that take part.
+    parameters : SlopeFilter
+        Distances in metres, angles in degrees.
+    progress : Progress
+        Receives progress and messages.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (n,)
+        True for ground.
+
+    Raises
+    ------
+    BareEarthError
+        If the points spread too far for a grid, or no ground is found.
+    Cancelled
+        If the user asked to stop.
+    """
+    resolved = parameters.resolve(points)
+    if resolved != parameters:
+        progress.info(_in_words(resolved))
+    if resolved.preset == CLASSIC:
+        return _on_one_scale(points, resolved, progress)
+    return _on_many_scales(points, resolved, progress)
+
+
+def _in_words(parameters: SlopeFilter) -> str:
+    if parameters.preset == CLASSIC:
+        last = f"minimum number of neighbours {parameters.min_neighbours}"
+    else:
+        last = (
+            f"cell size {parameters.cell_size:g} m, maximum building size"
+            f" {parameters.max_building_size:g} m"
+        )
+    return (
+        f"Slope filter: preset {parameters.preset}, search radius {parameters.search_radius:g} m,"
+        f" slope threshold {parameters.slope_threshold:g} deg, height threshold"
+        f" {parameters.height_threshold:g} m, {last}."
+    )
+
+
+def _on_one_scale(points: Points, parameters: SlopeFilter, progress: Progress) -> np.ndarray:
+    """Return the ground mask of the classic filter: every point against all its neighbours."""
+    rule = Rule(
+        parameters.search_radius,
+        parameters.height_threshold,
+        math.tan(math.radians(parameters.slope_threshold)),
+        parameters.slope_norm,
+    )
+    above = stands_above(points, rule, parameters.min_neighbours, progress)
+    progress(1.0)
+    return ~above
+
+
+def _on_many_scales(points: Points, parameters: SlopeFilter, progress: Progress) -> np.ndarray:
+    """Return the ground mask of the filter on the lowest points of cells, scale by scale."""
+    survey = LowestPoints(points, parameters.cell_size)
+    cells, heights = survey.cells, survey.heights
+    progress(0.2)
+    around = _SURROUNDINGS * parameters.search_radius
+    pits = low_clusters(heights, cells.size, _CLUSTER_SLOPE, _CLUSTER_WIDTH, around, cells.first)
+    heights[pits] = np.nan
+    tell_of_outliers(len(survey.lowest), heights, progress)
+    steep = _objects(heights, cells, parameters, progress.part(0.3, 0.5))
+    widest = parameters.max_building_size
+    tall = survey.objects(widest, progress.part(0.5, 0.6))
+    ground = ground_cells(
+        heights, cells.size, tall, widest / 2.0, first=cells.first, suspects=steep
+    )
+    if not ground.any():
+        raise BareEarthError(
+            "No point can be taken for ground with certainty. Check the thresholds and the"
+            " selection of points."
+        )
+    progress(0.7)
+    free = np.isfinite(heights) & ~tall
+    candidates = Candidates.of_cells(survey.lowest, survey.cell, ground, free)
+    tolerance = Tolerance(parameters.ground_tolerance, parameters.slope_tolerance)
+    return near_ground(points, cells, candidates, tolerance, progress.part(0.7, 1.0))
+
+
+def _objects(
+    lowest: np.ndarray, cells: Cells, parameters: SlopeFilter, progress: Progress
+) -> np.ndarray:
+    """Return which cells stand above another, on any scale, by more than the terrain allows.
+
+    The allowance at a distance is that of the disc's radius: a staircase on Vosselman's line.
+    """
+    known, size = np.isfinite(lowest), cells.size
+    reach = max(round(parameters.search_radius / size, 6), 1.0)
+    # Single precision (better than a millimetre) halves the time that the discs take.
+    heights = np.where(known, lowest, np.inf).astype(np.float32)
+    eroded = erosion(heights, reach)
+    slope = math.tan(math.radians(parameters.slope_threshold)) + _slope(eroded, cells, reach)
+    if parameters.slope_norm:
+        opened = -erosion(np.where(np.isfinite(eroded), -eroded, np.float32(np.inf)), reach)
+        heights[known] -= opened[known]
+    objects = np.zeros(lowest.shape, dtype=bool)
+    # Rounded, as a radius that falls short of whole cells by rounding alone would be another disc.
+    scales = range(int(2.0 * math.log2(reach)) + 1)
+    radii = [round(reach / _SCALE_STEP**scale, 6) for scale in scales]
+    for done, radius in enumerate(reversed(radii), start=1):
+        allowed = np.maximum(slope * radius * size, parameters.height_threshold)
+        objects |= known & (heights > erosion(heights, radius) + allowed)
+        progress(done / len(radii))
+    return objects
+
+
+def _slope(eroded: np.ndarray, cells: Cells, reach: float) -> np.ndarray:
+    """Return the slope of the terrain, rise over run, averaged over about the search radius.
+
+    The eroded surface has no objects. Its gradient is averaged, not its height, which a border
+    would flatten.
+    """
+
+    from scipy import ndimage
+
+    surface = inpaint(np.where(np.isfinite(eroded), eroded, np.nan), first=cells.first)
+    window = 2 * max(round(reach / 2), 1) + 1
+    slopes = gradient(surface, cells.size)
+    for _ in range(2):
+        slopes = [ndimage.uniform_filter(each, window, mode="nearest") for each in slopes]
+    return np.hypot(*slopes)

@@ -1,0 +1,270 @@
+"""Which points of some stand far above a neighbour, where the cells of a grid do not tell.
+
+They are compared point by point, in full precision, with those neighbours only that can still
+matter.
+"""
+
+from __future__ import annotations
+
+from typing import Callable, Iterator
+
+import numpy as np
+
+from ...grids.cells import lower_at
+from .cell_bounds import CellBounds
+from .sorted_points import EMPTY, ROUNDING, Table
+
+# Offsets of cells that are looked up at a time.
+_OFFSETS_A_STEP = 8
+# If more than so many of all cells divided by the radius in cells are asked for, it costs less to
+# find what is lowest in the discs of all cells.
+_MANY = 0.5
+
+
+class PointComparison:
+    """The erosion and the opening at points, exactly, and which of them stand above a neighbour.
+
+    Points are known by their indices in `CellBounds.points`.
+
+    Parameters
+    ----------
+    bounds : CellBounds
+        The points, what is asked, and what their cells tell.
+    alive : callable
+        Is called several times a second; what it raises ends the work.
+    """
+
+    def __init__(self, bounds: CellBounds, alive: Callable[[], None] = lambda: None) -> None:
+        self._bounds, self._points, self._rule = bounds, bounds.points, bounds.rule
+        self._alive = alive
+        # Without top-hat heights are compared as they are, but counted in steps from the base on.
+        self._zero = 0.0 if self._rule.top_hat else self._points.base
+        # Of all points, in metres; NaN where it is not known, or does not matter.
+        count = len(bounds.points.z)
+        self._eroded = np.full(count, np.nan)
+        self._opened = np.full(count, np.nan if bounds.rule.top_hat else 0.0)
+
+    def stands_above(self, at: np.ndarray) -> np.ndarray:
+        """Return which of some points stand far above a neighbour.
+
+        Parameters
+        ----------
+        at : numpy.ndarray of int, shape (k,)
+            The points, ascending; those that `CellBounds.decide` leaves in doubt.
+
+        Returns
+        -------
+        numpy.ndarray of bool, shape (k,)
+        """
+        bounds, points = self._bounds, self._points
+        found = np.zeros(len(at), dtype=bool)
+        if not self._rule.top_hat:
+            self._compare(at, np.arange(len(at)), found)
+            return found
+        needed, certain = bounds.heights_in_doubt(points.cell[at])
+        low = self._not_below(at)
+        left = np.flatnonzero(points.z[at] - low >= needed)
+        needed, certain, point = needed[left], certain[left], at[left]
+        # Where the opening is lower than this, it does not matter by how much.
+        self._open(point, np.maximum(low[left], points.z[point] - certain))
+        own = points.z[point] - self._opened[point]
+        found[left] = ~(own < certain)
+        asked = left[(own < certain) & (own >= needed)]
+        asked, matters, enough = self._compare(at, asked, found)
+        if len(asked):
+            low = bounds.lowest_opening(points.cell[matters])
+            self._open(matters, np.maximum(low, enough))
+            self._compare(at, asked, found)
+        return found
+
+    def _not_below(self, at: np.ndarray) -> np.ndarray:
+        """Return what the opening at some points (k,) is not below, by the cells of neighbours."""
+        points, eroded = self._points, self._bounds.eroded_low.ravel()
+        values = -(points.metres(eroded.take(points.cell)) - ROUNDING)
+        table = Table(points.table.start, -eroded, values)
+        best = -self._bounds.lowest_opening(points.cell[at])
+        self._lower(table, at, best, -1)
+        return -best
+
+    def _open(self, at: np.ndarray, enough: np.ndarray) -> None:
+        """Find the opening at some points (k,), unless it does not exceed `enough` (k,)."""
+        bounds, points = self._bounds, self._points
+        # The erosion of a neighbour matters if it exceeds that.
+        least = np.full(points.shape[0] * points.shape[1], EMPTY, dtype=np.int16)
+        lower_at(least, points.cell[at], points.steps(enough))
+        least = points.around(least.reshape(points.shape))
+        self._alive()
+        which = np.flatnonzero((bounds.eroded_high >= least).take(points.cell))
+        self._erode(which)
+        self._alive()
+        steps = points.steps(self._eroded[which])
+        left = np.flatnonzero(steps >= least.take(points.cell[which]))
+        which, steps = which[left], steps[left]
+        order = np.lexsort((-self._eroded[which], points.cell[which]))
+        which, steps = which[order], steps[order]
+        table = points.tabulated(points.cell[which], -steps, -self._eroded[which], which)
+        lowest = -enough
+        self._lower(table, at, lowest, -1)
+        raised = np.flatnonzero(lowest < -enough)
+        self._opened[at[raised]] = -lowest[raised]
+
+    def _erode(self, at: np.ndarray) -> None:
+        """Find the erosion at some points, in ascending order, where it is not known yet."""
+        at = at[np.isnan(self._eroded[at])]
+        best = self._points.z[at]
+        self._lower(self._points.table, at, best)
+        self._eroded[at] = best
+
+    def _lower(self, table: Table, at: np.ndarray, best: np.ndarray, sign: int = 1) -> None:
+        """Lower `best` (k,) to the least value of a neighbour.
+
+        Parameters
+        ----------
+        table : Table
+            The values.
+        at : numpy.ndarray of int, shape (k,)
+            For which points, in ascending order.
+        best : numpy.ndarray of float, shape (k,)
+            What is known to be the least.
+        sign : int
+            1 if the values are heights, -1 if they are heights negated.
+        """
+        if not len(at):
+            return
+        points = self._points
+        cell, offsets = points.cell[at], points.offsets
+        if len(at) * points.inner > _MANY * len(table.lowest):
+            offsets = points.rim
+            np.minimum(best, points.lowest_within(table).take(cell), out=best)
+        limit = sign * points.steps(sign * best)
+        for group in range(0, len(offsets), _OFFSETS_A_STEP):
+            self._alive()
+            hits, others = [], []
+            for offset in offsets[group : group + _OFFSETS_A_STEP]:
+                other = cell + offset
+                hit = np.flatnonzero(table.lowest.take(other) <= limit)
+                hits.append(hit)
+                others.append(other[hit])
+            which, other = np.concatenate(hits), np.concatenate(others)
+            neighbour, last = table.start[other], table.start[other + 1]
+            # From the lowest value of the other cell upwards, until one lies within the radius.
+            while len(which):
+                value = table.values[neighbour]
+                left = np.flatnonzero(value < best[which])
+                which, neighbour, last, value = (
+                    each[left] for each in (which, neighbour, last, value)
+                )
+                near = points.distance(
+                    at[which], neighbour if table.point is None else table.point[neighbour]
+                )
+                near = near <= self._rule.radius
+                lower = which[near]
+                lower_at(best, lower, value[near])
+                limit[lower] = sign * points.steps(sign * best[lower])
+                neighbour = neighbour + 1
+                left = np.flatnonzero(~near & (neighbour < last))
+                which, neighbour, last = which[left], neighbour[left], last[left]
+
+    def _compare(
+        self, at: np.ndarray, asked: np.ndarray, found: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Find which points whose opening is known stand above a neighbour.
+
+        Parameters
+        ----------
+        at : numpy.ndarray of int, shape (k,)
+            The points.
+        asked : numpy.ndarray of int
+            For which of them to find out.
+        found : numpy.ndarray of bool, shape (k,)
+            Receives True for those that certainly do.
+
+        Returns
+        -------
+        asked : numpy.ndarray of int
+            Those that may do so, depending on the opening at other points.
+        matters : numpy.ndarray of int
+            These other points, in ascending order.
+        enough : numpy.ndarray of float
+            How high the opening must be there to matter.
+        """
+        point = at[asked]
+        own = self._points.z[point] - self._opened[point]
+        sure = np.zeros(len(point), dtype=bool)
+        maybe = []
+        for candidates in self._candidates(point, own, sure):
+            maybe.extend(self._upwards(point, own, sure, *candidates))
+        found[asked[sure]] = True
+        possible = np.zeros(len(point), dtype=bool)
+        enough = np.full(len(self._points.z), np.inf)
+        for which, neighbour, least in maybe:
+            left = ~sure[which]
+            possible[which[left]] = True
+            lower_at(enough, neighbour[left], least[left])
+        matters = np.flatnonzero(enough < np.inf)
+        return asked[possible], matters, enough[matters]
+
+    def _candidates(
+        self, point: np.ndarray, own: np.ndarray, sure: np.ndarray
+    ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+        """Yield which points (j,) may stand above one of which cells, and the least rise to it.
+
+        Parameters
+        ----------
+        point : numpy.ndarray of int, shape (k,)
+            The points.
+        own : numpy.ndarray of float, shape (k,)
+            How high they lie above their opening.
+        sure : numpy.ndarray of bool, shape (k,)
+            Who needs no other neighbour; looked at each time anew.
+        """
+        points, rule, least = self._points, self._rule, self._bounds.least
+        allowed = np.maximum(rule.height, rule.slope * points.nearest)
+        fewest = np.floor(np.minimum(allowed / points.step, 32_000.0) - ROUNDING).astype(np.int16)
+        most = (np.floor((own - self._zero) / points.step) + 1.0).astype(np.int16)
+        allowed -= ROUNDING
+        left = np.arange(len(point))
+        for group in range(0, len(points.offsets), _OFFSETS_A_STEP):
+            self._alive()
+            part = slice(group, group + _OFFSETS_A_STEP)
+            left = left[~sure[left]]
+            cell = points.cell[point[left], None] + points.offsets[part]
+            hit = np.flatnonzero(least.take(cell) <= most[left, None] - fewest[part])
+            if len(hit):
+                which, offset = np.divmod(hit, cell.shape[1])
+                yield left[which], cell.ravel()[hit], allowed[part][offset]
+
+    def _upwards(
+        self,
+        point: np.ndarray,
+        own: np.ndarray,
+        sure: np.ndarray,
+        which: np.ndarray,
+        other: np.ndarray,
+        least: np.ndarray,
+    ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+        """Compare points with those of other cells, from the lowest of each cell upwards.
+
+        `point`, `own` and `sure` (k,) are those of `_candidates`, and the others (j,) what it
+        yields. Sets `sure` where a point stands above a neighbour. Yields who may stand above
+        which neighbour, and how high the opening must be there.
+        """
+        bounds, points, rule = self._bounds, self._points, self._rule
+        neighbour, last = points.table.start[other], points.table.start[other + 1]
+        low, high = bounds.lowest_opening(other), bounds.highest_opening(other)
+        while len(which):
+            z, opened, mine = points.z[neighbour], self._opened[neighbour], own[which]
+            distance = points.distance(point[which], neighbour)
+            far = np.where(distance <= rule.radius, rule.slope * distance, np.inf)
+            unknown = np.isnan(opened)
+            rise = mine - (z - np.where(unknown, low, opened))
+            sure[which[(rise >= rule.height) & (rise > far)]] = True
+            rise = mine - np.maximum(z - high, 0.0)
+            may = unknown & (rise >= rule.height) & (rise > far) & ~sure[which]
+            needed = z[may] - mine[may] + np.maximum(rule.height, far[may]) - ROUNDING
+            yield which[may], neighbour[may], needed
+            neighbour = neighbour + 1
+            go = np.flatnonzero(~sure[which] & (neighbour < last) & (rise - self._zero >= least))
+            which, neighbour, last, high, low, least = (
+                each[go] for each in (which, neighbour, last, high, low, least)
+            )

@@ -1,0 +1,222 @@
+"""Points in the order of the cells of a grid, for what is near a point and how low it lies.
+
+Heights are counted in small whole steps besides: a grid of the lowest step of each cell takes two
+bytes a cell, and its morphology is fast.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from ...core.points import Points
+from ...grids.morphology import erosion, within_square
+from .neighbourhood import cell_size
+
+# So small that a cell holds few points, unless a disc or the plane had too many of them.
+_POINTS_A_CELL = 1.0
+_MOST_CELLS_A_RADIUS = 48
+# Metres of a step, unless that makes more than fit into 16 bits with room for sums of two.
+_STEP, MOST_STEPS = 0.01, 32_000
+# The step of cells without points.
+EMPTY = 32_767
+# Cells, steps and metres by which bounds are widened, so that rounding never decides; points
+# themselves are compared without it.
+ROUNDING = 1e-5
+
+
+class Table(NamedTuple):
+    """Values in the order of their cells and, within a cell, ascending.
+
+    Attributes
+    ----------
+    start : numpy.ndarray of int32, shape (cells + 1,)
+        Where those of each cell begin.
+    lowest : numpy.ndarray of int16, shape (cells,)
+        How low the first one of each cell is in steps; `EMPTY` where there is none.
+    values : numpy.ndarray of float, shape (m,)
+        The values in metres.
+    point : numpy.ndarray of int, shape (m,), optional
+        Which points have them, if not all.
+    """
+
+    start: np.ndarray
+    lowest: np.ndarray
+    values: np.ndarray
+    point: np.ndarray | None = None
+
+
+class SortedPoints:
+    """Points in the order of their cells and, within a cell, of their heights.
+
+    Points and cells are known by their indices in this order and in the flattened grid.
+
+    Parameters
+    ----------
+    points : Points
+        The points.
+    radius : float
+        Metres, greater than 0; points at exactly this distance are neighbours.
+
+    Attributes
+    ----------
+    x, y, z : numpy.ndarray of float, shape (n,)
+        Coordinates in metres.
+    cell : numpy.ndarray of int, shape (n,)
+        The cell of each point.
+    level : numpy.ndarray of int16, shape (n,)
+        In which step each point lies.
+    table : Table
+        The heights of all points.
+    size, inner : float
+        Metres of a cell; cells whose centres are at most `inner` cells apart are within the radius
+        from end to end (none is if this is negative).
+    base, step : float
+        The height in metres at which the steps begin, and metres of a step.
+    shape : tuple of int
+        Rows and columns of the grid. It has a margin: no offset leaves it.
+    offsets, nearest : numpy.ndarray, shape (m,)
+        From a cell to those that a disc round any place in it can touch, and how near these are at
+        least in metres, ascending.
+    rim : numpy.ndarray of int, shape (l,)
+        Those of the offsets that `inner` does not cover.
+    """
+
+    def __init__(self, points: Points, radius: float) -> None:
+        self._radius = radius
+        self.size = cell_size(points, radius, _POINTS_A_CELL, _MOST_CELLS_A_RADIUS)
+        self.inner = radius / self.size - math.sqrt(2.0) - ROUNDING
+        self._reach = math.ceil(radius / self.size + ROUNDING)
+        self._sort(points)
+        self._set_offsets()
+
+    def as_given(self, values: np.ndarray) -> np.ndarray:
+        """Return values (n,) of the points, in the order in which the points were given."""
+        result = np.empty_like(values)
+        result[self._order] = values
+        return result
+
+    def as_sorted(self, values: np.ndarray) -> np.ndarray:
+        """Return values (n,) of the points as they were given, in the order of this class."""
+        return values[self._order]
+
+    def tabulated(
+        self,
+        cell: np.ndarray,
+        steps: np.ndarray,
+        values: np.ndarray,
+        point: np.ndarray | None = None,
+    ) -> Table:
+        """Return the table of some values (m,).
+
+        Parameters
+        ----------
+        cell : numpy.ndarray of int, shape (m,)
+            Their cells, ascending.
+        steps : numpy.ndarray of int16, shape (m,)
+            How low they are in steps.
+        values : numpy.ndarray of float, shape (m,)
+            The values in metres, ascending within a cell.
+        point : numpy.ndarray of int, shape (m,), optional
+            Which points have them, if not all.
+
+        Returns
+        -------
+        Table
+        """
+        cells = self.shape[0] * self.shape[1]
+        start = np.zeros(cells + 1, dtype=np.int32)
+        np.cumsum(np.bincount(cell, minlength=cells), out=start[1:])
+        first = np.flatnonzero(np.diff(cell, prepend=-1))
+        lowest = np.full(cells, EMPTY, dtype=np.int16)
+        lowest[cell[first]] = steps[first]
+        return Table(start, lowest, values, point)
+
+    def lowest_within(self, table: Table) -> np.ndarray:
+        """Return the least value in the cells that are within the radius from end to end.
+
+        Parameters
+        ----------
+        table : Table
+            The values.
+
+        Returns
+        -------
+        numpy.ndarray of float, shape (rows, columns)
+            Metres; inf where there is none.
+        """
+        least = np.full(self.shape, np.inf)
+        occupied = np.flatnonzero(table.lowest != EMPTY)
+        least.ravel()[occupied] = table.values[table.start[occupied]]
+        return erosion(least, self.inner)
+
+    def around(self, grid: np.ndarray, radius: float | None = None) -> np.ndarray:
+        """Return the minimum of a grid over the cells that a disc round each cell can touch.
+
+        Parameters
+        ----------
+        grid : numpy.ndarray of int16, shape (rows, columns)
+            Steps.
+        radius : float, optional
+            Of the disc in metres; the radius of the neighbours if not given.
+
+        Returns
+        -------
+        numpy.ndarray of int16, shape (rows, columns)
+        """
+        radius = self._radius if radius is None else radius
+        return within_square(np.minimum, erosion(grid, radius / self.size + ROUNDING), 1)
+
+    def distance(self, point: np.ndarray, other: np.ndarray) -> np.ndarray:
+        """Return the distances of some points (k,) from as many others in the plane, in metres."""
+        x, y = self.x[point] - self.x[other], self.y[point] - self.y[other]
+        return np.sqrt(x * x + y * y)
+
+    def metres(self, steps: np.ndarray) -> np.ndarray:
+        """Return the heights in metres at which steps (k,) begin."""
+        return self.base + self.step * steps
+
+    def steps(self, heights: np.ndarray) -> np.ndarray:
+        """Return in which steps, int16, heights in metres (k,) lie; all beyond are drawn near."""
+        steps = np.floor((heights - self.base) / self.step)
+        return np.clip(steps, -1, MOST_STEPS + 1).astype(np.int16)
+
+    def _sort(self, points: Points) -> None:
+        x, y, z = points
+        reach = self._reach
+        cell = ((y - y.min()) / self.size).astype(np.int64) + reach
+        column = ((x - x.min()) / self.size).astype(np.int64) + reach
+        self.shape = int(cell.max()) + 1 + reach, int(column.max()) + 1 + reach
+        cell *= self.shape[1]
+        cell += column
+        self.base, range_ = float(z.min()), float(np.ptp(z))
+        height = z - self.base
+        fine = (height * ((2**32 - 1) / max(range_, 1.0))).astype(np.int64)
+        order = np.argsort((cell << 32) + fine)
+        sorted_cell, sorted_z = cell[order], z[order]
+        if np.any((np.diff(sorted_z) < 0.0) & (np.diff(sorted_cell) == 0)):
+            order = np.lexsort((z, cell))  # some heights are all but equal
+            sorted_cell, sorted_z = cell[order], z[order]
+        self._order, self.cell = order, sorted_cell
+        self.x, self.y, self.z = x[order], y[order], sorted_z
+        self.step = max(_STEP, range_ / MOST_STEPS)
+        self.level = (height[order] / self.step).astype(np.int16)
+        self.table = self.tabulated(self.cell, self.level, self.z)
+
+    def _set_offsets(self) -> None:
+        """Find which cells a disc round any place in a cell can touch."""
+        side = np.arange(-self._reach, self._reach + 1)
+        row, column = np.repeat(side, len(side)), np.tile(side, len(side))
+        nearest = np.hypot(*(np.maximum(np.abs(each) - 1, 0) for each in (row, column)))
+        nearest *= self.size
+        touched = np.flatnonzero(nearest <= self._radius + ROUNDING * self.size)
+        touched = touched[np.argsort(nearest[touched], kind="stable")]
+        offset = row * self.shape[1] + column
+        self.offsets, self.nearest = offset[touched], nearest[touched]
+        # What is lowest is most likely found first where the disc ends.
+        between = np.hypot(row, column)[touched]
+        rim = np.flatnonzero(between > self.inner)
+        outermost = np.abs(between[rim] - self._radius / self.size + 0.5)
+        self.rim = self.offsets[rim[np.argsort(outermost, kind="stable")]]

@@ -1,0 +1,135 @@
+"""Which points stand far above a neighbour: the decision of the classic slope filter."""
+
+from __future__ import annotations
+
+import math
+import threading
+from typing import Callable
+
+import numpy as np
+
+from ...core.points import Points
+from ...core.progress import SILENT, Progress
+from ...core.threads import over_parts
+from .cell_bounds import CellBounds, Rule
+from .neighbourhood import Neighbourhood
+from .point_comparison import PointComparison
+
+# Blocks of about so many points: their tables fit into the processor's cache, and they are done in
+# less than a second.
+_POINTS_A_BLOCK = 400_000
+# Heights above the opening depend on points so many radii away, and with them the answer.
+_REACH = 3.0
+# A block is so many radii wide or more, or most of the points looked at would lie round it.
+_LEAST_WIDTH = 16.0
+# So many values tell well enough where to cut.
+_SAMPLE = 10_000
+_ROUNDING = 1e-6
+
+
+def stands_above(
+    points: Points, rule: Rule, at_least: int = 0, progress: Progress = SILENT
+) -> np.ndarray:
+    """Return which points stand far above one of their neighbours.
+
+    Parameters
+    ----------
+    points : Points
+        All points.
+    rule : Rule
+        Which points are compared, and what counts.
+    at_least : int
+        See `Neighbourhood`.
+    progress : Progress
+        Receives progress.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (n,)
+
+    Raises
+    ------
+    BareEarthError
+        If the points spread too far for a grid.
+    """
+    if at_least:
+        neighbourhood = Neighbourhood(points, rule.radius, at_least)
+        if not neighbourhood.same_radius:
+            return _everywhere(neighbourhood, points.z, rule, progress)
+    above = np.zeros(points.count, dtype=bool)
+    done = 0.0
+    sides = math.sqrt(points.count / _POINTS_A_BLOCK)
+    for interval in _intervals(points.y, sides, rule.radius):
+        strip = _Strip(points, rule, *interval)
+        share = strip.count / points.count
+        strip.mark(above, progress.part(done, done + share))
+        done += share
+    return above
+
+
+class _Strip:
+    """The points from one y up to another, with those that matter for them."""
+
+    def __init__(self, points: Points, rule: Rule, south: float, north: float) -> None:
+        self._points, self._rule = points, rule
+        self._reach = _REACH * rule.radius * (1.0 + _ROUNDING)
+        beyond = (points.y < south - self._reach) | (points.y >= north + self._reach)
+        self._near = np.flatnonzero(~beyond)
+        self._x, y = points.x[self._near], points.y[self._near]
+        self._asked = (y >= south) & (y < north)
+        self.count = int(np.count_nonzero(self._asked))
+
+    def mark(self, above: np.ndarray, progress: Progress) -> None:
+        """Set `above` (n,) to True for the points of the strip that stand above a neighbour."""
+        blocks = _intervals(self._x, self.count / _POINTS_A_BLOCK, self._rule.radius)
+        caller = threading.get_ident()
+
+        def fill(part: slice) -> None:
+            (west, east), x = blocks[part.start], self._x
+            near = np.flatnonzero((x >= west - self._reach) & (x < east + self._reach))
+            asked = self._asked[near] & (x[near] >= west) & (x[near] < east)
+            if asked.any():
+                which = self._near[near]
+
+                def alive() -> None:
+                    # Progress is for the calling thread only.
+                    if threading.get_ident() == caller:
+                        progress(part.start / len(blocks))
+
+                found = _of_block(self._points.take(which), self._rule, asked, alive)
+                above[which[found]] = True
+
+        over_parts(fill, len(blocks), 1, progress)
+
+
+def _of_block(
+    points: Points, rule: Rule, asked: np.ndarray, alive: Callable[[], None]
+) -> np.ndarray:
+    """Return which of the points asked for (n,) stand above a neighbour: by cell, then exactly."""
+    bounds = CellBounds(points, rule, alive)
+    above, doubtful = bounds.decide(asked)
+    if len(doubtful):
+        above[doubtful] = PointComparison(bounds, alive).stands_above(doubtful)
+    return bounds.points.as_given(above)
+
+
+def _intervals(values: np.ndarray, count: float, radius: float) -> list[tuple[float, float]]:
+    """Return about `count` intervals, from -inf to inf, that hold about equally many values."""
+    widest = float(np.ptp(values)) / (_LEAST_WIDTH * radius)
+    count = max(math.ceil(min(count, widest)), 1)
+    sample = values[:: max(len(values) // _SAMPLE, 1)]
+    between = np.quantile(sample, np.arange(1, count) / count).tolist()
+    return list(zip([-np.inf, *between], [*between, np.inf]))
+
+
+def _everywhere(
+    neighbourhood: Neighbourhood, z: np.ndarray, rule: Rule, progress: Progress
+) -> np.ndarray:
+    """Return the same where the neighbourhoods of some points have grown: all heights exact."""
+    heights = z
+    if rule.top_hat:
+        eroded = neighbourhood.minimum(z, progress.part(0.0, 0.4))
+        opened = neighbourhood.maximum(eroded, progress.part(0.4, 0.8))
+        # Where a neighbourhood grew it may not contain the point itself from the other's view.
+        heights = z - np.minimum(opened, z)
+    return neighbourhood.stands_above(heights, rule.height, rule.slope, progress.part(0.8, 1.0))

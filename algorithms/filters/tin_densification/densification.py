@@ -1,0 +1,316 @@
+"""Progressive densification of a TIN: points join it that lie close to its facets.
+
+References
+----------
+Axelsson, P. (2000): DEM generation from laser scanner data using adaptive TIN models.
+International Archives of Photogrammetry and Remote Sensing 33 (B4), section 3.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from ...core.points import Points
+from ...core.progress import Progress
+from ...grids.cells import Cells
+from ...grids.inpaint import inpaint
+from ...grids.morphology import within_square
+from ...grids.tin import Tin
+
+# Metres between the virtual points round the survey.
+_RING_SPACING = 5.0
+# How many times the iteration distance a candidate may lie off the seeds' smooth surface: no facet
+# comes as close to those farther away.
+_REACHABLE = 3.0
+# With more vertices in the 3 x 3 cells round a candidate its triangle is too small to take it.
+_MOST_VERTICES_ROUND = 4
+
+# Rounds end where none is added: how many are far away must not matter.
+_MOST_ROUNDS = 8
+
+
+@dataclass(frozen=True)
+class DensificationRules:
+    """When a point becomes a vertex; distances in metres, angles in degrees.
+
+    Attributes
+    ----------
+    iteration_angle : float
+        Largest angle between the facet and the line from one of its corners to the point.
+    iteration_distance : float
+        Largest distance from the facet.
+    max_terrain_angle : float
+        On steeper facets the mirror image of the point beyond the nearest corner is judged.
+    reduce_angle_edge : float or None
+        In triangles whose longest edge is shorter the angle is reduced in proportion.
+    stop_edge : float or None
+        Triangles whose longest edge is shorter take no point.
+    noise_distance : float
+        A point as close to the facet is taken whatever its angle.
+    """
+
+    iteration_angle: float
+    iteration_distance: float
+    max_terrain_angle: float
+    reduce_angle_edge: float | None
+    stop_edge: float | None
+    noise_distance: float
+
+
+def densified(
+    points: Points,
+    first: np.ndarray,
+    waiting: np.ndarray,
+    heights: np.ndarray,
+    cells: Cells,
+    spacing: float,
+    rules: DensificationRules,
+    progress: Progress,
+) -> np.ndarray:
+    """Return the indices of the candidates that join the first vertices.
+
+    Only candidates in gaps between vertices are looked at, and only the vertices are triangulated
+    that may bound a triangle in which one lies.
+
+    Parameters
+    ----------
+    points : Points
+        All points.
+    first, waiting : numpy.ndarray of int
+        Indices of the first vertices, and of the candidates.
+    heights : numpy.ndarray of float64, shape (rows, columns)
+        The lowest height of the first vertices in each cell; NaN where there is none.
+    cells : Cells
+        Those of the points; each holds one vertex or candidate, as a rule.
+    spacing : float
+        Usual distance in metres between the points of the survey.
+    rules : DensificationRules
+        Which candidates join.
+    progress : Progress
+        Receives progress.
+
+    Returns
+    -------
+    numpy.ndarray of intp
+    """
+    surface, holding = inpaint(heights, first=cells.first), np.isfinite(heights)
+    in_gap = _counts_round(holding) <= _MOST_VERTICES_ROUND
+    waiting = waiting[in_gap.ravel()[cells.index[waiting]]]
+    candidates = points.take(waiting)
+    distance = np.abs(candidates.z - cells.at(surface, candidates.x, candidates.y))
+    slope = _steepness_at(cells, surface, candidates)
+    reachable = distance <= _REACHABLE * rules.iteration_distance * np.hypot(1.0, slope)
+    waiting = waiting[reachable]
+    progress(0.1)
+    reach = math.ceil(max(spacing / cells.size, 1.0))
+    survey = _Survey(points, cells, _ring(cells, surface), reach)
+    joined = _joined(survey, first, waiting, rules, progress.part(0.1, 1.0))
+    return joined
+
+
+def with_lower(heights: np.ndarray, cells: Cells, points: Points, which: np.ndarray) -> np.ndarray:
+    """Return a grid of lowest heights (NaN where there is none) with some more points."""
+    lowest = heights.ravel().copy()
+    np.fmin.at(lowest, cells.index[which], points.z[which])
+    return lowest.reshape(heights.shape)
+
+
+def _steepness_at(cells: Cells, surface: np.ndarray, points: Points) -> np.ndarray:
+    """Return how steep a surface over cells is at some points, rise over run."""
+    step, (x, y, _) = cells.size, points
+    north = cells.at(surface, x, y + step) - cells.at(surface, x, y - step)
+    east = cells.at(surface, x + step, y) - cells.at(surface, x - step, y)
+    return np.hypot(north, east) / (2.0 * step)
+
+
+class _Survey(NamedTuple):
+    """What the TIN of each round is made of.
+
+    Attributes
+    ----------
+    points : Points
+        All points.
+    cells : Cells
+        Those of the points.
+    ring : Points
+        Vertices round all cells (see `_ring`).
+    reach : int
+        Cells over which vertices are next to each other.
+    """
+
+    points: Points
+    cells: Cells
+    ring: Points
+    reach: int
+
+    def tin_round(self, vertices: np.ndarray, waiting: np.ndarray) -> Tin:
+        """Return the TIN of the vertices that may bound triangles in which candidates lie."""
+        holding = (_holding(self.cells, each) for each in (vertices, waiting))
+        needed = _bounding(*holding, self.reach).ravel()
+        bounding = self.points.take(vertices[needed[self.cells.index[vertices]]])
+        return Tin(*bounding.and_also(self.ring))
+
+
+def _holding(cells: Cells, which: np.ndarray) -> np.ndarray:
+    """Return which cells hold one of some points."""
+    holding = np.zeros(cells.rows * cells.columns, dtype=bool)
+    holding[cells.index[which]] = True
+    return holding.reshape(cells.shape)
+
+
+def _counts_round(mask: np.ndarray) -> np.ndarray:
+    """Return how many of the 3 x 3 cells round each cell a mask holds."""
+    padded = np.pad(mask.astype(np.int8), 1)
+    rows = padded[:-2] + padded[1:-1] + padded[2:]
+    return rows[:, :-2] + rows[:, 1:-1] + rows[:, 2:]
+
+
+def _ring(cells: Cells, surface: np.ndarray) -> Points:
+    """Return virtual points round all cells, at multiples of their spacing wherever these begin.
+
+    Without them, ground beyond the hull of the seeds would have no triangle to be judged by.
+    """
+    (south, north), (west, east) = (
+        (first * cells.size, (first + count) * cells.size)
+        for first, count in zip(cells.first, cells.shape)
+    )
+    x, y = _multiples(west, east), _multiples(south, north)
+    ring_x = np.concatenate((x, x, np.full(len(y), west), np.full(len(y), east)))
+    ring_y = np.concatenate((np.full(len(x), south), np.full(len(x), north), y, y))
+    return Points(ring_x, ring_y, cells.at(surface, ring_x, ring_y))
+
+
+def _multiples(start: float, end: float) -> np.ndarray:
+    """Return both ends of a line and the multiples of the ring's spacing between them."""
+    first, last = math.ceil(start / _RING_SPACING), math.floor(end / _RING_SPACING)
+    return np.unique(np.r_[start, np.arange(first, last + 1) * _RING_SPACING, end])
+
+
+def _joined(
+    survey: _Survey,
+    first: np.ndarray,
+    waiting: np.ndarray,
+    rules: DensificationRules,
+    progress: Progress,
+) -> np.ndarray:
+    """Return the indices of the candidates that join the first vertices, round by round."""
+    vertices = first
+    for round_ in range(_MOST_ROUNDS):
+        tin = survey.tin_round(vertices, waiting)
+        triangle = tin.locate(survey.points.x[waiting], survey.points.y[waiting])
+        waiting, triangle = waiting[triangle >= 0], triangle[triangle >= 0]
+        candidates = survey.points.take(waiting)
+        new, mirrored = _round(tin, triangle, candidates, rules)
+        vertices = np.concatenate((vertices, waiting[new]))
+        if not len(new):
+            break
+        # The others lie in the same triangle as before, which did not take them.
+        changed = mirrored | tin.lost(triangle, candidates.x[new], candidates.y[new])
+        changed[new] = False
+        waiting = waiting[changed]
+        progress((round_ + 1) / _MOST_ROUNDS)
+    return vertices[len(first) :]
+
+
+def _bounding(vertices: np.ndarray, waiting: np.ndarray, reach: int) -> np.ndarray:
+    """Return the vertices that may bound a triangle in which a candidate lies.
+
+    A triangulation of these alone has the same triangles there: those near candidates, and those
+    round the gaps in which candidates lie. All others, most by far, would only cost time.
+
+    Parameters
+    ----------
+    vertices, waiting : numpy.ndarray of bool, shape (rows, columns)
+        Cells that hold a vertex, and cells that hold a candidate.
+    reach : int
+        Cells over which vertices are next to each other: what is farther from all is a gap.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (rows, columns)
+    """
+    from scipy import ndimage
+
+    gaps, count = ndimage.label(~within_square(np.maximum, vertices, reach), np.ones((3, 3)))
+    near = within_square(np.maximum, waiting, reach + 1)
+    wanted = np.zeros(count + 1, dtype=bool)
+    wanted[gaps[near]] = True
+    wanted[0] = False
+    round_gaps = within_square(np.maximum, wanted[gaps], 3 * reach)
+    return vertices & (within_square(np.maximum, waiting, 2 * reach) | round_gaps)
+
+
+def _round(
+    tin: Tin, triangle: np.ndarray, points: Points, rules: DensificationRules
+) -> tuple[np.ndarray, np.ndarray]:
+    """Judge candidates by the triangles in which they lie.
+
+    Returns
+    -------
+    new : numpy.ndarray of intp
+        Indices of the candidates to add, at most one of each triangle.
+    mirrored : numpy.ndarray of bool, shape (candidates,)
+        Candidates that were judged in another triangle, as their own is too steep.
+    """
+    distance, angle, longest, mirrored = _distance_and_angle(tin, triangle, points, rules)
+    allowed = np.full(len(triangle), math.radians(rules.iteration_angle))
+    if rules.reduce_angle_edge:
+        allowed *= np.minimum(longest / rules.reduce_angle_edge, 1.0)
+    fits = (distance <= rules.noise_distance) | (
+        (distance <= rules.iteration_distance) & (angle <= allowed)
+    )
+    if rules.stop_edge:
+        fits &= longest >= rules.stop_edge
+    fitting = np.flatnonzero(fits)
+    order = np.lexsort((points.y[fitting], points.x[fitting], distance[fitting], triangle[fitting]))
+    fitting = fitting[order]
+    first = np.ones(len(fitting), dtype=bool)
+    first[1:] = np.diff(triangle[fitting]) != 0
+    return fitting[first], mirrored
+
+
+def _distance_and_angle(
+    tin: Tin, triangle: np.ndarray, points: Points, rules: DensificationRules
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Return distance to the facet, largest angle at its corners (rad), and its longest edge.
+
+    Last, of which points the mirror image was judged.
+    """
+    corners = tin.triangles[triangle]
+    x, y, z = tin.x[corners], tin.y[corners], tin.z[corners]
+    normal, longest = _facets(x, y, z)
+    steep = np.arctan(np.hypot(normal[0], normal[1])) > math.radians(rules.max_terrain_angle)
+    px, py, pz = points.x.copy(), points.y.copy(), points.z
+    if steep.any():
+        nearest = np.argmin((x - px[:, None]) ** 2 + (y - py[:, None]) ** 2, axis=1)
+        vertex = corners[np.arange(len(corners)), nearest]
+        px[steep] = 2 * tin.x[vertex[steep]] - px[steep]
+        py[steep] = 2 * tin.y[vertex[steep]] - py[steep]
+        beyond = tin.locate(px[steep], py[steep])
+        inside = np.flatnonzero(steep)[beyond >= 0]
+        corners[inside] = tin.triangles[beyond[beyond >= 0]]
+        x, y, z = tin.x[corners], tin.y[corners], tin.z[corners]
+        normal, _ = _facets(x, y, z)
+    height = pz - (z[:, 0] + normal[0] * (px - x[:, 0]) + normal[1] * (py - y[:, 0]))
+    distance = np.abs(height) / np.sqrt(1.0 + normal[0] ** 2 + normal[1] ** 2)
+    reach = np.sqrt((x - px[:, None]) ** 2 + (y - py[:, None]) ** 2 + (z - pz[:, None]) ** 2).min(
+        axis=1
+    )
+    angle = np.arcsin(np.clip(distance / np.maximum(reach, 1e-9), 0.0, 1.0))
+    return distance, angle, longest, steep
+
+
+def _facets(
+    x: np.ndarray, y: np.ndarray, z: np.ndarray
+) -> tuple[tuple[np.ndarray, np.ndarray], np.ndarray]:
+    """Return the gradient of each facet, in x and y, and its longest edge in the plane."""
+    ux, uy, uz = x[:, 1] - x[:, 0], y[:, 1] - y[:, 0], z[:, 1] - z[:, 0]
+    vx, vy, vz = x[:, 2] - x[:, 0], y[:, 2] - y[:, 0], z[:, 2] - z[:, 0]
+    area = np.maximum(ux * vy - uy * vx, 1e-12)
+    gradient = (uz * vy - uy * vz) / area, (ux * vz - uz * vx) / area
+    edges = ux**2 + uy**2, vx**2 + vy**2, (vx - ux) ** 2 + (vy - uy) ** 2
+    return gradient, np.sqrt(np.maximum.reduce(edges))

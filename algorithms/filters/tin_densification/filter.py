@@ -1,0 +1,358 @@
+"""Improved progressive TIN densification.
+
+References
+----------
+Axelsson, P. (2000): DEM generation from laser scanner data using adaptive TIN models.
+International Archives of Photogrammetry and Remote Sensing 33 (B4), 110-117.
+Zhao, X., Guo, Q., Su, Y., Xue, B. (2016): Improved progressive TIN densification filtering
+algorithm for airborne LiDAR data in forested areas. ISPRS Journal 117, 79-91.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...core.errors import BareEarthError
+from ...core.parameters import ParameterSet, parameter, parameter_of
+from ...core.points import Points
+from ...core.progress import SILENT, Progress
+from ...grids.cells import Cells, spacing
+from ...grids.model_key_points import ModelKeyPoints, model_key_points
+from ..shared.breaks import checked_seeds
+from ..shared.doubts import tell_of_outliers
+from ..shared.ground_cells import CLASSIC as CLASSIC_ALLOWANCE
+from ..shared.ground_limits import NOISE_SPACING, Tolerance, ground_limits, plain_limits
+from ..shared.lowest_points import LowestPoints
+from ..shared.near_surface import near_surface
+from .densification import DensificationRules, densified, with_lower
+from .seeds import seeds_of_one_grid, seeds_of_two_grids
+
+# Side in metres of the cells whose lowest points may become vertices of the TIN, and of those where
+# points are so dense that their noise is measured.
+_CELL, _DENSE_CELL = 1.0, 0.5
+# Metres between points up to which each cell holds so many that it hardly matters where it begins,
+# that its lowest is hardly ever a plant, and that no break is lost between them.
+_CROWDED = 0.36
+# Metres between points: less is as good as that.
+_LEAST_SPACING = 0.01
+# Metres beyond which points do not matter: so many times the largest building, but at least this.
+_REACH_BUILDINGS, _LEAST_REACH = 1.2, 100.0
+# The preset that keeps the rules of another program.
+CLASSIC = "lidar360"
+
+
+@dataclass(frozen=True)
+class Preset:
+    """Values for the parameters that are left empty."""
+
+    label: str
+    max_building_size: float
+    iteration_angle: float
+    iteration_distance: float
+
+
+PRESETS = {
+    "automatic": Preset("Automatic", 150.0, 15.0, 1.4),
+    "flat": Preset("Flat land, fields", 48.0, 8.0, 0.7),
+    "hilly": Preset("Hilly land, forest", 30.0, 15.0, 1.4),
+    "steep": Preset("Steep or rugged terrain", 30.0, 25.0, 2.0),
+    "town": Preset("Town", 60.0, 12.0, 1.4),
+    "city": Preset("City, large halls", 120.0, 12.0, 1.4),
+    CLASSIC: Preset("LiDAR360's values", 20.0, 8.0, 1.4),
+}
+
+
+@dataclass(frozen=True)
+class TinDensification(ParameterSet):
+    """Parameters of improved progressive TIN densification.
+
+    Named as in LiDAR360's *Classify Ground Points* and TerraScan's *Ground*.
+    """
+
+    preset: str = parameter(
+        "automatic",
+        label="Preset",
+        choices={name: preset.label for name, preset in PRESETS.items()},
+        help="Where the values come from that are left empty: from the points (automatic), or from"
+        " what suits a kind of terrain. The log says which values were used.",
+    )
+    max_building_size: float | None = parameter(
+        None,
+        label="Maximum building size",
+        unit="m",
+        minimum=1.0,
+        maximum=500.0,
+        kind="number",
+        empty="automatic",
+        help="Shorter side of the largest building or other object. Whatever is narrower and stands"
+        " out from its surroundings gives no seed of the ground. Too large costs time and sharp"
+        " hilltops. Empty: from the preset.",
+    )
+    max_terrain_angle: float = parameter(
+        88.0,
+        label="Maximum terrain angle",
+        unit="deg",
+        minimum=1.0,
+        maximum=89.9,
+        help="Steepest slope of the ground. On steeper triangles a point is judged by its mirror"
+        " image beyond the nearest vertex.",
+    )
+    iteration_angle: float | None = parameter(
+        None,
+        label="Iteration angle",
+        unit="deg",
+        minimum=0.1,
+        maximum=90.0,
+        kind="number",
+        empty="automatic",
+        help="Largest angle between a triangle and the line from one of its corners to a new"
+        " point. Larger follows rugged ground better, smaller keeps low objects out: 4 in flat,"
+        " 10 and more in steep terrain. Empty: from the preset.",
+    )
+    iteration_distance: float | None = parameter(
+        None,
+        label="Iteration distance",
+        unit="m",
+        minimum=0.01,
+        maximum=50.0,
+        kind="number",
+        empty="automatic",
+        help="Largest distance of a new point from its triangle. Empty: from the preset.",
+    )
+    reduce_angle_edge: float | None = parameter(
+        5.0,
+        label="Reduce iteration angle when edges are shorter than",
+        unit="m",
+        minimum=0.0,
+        maximum=100.0,
+        advanced=True,
+        help="In triangles whose longest edge is shorter the iteration angle is reduced in"
+        " proportion, so that low vegetation is not climbed step by step. Empty: never.",
+        kind="number",
+        optional=True,
+    )
+    stop_edge: float | None = parameter(
+        2.0,
+        label="Stop triangulation when edges are shorter than",
+        unit="m",
+        minimum=0.0,
+        maximum=100.0,
+        advanced=True,
+        help="Triangles whose longest edge is shorter take no further point. Empty: never.",
+        kind="number",
+        optional=True,
+    )
+    noise_distance: float = parameter(
+        0.3,
+        label="Noise distance",
+        unit="m",
+        minimum=0.0,
+        maximum=5.0,
+        advanced=True,
+        help="A point this close to its triangle is a vertex whatever its angle: near a corner the"
+        " angle of mere noise is large.",
+    )
+    ground_tolerance: float = parameter(
+        0.18,
+        label="Ground tolerance above",
+        unit="m",
+        minimum=0.0,
+        maximum=10.0,
+        advanced=True,
+        help="Points no higher above the final surface are ground, in level terrain. More takes in"
+        " grass and low bushes.",
+    )
+    ground_tolerance_below: float = parameter(
+        0.6,
+        label="Ground tolerance below",
+        unit="m",
+        minimum=0.0,
+        maximum=10.0,
+        advanced=True,
+        help="Points no deeper below the final surface are ground, in level terrain: it lies"
+        " through the lowest points, and is smooth where they are not.",
+    )
+    slope_tolerance: float = parameter(
+        1.4,
+        label="Ground tolerance on slopes",
+        unit="m",
+        minimum=0.0,
+        maximum=10.0,
+        advanced=True,
+        help="What a slope of 45 degrees adds to both ground tolerances, less in proportion on"
+        " gentler slopes.",
+    )
+    only_key_points: bool = parameter(
+        False,
+        label="Only key points",
+        advanced=True,
+        help="Of the ground, keep only the points that a terrain model needs: those whose TIN lies"
+        " within the two tolerances below of every other ground point.",
+    )
+    key_point_tolerance_above: float = parameter_of(
+        ModelKeyPoints, "tolerance_above", label="Key points: tolerance above", advanced=True
+    )
+    key_point_tolerance_below: float = parameter_of(
+        ModelKeyPoints, "tolerance_below", label="Key points: tolerance below", advanced=True
+    )
+    key_point_grid_size: float = parameter_of(
+        ModelKeyPoints, "grid_size", label="Key points: grid size", advanced=True
+    )
+
+    def resolve(self, points: Points) -> TinDensification:
+        """Return the parameters with a value for each that was left to the preset.
+
+        Parameters
+        ----------
+        points : Points
+            The whole survey: its blocks must all be classified with the same values.
+        """
+        preset = PRESETS[self.preset]
+        names = ("max_building_size", "iteration_angle", "iteration_distance")
+        empty = {name: getattr(preset, name) for name in names if getattr(self, name) is None}
+        return dataclasses.replace(self, **empty)
+
+
+def largest_object(parameters: TinDensification) -> float:
+    """Return the width in metres of the largest building that is looked for."""
+    return parameters.max_building_size or PRESETS[parameters.preset].max_building_size
+
+
+def reach(parameters: TinDensification) -> float:
+    """Return the metres beyond which a point does not matter for another."""
+    return max(_LEAST_REACH, _REACH_BUILDINGS * largest_object(parameters))
+
+
+def classify(
+    points: Points,
+    parameters: TinDensification,
+    progress: Progress = SILENT,
+    known_ground: np.ndarray | None = None,
+) -> np.ndarray:
+    """Tell ground from other points.
+
+    Low outliers are taken out of the grid of lowest points; its cells that morphology takes for
+    ground give the seeds of a TIN (after Zhao et al. 2016, section 2); in rounds, each
+    triangle takes the candidate nearest to it if distance and angle allow (Axelsson 2000, section
+    3); last, every point close to the surface through all vertices is ground.
+
+    Parameters
+    ----------
+    points : Points
+        All points that take part.
+    parameters : TinDensification
+        Distances in metres, angles in degrees.
+    progress : Progress
+        Receives progress and messages.
+    known_ground : numpy.ndarray of bool, shape (n,), optional
+        Points that are surely ground: seeds whatever the grid says.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (n,)
+        True for ground.
+
+    Raises
+    ------
+    BareEarthError
+        If the points spread too far for a grid, or no seed of the ground is left.
+    Cancelled
+        If the user asked to stop.
+    """
+    resolved = parameters.resolve(points)
+    is_classic = parameters.preset == CLASSIC
+    apart = spacing(points, _LEAST_SPACING)
+    is_dense = apart <= NOISE_SPACING and not is_classic
+    if resolved != parameters or is_dense:
+        progress.info(_in_words(resolved, apart, is_dense))
+    survey = LowestPoints(points, _DENSE_CELL if is_dense else _CELL, is_classic)
+    progress(0.1)
+    tell_of_outliers(len(survey.lowest), survey.heights, progress)
+    ground, waiting = _seeds(points, survey, resolved, apart, progress.part(0.1, 0.7))
+    cells = survey.cells
+    heights = with_lower(np.full(cells.shape, np.nan), cells, points, ground)
+    if known_ground is not None and known_ground.any():
+        known = _lowest_of(points, np.flatnonzero(known_ground))
+        ground, heights = np.append(ground, known), with_lower(heights, cells, points, known)
+    if not len(ground):
+        raise BareEarthError(
+            "No point can be taken for ground with certainty. Check the maximum building size and"
+            " the selection of points."
+        )
+    rules, part = _rules(resolved), progress.part(0.7, 0.8)
+    joined = densified(points, ground, waiting, heights, cells, survey.spacing, rules, part)
+    vertices = np.append(ground, joined)
+    tolerance = Tolerance(
+        resolved.ground_tolerance, resolved.slope_tolerance, resolved.ground_tolerance_below
+    )
+    if is_classic:
+        limits = plain_limits(points, vertices, cells, tolerance)
+    else:
+        limits = ground_limits(points, vertices, cells, apart, tolerance, is_dense)
+    found = near_surface(points, cells, limits, progress.part(0.8, 0.95))
+    return _key_points(points, found, resolved, progress.part(0.95, 1.0))
+
+
+def _seeds(
+    points: Points,
+    survey: LowestPoints,
+    parameters: TinDensification,
+    spacing: float,
+    progress: Progress,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the indices of the first points of the ground, and of those that may join them."""
+    size = parameters.max_building_size
+    if parameters.preset == CLASSIC:
+        return seeds_of_one_grid(survey, size, progress, CLASSIC_ALLOWANCE)
+    part = progress.part(0.0, 0.8)
+    if spacing > _CROWDED:
+        seeds = seeds_of_two_grids(points, survey, size, part)
+        return checked_seeds(points, *seeds, survey.cells, survey.spacing)
+    seeds = seeds_of_one_grid(survey, size, part)
+    if spacing > NOISE_SPACING:
+        return seeds
+    return checked_seeds(points, *seeds, survey.cells, survey.spacing, has_gaps=False)
+
+
+def _in_words(parameters: TinDensification, spacing: float, is_dense: bool) -> str:
+    cells = (
+        f", cells of {_DENSE_CELL:g} m and a tolerance that follows the noise, as points lie"
+        f" {spacing:.2g} m apart"
+        if is_dense
+        else ""
+    )
+    return (
+        f"TIN densification: preset {parameters.preset}, maximum building size"
+        f" {parameters.max_building_size:g} m, iteration angle {parameters.iteration_angle:g} deg,"
+        f" iteration distance {parameters.iteration_distance:g} m{cells}."
+    )
+
+
+def _lowest_of(points: Points, which: np.ndarray) -> np.ndarray:
+    """Return the indices of the lowest of some points in each cell."""
+    some = points.take(which)
+    return which[Cells.over(some, _CELL).lowest_points(some)]
+
+
+def _rules(parameters: TinDensification) -> DensificationRules:
+    names = (each.name for each in dataclasses.fields(DensificationRules))
+    return DensificationRules(**{name: getattr(parameters, name) for name in names})
+
+
+def _key_points(
+    points: Points, ground: np.ndarray, parameters: TinDensification, progress: Progress
+) -> np.ndarray:
+    """Return the key points of the ground where only they are wanted, else all of it."""
+    if not parameters.only_key_points or not ground.any():
+        return ground
+    closeness = ModelKeyPoints(
+        parameters.key_point_tolerance_above,
+        parameters.key_point_tolerance_below,
+        parameters.key_point_grid_size,
+    )
+    key = np.zeros(points.count, dtype=bool)
+    key[ground] = model_key_points(points.take(ground), closeness, progress)
+    return key

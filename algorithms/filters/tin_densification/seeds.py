@@ -1,0 +1,113 @@
+"""The first points of the ground, found on grids of lowest points."""
+
+from __future__ import annotations
+
+import threading
+from typing import NamedTuple
+
+import numpy as np
+
+from ...core.points import Points
+from ...core.progress import SILENT, Progress
+from ...core.threads import in_threads
+from ..shared.ground_cells import CLASSIC, Allowance, ground_cells
+from ..shared.lowest_points import LowestPoints
+
+# What a point is on a grid: not the lowest of its cell, one of an object or a low outlier, one
+# that may be ground, and one that is.
+_HIDDEN, _OBJECT, _OPEN, _GROUND = range(4)
+
+
+class Seeds(NamedTuple):
+    """Points to start from.
+
+    Attributes
+    ----------
+    ground : numpy.ndarray of intp
+        Indices of the points that are taken for ground.
+    waiting : numpy.ndarray of intp
+        Indices of the lowest points that may be ground.
+    """
+
+    ground: np.ndarray
+    waiting: np.ndarray
+
+
+def seeds_of_one_grid(
+    survey: LowestPoints,
+    max_size: float,
+    progress: Progress,
+    allowance: Allowance = Allowance(),
+) -> Seeds:
+    """Return the points that are ground on one grid.
+
+    Parameters
+    ----------
+    survey : LowestPoints
+        The grid.
+    max_size : float
+        Shorter side of the largest object in metres.
+    progress : Progress
+        Receives progress.
+    allowance : Allowance
+        What may stand out and still be ground. With the classic one, objects may be ground, too.
+    """
+    ground, is_open = _judged(survey, max_size, allowance, progress)
+    if allowance is CLASSIC:
+        is_open = np.isfinite(survey.heights).ravel()[survey.cell]
+    return Seeds(survey.lowest[ground], survey.lowest[~ground & is_open])
+
+
+def seeds_of_two_grids(
+    points: Points, survey: LowestPoints, max_size: float, progress: Progress
+) -> Seeds:
+    """Return the points that are ground on two grids, half a cell apart.
+
+    Where cells begin is chance. A point that is the lowest of its cell on both grids must be
+    ground on both; one that is so on a single grid, there.
+
+    Parameters
+    ----------
+    points : Points
+        All points.
+    survey : LowestPoints
+        The first grid.
+    max_size : float
+        Shorter side of the largest object in metres.
+    progress : Progress
+        Receives progress.
+    """
+    size = survey.cells.size
+    moved = points._replace(x=points.x + 0.5 * size, y=points.y + 0.5 * size)
+    kinds = np.zeros((2, points.count), dtype=np.int8)
+    caller = threading.get_ident()
+
+    def judge(number: int) -> None:
+        grid = LowestPoints(moved, size) if number else survey
+        part = progress.part(0.5 * number, 0.5 + 0.5 * number)
+        # Progress is for the calling thread only.
+        part = part if threading.get_ident() == caller else SILENT
+        ground, is_open = _judged(grid, max_size, Allowance(), part)
+        kinds[number, grid.lowest] = np.where(ground, _GROUND, np.where(is_open, _OPEN, _OBJECT))
+
+    in_threads(judge, range(len(kinds)))
+    lowest = np.flatnonzero(kinds.any(axis=0))
+    one, other = kinds[:, lowest]
+    ground = (one == _GROUND) & ((other == _GROUND) | (other == _HIDDEN))
+    ground |= (other == _GROUND) & (one == _HIDDEN)
+    is_open = ~ground & ((one >= _OPEN) | (other >= _OPEN))
+    return Seeds(lowest[ground], lowest[is_open])
+
+
+def _judged(
+    survey: LowestPoints, max_size: float, allowance: Allowance, progress: Progress
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return which lowest points are ground, and which are neither objects nor low outliers."""
+    cells, heights = survey.cells, survey.heights
+    objects = survey.objects(max_size, progress.part(0.0, 0.4))
+    part = progress.part(0.4, 1.0)
+    ground = ground_cells(
+        heights, cells.size, objects, max_size / 2.0, allowance, part, cells.first
+    )
+    is_open = np.isfinite(heights) & ~objects
+    return ground.ravel()[survey.cell], is_open.ravel()[survey.cell]

@@ -1,0 +1,1 @@
+"""Terrain as arrays: cells, morphology, filling, triangulation. Knows no files."""

@@ -1,0 +1,257 @@
+"""Square cells over points: which cell each point lies in, the lowest point of each, and back."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.points import Points
+from ..core.progress import SILENT
+from ..core.threads import over_parts
+
+_MOST_CELLS = 200_000_000
+_POINTS_A_PART = 1 << 17
+_POINTS_A_COUNT = 1 << 20
+# Before, `ufunc.at` took three times as long as it takes to do without.
+_HAS_FAST_AT = np.lib.NumpyVersion(np.__version__) >= "1.25.0"
+# Side in metres of the blocks that are a gap in the survey where they have no point.
+_BLOCK = 10.0
+# Times as many points as are dense, on average, where surely most blocks are.
+_SURELY = 4.0
+# Metres of which the usual distance between points is a multiple, if nothing else is said.
+_SPACING_STEP = 0.5
+# Cells along the gap between groups of points, an even number, and the least side of one in metres.
+_CELLS_A_REACH, _LEAST_GAP = 10, 5.0
+
+
+@dataclass(frozen=True)
+class Cells:
+    """A grid of square cells anchored at (0, 0) of the points' frame.
+
+    Attributes
+    ----------
+    size : float
+        Side of a cell in metres.
+    first_row, first_column : int
+        The row (from south) and column (from west) of the frame at which the grid begins.
+    rows, columns : int
+        Size of the grid.
+    index : numpy.ndarray of int32, shape (n,)
+        The cell of each point, in the flattened grid.
+    """
+
+    size: float
+    first_row: int
+    first_column: int
+    rows: int
+    columns: int
+    index: np.ndarray
+
+    @classmethod
+    def over(cls, points: Points, size: float) -> Cells:
+        """Return the cells that cover `points`.
+
+        Raises
+        ------
+        BareEarthError
+            If they would not fit into memory.
+        """
+        first_row, first_column, last_row, last_column = (
+            int(np.floor(extreme / size))
+            for extreme in (points.y.min(), points.x.min(), points.y.max(), points.x.max())
+        )
+        rows, columns = last_row - first_row + 1, last_column - first_column + 1
+        if rows * columns > _MOST_CELLS:
+            raise BareEarthError(
+                f"The points spread over {columns * size:,.0f} x {rows * size:,.0f} m, too far for"
+                f" cells of {size:g} m. Remove points with stray coordinates, or cut the file."
+            )
+        index = np.empty(points.count, dtype=np.int32)
+
+        def fill(part: slice) -> None:
+            row = np.floor(points.y[part] / size)
+            row -= first_row
+            row *= columns
+            row += np.floor(points.x[part] / size) - first_column
+            index[part] = row
+
+        over_parts(fill, points.count, _POINTS_A_PART, SILENT)
+        return cls(size, first_row, first_column, rows, columns, index)
+
+    @property
+    def first(self) -> tuple[int, int]:
+        """The row and the column at which the grid begins."""
+        return self.first_row, self.first_column
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns."""
+        return self.rows, self.columns
+
+    def minimum(self, z: np.ndarray) -> np.ndarray:
+        """Return the lowest of `z` (n,) in each cell, shape (rows, columns); NaN where none is."""
+        lowest = np.full(self.rows * self.columns, np.inf)
+        lower_at(lowest, self.index, z)
+        lowest[np.isinf(lowest)] = np.nan
+        return lowest.reshape(self.shape)
+
+    def lowest_points(self, points: Points) -> np.ndarray:
+        """Return the index of the lowest point of each occupied cell, in the order of the cells.
+
+        Of points equally low in one cell that with the smallest x, then y, is taken: the choice
+        must not depend on the order of the points.
+        """
+        lowest = self.minimum(points.z).ravel()
+        is_lowest = np.empty(points.count, dtype=bool)
+
+        def compare(part: slice) -> None:
+            np.equal(points.z[part], lowest[self.index[part]], out=is_lowest[part])
+
+        over_parts(compare, points.count, _POINTS_A_PART, SILENT)
+        which = np.flatnonzero(is_lowest)
+        cell = self.index[which]
+        for values in (points.x, points.y):
+            those = values[which]
+            least = np.full(lowest.size, np.inf)
+            lower_at(least, cell, those)
+            first = those == least[cell]
+            which, cell = which[first], cell[first]
+        found = np.full(self.rows * self.columns, -1, dtype=np.intp)
+        found[cell] = which  # the last one of points that are all the same
+        return found[found >= 0]
+
+    def counts(self) -> np.ndarray:
+        """Return the number of points in each cell; int32, shape (rows, columns)."""
+        counts = np.zeros(self.rows * self.columns, dtype=np.int32)
+        for first in range(0, len(self.index), _POINTS_A_COUNT):
+            # In steps, as bincount takes 8 bytes for each.
+            step = np.bincount(self.index[first : first + _POINTS_A_COUNT])
+            counts[: len(step)] += step
+        return counts.reshape(self.shape)
+
+    @cached_property
+    def occupied(self) -> np.ndarray:
+        """Whether each cell has a point; boolean, shape (rows, columns)."""
+        counts = np.zeros(self.rows * self.columns, dtype=bool)
+        counts[self.index] = True
+        return counts.reshape(self.shape)
+
+    def at(self, grid: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Interpolate a grid (rows, columns) bilinearly between cell centres at places in metres.
+
+        Beyond the outermost centres the value of the border is taken.
+        """
+        # Not at the start of QGIS, which loads this module, and where scipy may be missing.
+        from scipy import ndimage
+
+        row = y / self.size - (self.first_row + 0.5)
+        column = x / self.size - (self.first_column + 0.5)
+        return ndimage.map_coordinates(grid, (row, column), order=1, mode="nearest")
+
+    def centres(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return x and y of the centre of each cell, in the order of the flattened grid."""
+        x = (self.first_column + np.arange(self.columns) + 0.5) * self.size
+        y = (self.first_row + np.arange(self.rows) + 0.5) * self.size
+        return np.tile(x, self.rows), np.repeat(y, self.columns)
+
+    def resampled(self, grid: np.ndarray, other: Cells) -> np.ndarray:
+        """Return for each cell of `other` the value of the cell here in which its centre lies.
+
+        Beyond this grid the value of the border is taken.
+        """
+        row = np.floor((other.first_row + np.arange(other.rows) + 0.5) * other.size / self.size)
+        column = np.floor(
+            (other.first_column + np.arange(other.columns) + 0.5) * other.size / self.size
+        )
+        row = np.clip(row.astype(int) - self.first_row, 0, self.rows - 1)
+        column = np.clip(column.astype(int) - self.first_column, 0, self.columns - 1)
+        return grid[np.ix_(row, column)]
+
+
+def apart(points: Points, reach: float) -> tuple[np.ndarray, int]:
+    """Part points into groups between which there is a gap.
+
+    Parameters
+    ----------
+    points : Points
+        At least one.
+    reach : float
+        Metres: no point of another group is as close; groups are surely told apart where the gap
+        is a quarter wider, and at least 65 m.
+
+    Returns
+    -------
+    numpy.ndarray of int32, shape (n,)
+        The group of each point; of length 0 if there is but one.
+    int
+        How many there are.
+    """
+    from scipy import ndimage
+
+    cells = Cells.over(points, max(reach / _CELLS_A_REACH, _LEAST_GAP))
+    square = np.ones((3, 3), dtype=bool)
+    around = np.pad(cells.occupied, _CELLS_A_REACH)
+    groups, count = ndimage.label(
+        ndimage.binary_dilation(around, square, iterations=_CELLS_A_REACH // 2)
+    )
+    if count == 1:
+        return np.zeros(0, dtype=np.int32), 1
+    inner = groups[_CELLS_A_REACH:-_CELLS_A_REACH, _CELLS_A_REACH:-_CELLS_A_REACH]
+    return inner.ravel()[cells.index] - np.int32(1), count
+
+
+def lower_at(target: np.ndarray, index: np.ndarray, values: np.ndarray) -> None:
+    """Lower the elements of an array to the least of the values that are given for each.
+
+    Parameters
+    ----------
+    target : numpy.ndarray, shape (m,)
+        Changed in place.
+    index : numpy.ndarray of int, shape (n,)
+        Which element each value is for.
+    values : numpy.ndarray, shape (n,)
+        The values.
+    """
+    if _HAS_FAST_AT:
+        np.minimum.at(target, index, values)
+        return
+    left = np.flatnonzero(values < target[index])
+    while len(left):
+        at, some = index[left], values[left]
+        target[at] = some  # of several for one element, any stays
+        left = left[some < target[at]]
+
+
+def spacing(points: Points, dense: float = 1.0, step: float = _SPACING_STEP) -> float:
+    """Return the usual distance between points in metres, in coarse steps.
+
+    It is that of the median of the blocks within the survey, so that neither gaps nor the extent
+    nor a few points matter, and in steps (below a metre by a factor of two of the points per square
+    metre), so that a crop hardly ever does.
+
+    Parameters
+    ----------
+    points : Points
+        All points.
+    dense : float
+        Metres: a smaller spacing is as good as any.
+    step : float
+        Metres of which it is a multiple, from a metre on.
+    """
+    from scipy import ndimage
+
+    area = float(np.ptp(points.x)) * float(np.ptp(points.y))
+    if _SURELY * area <= dense**2 * points.count:
+        return dense
+    blocks = Cells.over(points, _BLOCK)
+    counts = blocks.counts()
+    within = ndimage.binary_erosion(counts > 0, np.ones((3, 3)))
+    usual = np.median(counts[within if within.any() else counts > 0])
+    apart = _BLOCK / math.sqrt(usual)
+    if apart >= 1.0:
+        return max(dense, step * round(apart / step))
+    return max(dense, 2.0 ** (round(2.0 * math.log2(apart)) / 2.0))

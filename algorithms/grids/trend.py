@@ -1,0 +1,183 @@
+"""The trend of the terrain in a height grid: what walls and trees do not move."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.threads import in_threads
+from .gradient import length
+from .inpaint import First
+
+# Side in metres of the blocks whose median slope is the trend of the terrain.
+_BLOCK = 15.0
+# Differences of a block that suffice for its median, along each axis.
+_SAMPLES = 7
+
+
+class Rises(NamedTuple):
+    """What the terrain rises over one cell, in metres, at some cells.
+
+    Attributes
+    ----------
+    north, east : numpy.ndarray of float32
+        Towards north and east.
+    steepest : numpy.ndarray of float32
+        Towards where it is steepest.
+    roughness : numpy.ndarray of float32
+        How much single rises usually depart from that.
+    """
+
+    north: np.ndarray
+    east: np.ndarray
+    steepest: np.ndarray
+    roughness: np.ndarray
+
+
+class Trend:
+    """The slope of the terrain and its unevenness.
+
+    Within blocks of some metres the slope is the median of that between neighbours, which walls
+    and trees do not move, and the unevenness the median of what departs from it. Between the
+    middles of the blocks they are interpolated, for some cells at a time: grids as large as that
+    of the heights would cost more than all else.
+
+    Parameters
+    ----------
+    heights : numpy.ndarray of float32, shape (rows, columns)
+        Heights in metres without NaN.
+    size : float
+        Side of a cell in metres.
+    first : tuple of int
+        Row and column of the first cell: blocks begin at multiples of their side, wherever the
+        grid does.
+    """
+
+    def __init__(self, heights: np.ndarray, size: float, first: First = (0, 0)) -> None:
+        self._size, self._shape = size, heights.shape
+        self._block = max(round(_BLOCK / size), 3)
+        self._within = tuple(each % self._block for each in first)
+        self._blocks = in_threads(lambda axis: self._of_axis(heights, axis), (0, 1))
+        columns = np.arange(heights.shape[1]) + self._within[1]
+        # Between the columns once for all rows of a block.
+        self._across = [
+            None if each is None else _interpolated(each, columns, self._block, -1)
+            for each in self._blocks
+        ]
+
+    def _of_axis(self, heights: np.ndarray, axis: int) -> np.ndarray | None:
+        """Return slope along an axis and departure from it, of each block (2, rows, columns)."""
+        from scipy import ndimage
+
+        if heights.shape[axis] == 1:
+            return None
+        slopes = np.diff(heights, axis=axis) / heights.dtype.type(self._size)
+        blocks = _sampled_blocks(slopes, self._block, self._within)
+        slope = np.median(blocks, axis=2)
+        departure = np.median(np.abs(blocks - slope[..., None]), axis=2)
+        smooth = (ndimage.median_filter(each, 3, mode="nearest") for each in (slope, departure))
+        return np.stack(list(smooth))
+
+    def of_rows(self, first: int, last: int) -> Rises:
+        """Return the rises at all cells of some rows, `last` not among them."""
+        rows = np.arange(first, last) + self._within[0]
+        fields = [
+            None if each is None else _interpolated(each, rows, self._block, -2)
+            for each in self._across
+        ]
+        return self._rises(fields, (len(rows), self._shape[1]))
+
+    def at(self, row: np.ndarray, column: np.ndarray) -> Rises:
+        """Return the rises at cells."""
+        row, column = row + self._within[0], column + self._within[1]
+        fields = [
+            None if each is None else _at_places(each, self._block, row, column)
+            for each in self._blocks
+        ]
+        return self._rises(fields, row.shape)
+
+    def along(self, row: np.ndarray, column: np.ndarray, north: int, east: int) -> np.ndarray:
+        """Return what the terrain rises from cells to others, some cells farther north and east."""
+        rise = np.float32(0.0)
+        row, column = row + self._within[0], column + self._within[1]
+        for cells, values in zip((north, east), self._blocks):
+            if cells and values is not None:
+                slope = _at_places(values[:1], self._block, row, column)[0]
+                rise = rise + cells * (np.float32(self._size) * slope)
+        return rise
+
+    def _rises(self, fields: list[np.ndarray | None], shape: tuple[int, ...]) -> Rises:
+        """Return the rises where slope and departure along both axes are known."""
+        size, slopes = np.float32(self._size), []
+        roughness = np.zeros(shape, dtype=np.float32)
+        for field in fields:
+            if field is None:  # a grid one cell wide has no slope across
+                slopes.append(np.zeros(shape, dtype=np.float32))
+                continue
+            field *= size
+            slopes.append(field[0])
+            field[1] /= 2
+            roughness += field[1]
+        return Rises(*slopes, length(*slopes), roughness)
+
+
+def between_blocks(
+    values: np.ndarray, block: int, rows: np.ndarray, columns: np.ndarray
+) -> np.ndarray:
+    """Interpolate values at the middles of blocks bilinearly to cells.
+
+    Parameters
+    ----------
+    values : numpy.ndarray of float, shape (..., block rows, block columns)
+        A value of each block.
+    block : int
+        Cells along the side of a block.
+    rows, columns : numpy.ndarray of int
+        Which cells, counted from the first of the first block.
+
+    Returns
+    -------
+    numpy.ndarray of float, shape (..., rows, columns)
+    """
+    return _interpolated(_interpolated(values, columns, block, -1), rows, block, -2)
+
+
+def _interpolated(values: np.ndarray, cells: np.ndarray, block: int, axis: int) -> np.ndarray:
+    """Interpolate between the middles of blocks along an axis."""
+    first, second, weight = _neighbours(cells, block, values.shape[axis], values.dtype)
+    weight = weight[:, None] if axis == -2 else weight
+    after = values.take(second, axis=axis)
+    after *= weight
+    values = values.take(first, axis=axis)
+    values *= 1 - weight
+    values += after
+    return values
+
+
+def _at_places(values: np.ndarray, block: int, row: np.ndarray, column: np.ndarray) -> np.ndarray:
+    """Interpolate as `between_blocks` to single cells."""
+    south, north, up = _neighbours(row, block, values.shape[-2], values.dtype)
+    west, east, right = _neighbours(column, block, values.shape[-1], values.dtype)
+    south_side = values[..., south, west] * (1 - right) + values[..., south, east] * right
+    north_side = values[..., north, west] * (1 - right) + values[..., north, east] * right
+    return south_side * (1 - up) + north_side * up
+
+
+def _neighbours(
+    cells: np.ndarray, block: int, count: int, kind: np.dtype
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the blocks whose middles lie on either side, and the weight of the second."""
+    place = np.clip((cells + 0.5) / block - 0.5, 0.0, count - 1.0)
+    first = np.minimum(place.astype(int), max(count - 2, 0))
+    return first, np.minimum(first + 1, count - 1), (place - first).astype(kind)
+
+
+def _sampled_blocks(grid: np.ndarray, block: int, within: First) -> np.ndarray:
+    """Return some cells of each block of a grid, shape (rows, columns, samples) of blocks."""
+    rows, columns = (-(-(at + side) // block) for at, side in zip(within, grid.shape))
+    ends = rows * block - grid.shape[0] - within[0], columns * block - grid.shape[1] - within[1]
+    padded = np.pad(grid, list(zip(within, ends)), mode="symmetric")
+    step = max(block // _SAMPLES, 1)
+    blocks = padded.reshape(rows, block, columns, block)[:, ::step, :, ::step]
+    return blocks.transpose(0, 2, 1, 3).reshape(rows, columns, -1)

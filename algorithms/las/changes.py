@@ -1,0 +1,183 @@
+"""What is to become other in the points of a file, and how that changes their bytes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Iterator
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.progress import paced
+from .extrabytes import ExtraDimension, place_dimension
+from .lasbytes import LasLayout, with_count, with_z_range
+from .records import FIRST_EXTENDED_FORMAT, MOST_KEPT, check_class, read_records
+
+_Z = slice(8, 12)
+# The key-point flag: in the byte of the class up to point format 5, in that of the flags from 6 on.
+_LEGACY_KEY_POINT, _KEY_POINT, _FLAGS = 0x40, 0x02, 15
+
+
+@dataclass(frozen=True)
+class Changes:
+    """New values of points, each of shape (n,) in the order of the file; None where all stay.
+
+    Attributes
+    ----------
+    classification : numpy.ndarray of uint8 or None
+        Classes.
+    key_points : numpy.ndarray of int8 or None
+        1 sets the flag for model key points, 0 clears it, -1 leaves it as it is.
+    z : numpy.ndarray of int32 or None
+        Heights as integers, of the scale and offset that the file has.
+    extra : ExtraDimension or None
+        A dimension in extra bytes.
+    kept : numpy.ndarray of bool or None
+        The points that are written; all if it is not given.
+    """
+
+    classification: np.ndarray | None = None
+    key_points: np.ndarray | None = None
+    z: np.ndarray | None = None
+    extra: ExtraDimension | None = None
+    kept: np.ndarray | None = None
+
+    def columns(self) -> list[np.ndarray]:
+        """Return what is given."""
+        extra = None if self.extra is None else self.extra.values
+        columns = self.classification, self.key_points, self.z, extra, self.kept
+        return [each for each in columns if each is not None]
+
+
+class Rewriting:
+    """A file and what becomes of it.
+
+    Parameters
+    ----------
+    source : LasLayout
+        The file as it is.
+    changes : Changes
+        What changes in its points.
+    records : numpy.ndarray of uint8, shape (n, record length), optional
+        Its points, if they were kept when it was read; they are changed.
+
+    Attributes
+    ----------
+    source, target : LasLayout
+        The file as it is, and its header and records as they are to be.
+
+    Raises
+    ------
+    BareEarthError
+        If the file is not the one that the changes are for, or cannot hold them.
+    """
+
+    def __init__(
+        self, source: LasLayout, changes: Changes, records: np.ndarray | None = None
+    ) -> None:
+        read = (source.count, source.record_length) if records is None else records.shape
+        if read != (source.count, source.record_length) or any(
+            len(column) != source.count for column in changes.columns()
+        ):
+            raise BareEarthError(f"{source.path} has changed while it was worked on. Run it again.")
+        self.source = self.target = source
+        self._changes, self._place, self._records = changes, None, records
+        if changes.kept is not None and not changes.kept.any():
+            raise BareEarthError(f"None of the points of {source.path} is left to be written.")
+        if changes.extra is not None:
+            extra = changes.extra
+            if changes.kept is not None:
+                extra = replace(extra, values=extra.values[changes.kept])
+            self.target, self._place = place_dimension(source, extra)
+        if changes.z is not None:
+            self.target = with_z_range(self.target, int(changes.z.min()), int(changes.z.max()))
+        if changes.kept is not None:
+            self.target = with_count(self.target, int(np.count_nonzero(changes.kept)))
+
+    @property
+    def leaves_out(self) -> bool:
+        """Whether not all points are written."""
+        return self._changes.kept is not None
+
+    @property
+    def only_classes(self) -> np.ndarray | None:
+        """The new classes, if nothing else changes."""
+        given = self._changes.columns()
+        return given[0] if len(given) == 1 and given[0] is self._changes.classification else None
+
+    def points(self) -> Iterator[tuple[np.ndarray, np.ndarray, float]]:
+        """Yield the points that are written, by chunks: as they are to be, but for their classes.
+
+        Yields
+        ------
+        records : numpy.ndarray of uint8, shape (k, record length of the target)
+            The next ones may reuse its memory.
+        classes : numpy.ndarray of uint8, shape (k,)
+            What their classes are to be.
+        done : float
+            Share of the source that has been read.
+        """
+        start = 0
+        for old in self._sources():
+            records = self.apply(old, start)
+            classes = self.classes(records, start)
+            end = start + len(old)
+            if self._changes.kept is not None:
+                kept = self._changes.kept[start:end]
+                records, classes = records[kept], classes[kept]
+            yield records, classes, end / self.source.count
+            start = end
+
+    def _sources(self) -> Iterator[np.ndarray]:
+        if self._records is None:
+            return read_records(self.source)
+        return (self._records[piece] for piece in paced(len(self._records), MOST_KEPT))
+
+    def check_classes(self) -> None:
+        """Refuse classes that the point format of the file has no room for."""
+        classes = self._changes.classification
+        if classes is not None:
+            largest = int(classes.max())
+            check_class(self.source.path, self.source.point_format, largest, "the ground")
+
+    def classes(self, records: np.ndarray, start: int) -> np.ndarray:
+        """Return the classes that records, which begin with the point `start`, are to have."""
+        if self._changes.classification is not None:
+            return self._changes.classification[start : start + len(records)]
+        if self.source.point_format < FIRST_EXTENDED_FORMAT:
+            return records[:, 15] & 0x1F
+        return records[:, 16]
+
+    def apply(self, records: np.ndarray, start: int) -> np.ndarray:
+        """Return records as they are to be, but for their classes.
+
+        Parameters
+        ----------
+        records : numpy.ndarray of uint8, shape (k, record length)
+            Records of the source; may be changed in place.
+        start : int
+            Number of the first of them in the file.
+
+        Returns
+        -------
+        numpy.ndarray of uint8, shape (k, record length of the target)
+        """
+        part = slice(start, start + len(records))
+        if self.target.record_length > records.shape[1]:
+            longer = np.empty((len(records), self.target.record_length), dtype=np.uint8)
+            longer[:, : records.shape[1]] = records
+            records = longer
+        if self._changes.z is not None:
+            _put(records, _Z.start, np.dtype("<i4"), self._changes.z[part])
+        if self._place is not None:
+            _put(records, self._place.start, self._place.kind, self._changes.extra.values[part])
+        if self._changes.key_points is not None:
+            legacy = self.source.point_format < FIRST_EXTENDED_FORMAT
+            bit, flags = _LEGACY_KEY_POINT if legacy else _KEY_POINT, self._changes.key_points[part]
+            records[flags == 0, _FLAGS] &= 0xFF ^ bit
+            records[flags == 1, _FLAGS] |= bit
+        return records
+
+
+def _put(records: np.ndarray, start: int, kind: np.dtype, values: np.ndarray) -> None:
+    records[:, start : start + kind.itemsize].view(kind)[:, 0] = values

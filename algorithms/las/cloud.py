@@ -1,0 +1,259 @@
+"""A point cloud in memory: the columns that a classification needs, and nothing else."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Iterator, NamedTuple, Sequence
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.points import Frame, Points
+from ..core.progress import SILENT
+from ..core.threads import in_threads, over_parts, parts_of
+from ..crs.reading import Crs
+
+_POINTS_A_PART = 1 << 15
+# Points of the parts of a cloud.
+_PART = 1 << 19
+# Times as many points as are wanted that may be read with them.
+_LOOSE = 4
+# Units of the CRS of which the origin of a cloud's own frame is a multiple.
+_ORIGINS = 10_000.0
+# Share of the scale by which offsets may differ from a multiple of it: they are rounded numbers.
+_WHOLE = 0.01
+
+
+@dataclass
+class PointCloud:
+    """The points of one file in file order, 16 or 17 bytes each.
+
+    Attributes
+    ----------
+    path : Path
+        Where the points come from.
+    x, y, z : numpy.ndarray of int32, shape (n,)
+        Coordinates as the file has them.
+    scale, offset : tuple of float
+        A coordinate in the CRS is the integer times scale plus offset, each for x, y and z.
+    classification : numpy.ndarray of uint8, shape (n,)
+        Class of each point.
+    return_number, number_of_returns : numpy.ndarray of uint8, shape (n,)
+        The how manieth of how many returns of its pulse a point is.
+    withheld : numpy.ndarray of bool, shape (n,)
+        Points that the producer wants left out.
+    point_format : int
+        LAS point format, 0 to 10.
+    crs : Crs
+        What is known of the coordinate reference system.
+    scanner_channel : numpy.ndarray of uint8, shape (n,), optional
+        The scanner channel of each point, where the point format has it (6 to 10) and it was read.
+    records : numpy.ndarray of uint8, shape (n, record length), optional
+        The points as the file has them, where they were kept to be written again.
+    """
+
+    path: Path
+    x: np.ndarray
+    y: np.ndarray
+    z: np.ndarray
+    scale: tuple[float, float, float]
+    offset: tuple[float, float, float]
+    classification: np.ndarray
+    return_number: np.ndarray
+    number_of_returns: np.ndarray
+    withheld: np.ndarray
+    point_format: int
+    crs: Crs
+    scanner_channel: np.ndarray | None = None
+    records: np.ndarray | None = None
+
+    @property
+    def count(self) -> int:
+        """Number of points."""
+        return len(self.x)
+
+    def parts(self) -> Iterator[tuple[slice, PointCloud]]:
+        """Yield the points some at a time, without their records, and where they stand."""
+        columns = {
+            name: value
+            for name, value in vars(self).items()
+            if isinstance(value, np.ndarray) and name != "records"
+        }
+        for where in parts_of(self.count, _PART):
+            part = {name: column[where] for name, column in columns.items()}
+            yield where, replace(self, records=None, **part)
+
+    @cached_property
+    def lowest(self) -> tuple[int, int]:
+        """The smallest x and y, as integers."""
+        return self._extremes[0]
+
+    @cached_property
+    def highest(self) -> tuple[int, int]:
+        """The largest x and y, as integers."""
+        return self._extremes[1]
+
+    @cached_property
+    def _extremes(self) -> tuple[tuple[int, int], tuple[int, int]]:
+        """The smallest x and y, and the largest."""
+
+        def extremes(part: slice) -> list[tuple[int, int]]:
+            # Among records they are far apart: together once, not twice.
+            x, y = (np.ascontiguousarray(each[part]) for each in (self.x, self.y))
+            return [(int(x.min()), int(y.min())), (int(x.max()), int(y.max()))]
+
+        found = np.array(in_threads(extremes, parts_of(self.count, _POINTS_A_PART)))
+        lowest, highest = found[:, 0].min(axis=0), found[:, 1].max(axis=0)
+        return tuple(lowest.tolist()), tuple(highest.tolist())
+
+    @property
+    def frame(self) -> Frame:
+        """The local metres of `points`: that of the CRS with an origin near the smallest x and y.
+
+        The origin is a multiple of a large number, so that it hardly depends on the extent.
+        """
+        origin = tuple(
+            math.floor((minimum * scale + offset) / _ORIGINS) * _ORIGINS
+            for minimum, scale, offset in zip(self.lowest, self.scale, self.offset)
+        )
+        return replace(survey_frame(self.crs), origin=origin)
+
+    def points(self, which: np.ndarray | slice, frame: Frame | None = None) -> Points:
+        """Return coordinates in metres, relative to the origin of a frame.
+
+        Parameters
+        ----------
+        which : numpy.ndarray or slice
+            Boolean mask or indices of the points to return.
+        frame : Frame, optional
+            That of a survey of which this file is a part; `frame` if none is given. Files of one
+            scale give equal numbers for equal places, whatever their offsets.
+
+        Raises
+        ------
+        BareEarthError
+            If the CRS is not a projected one.
+        """
+        return Points(*self._metres(which, frame, 3))
+
+    def places(
+        self, which: np.ndarray | slice, frame: Frame | None = None
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return the same x and y as `points`, without the heights."""
+        x, y = self._metres(which, frame, 2)
+        return x, y
+
+    def _metres(
+        self, which: np.ndarray | slice, frame: Frame | None, count: int
+    ) -> list[np.ndarray]:
+        """Return the first one, two or three coordinates of points."""
+        self.require_projected()
+        if isinstance(which, np.ndarray) and which.dtype == bool:
+            which = np.flatnonzero(which)
+        axes = self._axes(self.frame if frame is None else frame)[:count]
+        is_slice = isinstance(which, slice)
+        columns = [each[which] if is_slice else each for each in (self.x, self.y, self.z)[:count]]
+        length = len(columns[0]) if is_slice else len(which)
+        metres = [np.empty(length) for _ in axes]
+
+        def convert(part: slice) -> None:
+            picked = _picked(columns, part if is_slice else which[part])
+            for axis, integers, target in zip(axes, picked, metres):
+                axis.convert(integers, target[part])
+
+        over_parts(convert, length, _POINTS_A_PART, SILENT)
+        return metres
+
+    def bounds(self, frame: Frame) -> tuple[float, float, float, float]:
+        """Return smallest x and y, largest x and y in metres of a frame, as `points` has them."""
+        corners = np.empty((2, 2))
+        for axis, lowest_and_highest, target in zip(
+            self._axes(frame), zip(self.lowest, self.highest), corners.T
+        ):
+            axis.convert(np.array(lowest_and_highest), target)
+        return tuple(corners.ravel().tolist())
+
+    def _axes(self, frame: Frame) -> list[_Axis]:
+        origin = (*frame.origin, 0.0)
+        units = (self.crs.horizontal_unit, self.crs.horizontal_unit, self.crs.vertical_unit)
+        return [
+            _Axis.of(scale, offset, start, unit)
+            for scale, offset, start, unit in zip(self.scale, self.offset, origin, units)
+        ]
+
+    def require_projected(self) -> None:
+        """Refuse coordinates in degrees, on which no distance can be measured.
+
+        Raises
+        ------
+        BareEarthError
+            If the CRS is not a projected one.
+        """
+        if self.crs.is_geographic:
+            raise BareEarthError(
+                f"{self.path} is not in a projected CRS ({self.crs.name}), so that nothing can be"
+                " measured in it. Reproject it first: in QGIS with 'Reproject' of the group Point"
+                " cloud data management, elsewhere with 'pdal translate INPUT OUTPUT reprojection"
+                " --filters.reprojection.out_srs=EPSG:...'."
+            )
+
+
+def survey_frame(crs: Crs) -> Frame:
+    """Return the frame in which the blocks of any survey lie: that of the CRS and its zero."""
+    return Frame((0.0, 0.0), crs.horizontal_unit, crs.vertical_unit, crs.wkt)
+
+
+class _Axis(NamedTuple):
+    """How integers become metres.
+
+    The offset is added to the integers where it is a multiple of the scale: no digit is lost,
+    wherever the survey lies, and equal places give equal numbers, whatever the offset.
+
+    Attributes
+    ----------
+    whole : float
+        Added to the integers.
+    scale : float
+        Metres in one of them.
+    rest : float
+        Metres added at last.
+    """
+
+    whole: float
+    scale: float
+    rest: float
+
+    @classmethod
+    def of(cls, scale: float, offset: float, start: float, unit: float) -> _Axis:
+        """Return the axis of a scale and an offset, relative to a start, in units of metres."""
+        (whole, rest), (before, beyond) = (_multiple(each, scale) for each in (offset, start))
+        return cls(whole - before, scale * unit, (rest - beyond) * unit)
+
+    def convert(self, integers: np.ndarray, metres: np.ndarray) -> None:
+        """Write the metres of integers into an array."""
+        metres[:] = integers
+        metres += self.whole
+        metres *= self.scale
+        if self.rest:
+            metres += self.rest
+
+
+def _multiple(value: float, scale: float) -> tuple[float, float]:
+    """Return how many times a scale is in a value, as a whole number, and the rest."""
+    whole = float(np.rint(value / scale))
+    rest = value - whole * scale
+    return whole, rest if abs(rest) > _WHOLE * scale else 0.0
+
+
+def _picked(columns: Sequence[np.ndarray], which: np.ndarray | slice) -> list[np.ndarray]:
+    """Return the values of some columns at some places."""
+    if isinstance(which, np.ndarray):
+        first, last = int(which.min()), int(which.max())
+        # Mostly they stand close together, in order: what lies between is read in one go.
+        if last - first < _LOOSE * len(which):
+            near, places = slice(first, last + 1), (which - first).astype(np.intp)
+            return [np.ascontiguousarray(each[near]).take(places) for each in columns]
+    return [each[which] for each in columns]

@@ -1,0 +1,295 @@
+"""Reading of COPC those nodes of its octree that a window touches.
+
+laspy has a reader of COPC too, which is not used: it decompresses the whole window at once, does
+not notice a file that is cut off, and runs for ever where a page of the hierarchy names itself.
+
+References
+----------
+COPC specification 1.0, https://copc.io
+"""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, BinaryIO, Callable, Iterator
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..survey.area import Box
+from .copc import HIERARCHY_ENTRY
+from .lasbytes import COPC_INFO, LASZIP, LasLayout
+from .records import NEEDED, selection_of
+from .sources import damage_told, damaged, open_source
+
+if TYPE_CHECKING:
+    import laspy
+
+# Points decompressed at once.
+_BATCH = 1_000_000
+# Writers round coordinates after they sorted the points into nodes: so many steps of the scale may
+# a point lie outside of its cube.
+_ROUNDING_STEPS = 2
+_DEEPEST = 30
+
+
+class OctreeError(BareEarthError):
+    """The octree cannot be relied on; the points may well be read all the same, as LAZ."""
+
+
+@dataclass(frozen=True)
+class Hierarchy:
+    """The cube around the points, and where the list of its nodes begins.
+
+    Attributes
+    ----------
+    corner : tuple of float
+        Smallest x and y of the cube.
+    side : float
+        Its edge.
+    root : tuple of int
+        Start and size of the first page.
+    """
+
+    layout: LasLayout
+    corner: tuple[float, float]
+    side: float
+    root: tuple[int, int]
+
+    @property
+    def tolerance(self) -> float:
+        """How far a point may lie outside of the cube of its node."""
+        return _ROUNDING_STEPS * max(self.layout.scale[:2])
+
+    def squares(self, keys: np.ndarray) -> np.ndarray:
+        """Return what the cubes of nodes cover in the plane, and a little more.
+
+        Parameters
+        ----------
+        keys : numpy.ndarray of int32, shape (n, 4)
+            Depth, x, y and z of each node.
+
+        Returns
+        -------
+        numpy.ndarray of float64, shape (4, n)
+            Smallest x and y, largest x and y.
+        """
+        sides = self.side / np.exp2(keys[:, 0])
+        west = self.corner[0] + keys[:, 1] * sides
+        south = self.corner[1] + keys[:, 2] * sides
+        more = self.tolerance
+        return np.array([west - more, south - more, west + sides + more, south + sides + more])
+
+
+def read_hierarchy(layout: LasLayout) -> Hierarchy:
+    """Read where the octree of a COPC file lies.
+
+    Raises
+    ------
+    OctreeError
+        If the file does not say so, or does not fit its own header.
+    """
+    data = layout.vlr(COPC_INFO).data or b""
+    if len(data) < 56:
+        raise _octree_error(layout, "its description is cut off")
+    x, y, z, half, _, start, size = struct.unpack_from("<5d2Q", data)
+    if not (np.isfinite([x, y, z, half]).all() and half > 0):
+        raise _octree_error(layout, "its cube is not one")
+    hierarchy = Hierarchy(layout, (x - half, y - half), 2 * half, (start, size))
+    west, south, east, north = hierarchy.squares(np.zeros((1, 4), dtype=np.int32))[:, 0]
+    minimum, maximum = layout.minimum, layout.maximum
+    if not (west <= minimum[0] and south <= minimum[1]) or not (
+        maximum[0] <= east and maximum[1] <= north
+    ):
+        raise _octree_error(layout, "its cube does not hold the extent that the header states")
+    return hierarchy
+
+
+def find_nodes(hierarchy: Hierarchy, box: Box) -> np.ndarray:
+    """Return the nodes whose cubes touch a box, in the order in which the file has them.
+
+    Of the pages of the hierarchy only those are read whose branch touches the box.
+
+    Parameters
+    ----------
+    hierarchy : Hierarchy
+        The octree.
+    box : tuple of float
+        Smallest x and y, largest x and y in the CRS.
+
+    Returns
+    -------
+    numpy.ndarray of HIERARCHY_ENTRY, shape (n,)
+
+    Raises
+    ------
+    OctreeError
+        If the hierarchy is damaged.
+    """
+    layout = hierarchy.layout
+    found, total, is_whole = [], 0, True
+    for _, entries, touch in _pages(hierarchy, lambda keys: _touching(hierarchy, keys, box)):
+        # All points of the pages that are read count, not only those of the nodes that are wanted.
+        total += int(np.maximum(entries["count"], 0).sum(dtype=np.int64))
+        is_whole &= not (entries["count"][~touch] == -1).any()
+        found.append(entries[touch & (entries["count"] > 0)])
+    if total > layout.count or (is_whole and total != layout.count):
+        raise _uncounted(layout)
+    nodes = np.concatenate(found)
+    nodes = nodes[np.argsort(nodes["start"], kind="stable")]
+    if (nodes["start"][1:] < nodes["start"][:-1] + nodes["size"][:-1].astype(np.uint64)).any():
+        raise _octree_error(layout, "its nodes overlap in the file")
+    return nodes
+
+
+def read_pages(hierarchy: Hierarchy) -> dict[int, np.ndarray]:
+    """Return all pages of the hierarchy.
+
+    Returns
+    -------
+    dict of int to numpy.ndarray of HIERARCHY_ENTRY
+        The entries of each page, by where it begins.
+
+    Raises
+    ------
+    OctreeError
+        If the hierarchy is damaged.
+    """
+    every = _pages(hierarchy, lambda keys: np.ones(len(keys), dtype=bool))
+    pages = {start: entries for start, entries, _ in every}
+    total = sum(int(np.maximum(each["count"], 0).sum(dtype=np.int64)) for each in pages.values())
+    if total != hierarchy.layout.count:
+        raise _uncounted(hierarchy.layout)
+    return pages
+
+
+def read_nodes(
+    hierarchy: Hierarchy, nodes: np.ndarray, reader: laspy.LasReader
+) -> Iterator[laspy.PackedPointRecord]:
+    """Yield the points of nodes, about a million at once.
+
+    Parameters
+    ----------
+    hierarchy : Hierarchy
+        The octree.
+    nodes : numpy.ndarray of HIERARCHY_ENTRY
+        From `find_nodes`.
+    reader : laspy.LasReader
+        The opened file; knows the point format.
+
+    Raises
+    ------
+    OctreeError
+        If points do not lie in the cubes of their nodes: others may be missing.
+    BareEarthError
+        If the points are damaged.
+    """
+    import laspy
+
+    layout = hierarchy.layout
+    with open_source(layout.path) as file:
+        for batch in _batches(nodes):
+            with damage_told(layout.path):
+                records = _decompress(layout, file, batch)
+                chunk = laspy.PackedPointRecord.from_buffer(records, reader.header.point_format)
+            _check_places(hierarchy, batch, chunk)
+            yield chunk
+
+
+def _pages(
+    hierarchy: Hierarchy, wanted: Callable[[np.ndarray], np.ndarray]
+) -> Iterator[tuple[int, np.ndarray, np.ndarray]]:
+    """Yield where pages begin, their entries, and which of these are wanted, as their keys tell.
+
+    The pages of branches that are not wanted are not read.
+    """
+    layout, pages, seen = hierarchy.layout, [hierarchy.root], set()
+    with open_source(layout.path) as file:
+        while pages:
+            page = pages.pop()
+            if page in seen:
+                raise _octree_error(layout, "one of its pages names itself")
+            seen.add(page)
+            entries = _read_page(layout, file, *page)
+            which = wanted(entries["key"])
+            branches = entries[which & (entries["count"] == -1)]
+            pages += [(int(each["start"]), int(each["size"])) for each in branches]
+            yield page[0], entries, which
+
+
+def _read_page(layout: LasLayout, file: BinaryIO, start: int, size: int) -> np.ndarray:
+    """Return the entries of a page of the hierarchy, all of which make sense."""
+    length = HIERARCHY_ENTRY.itemsize
+    if size < length or size % length or start + size > layout.size:
+        raise _octree_error(layout, "one of its pages lies outside of the file")
+    file.seek(start)
+    data = file.read(size)
+    if len(data) != size:
+        raise damaged(layout.path)
+    entries = np.frombuffer(data, dtype=HIERARCHY_ENTRY)
+    depth, places = entries["key"][:, 0], entries["key"][:, 1:]
+    makes_sense = (depth >= 0) & (depth <= _DEEPEST) & (entries["count"] >= -1)
+    makes_sense &= (places >= 0).all(axis=1)
+    makes_sense &= (places < np.exp2(depth)[:, None]).all(axis=1)
+    filled = entries["count"] != 0
+    end = entries["start"] + np.maximum(entries["size"], 0).astype(np.uint64)
+    in_file = (entries["size"] > 0) & (entries["start"] < layout.size) & (end <= layout.size)
+    makes_sense &= in_file | ~filled
+    if not makes_sense.all():
+        raise _octree_error(layout, "one of its pages holds what cannot be")
+    return entries
+
+
+def _touching(hierarchy: Hierarchy, keys: np.ndarray, box: Box) -> np.ndarray:
+    west, south, east, north = hierarchy.squares(keys)
+    return (west <= box[2]) & (east >= box[0]) & (south <= box[3]) & (north >= box[1])
+
+
+def _batches(nodes: np.ndarray) -> Iterator[np.ndarray]:
+    """Yield runs of nodes that have about `_BATCH` points together."""
+    counts = nodes["count"].astype(np.int64)
+    numbers = (np.cumsum(counts) - counts) // _BATCH
+    return (run for run in np.split(nodes, np.flatnonzero(np.diff(numbers)) + 1) if len(run))
+
+
+def _decompress(layout: LasLayout, file: BinaryIO, nodes: np.ndarray) -> np.ndarray:
+    import lazrs
+
+    compressed = bytearray()
+    for node in nodes:
+        file.seek(int(node["start"]))
+        compressed += file.read(int(node["size"]))
+    if len(compressed) != int(nodes["size"].sum(dtype=np.int64)):
+        raise damaged(layout.path)
+    counts = nodes["count"].tolist()
+    records = np.zeros(sum(counts) * layout.record_length, dtype=np.uint8)
+    lazrs.decompress_points_with_chunk_table(
+        compressed,
+        layout.vlr(LASZIP).data,
+        records,
+        list(zip(counts, nodes["size"].tolist())),
+        selection_of(NEEDED),
+    )
+    return records
+
+
+def _check_places(hierarchy: Hierarchy, nodes: np.ndarray, chunk: laspy.PackedPointRecord) -> None:
+    """Compare the points of nodes with the cubes in which they should lie."""
+    layout = hierarchy.layout
+    starts = np.cumsum(nodes["count"], dtype=np.int64) - nodes["count"]
+    squares = hierarchy.squares(nodes["key"])
+    for axis, name in enumerate("XY"):
+        integers = np.asarray(chunk[name])
+        lowest = np.minimum.reduceat(integers, starts) * layout.scale[axis] + layout.offset[axis]
+        highest = np.maximum.reduceat(integers, starts) * layout.scale[axis] + layout.offset[axis]
+        if (lowest < squares[axis]).any() or (highest > squares[axis + 2]).any():
+            raise _octree_error(layout, "points lie outside of their nodes")
+
+
+def _uncounted(layout: LasLayout) -> OctreeError:
+    return _octree_error(layout, "its numbers of points do not add up to that of the file")
+
+
+def _octree_error(layout: LasLayout, what: str) -> OctreeError:
+    return OctreeError(f"The octree of {layout.path} is damaged: {what}.")

@@ -1,0 +1,194 @@
+"""Extra bytes: what a file holds of each point beside what its point format defines.
+
+A record tells their names and types, 192 bytes for each dimension: see the table "Extra Bytes
+Descriptor" of the LAS 1.4 specification. LAS 1.0 to 1.3 do not know it, but programs read it there.
+"""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from .lasbytes import RECORD_LENGTHS, LasLayout, Vlr, new_vlr, with_record_length
+
+EXTRA_BYTES = ("LASF_Spec", 4)
+_DESCRIPTOR = 192
+# Bytes of each data type: undocumented, then integers of 1 to 8 bytes, float and double.
+_SIZES = (0, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8)
+_KINDS = {9: "<f4", 10: "<f8"}
+_FLOAT = 9
+_HAS_MINIMUM, _HAS_MAXIMUM, _HAS_SCALE, _HAS_OFFSET = 0x02, 0x04, 0x08, 0x10
+_LARGEST_RECORD = 65535
+_MOST_UNDOCUMENTED = 255
+
+
+@dataclass(frozen=True)
+class ExtraDimension:
+    """A number for each point, to be kept in extra bytes.
+
+    Attributes
+    ----------
+    name, description : str
+        Up to 32 bytes each.
+    values : numpy.ndarray of float32, shape (n,)
+        In the order of the file.
+    """
+
+    name: str
+    description: str
+    values: np.ndarray
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a dimension stands in the record of a point: from which byte on, and as what type."""
+
+    start: int
+    kind: np.dtype
+
+
+def place_dimension(layout: LasLayout, dimension: ExtraDimension) -> tuple[LasLayout, Place]:
+    """Find room for a dimension in the records of a file.
+
+    Parameters
+    ----------
+    layout : LasLayout
+        The file as it is.
+    dimension : ExtraDimension
+        What to add; a dimension of that name is replaced.
+
+    Returns
+    -------
+    layout : LasLayout
+        The file to be: with longer records, unless the dimension is there already, and with a
+        record that describes it.
+    place : Place
+        Where the dimension's values go.
+
+    Raises
+    ------
+    BareEarthError
+        If the record on the extra bytes does not fit the points, or a dimension of that name is
+        neither float nor double.
+    """
+    descriptors = _descriptors(layout)
+    start = RECORD_LENGTHS[layout.point_format]
+    for number, descriptor in enumerate(descriptors):
+        if _text(descriptor[4:36]) == dimension.name:
+            kind = _checked_kind(layout, dimension.name, descriptor)
+            descriptors[number] = _descriptor(dimension, descriptor[2])
+            return _with_record(layout, descriptors), Place(start, kind)
+        start += _size(descriptor)
+    # What no descriptor speaks of comes before the new dimension, so it needs one now.
+    while start < layout.record_length:
+        size = min(layout.record_length - start, _MOST_UNDOCUMENTED)
+        descriptors.append(struct.pack("<2xBB32s156x", 0, size, b"undocumented"))
+        start += size
+    descriptors.append(_descriptor(dimension, _FLOAT))
+    kind = np.dtype(_KINDS[_FLOAT])
+    layout = with_record_length(layout, layout.record_length + kind.itemsize)
+    return _with_record(layout, descriptors), Place(start, kind)
+
+
+def extra_dimensions(layout: LasLayout) -> list[tuple[str, str, int]]:
+    """Return name, type and bytes of each dimension in extra bytes, in the terms of PDAL.
+
+    The type is "unsigned", "signed" or "floating". Pairs and triples, which are deprecated, and
+    bytes that nothing is said of are left out.
+    """
+    try:
+        descriptors = _descriptors(layout)
+    except BareEarthError:
+        return []
+    found = []
+    for descriptor in descriptors:
+        kind, options = descriptor[2], descriptor[3]
+        if not 1 <= kind < len(_SIZES):
+            continue
+        name, size = _text(descriptor[4:36]), _SIZES[kind]
+        if kind in _KINDS:
+            found.append((name, "floating", size))
+        elif options & (_HAS_SCALE | _HAS_OFFSET):
+            found.append((name, "floating", 8))
+        else:
+            found.append((name, "unsigned" if kind % 2 else "signed", size))
+    return found
+
+
+def _descriptors(layout: LasLayout) -> list[bytes]:
+    """Return the descriptors that a file has.
+
+    Raises
+    ------
+    BareEarthError
+        If they describe more bytes than its points have.
+    """
+    record = layout.vlr(EXTRA_BYTES)
+    data = b"" if record is None else record.data or b""
+    whole = len(data) // _DESCRIPTOR * _DESCRIPTOR
+    descriptors = [data[at : at + _DESCRIPTOR] for at in range(0, whole, _DESCRIPTOR)]
+    if sum(map(_size, descriptors)) > layout.extra_bytes:
+        raise BareEarthError(
+            f"{layout.path} describes more extra bytes than its points have, so that no dimension"
+            " can be added. Mend its record on the extra bytes first."
+        )
+    return descriptors
+
+
+def _size(descriptor: bytes) -> int:
+    """Return the bytes of a dimension; the types from 11 on are pairs and triples."""
+    kind, options = descriptor[2], descriptor[3]
+    if kind == 0:
+        return options
+    if kind > 30:  # reserved: not told how long, so whoever wrote it cannot be followed
+        return _LARGEST_RECORD
+    return _SIZES[(kind - 1) % 10 + 1] * ((kind - 1) // 10 + 1)
+
+
+def _checked_kind(layout: LasLayout, name: str, descriptor: bytes) -> np.dtype:
+    kind, options = descriptor[2], descriptor[3]
+    if kind not in _KINDS or options & (_HAS_SCALE | _HAS_OFFSET):
+        raise BareEarthError(
+            f"{layout.path} has an extra dimension {name} that is neither float nor double. Remove"
+            " or rename it first."
+        )
+    return np.dtype(_KINDS[kind])
+
+
+def _descriptor(dimension: ExtraDimension, kind: int) -> bytes:
+    values = dimension.values
+    return struct.pack(
+        "<2xBB32s4x24xd16xd16x48x32s",
+        kind,
+        _HAS_MINIMUM | _HAS_MAXIMUM,
+        dimension.name.encode(),
+        float(values.min()),
+        float(values.max()),
+        dimension.description.encode(),
+    )
+
+
+def _with_record(layout: LasLayout, descriptors: list[bytes]) -> LasLayout:
+    """Return the layout with the descriptors in a VLR, where they were or behind the others."""
+    data = b"".join(descriptors)
+    if len(data) > _LARGEST_RECORD:
+        raise BareEarthError(f"{layout.path} has too many extra dimensions to add one.")
+    vlrs = list(layout.vlrs)
+    keys = [vlr.key for vlr in vlrs]
+    if EXTRA_BYTES in keys:
+        at = keys.index(EXTRA_BYTES)
+        head = bytearray(vlrs[at].raw[: -len(vlrs[at].data) or None])
+        struct.pack_into("<H", head, 20, len(data))
+        vlrs[at] = Vlr(bytes(head) + data)
+    else:
+        vlrs.append(new_vlr(EXTRA_BYTES, data, "Extra Bytes Record"))
+    # Behind the points, where few look for it, it would contradict this one.
+    evlrs = tuple(evlr for evlr in layout.evlrs if evlr.key != EXTRA_BYTES)
+    return replace(layout, vlrs=tuple(vlrs), evlrs=evlrs)
+
+
+def _text(field: bytes) -> str:
+    return field.split(b"\0")[0].decode("utf-8", "replace").strip()

@@ -1,0 +1,308 @@
+"""Reading LAS, LAZ and COPC files. COPC is LAZ in another order, and read as such."""
+
+from __future__ import annotations
+
+import contextlib
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Iterator
+
+import numpy as np
+
+from ..core.progress import SILENT, Progress
+from ..core.threads import over_parts, parts_of
+from ..crs.reading import Crs, read_crs, unit_name
+from .backends import require
+from .cloud import PointCloud
+from .lasbytes import LasLayout, read_layout
+from .records import FIRST_EXTENDED_FORMAT, MOST_KEPT, NEEDED, read_records
+from .sources import damage_told
+
+if TYPE_CHECKING:
+    import laspy
+
+_CHUNK = 500_000
+_POINTS_A_PART = 1 << 17
+_SMALL = {
+    "classification": np.uint8,
+    "return_number": np.uint8,
+    "number_of_returns": np.uint8,
+    "withheld": bool,
+    "scanner_channel": np.uint8,
+}
+_COORDINATES = ("x", "y", "z")
+
+
+def read_cloud(path: Path, progress: Progress = SILENT, keep_records: bool = False) -> PointCloud:
+    """Read the points of a LAS, LAZ or COPC file.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    progress : Progress
+        Receives progress, and what is odd about the CRS.
+    keep_records : bool
+        Keep all that the file says of each point, so that it need not be read again to be written.
+
+    Returns
+    -------
+    PointCloud
+        All points in file order.
+
+    Raises
+    ------
+    BareEarthError
+        If the file cannot be read, with what to do about it.
+    Cancelled
+        If the user asked to stop.
+    """
+    layout = read_layout(Path(path))
+    require(*_packages(layout))
+    crs, start = read_crs(layout, progress), 0
+    with _opened(layout) as reader:
+        if keep_records:
+            records = np.empty((layout.count, layout.record_length), dtype=np.uint8)
+            # x, y and z stay where they are among the records: a copy would be half as much again.
+            named = _named(reader, records)
+            coordinates = {name: named[name.upper()] for name in _COORDINATES}
+            cloud = _empty_cloud(layout, layout.count, crs, records=records, **coordinates)
+            pieces = read_records(layout, MOST_KEPT, records)
+        else:
+            cloud = _empty_cloud(layout, layout.count, crs)
+            pieces = read_records(layout, columns=NEEDED)
+        for piece in pieces:
+            _fill(cloud, slice(start, start + len(piece)), _named(reader, piece))
+            start += len(piece)
+            progress(start / layout.count)
+    return cloud
+
+
+def read_parts(path: Path, progress: Progress = SILENT) -> Iterator[PointCloud]:
+    """Read a file part by part, so that it need not fit into memory.
+
+    Parameters
+    ----------
+    path, progress
+        As for `read_cloud`.
+
+    Yields
+    ------
+    PointCloud
+        The next points, in file order. The parts of a file are the same each time.
+
+    Raises
+    ------
+    BareEarthError
+        If the file cannot be read, with what to do about it.
+    Cancelled
+        If the user asked to stop.
+    """
+    layout = read_layout(Path(path))
+    require(*_packages(layout))
+    crs, start = read_crs(layout, progress), 0
+    with _opened(layout) as reader:
+        for chunk in _chunks(layout, reader):
+            part = _empty_cloud(layout, len(chunk), crs)
+            _fill(part, slice(None), chunk)
+            yield part
+            start += len(chunk)
+            progress(start / layout.count)
+
+
+@dataclass(frozen=True)
+class Description:
+    """What a file holds, for `bare-earth info`.
+
+    Attributes
+    ----------
+    minimum, maximum : tuple of float
+        Extent of the points in units of the CRS.
+    density : float or None
+        Points per square metre of the extent; None where nothing can be measured.
+    classes, returns : dict of int to int
+        Number of points of each class, and of each return number.
+    records : list of str
+        User id, number and description of each VLR and EVLR.
+    """
+
+    path: str
+    file_size: int
+    version: str
+    encoding: str
+    point_format: int
+    point_count: int
+    minimum: tuple[float, float, float]
+    maximum: tuple[float, float, float]
+    scale: tuple[float, float, float]
+    offset: tuple[float, float, float]
+    density: float | None
+    crs: str
+    epsg: int | None
+    is_geographic: bool
+    horizontal_unit: float
+    vertical_unit: float
+    classes: dict[int, int]
+    returns: dict[int, int]
+    withheld: int
+    extra_dimensions: list[str]
+    records: list[str]
+    system_identifier: str
+    software: str
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return all of it as plain values."""
+        return asdict(self)
+
+    def lines(self) -> list[str]:
+        """Return all of it as lines of text for a terminal or a log."""
+        units = f"{unit_name(self.horizontal_unit)}, height {unit_name(self.vertical_unit)}"
+        if self.is_geographic:
+            units = "degree or geocentric: reproject before classifying"
+        code = f" (EPSG:{self.epsg})" if self.epsg else ""
+        rows = {
+            "file": f"{self.path} ({self.file_size:,} bytes)",
+            "format": f"LAS {self.version}, {self.encoding}, point format {self.point_format}",
+            "points": f"{self.point_count:,}",
+            "density": "unknown" if self.density is None else f"{self.density:.2f} points/m2",
+            "minimum": _coordinates(self.minimum),
+            "maximum": _coordinates(self.maximum),
+            "scale": _coordinates(self.scale),
+            "offset": _coordinates(self.offset),
+            "CRS": f"{self.crs or 'not stated'}{code}",
+            "units": units,
+            "classes": _counts(self.classes),
+            "returns": _counts(self.returns),
+            "withheld": f"{self.withheld:,}",
+            "extra dims": ", ".join(self.extra_dimensions) or "none",
+            "system": self.system_identifier,
+            "software": self.software,
+        }
+        lines = [f"{title:<10} {text}".rstrip() for title, text in rows.items()]
+        return lines + [f"{'record':<10} {record}" for record in self.records]
+
+
+def inspect(path: Path, progress: Progress = SILENT) -> Description:
+    """Describe a file, after reading all of its points.
+
+    Raises
+    ------
+    BareEarthError
+        If the file cannot be read, with what to do about it.
+    """
+    layout = read_layout(Path(path))
+    cloud = read_cloud(path, progress)
+    with _opened(layout) as reader:
+        extra = list(reader.header.point_format.extra_dimension_names)
+    integers = (cloud.x, cloud.y, cloud.z)
+    corners = [
+        tuple(
+            float(int(pick(each)) * scale + offset)
+            for each, scale, offset in zip(integers, cloud.scale, cloud.offset)
+        )
+        for pick in (np.min, np.max)
+    ]
+    return Description(
+        path=str(layout.path),
+        file_size=layout.size,
+        version=f"1.{layout.minor_version}",
+        encoding="COPC" if layout.is_copc else "LAZ" if layout.is_compressed else "uncompressed",
+        point_format=layout.point_format,
+        point_count=layout.count,
+        minimum=corners[0],
+        maximum=corners[1],
+        scale=layout.scale,
+        offset=layout.offset,
+        density=_density(cloud, *corners),
+        crs=cloud.crs.name,
+        epsg=cloud.crs.epsg,
+        is_geographic=cloud.crs.is_geographic,
+        horizontal_unit=cloud.crs.horizontal_unit,
+        vertical_unit=cloud.crs.vertical_unit,
+        classes=_histogram(cloud.classification),
+        returns=_histogram(cloud.return_number),
+        withheld=int(np.count_nonzero(cloud.withheld)),
+        extra_dimensions=extra,
+        records=[
+            f"{each.key[0]} {each.key[1]} {each.description}".rstrip()
+            for each in (*layout.vlrs, *layout.evlrs)
+        ],
+        system_identifier=layout.system_identifier,
+        software=layout.software,
+    )
+
+
+def _packages(layout: LasLayout) -> tuple[str, ...]:
+    return ("laspy", "lazrs") if layout.is_compressed else ("laspy",)
+
+
+@contextlib.contextmanager
+def _opened(layout: LasLayout) -> Iterator[laspy.LasReader]:
+    import laspy
+
+    with damage_told(layout.path):
+        reader = laspy.open(layout.path, encoding_errors="replace", read_evlrs=False)
+    with reader:
+        yield reader
+
+
+def _chunks(layout: LasLayout, reader: laspy.LasReader) -> Iterator[laspy.PackedPointRecord]:
+    """Yield all points, as many at a time in each run; the next ones reuse their memory."""
+    pieces = parts_of(layout.count, _CHUNK)
+    for records in read_records(layout, _CHUNK, columns=NEEDED, pieces=pieces):
+        yield _named(reader, records)
+
+
+def _named(reader: laspy.LasReader, records: np.ndarray) -> laspy.PackedPointRecord:
+    """Return points, given as their bytes, by the names of their columns."""
+    from laspy import PackedPointRecord
+
+    return PackedPointRecord.from_buffer(records, reader.header.point_format)
+
+
+def _empty_cloud(layout: LasLayout, count: int, crs: Crs, **kept: np.ndarray) -> PointCloud:
+    """Return room for points, but for the columns that there are."""
+    kinds = {**{name: np.int32 for name in _COORDINATES}, **_SMALL}
+    if layout.point_format < FIRST_EXTENDED_FORMAT:
+        del kinds["scanner_channel"]
+    empty = {name: np.empty(count, dtype=kind) for name, kind in kinds.items() if name not in kept}
+    return PointCloud(
+        path=layout.path,
+        scale=layout.scale,
+        offset=layout.offset,
+        point_format=layout.point_format,
+        crs=crs,
+        **empty,
+        **kept,
+    )
+
+
+def _fill(cloud: PointCloud, where: slice, points: laspy.PackedPointRecord) -> None:
+    """Put points into their place in a cloud; where their coordinates are kept, they are there."""
+    names = {name: name for name in _SMALL if getattr(cloud, name) is not None}
+    if cloud.records is None:
+        names.update({name: name.upper() for name in _COORDINATES})
+
+    def copy(part: slice) -> None:
+        for name, source in names.items():
+            getattr(cloud, name)[where][part] = np.asarray(points[source][part])
+
+    over_parts(copy, len(points), _POINTS_A_PART, SILENT)
+
+
+def _density(cloud: PointCloud, minimum: tuple, maximum: tuple) -> float | None:
+    area = (maximum[0] - minimum[0]) * (maximum[1] - minimum[1]) * cloud.crs.horizontal_unit**2
+    return None if cloud.crs.is_geographic or area <= 0 else cloud.count / area
+
+
+def _histogram(values: np.ndarray) -> dict[int, int]:
+    counts = np.bincount(values, minlength=1)
+    return {int(value): int(counts[value]) for value in np.flatnonzero(counts)}
+
+
+def _counts(counts: dict[int, int]) -> str:
+    return ", ".join(f"{value}: {count:,}" for value, count in counts.items())
+
+
+def _coordinates(values: tuple[float, ...]) -> str:
+    return "  ".join(f"{value:.10g}" for value in values)

@@ -1,0 +1,262 @@
+"""Writing a cloud anew: the file as it was, with other classes, heights or extra bytes.
+
+laspy is not used here: it writes headers and records anew, and what it does not know gets lost. The
+bytes of the input are copied instead, and only those changed that have to.
+"""
+
+from __future__ import annotations
+
+import struct
+from pathlib import Path
+from typing import BinaryIO, NamedTuple
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.files import replacing
+from ..core.progress import SILENT, Progress
+from .backends import require
+from .changes import Changes, Rewriting
+from .class_layers import ClassLayers, class_layers
+from .cloud import PointCloud
+from .copc import write_copc
+from .copc_index import CopcIndex
+from .copc_nodes import OctreeError
+from .lasbytes import (
+    COPC_HIERARCHY,
+    COPC_INFO,
+    EVLR_COUNT,
+    LASZIP,
+    LasLayout,
+    read_layout,
+    with_statistics,
+)
+from .records import LasRecordWriter, LazRecordWriter, Tally, copy_range, laszip_vlr, set_classes
+from .sources import open_source
+
+_COPC_SUFFIX = ".copc.laz"
+_EXTERNAL_WAVEFORMS = 0x04
+_EXTENDED_WITH_WAVEFORMS = (9, 10)
+_CHANNEL_BITS = 0x30
+
+
+def check_writable(target: Path) -> None:
+    """Refuse, before any work is done, a file name or format that cannot be written here.
+
+    Raises
+    ------
+    BareEarthError
+        If the suffix is not .las, .laz or .copc.laz, or a package is missing.
+    """
+    target = Path(target)
+    if target.suffix.lower() not in (".las", ".laz"):
+        raise BareEarthError(f"Cannot write {target}: name it .las, .laz or .copc.laz.")
+    if target.suffix.lower() == ".laz":
+        require("lazrs")
+
+
+def write_classified(
+    source: Path, target: Path, classification: np.ndarray, progress: Progress = SILENT
+) -> None:
+    """Write `source` anew with other classes.
+
+    Parameters
+    ----------
+    classification : numpy.ndarray of uint8, shape (n,)
+        The class of every point, in the order of `source`.
+    source, target, progress
+        As for `write_changed`.
+    """
+    write_changed(source, target, Changes(classification=classification), progress)
+
+
+def write_changed(
+    source: Path,
+    target: Path,
+    changes: Changes,
+    progress: Progress = SILENT,
+    cloud: PointCloud | None = None,
+) -> None:
+    """Write `source` anew with other values of its points.
+
+    Points are left out only if the changes say so; header and counts then speak of the rest. All
+    that is not to change stays: points, their order, integers and extra bytes, the header and
+    all records, but for what compressing or decompressing needs. Writing .copc.laz changes the
+    order of the points, and the point formats 0 to 5 to 6 to 8, as its specification wants.
+
+    Parameters
+    ----------
+    source, target : Path
+        The input, and the output: .las, .laz or .copc.laz.
+    changes : Changes
+        What changes.
+    progress : Progress
+        Told what an output cannot hold.
+    cloud : PointCloud, optional
+        Points of `source`: if they are all, less of it is read again. Its records are changed
+        here, if they were kept.
+
+    Raises
+    ------
+    BareEarthError
+        If the input cannot be read or the output not be written; nothing is left behind.
+    Cancelled
+        If the user asked to stop; nothing is left behind.
+    """
+    source, target = Path(source), Path(target)
+    check_writable(target)
+    layout = read_layout(source)
+    rewriting = Rewriting(layout, changes, None if cloud is None else cloud.records)
+    if layout.is_compressed:
+        require("lazrs")
+    kept = None if rewriting.only_classes is None else layers_kept(layout, target)
+    with replacing(target) as temporary:
+        if kept is not None:
+            _replace_classes(rewriting, kept, temporary, progress, cloud)
+        elif is_copc(target):
+            write_copc(rewriting, temporary, progress)
+        else:
+            _write(rewriting, temporary, progress)
+    if not is_copc(target):
+        _tell_of_waveforms(layout, target, progress)
+
+
+def is_copc(target: Path) -> bool:
+    """Return whether a file of this name is written as COPC."""
+    return target.name.lower().endswith(_COPC_SUFFIX)
+
+
+class Kept(NamedTuple):
+    """What of a compressed file is known, so that all but the classes may be copied as it is.
+
+    Attributes
+    ----------
+    layers : ClassLayers
+        Where the classes are.
+    index : CopcIndex or None
+        That of a COPC file, if the output is one as well.
+    """
+
+    layers: ClassLayers
+    index: CopcIndex | None
+
+
+def layers_kept(source: LasLayout, target: Path) -> Kept | None:
+    """Return what has to be known to write nothing of the points anew but their classes.
+
+    Returns
+    -------
+    Kept or None
+        None where the output is of another kind than the source, or the source not compressed by
+        layers.
+    """
+    if target.suffix.lower() != ".laz" or is_copc(target) > source.is_copc:
+        return None
+    layers = class_layers(source)
+    if layers is None or not is_copc(target):
+        return layers and Kept(layers, None)
+    try:
+        index = CopcIndex(source)
+    except OctreeError:
+        return None
+    return Kept(layers, index) if index.fits(layers.chunks) else None
+
+
+def _replace_classes(
+    rewriting: Rewriting, kept: Kept, target: Path, progress: Progress, cloud: PointCloud | None
+) -> None:
+    """Write a compressed file anew, nothing of whose points changes but the classes."""
+    layout, dropped = rewriting.target, ()
+    if kept.index is None:
+        _tell_of_index(layout, progress)
+        dropped = (COPC_INFO, COPC_HIERARCHY)
+    with open(target, "w+b") as file:
+        vlrs = tuple(vlr for vlr in layout.vlrs if vlr.key not in dropped)
+        file.write(layout.prefix(vlrs, compressed=True))
+        for done in kept.layers.write(file, rewriting.only_classes, cloud):
+            progress(done)
+        shift = file.seek(0, 2) - layout.tail_start
+        _copy_tail(rewriting, file, *dropped)
+        if kept.index is not None:
+            kept.index.write(file, kept.layers.moved, shift)
+
+
+def _tell_of_index(layout: LasLayout, progress: Progress) -> None:
+    if layout.is_copc:
+        progress.info(
+            "The points stay in the order of the COPC file, but its index is left out: choose an"
+            " output named .copc.laz to have one."
+        )
+
+
+def _write(rewriting: Rewriting, target: Path, progress: Progress) -> None:
+    rewriting.check_classes()
+    layout = rewriting.target
+    _tell_of_index(layout, progress)
+    compressed = target.suffix.lower() == ".laz"
+    vlrs = [vlr for vlr in layout.vlrs if vlr.key not in (LASZIP, COPC_INFO)]
+    laszip = laszip_vlr(layout.point_format, layout.extra_bytes) if compressed else None
+    if laszip is not None:
+        # Where the record was before, so that a file compressed anew differs in its points only.
+        before = [vlr.key for vlr in layout.vlrs if vlr.key != COPC_INFO]
+        vlrs.insert(before.index(LASZIP) if LASZIP in before else len(vlrs), laszip)
+    with open(target, "w+b") as file:
+        file.write(layout.prefix(tuple(vlrs), compressed))
+        writer = LazRecordWriter(file, laszip) if laszip else LasRecordWriter(file)
+        channels, tally = set(), Tally(layout.point_format)
+        for records, classes, done in rewriting.points():
+            set_classes(layout, records, classes)
+            if laszip is not None and layout.point_format in _EXTENDED_WITH_WAVEFORMS:
+                channels |= set(np.unique(records[:, 15] & _CHANNEL_BITS).tolist())
+                _check_channels(layout, channels)
+            writer.write(records)
+            if rewriting.leaves_out:
+                tally.add(records)
+            progress(done)
+        writer.finish()
+        if rewriting.leaves_out:
+            # What the header of the source says of all points would be wrong of some.
+            layout = with_statistics(
+                layout, tally.lowest.tolist(), tally.highest.tolist(), tally.returns.tolist()
+            )
+            file.seek(0)
+            file.write(layout.prefix(tuple(vlrs), compressed)[: len(layout.header)])
+        _copy_tail(rewriting, file, COPC_HIERARCHY)
+
+
+def _check_channels(layout: LasLayout, channels: set[int]) -> None:
+    """Refuse what lazrs compresses wrongly.
+
+    It mixes up the waveform packets of points of several scanner channels (seen with 0.6.0 and
+    0.8.2; laszip compresses and both decompress them rightly).
+    """
+    if len(channels) > 1:
+        raise BareEarthError(
+            f"The points of {layout.path} have waveforms and several scanner channels, which cannot"
+            " be compressed here without damage. Name the output .las."
+        )
+
+
+def _copy_tail(rewriting: Rewriting, file: BinaryIO, *dropped: tuple[str, int]) -> None:
+    """Copy what follows the points, but for some records; let the header say where it is now."""
+    layout = rewriting.source
+    kept = {evlr.key for evlr in rewriting.target.evlrs}
+    tail = layout.kept_tail(*dropped, *(e.key for e in layout.evlrs if e.key not in kept))
+    pointers = layout.pointers(tail, file.seek(0, 2))
+    with open_source(layout.path) as source:
+        for start, end in tail:
+            copy_range(source, file, start, end)
+    for place, pointer in pointers.items():
+        file.seek(place)
+        file.write(struct.pack("<Q", pointer))
+    if len(tail) > 1:
+        file.seek(EVLR_COUNT)
+        file.write(struct.pack("<I", len(layout.evlrs) - len(tail) + 1))
+
+
+def _tell_of_waveforms(layout: LasLayout, target: Path, progress: Progress) -> None:
+    if layout.global_encoding & _EXTERNAL_WAVEFORMS:
+        progress.warning(
+            f"The waveforms are in a file beside the input: copy"
+            f" {layout.path.with_suffix('.wdp').name} to {target.with_suffix('.wdp').name}."
+        )

@@ -1,1 +1,0 @@
-"""LAS, LAZ and COPC in and out, the selection of points and the units of their CRS."""

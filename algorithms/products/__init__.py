@@ -1,0 +1,1 @@
+"""One file for each product that is made of classified points."""

@@ -1,0 +1,216 @@
+"""Buildings, trees and other objects taken out of the raster of a surface.
+
+References
+----------
+Lindsay, J. B. (2018): A new method for the removal of off-terrain objects from LiDAR-derived raster
+surface models. doi:10.13140/RG.2.2.21226.62401. WhiteboxTools: RemoveOffTerrainObjects.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.parameters import ParameterSet, parameter
+from ..core.progress import SILENT, Progress
+from ..grids.inpaint import inpaint
+from ..grids.morphology import opening
+from ..rasters.geotiff import NODATA, check_raster_output, read_raster, write_geotiff
+
+# Each pair of opposite directions to the eight neighbours once.
+_DIRECTIONS = ((0, 1), (1, -1), (1, 0), (1, 1))
+_RELAXATIONS = 40
+# Neighbours from which the terrain must come up gently: a way one cell wide is no hillside.
+_WAYS = 2
+
+
+@dataclass(frozen=True)
+class OffTerrain(ParameterSet):
+    """What is an object, and what is a hill."""
+
+    max_object_size: float = parameter(
+        40.0,
+        label="Maximum object size",
+        unit="m",
+        minimum=0.1,
+        maximum=1000.0,
+        help="Shorter side of the largest building. Larger costs time, and steep hilltops that are"
+        " then taken for objects.",
+    )
+    slope_threshold: float = parameter(
+        15.0,
+        label="Slope threshold",
+        unit="deg",
+        minimum=0.1,
+        maximum=88.0,
+        help="Objects have edges steeper than this all round, measured above the terrain that the"
+        " maximum object size gives; what rises more gently somewhere is a hill.",
+    )
+    band: int = parameter(
+        1,
+        label="Band",
+        minimum=1,
+        maximum=65535,
+        advanced=True,
+        help="Number of the raster's band that holds the heights.",
+    )
+
+
+@dataclass(frozen=True)
+class Removal:
+    """What was removed.
+
+    Attributes
+    ----------
+    cell_count : int
+        Cells with a height.
+    removed_count : int
+        Those whose height was replaced.
+    """
+
+    cell_count: int
+    removed_count: int
+
+    @property
+    def text(self) -> str:
+        """The counts in a sentence."""
+        share = self.removed_count / self.cell_count
+        return f"{self.removed_count:,} of {self.cell_count:,} cells were objects ({share:.1%})."
+
+
+def remove_objects_file(
+    source: str | Path,
+    target: Path,
+    parameters: OffTerrain = OffTerrain(),
+    progress: Progress = SILENT,
+) -> Removal:
+    """Write the raster of a surface anew without the objects on it.
+
+    Parameters
+    ----------
+    source : str or Path
+        The raster, whatever GDAL opens.
+    target : Path
+        GeoTIFF file to make: same grid, CRS and unit, float32.
+    parameters : OffTerrain
+        What is an object.
+    progress : Progress
+        Receives progress and messages.
+
+    Raises
+    ------
+    BareEarthError
+        If the raster cannot be read or written, has no height, or is not in a projected CRS.
+    Cancelled
+        If the user asked to stop; no output is left behind.
+    """
+    check_raster_output(target, (Path(source),))
+    raster = read_raster(source, parameters.band, progress)
+    progress(0.1)
+    known = ~np.isnan(raster.heights)
+    if not known.any():
+        raise BareEarthError(f"{source} has no height in band {parameters.band}.")
+    unit = raster.frame.vertical_unit
+    heights, removed = remove_objects(
+        raster.heights * np.float32(unit), raster.cell_metres, parameters, progress.part(0.1, 0.9)
+    )
+    # What stays is written as it was, not converted forth and back.
+    heights = np.where(removed, heights / unit, raster.heights)
+    values = np.where(known, heights, NODATA).astype(np.float32)
+    progress(1.0)  # the last moment to cancel: after this the file is there
+    write_geotiff(target, values, raster, NODATA, progress)
+    return Removal(int(np.count_nonzero(known)), int(np.count_nonzero(removed)))
+
+
+def remove_objects(
+    heights: np.ndarray,
+    cell_metres: tuple[float, float],
+    parameters: OffTerrain = OffTerrain(),
+    progress: Progress = SILENT,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Take what stands steeply above the terrain out of a grid of heights.
+
+    Heights above the opening with a disc as wide as the largest object (white top-hat) are compared
+    with their neighbours': what can be reached from the terrain by gentle steps grows back, the
+    rest is an object. Its cells are filled smoothly from those round it.
+
+    Parameters
+    ----------
+    heights : numpy.ndarray of float, shape (rows, columns)
+        In metres; NaN where there is none.
+    cell_metres : tuple of float
+        Distance between neighbours in a row, and in a column.
+    parameters : OffTerrain
+        What is an object.
+    progress : Progress
+        Receives progress.
+
+    Returns
+    -------
+    heights : numpy.ndarray of float32, shape (rows, columns)
+        NaN where it was.
+    removed : numpy.ndarray of bool, shape (rows, columns)
+        Which cells are of objects.
+    """
+    known = np.isfinite(heights)
+    if not known.any():
+        return heights.astype(np.float32), np.zeros(heights.shape, dtype=bool)
+    radius = parameters.max_object_size / 2 / min(cell_metres)
+    # As wide as the grid is enough; wider would only cost time.
+    radius = min(radius, float(max(heights.shape)))
+    filled = inpaint(heights).astype(np.float32)
+    progress(0.1)
+    above = filled - opening(filled, radius)
+    progress(0.6)
+    removed = known & ~_grown_back(above, known, cell_metres, parameters.slope_threshold, progress)
+    progress(0.8)
+    gaps = np.where(removed | ~known, np.float32(np.nan), heights)
+    bare = inpaint(gaps, _RELAXATIONS).astype(np.float32)
+    progress(1.0)
+    return np.where(known, bare, np.float32(np.nan)), removed
+
+
+def _grown_back(
+    above: np.ndarray,
+    known: np.ndarray,
+    cell_metres: tuple[float, float],
+    slope_threshold: float,
+    progress: Progress,
+) -> np.ndarray:
+    """Return the cells that gentle steps upwards, or any downwards, reach from the terrain."""
+    slope = math.tan(math.radians(slope_threshold))
+    rows, columns = above.shape
+    # A frame of unknown cells, so that each cell has eight neighbours.
+    heights = np.pad(above, 1).ravel()
+    free = np.pad(known, 1).ravel()
+    ground = free & (heights <= slope * cell_metres[0])
+    free &= ~ground
+    ways = np.zeros(len(heights), dtype=np.uint8)
+    front = np.flatnonzero(ground)
+    steps = [
+        (
+            sign * (row * (columns + 2) + column),
+            np.hypot(row * cell_metres[1], column * cell_metres[0]),
+        )
+        for row, column in _DIRECTIONS
+        for sign in (1, -1)
+    ]
+    while len(front):
+        reached = []
+        for offset, length in steps:
+            cells = front + offset
+            gentle = free[cells]
+            cells, origin = cells[gentle], front[gentle]
+            cells = cells[heights[cells] - heights[origin] < slope * length]
+            ways[cells] += 1
+            cells = cells[ways[cells] == _WAYS]
+            free[cells] = False
+            reached.append(cells)
+        front = np.concatenate(reached)
+        ground[front] = True
+        progress(0.6)
+    return ground.reshape(rows + 2, columns + 2)[1:-1, 1:-1]

@@ -1,0 +1,180 @@
+"""Digital terrain models: heights interpolated on the TIN of the ground points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..core.parameters import ParameterSet, parameter
+from ..core.points import Frame, Points
+from ..core.progress import SILENT, Progress
+from ..grids.hillshade import hillshade
+from ..grids.surface import Surface
+from ..grids.tin import hull_corners
+from ..rasters.geotiff import NODATA, RasterGrid, write_geotiff
+
+# Rows are interpolated a strip at a time, so that the places of the cells take little memory.
+_CELLS_A_STRIP = 4_000_000
+# More vertices than this many along the side of a cell do not change the cell, but cost time.
+_VERTICES_A_SIDE = 2
+
+
+@dataclass(frozen=True)
+class TerrainModel(ParameterSet):
+    """How to make the rasters of the terrain."""
+
+    dtm_cell_size: float = parameter(
+        1.0,
+        label="Cell size of the terrain model",
+        unit="m",
+        minimum=0.01,
+        maximum=1000.0,
+        help="Side of a cell of the terrain model and of its hillshade. About the distance between "
+        "ground points is sensible; smaller cells only make the file larger.",
+    )
+    hillshade_azimuth: float = parameter(
+        315.0,
+        label="Hillshade azimuth",
+        unit="deg",
+        minimum=0.0,
+        maximum=360.0,
+        advanced=True,
+        help="Where the light comes from, clockwise from north.",
+    )
+    hillshade_altitude: float = parameter(
+        45.0,
+        label="Hillshade altitude",
+        unit="deg",
+        minimum=0.0,
+        maximum=90.0,
+        advanced=True,
+        help="How high the light stands above the horizon.",
+    )
+
+
+def interpolate(
+    points: Points,
+    grid: RasterGrid,
+    progress: Progress = SILENT,
+    max_edge: float | None = None,
+) -> np.ndarray:
+    """Interpolate heights linearly on the TIN of `points`, at the centres of the grid's cells.
+
+    Parameters
+    ----------
+    points : Points
+        The ground points; of those that share a quarter of a cell, the one nearest to its centre
+        is used, and the corners of the convex hull, so that no cell within it stays empty.
+    grid : RasterGrid
+        Where heights are wanted.
+    progress : Progress
+        Receives progress.
+    max_edge : float, optional
+        Triangles with a longer edge, in metres, have no data.
+
+    Returns
+    -------
+    numpy.ndarray of float64, shape (rows, columns)
+        Heights in metres; NaN outside the convex hull, and in gaps.
+    """
+    surface = Surface(points.take(vertices_of(points, grid.cell_metres)))
+    progress(0.1)
+    heights = np.empty((grid.rows, grid.columns))
+    x, y = grid.x, grid.y
+    step = max(_CELLS_A_STRIP // grid.columns, 1)
+    for start in range(0, grid.rows, step):
+        rows = slice(start, min(start + step, grid.rows))
+        at_x, at_y = np.meshgrid(x, y[rows])
+        part = progress.part(0.1 + 0.9 * start / grid.rows, 0.1 + 0.9 * rows.stop / grid.rows)
+        strip = surface.heights(at_x.ravel(), at_y.ravel(), max_edge, part)
+        heights[rows] = strip.reshape(at_x.shape)
+    progress(1.0)
+    return heights
+
+
+def write_terrain_model(
+    ground: Points,
+    frame: Frame,
+    model: TerrainModel,
+    dtm: Path | None,
+    hillshade_file: Path | None,
+    progress: Progress = SILENT,
+) -> None:
+    """Write the terrain model of ground points, its hillshade, or both, as GeoTIFF.
+
+    Parameters
+    ----------
+    ground : Points
+        The ground points.
+    frame : Frame
+        Where they lie in the CRS; the terrain model's heights are in its vertical unit.
+    model : TerrainModel
+        Cell size and light.
+    dtm, hillshade_file : Path or None
+        The files to make.
+    progress : Progress
+        Receives progress and messages.
+
+    Raises
+    ------
+    BareEarthError
+        If there is no ground, or a file cannot be written.
+    """
+    grid = RasterGrid.over(ground, frame, model.dtm_cell_size)
+    heights = interpolate(ground, grid, progress.part(0.0, 0.8))
+    if dtm is not None:
+        write_heights(dtm, heights, grid, progress)
+    progress(0.9)
+    if hillshade_file is not None:
+        write_hillshade(hillshade_file, heights, grid, model, progress)
+    progress(1.0)
+
+
+def write_heights(
+    target: Path, heights: np.ndarray, grid: RasterGrid, progress: Progress = SILENT
+) -> None:
+    """Write heights (rows, columns) in metres as a GeoTIFF in the vertical unit of the CRS."""
+    values = np.where(np.isnan(heights), NODATA, heights / grid.frame.vertical_unit)
+    write_geotiff(target, values.astype(np.float32), grid, NODATA, progress)
+
+
+def write_hillshade(
+    target: Path,
+    heights: np.ndarray,
+    grid: RasterGrid,
+    model: TerrainModel,
+    progress: Progress = SILENT,
+) -> None:
+    """Write the hillshade of heights (rows, columns) in metres as a GeoTIFF."""
+    light = model.hillshade_azimuth, model.hillshade_altitude
+    write_geotiff(target, hillshade(heights, grid.cell_metres, *light), grid, 0, progress)
+
+
+def vertices_of(points: Points, cell_size: float) -> np.ndarray:
+    """Return the indices of the points that a terrain model is made of, in ascending order.
+
+    What is left of points that were thinned part by part is the same as of all at once.
+
+    Parameters
+    ----------
+    points : Points
+        Ground points.
+    cell_size : float
+        Side of the cells of the model in metres.
+    """
+    vertices = _nearest_to_centre(points, cell_size / _VERTICES_A_SIDE)
+    if points.count:
+        vertices = np.union1d(vertices, hull_corners(points.x, points.y))
+    return vertices
+
+
+def _nearest_to_centre(points: Points, cell: float) -> np.ndarray:
+    """Return the index of the point nearest to the centre of each occupied cell."""
+    column, row = np.floor(points.x / cell), np.floor(points.y / cell)
+    distance = (points.x / cell - column - 0.5) ** 2 + (points.y / cell - row - 0.5) ** 2
+    order = np.lexsort((points.z, distance, column, row))
+    first = np.ones(len(order), dtype=bool)
+    first[1:] = (np.diff(column[order]) != 0) | (np.diff(row[order]) != 0)
+    return order[first]

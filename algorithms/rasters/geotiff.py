@@ -1,0 +1,450 @@
+"""Rasters of the terrain: their grid, and files by GDAL (in QGIS) or rasterio (outside)."""
+
+from __future__ import annotations
+
+import importlib.util
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.files import check_output, replacing, shown
+from ..core.points import Frame, Points
+from ..core.progress import SILENT, Progress
+from ..crs.reading import unit_name
+from ..crs.wkt import read_wkt
+
+NODATA = -9999.0
+_MOST_CELLS = 400_000_000
+# A raster of more cells must have points in this share of its squares of 1 km: else it is large
+# because of a few points with stray coordinates.
+_MANY_CELLS, _SQUARE, _LEAST_COVERED = 10_000_000, 1000.0, 0.01
+_STEP = 1 << 20
+_BLOCK = 256
+_SURVEY_FOOT = 1200 / 3937
+# As files state the unit of their heights, in metres.
+_UNITS = {
+    "m": 1.0, "metre": 1.0, "meter": 1.0, "metres": 1.0, "meters": 1.0,
+    "ft": 0.3048, "foot": 0.3048, "feet": 0.3048, "international foot": 0.3048,
+    "us-ft": _SURVEY_FOOT, "us survey foot": _SURVEY_FOOT, "us survey feet": _SURVEY_FOOT,
+    "foot_us": _SURVEY_FOOT, "ftus": _SURVEY_FOOT, "sft": _SURVEY_FOOT,
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class RasterGrid:
+    """A north-up grid of square cells in the CRS of the survey.
+
+    Attributes
+    ----------
+    west, north : float
+        Upper left corner, in units of the CRS; a multiple of the cell size, so that the rasters of
+        neighbouring tiles fit together.
+    cell_size : float
+        Side of a cell, in units of the CRS.
+    columns, rows : int
+        Size of the raster.
+    frame : Frame
+        The local metres that belong to the CRS.
+    """
+
+    west: float
+    north: float
+    cell_size: float
+    columns: int
+    rows: int
+    frame: Frame
+
+    @classmethod
+    def over(cls, points: Points, frame: Frame, cell_size: float) -> RasterGrid:
+        """Return the grid that covers `points`, with cells of `cell_size` metres.
+
+        Raises
+        ------
+        BareEarthError
+            If there are no points, or the grid would not fit into memory.
+        """
+        if points.count == 0:
+            raise BareEarthError(
+                "There is no ground point to make a terrain model of. Check the selection of points"
+                " and the parameters."
+            )
+        cell = cell_size / frame.horizontal_unit
+        x0, x1, y0, y1 = (
+            value / frame.horizontal_unit
+            for value in (points.x.min(), points.x.max(), points.y.min(), points.y.max())
+        )
+        west, north = (
+            math.floor((frame.origin[0] + x0) / cell),
+            math.ceil((frame.origin[1] + y1) / cell),
+        )
+        columns = max(math.ceil((frame.origin[0] + x1) / cell) - west, 1)
+        rows = max(north - math.floor((frame.origin[1] + y0) / cell), 1)
+        cells = columns * rows
+        if cells > _MOST_CELLS or (cells > _MANY_CELLS and _covered(points) < _LEAST_COVERED):
+            raise BareEarthError(
+                f"The raster would have {columns:,} x {rows:,} cells of {cell_size:g} m. Choose a"
+                " larger cell size, or remove points with stray coordinates."
+            )
+        return cls(west * cell, north * cell, cell, columns, rows, frame)
+
+    @property
+    def unit(self) -> str:
+        """What the band says of the unit of its values: nothing, the CRS does."""
+        return ""
+
+    @property
+    def geotransform(self) -> tuple[float, ...]:
+        """Where the cells lie in the CRS, as GDAL says it."""
+        return self.west, self.cell_size, 0.0, self.north, 0.0, -self.cell_size
+
+    @property
+    def cell_metres(self) -> float:
+        """Side of a cell in metres."""
+        return self.cell_size * self.frame.horizontal_unit
+
+    @property
+    def x(self) -> np.ndarray:
+        """Cell centres from west to east, in local metres."""
+        centres = (
+            self.west - self.frame.origin[0] + (np.arange(self.columns) + 0.5) * self.cell_size
+        )
+        return centres * self.frame.horizontal_unit
+
+    @property
+    def y(self) -> np.ndarray:
+        """Cell centres from north to south, in local metres."""
+        centres = self.north - self.frame.origin[1] - (np.arange(self.rows) + 0.5) * self.cell_size
+        return centres * self.frame.horizontal_unit
+
+
+def _covered(points: Points) -> float:
+    """Return in which share of the squares over the extent of points there are any."""
+    extent = [np.ptp(each) // _SQUARE + 1.0 for each in (points.x, points.y)]
+    squares: set[complex] = set()
+    for first in range(0, points.count, _STEP):
+        part = slice(first, first + _STEP)
+        place = np.floor(points.x[part] / _SQUARE) + 1j * np.floor(points.y[part] / _SQUARE)
+        squares |= set(np.unique(place).tolist())
+    return len(squares) / (extent[0] * extent[1])
+
+
+class Raster(NamedTuple):
+    """A band of a raster file in memory.
+
+    Attributes
+    ----------
+    heights : numpy.ndarray of float32, shape (rows, columns)
+        The cells in file order, in the vertical unit of `frame`; NaN where there is no value.
+    geotransform : tuple of float
+        Where the cells lie in the CRS, as GDAL says it.
+    frame : Frame
+        The CRS and its units; its origin is of no use here.
+    unit : str
+        What the band says of the unit of its values; empty if nothing.
+    """
+
+    heights: np.ndarray
+    geotransform: tuple[float, ...]
+    frame: Frame
+    unit: str = ""
+
+    @property
+    def cell_metres(self) -> tuple[float, float]:
+        """Distance in metres between neighbours in a row, and between those in a column."""
+        _, a, b, _, c, d = self.geotransform
+        unit = self.frame.horizontal_unit
+        return math.hypot(a, c) * unit, math.hypot(b, d) * unit
+
+
+def read_raster(source: str | Path, band: int = 1, progress: Progress = SILENT) -> Raster:
+    """Read one band of a raster file as heights.
+
+    Parameters
+    ----------
+    source : str or Path
+        The file, or whatever else GDAL opens.
+    band : int
+        Number of the band, from 1.
+    progress : Progress
+        Told which units are assumed where none is stated.
+
+    Raises
+    ------
+    BareEarthError
+        If there is no library to read rasters with, the band cannot be read, or the CRS is not a
+        projected one.
+    """
+    read = _library(_read_with_gdal, _read_with_rasterio, "Reading")
+    content = read(str(source), band)
+    values, valid = content.values, content.valid
+    if values.dtype.kind not in "iuf":
+        raise BareEarthError(f"Cannot read {source}: its cells are no heights, but {values.dtype}.")
+    heights = values.astype(np.float32)
+    if (content.scale, content.offset) != (1.0, 0.0):
+        heights = (values * content.scale + content.offset).astype(np.float32)
+    heights[~(valid & np.isfinite(values))] = np.nan
+    frame = _frame_of(source, content, progress)
+    return Raster(heights, content.geotransform, frame, content.unit)
+
+
+class _Content(NamedTuple):
+    """What a library reads of a file."""
+
+    values: np.ndarray
+    valid: np.ndarray
+    geotransform: tuple[float, ...]
+    wkt: str
+    unit: str
+    scale: float
+    offset: float
+
+
+def _frame_of(source: str | Path, content: _Content, progress: Progress) -> Frame:
+    """Settle the units: those that the band and the CRS state, metres where nothing is."""
+    facts = read_wkt(content.wkt) if content.wkt else None
+    if facts is not None and facts.is_geographic:
+        raise BareEarthError(
+            f"{source} is not in a projected CRS ({facts.name}), so that nothing can be measured in"
+            " it. Reproject it first: in QGIS with 'Warp (reproject)', elsewhere with 'gdalwarp"
+            " -t_srs EPSG:... INPUT OUTPUT'."
+        )
+    horizontal = facts.horizontal_unit if facts is not None else None
+    if horizontal is None:
+        progress.warning(
+            f"{source} does not say its CRS, or not its unit: its coordinates are taken as metres."
+        )
+        horizontal = 1.0
+    vertical = _UNITS.get(content.unit.strip().lower())
+    if vertical is None and facts is not None:
+        vertical = facts.vertical_unit
+    if vertical is None:
+        vertical = horizontal
+        if not math.isclose(horizontal, 1.0):
+            progress.info(
+                "The raster does not state the unit of its heights: taken as that of x and y,"
+                f" {unit_name(horizontal)}."
+            )
+    return Frame((0.0, 0.0), horizontal, vertical, content.wkt or None)
+
+
+def _read_with_gdal(source: str, band: int) -> _Content:
+    from osgeo import gdal
+
+    with _GdalErrors(gdal, "read") as errors:
+        dataset = gdal.Open(source, gdal.GA_ReadOnly)
+        errors.check(source)
+        if dataset is None:
+            raise BareEarthError(f"Cannot read {source}: it is no raster that GDAL knows.")
+        _check_size(source, band, dataset.RasterCount, (dataset.RasterYSize, dataset.RasterXSize))
+        layer = dataset.GetRasterBand(band)
+        values = layer.ReadAsArray()
+        errors.check(source)
+        valid = layer.GetMaskBand().ReadAsArray() != 0
+        errors.check(source)
+        scale, offset = layer.GetScale(), layer.GetOffset()
+        return _Content(
+            values,
+            valid,
+            tuple(dataset.GetGeoTransform()),
+            dataset.GetProjection(),
+            layer.GetUnitType() or "",
+            1.0 if scale is None else scale,
+            0.0 if offset is None else offset,
+        )
+
+
+def _read_with_rasterio(source: str, band: int) -> _Content:
+    import rasterio
+    from rasterio.errors import RasterioError
+
+    try:
+        with rasterio.open(source) as dataset:
+            _check_size(source, band, dataset.count, dataset.shape)
+            return _Content(
+                dataset.read(band),
+                dataset.read_masks(band) != 0,
+                dataset.transform.to_gdal(),
+                dataset.crs.to_wkt() if dataset.crs else "",
+                dataset.units[band - 1] or "",
+                dataset.scales[band - 1],
+                dataset.offsets[band - 1],
+            )
+    except RasterioError as error:
+        raise BareEarthError(f"Cannot read {source}: {str(error).rstrip('.')}.") from error
+
+
+def _check_size(source: str, band: int, bands: int, shape: tuple[int, int]) -> None:
+    if band > bands:
+        raise BareEarthError(f"{source} has no band {band}: it has {bands}.")
+    if shape[0] * shape[1] > _MOST_CELLS:
+        raise BareEarthError(
+            f"{source} has {shape[1]:,} x {shape[0]:,} cells, too many to be held in memory. Cut"
+            " it into parts that overlap."
+        )
+
+
+def write_geotiff(
+    target: Path,
+    values: np.ndarray,
+    grid: RasterGrid | Raster,
+    nodata: float,
+    progress: Progress,
+) -> None:
+    """Write a tiled, deflated, single-band GeoTIFF.
+
+    Parameters
+    ----------
+    target : Path
+        The file to make.
+    values : numpy.ndarray of float32 or uint8, shape (rows, columns)
+        The cells from north to south; `nodata` where there is no value.
+    grid : RasterGrid or Raster
+        Where the cells lie.
+    nodata : float
+        The value that stands for none.
+    progress : Progress
+        Warned if the file has to go without its CRS.
+
+    Raises
+    ------
+    BareEarthError
+        If there is no library to write rasters with, or the file cannot be written.
+    """
+    check_output(target)
+    with replacing(target) as temporary:
+        _writer()(temporary, values, grid, nodata, progress)
+
+
+def check_raster_output(target: Path, sources: tuple[Path, ...] = ()) -> None:
+    """Refuse, before any work is done, a raster that could not be written at the end."""
+    check_output(target, sources)
+    if target.suffix.lower() not in (".tif", ".tiff"):
+        raise BareEarthError(
+            f"Cannot write {target}: rasters are written as GeoTIFF, name it .tif."
+        )
+    _writer()
+
+
+def _writer():
+    """Return the function that writes with the library that is there."""
+    return _library(_write_with_gdal, _write_with_rasterio, "Writing")
+
+
+def _library(by_gdal, by_rasterio, what: str):
+    """Return the function for the library that is there; GDAL first, for QGIS."""
+    if importlib.util.find_spec("osgeo") is not None:
+        return by_gdal
+    if importlib.util.find_spec("rasterio") is not None:
+        return by_rasterio
+    raise BareEarthError(f"{what} a raster needs rasterio: pip install rasterio.")
+
+
+def _write_with_gdal(
+    path: Path,
+    values: np.ndarray,
+    grid: RasterGrid | Raster,
+    nodata: float,
+    progress: Progress,
+) -> None:
+    from osgeo import gdal, osr
+
+    rows, columns = values.shape
+    is_float = values.dtype.kind == "f"
+    options = [
+        "TILED=YES",
+        "COMPRESS=DEFLATE",
+        "BIGTIFF=IF_SAFER",
+        f"PREDICTOR={3 if is_float else 2}",
+    ]
+    options += [f"BLOCKXSIZE={_BLOCK}", f"BLOCKYSIZE={_BLOCK}"]
+    kind = gdal.GDT_Float32 if is_float else gdal.GDT_Byte
+    with _GdalErrors(gdal, "write") as errors:
+        dataset = gdal.GetDriverByName("GTiff").Create(str(path), columns, rows, 1, kind, options)
+        errors.check(path)
+        dataset.SetGeoTransform(grid.geotransform)
+        if grid.frame.wkt:
+            reference = osr.SpatialReference()
+            if reference.ImportFromWkt(grid.frame.wkt) == 0:
+                dataset.SetProjection(reference.ExportToWkt())
+            else:
+                _warn_without_crs(progress)
+            errors.clear()
+        band = dataset.GetRasterBand(1)
+        band.SetNoDataValue(nodata)
+        if grid.unit:
+            band.SetUnitType(grid.unit)
+        band.WriteArray(values)
+        band.FlushCache()
+        dataset.FlushCache()
+        del band, dataset
+        errors.check(path)
+
+
+class _GdalErrors:
+    """Collects GDAL's error messages, whichever of its error modes the application chose."""
+
+    def __init__(self, gdal, what: str) -> None:
+        self._gdal, self._what, self._texts = gdal, what, []
+
+    def __enter__(self) -> _GdalErrors:
+        self._gdal.PushErrorHandler(self._receive)
+        return self
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
+        self._gdal.PopErrorHandler()
+        if isinstance(error, RuntimeError):  # the application made GDAL raise its errors
+            raise BareEarthError(f"Cannot {self._what} the raster: {shown(error)}") from error
+
+    def _receive(self, severity: int, number: int, text: str) -> None:
+        if severity >= self._gdal.CE_Failure:
+            self._texts.append(text)
+
+    def clear(self) -> None:
+        self._texts.clear()
+
+    def check(self, path: str | Path) -> None:
+        if self._texts:
+            reason = shown(self._texts[0]).rstrip(".")
+            raise BareEarthError(f"Cannot {self._what} {shown(path)}: {reason}.")
+
+
+def _write_with_rasterio(
+    path: Path,
+    values: np.ndarray,
+    grid: RasterGrid | Raster,
+    nodata: float,
+    progress: Progress,
+) -> None:
+    import rasterio
+    from rasterio.errors import CRSError, RasterioError
+    from rasterio.transform import Affine
+
+    crs = None
+    if grid.frame.wkt:
+        try:
+            crs = rasterio.crs.CRS.from_wkt(grid.frame.wkt)
+        except CRSError:
+            _warn_without_crs(progress)
+    try:
+        with rasterio.open(
+            path, "w", driver="GTiff", width=values.shape[1], height=values.shape[0], count=1,
+            dtype=values.dtype.name, nodata=nodata, crs=crs, tiled=True, compress="deflate",
+            predictor=3 if values.dtype.kind == "f" else 2, blockxsize=_BLOCK, blockysize=_BLOCK,
+            transform=Affine.from_gdal(*grid.geotransform),
+            BIGTIFF="IF_SAFER",
+        ) as dataset:  # fmt: skip
+            dataset.write(values, 1)
+            if grid.unit:
+                dataset.units = (grid.unit,)
+    except RasterioError as error:
+        raise BareEarthError(f"Cannot write {shown(path)}: {shown(error)}.") from error
+
+
+def _warn_without_crs(progress: Progress) -> None:
+    progress.warning(
+        "The raster is written without a CRS, since that of the cloud is not understood."
+    )

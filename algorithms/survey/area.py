@@ -1,0 +1,233 @@
+"""Where points are to be classified anew: a rectangle, polygons, or both."""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Iterable, Iterator
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.progress import SILENT, Progress
+from ..las.cloud import PointCloud
+
+# Sorted at once: not so many that memory grows, nor so few that the loop over edges counts.
+_POINTS_A_STEP = 1 << 21
+_WKT_POLYGON = re.compile(r"\b(MULTI)?POLYGON\s*(?:ZM|Z|M)?\s*(?=\()", re.IGNORECASE)
+_WKT_PART = re.compile(r"[()]|[^()]+")
+
+Box = tuple[float, float, float, float]
+Polygon = tuple[np.ndarray, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Area:
+    """A part of the plane, in coordinates of the CRS.
+
+    Attributes
+    ----------
+    box : tuple of float or None
+        Smallest x and y, largest x and y; its border belongs to it.
+    polygons : tuple of tuples of numpy.ndarray of float64, shape (n, 2)
+        The rings of each polygon, closed or not, in any direction: by the even-odd rule, those
+        inside another one are holes. Of a border that two polygons share each place belongs to one
+        of them. Together with a box, what lies in both is meant.
+    """
+
+    box: Box | None = None
+    polygons: tuple[Polygon, ...] = ()
+
+    def __post_init__(self) -> None:
+        if self.box is None and not any(map(len, self.polygons)):
+            raise BareEarthError("The boundary holds no polygon. Choose one that does.")
+        if self.box is not None and not self._is_proper_box():
+            values = " ".join(f"{value:g}" for value in self.box)
+            raise BareEarthError(
+                "The extent must be XMIN YMIN XMAX YMAX, XMIN below XMAX and YMIN below YMAX, not"
+                f" {values}."
+            )
+        if not all(np.isfinite(ring).all() for polygon in self.polygons for ring in polygon):
+            raise BareEarthError(
+                "A corner of the boundary is not a finite number. Check the boundary and its CRS."
+            )
+
+    def _is_proper_box(self) -> bool:
+        west, south, east, north = self.box
+        return bool(np.isfinite(self.box).all()) and west < east and south < north
+
+    @property
+    def bounds(self) -> Box:
+        """Smallest x and y, largest x and y; the former above the latter where nothing is left."""
+        boxes = [_bounds(polygon) for polygon in self.polygons if polygon]
+        if not boxes:
+            return self.box
+        lowest, highest = np.min(boxes, axis=0)[:2], np.max(boxes, axis=0)[2:]
+        if self.box is not None:
+            lowest, highest = np.maximum(lowest, self.box[:2]), np.minimum(highest, self.box[2:])
+        return (*map(float, lowest), *map(float, highest))
+
+    def buffered_box(self, distance: float) -> Box:
+        """Return the bounds, wider by a distance in units of the CRS on each side."""
+        west, south, east, north = self.bounds
+        return west - distance, south - distance, east + distance, north + distance
+
+    def contains(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Return which places lie in the area.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray of float64, shape (n,)
+            Coordinates in the CRS.
+
+        Returns
+        -------
+        numpy.ndarray of bool, shape (n,)
+        """
+        west, south, east, north = self.bounds
+        inside = (x >= west) & (x <= east) & (y >= south) & (y <= north)
+        if self.polygons:
+            which = np.flatnonzero(inside)
+            for first in range(0, len(which), _POINTS_A_STEP):
+                part = which[first : first + _POINTS_A_STEP]
+                inside[part] = _in_any(x[part], y[part], self.polygons)
+        return inside
+
+    def of(self, cloud: PointCloud, progress: Progress = SILENT) -> np.ndarray:
+        """Return which points of a cloud lie in the area, in file order."""
+        inside = np.empty(cloud.count, dtype=bool)
+        for first in range(0, cloud.count, _POINTS_A_STEP):
+            part = slice(first, first + _POINTS_A_STEP)
+            inside[part] = self.contains(
+                cloud.x[part] * cloud.scale[0] + cloud.offset[0],
+                cloud.y[part] * cloud.scale[1] + cloud.offset[1],
+            )
+            progress(min(part.stop / cloud.count, 1.0))
+        return inside
+
+
+def read_boundary(path: Path) -> tuple[Polygon, ...]:
+    """Read polygons from a GeoJSON or WKT file; what else it holds is left out.
+
+    Parameters
+    ----------
+    path : Path
+        A .geojson, .json or .wkt file.
+
+    Raises
+    ------
+    BareEarthError
+        If it cannot be read as such, or holds no polygon.
+    """
+    path = Path(path)
+    readers = {".geojson": _of_geojson, ".json": _of_geojson, ".wkt": _of_wkt}
+    reader = readers.get(path.suffix.lower())
+    if reader is None:
+        raise BareEarthError(
+            f"{path} is not a boundary that can be read. Give GeoJSON (.geojson, .json) or WKT"
+            " (.wkt); 'ogr2ogr -f GeoJSON -t_srs CRS_OF_THE_POINTS boundary.geojson FILE' converts"
+            " other formats."
+        )
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except OSError as error:
+        raise BareEarthError(f"Cannot read {path}: {error.strerror or error}.") from error
+    except UnicodeDecodeError:
+        raise BareEarthError(f"{path} is not a text file. Give GeoJSON or WKT.") from None
+    try:
+        polygons = tuple(_polygon(rings) for rings in reader(text))
+    except (ValueError, TypeError, KeyError, IndexError, AttributeError, RecursionError) as error:
+        kind = "WKT" if reader is _of_wkt else "GeoJSON"
+        raise BareEarthError(f"{path} is not valid {kind}: {_one_line(error)}.") from error
+    if not any(map(len, polygons)):
+        raise BareEarthError(f"{path} holds no polygon. Give one that does.")
+    return polygons
+
+
+def _one_line(error: Exception) -> str:
+    return " ".join(str(error).split()).rstrip(".") or type(error).__name__
+
+
+def _polygon(rings: Iterable[Any]) -> Polygon:
+    polygon = []
+    for ring in rings:
+        corners = np.array([(float(corner[0]), float(corner[1])) for corner in ring])
+        if len(corners):
+            polygon.append(corners)
+    return tuple(polygon)
+
+
+def _of_geojson(text: str) -> Iterator[Any]:
+    """Yield the coordinates of each polygon of a GeoJSON text."""
+    nodes = [json.loads(text)]
+    while nodes:
+        node = nodes.pop()
+        if node is None:  # a feature without geometry
+            continue
+        kind = node["type"]
+        if kind == "Polygon":
+            yield node["coordinates"]
+        elif kind == "MultiPolygon":
+            yield from node["coordinates"]
+        elif kind == "Feature":
+            nodes.append(node["geometry"])
+        elif kind in ("FeatureCollection", "GeometryCollection"):
+            nodes += node["features" if kind == "FeatureCollection" else "geometries"]
+
+
+def _of_wkt(text: str) -> Iterator[Any]:
+    """Yield the rings of each polygon of a text that holds WKT."""
+    for match in _WKT_POLYGON.finditer(text):
+        depth, depth_of_rings, rings = 0, 3 if match[1] else 2, []
+        for part in _WKT_PART.findall(text, match.end()):
+            depth += {"(": 1, ")": -1}.get(part, 0)
+            if depth == depth_of_rings and part not in "()":
+                rings.append([corner.split() for corner in part.split(",")])
+            elif part == ")" and depth == depth_of_rings - 2:
+                yield rings
+                rings = []
+            if depth == 0:
+                break
+        if depth:
+            raise ValueError("a parenthesis is not closed")
+
+
+def _bounds(polygon: Polygon) -> Box:
+    corners = np.concatenate(polygon)
+    return (*corners.min(axis=0), *corners.max(axis=0))
+
+
+def _in_any(x: np.ndarray, y: np.ndarray, polygons: tuple[Polygon, ...]) -> np.ndarray:
+    """Return which places lie in one of the polygons at least."""
+    # Sorted by y, the places beside an edge or a polygon are a slice.
+    order = np.argsort(y, kind="stable")
+    x, y = x[order], y[order]
+    inside = np.zeros(len(x), dtype=bool)
+    for polygon in filter(None, polygons):
+        west, south, east, north = _bounds(polygon)
+        first, last = np.searchsorted(y, (south, north))
+        near = x[first:last]
+        which = first + np.flatnonzero((near >= west) & (near <= east))
+        inside[which] |= _is_odd(x[which], y[which], polygon)
+    result = np.empty(len(x), dtype=bool)
+    result[order] = inside
+    return result
+
+
+def _is_odd(x: np.ndarray, y: np.ndarray, polygon: Polygon) -> np.ndarray:
+    """Return which places, sorted by y, have an odd number of edges of a polygon east of them."""
+    odd = np.zeros(len(x), dtype=bool)
+    for ring in polygon:
+        following = np.roll(ring, -1, axis=0)
+        # From the lower to the upper end: an edge that two polygons share gives one answer.
+        upwards = (ring[:, 1] <= following[:, 1])[:, None]
+        low, high = np.where(upwards, ring, following), np.where(upwards, following, ring)
+        firsts, lasts = np.searchsorted(y, low[:, 1]), np.searchsorted(y, high[:, 1])
+        for edge in np.flatnonzero(firsts < lasts):
+            beside = slice(firsts[edge], lasts[edge])
+            (x_low, y_low), (x_high, y_high) = low[edge], high[edge]
+            run, rise = x_high - x_low, y_high - y_low
+            odd[beside] ^= (x[beside] - x_low) * rise < (y[beside] - y_low) * run
+    return odd

@@ -1,0 +1,382 @@
+"""Many files as one survey: which there are, what their headers say, and which lie side by side."""
+
+from __future__ import annotations
+
+import math
+import os
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Iterable, Iterator
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.progress import SILENT, Progress
+from ..crs.reading import Crs, read_crs, unit_name
+from ..las.lasbytes import LasLayout, read_layout
+from .area import Box
+from .vpc import SUFFIX as VPC_SUFFIX
+from .vpc import read_vpc
+
+_CLOUDS = (".las", ".laz")
+_LISTS = (".txt", ".lst", ".list")
+# Names in a sentence, before it says how many more there are.
+_MOST_NAMES = 3
+
+
+@dataclass(frozen=True)
+class Tile:
+    """What the header of one file says.
+
+    Attributes
+    ----------
+    path : Path
+        The file.
+    minimum, maximum : tuple of float
+        Extent of its points in units of the CRS.
+    count : int
+        Number of its points.
+    scale, offset : tuple of float
+        As in `PointCloud`.
+    point_format, record_length : int
+        LAS point format, and the bytes of a point.
+    is_compressed, is_copc : bool
+        Whether it is LAZ, and whether that is COPC.
+    crs : Crs
+        What is known of the coordinate reference system.
+    """
+
+    path: Path
+    minimum: tuple[float, float, float]
+    maximum: tuple[float, float, float]
+    count: int
+    scale: tuple[float, float, float]
+    offset: tuple[float, float, float]
+    point_format: int
+    record_length: int
+    is_compressed: bool
+    is_copc: bool
+    crs: Crs
+
+    @property
+    def box(self) -> Box:
+        """Smallest x and y, largest x and y in units of the CRS."""
+        return (*self.minimum[:2], *self.maximum[:2])
+
+
+@dataclass(frozen=True)
+class BrokenTile:
+    """A file that cannot be worked on, and a sentence that says why."""
+
+    path: Path
+    reason: str
+
+
+@dataclass(frozen=True)
+class Collection:
+    """The files of a survey, sorted by their paths.
+
+    Attributes
+    ----------
+    tiles : tuple of Tile
+        Those that can be read, one at least, all in the same CRS.
+    broken : tuple of BrokenTile
+        Those that cannot.
+    crs : Crs
+        The CRS of all of them.
+    """
+
+    tiles: tuple[Tile, ...]
+    broken: tuple[BrokenTile, ...]
+    crs: Crs
+
+    @property
+    def count(self) -> int:
+        """Number of points."""
+        return sum(tile.count for tile in self.tiles)
+
+    @property
+    def box(self) -> Box:
+        """Smallest x and y, largest x and y of all tiles in units of the CRS."""
+        lowest, highest = self._boxes[:, :2].min(axis=0), self._boxes[:, 2:].max(axis=0)
+        return (*map(float, lowest), *map(float, highest))
+
+    @cached_property
+    def _boxes(self) -> np.ndarray:
+        boxes = np.array([tile.box for tile in self.tiles])
+        # Headers are rounded: what touches must be seen to touch.
+        steps = np.array([tile.scale[:2] for tile in self.tiles])
+        boxes[:, :2] -= steps
+        boxes[:, 2:] += steps
+        return boxes
+
+    def touching(self, box: Box) -> list[Tile]:
+        """Return the tiles whose extents share a place with a box, their borders included."""
+        west, south, east, north = self._boxes.T
+        touches = (west <= box[2]) & (east >= box[0]) & (south <= box[3]) & (north >= box[1])
+        return [self.tiles[each] for each in np.flatnonzero(touches)]
+
+    def neighbours(self, tile: Tile, distance: float) -> list[Tile]:
+        """Return the other tiles that may have points within a distance of the extent of a tile.
+
+        Parameters
+        ----------
+        tile : Tile
+            One of `tiles`.
+        distance : float
+            In units of the CRS, measured along x and along y.
+        """
+        west, south, east, north = tile.box
+        box = west - distance, south - distance, east + distance, north + distance
+        return [each for each in self.touching(box) if each.path != tile.path]
+
+
+def open_collection(
+    sources: Iterable[Path], recursive: bool = False, progress: Progress = SILENT
+) -> Collection:
+    """Find the files of a survey, and read their headers.
+
+    Parameters
+    ----------
+    sources : iterable of Path
+        LAS, LAZ and COPC files, folders of them, virtual point clouds (.vpc), and text files (.txt)
+        with a path a line, relative to the folder of the text file. What is named twice counts
+        once.
+    recursive : bool
+        Whether the folders in folders are searched, too.
+    progress : Progress
+        Receives progress, and is told what is odd.
+
+    Raises
+    ------
+    BareEarthError
+        If nothing is found, nothing can be read, or the files differ in CRS or units.
+    Cancelled
+        If the user asked to stop.
+    """
+    paths = find_files(sources, recursive)
+    heard, tiles, broken, known = _Tally(), [], [], {}
+    for number, path in enumerate(paths, start=1):
+        try:
+            tiles.append(_tile(read_layout(path), known, heard))
+        except BareEarthError as error:
+            broken.append(BrokenTile(path, str(error)))
+        progress(number / len(paths))
+    if not tiles:
+        raise BareEarthError(
+            broken[0].reason
+            if len(broken) == 1
+            else f"None of the {len(broken)} files can be read. The first: {broken[0].reason}"
+        )
+    heard.tell(progress)
+    crs = _common_crs(tiles, progress)
+    _tell_of_twins(tiles, progress)
+    return Collection(tuple(tiles), tuple(broken), crs)
+
+
+def find_files(sources: Iterable[Path], recursive: bool = False) -> list[Path]:
+    """Return the paths of the point clouds that sources name, sorted and each once.
+
+    Parameters
+    ----------
+    sources, recursive
+        As for `open_collection`.
+
+    Raises
+    ------
+    BareEarthError
+        If a source is none of these, or there are no files.
+    """
+    sources = [sources] if isinstance(sources, (str, os.PathLike)) else list(sources)
+    found: dict[str, Path] = {}
+    for source in sources:
+        for path in _expand(Path(source), recursive):
+            found.setdefault(os.path.normcase(path.resolve()), path)
+    if not found:
+        names = ", ".join(map(str, sources)) or "what was given"
+        raise BareEarthError(f"No .las, .laz or .copc.laz file is found in {names}.")
+    return sorted(found.values(), key=lambda path: path.as_posix())
+
+
+def _expand(source: Path, recursive: bool) -> Iterator[Path]:
+    """Yield the files that a source stands for."""
+    suffix = source.suffix.lower()
+    if source.is_dir():
+        for path in source.rglob("*") if recursive else source.iterdir():
+            # Hidden files are those of others, or not finished yet.
+            if _is_cloud(path) and not path.name.startswith(".") and path.is_file():
+                yield path
+    elif suffix == VPC_SUFFIX:
+        yield from (entry.path for entry in read_vpc(source))
+    elif suffix in _LISTS:
+        for path in _listed(source):
+            if path.suffix.lower() in _LISTS:
+                raise BareEarthError(f"{source} lists another list, {path}. Name the files in it.")
+            yield from _expand(path, recursive)
+    elif _is_cloud(source):
+        yield source
+    elif not source.exists():
+        raise BareEarthError(f"{source} does not exist. Check the path.")
+    else:
+        raise BareEarthError(
+            f"{source} is neither a point cloud (.las, .laz, .copc.laz) nor a folder, a virtual"
+            " point cloud (.vpc) or a list of files (.txt)."
+        )
+
+
+def _is_cloud(path: Path) -> bool:
+    return path.suffix.lower() in _CLOUDS
+
+
+def _listed(source: Path) -> list[Path]:
+    """Return the paths in a text file; empty lines and those that begin with # are none."""
+    try:
+        lines = source.read_text(encoding="utf-8-sig").splitlines()
+    except OSError as error:
+        raise BareEarthError(f"Cannot read {source}: {error.strerror or error}.") from error
+    except UnicodeDecodeError:
+        raise BareEarthError(f"{source} is not a text file in UTF-8. Save it as one.") from None
+    names = [line.strip().strip('"') for line in lines]
+    return [source.parent / name for name in names if name and not name.startswith("#")]
+
+
+def _tile(layout: LasLayout, known: dict[Crs, Crs], heard: _Tally) -> Tile:
+    """Return what a header says; `known` keeps one text of each CRS for all files."""
+    _check_extent(layout)
+    crs = read_crs(layout)
+    if crs != Crs():
+        # Files without any CRS are told of together.
+        read_crs(layout, heard)
+    return Tile(
+        path=layout.path,
+        minimum=layout.minimum,
+        maximum=layout.maximum,
+        count=layout.count,
+        scale=layout.scale,
+        offset=layout.offset,
+        point_format=layout.point_format,
+        record_length=layout.record_length,
+        is_compressed=layout.is_compressed,
+        is_copc=layout.is_copc,
+        crs=known.setdefault(crs, crs),
+    )
+
+
+def _check_extent(layout: LasLayout) -> None:
+    """Refuse a header that leaves open where the points lie."""
+    lowest, highest = layout.minimum[:2], layout.maximum[:2]
+    is_one = all(map(math.isfinite, (*lowest, *highest)))
+    is_one &= lowest[0] <= highest[0] and lowest[1] <= highest[1]
+    if not is_one or (lowest == highest and layout.count > 1):
+        raise BareEarthError(
+            f"The header of {layout.path} does not state the extent of its points. Write the file"
+            " anew with a program that corrects it."
+        )
+
+
+def _common_crs(tiles: list[Tile], progress: Progress) -> Crs:
+    """Return the CRS of all tiles, or refuse those that differ."""
+    groups: list[list[Tile]] = []
+    for tile in tiles:
+        group = next((group for group in groups if _is_same(group[0].crs, tile.crs)), None)
+        if group is None:
+            groups.append([tile])
+        else:
+            group.append(tile)
+    stated = [group for group in groups if group[0].crs != Crs()]
+    unstated = [tile for tile in tiles if tile.crs == Crs()]
+    if not stated:
+        progress.warning(
+            f"{_names(unstated)} {'do' if len(unstated) > 1 else 'does'} not say the CRS:"
+            " coordinates are taken as metres."
+        )
+        return Crs()
+    crs = stated[0][0].crs
+    if len(stated) > 1 or (unstated and not _has_same_units(crs, Crs())):
+        raise BareEarthError(
+            "The files are not in the same CRS: "
+            + "; ".join(f"{_described(group[0].crs)}: {_names(group)}" for group in groups)
+            + ". Reproject them to one CRS, or work on each group alone."
+        )
+    if unstated:
+        progress.warning(
+            f"{_names(unstated)} {'do' if len(unstated) > 1 else 'does'} not say the CRS: taken as"
+            f" that of the others, {crs.name}."
+        )
+    return crs
+
+
+def _is_same(one: Crs, other: Crs) -> bool:
+    if one == other:
+        return True
+    if Crs() in (one, other) or not _has_same_units(one, other):
+        return False
+    if one.epsg and other.epsg:
+        return one.epsg == other.epsg
+    return _bare(one.name) == _bare(other.name)
+
+
+def _has_same_units(one: Crs, other: Crs) -> bool:
+    # The two feet differ by two millionths.
+    return one.is_geographic == other.is_geographic and all(
+        math.isclose(*pair, rel_tol=1e-8)
+        for pair in (
+            (one.horizontal_unit, other.horizontal_unit),
+            (one.vertical_unit, other.vertical_unit),
+        )
+    )
+
+
+def _bare(name: str) -> str:
+    """Return a name without what programs write in different ways."""
+    return "".join(filter(str.isalnum, name)).lower()
+
+
+def _described(crs: Crs) -> str:
+    if crs == Crs():
+        return "none stated"
+    if crs.is_geographic:
+        return f"{crs.name} in degrees"
+    return f"{crs.name} in {unit_name(crs.horizontal_unit)}, height {unit_name(crs.vertical_unit)}"
+
+
+def _names(tiles: list[Tile]) -> str:
+    names = ", ".join(tile.path.name for tile in tiles[:_MOST_NAMES])
+    more = len(tiles) - _MOST_NAMES
+    return f"{names} and {more} more" if more > 0 else names
+
+
+def _tell_of_twins(tiles: list[Tile], progress: Progress) -> None:
+    """Warn of tiles that look like the same points twice: LAZ and COPC of it, or copies."""
+    seen: dict[tuple, Tile] = {}
+    for tile in tiles:
+        key = tile.count, *(round(each, 2) for each in (*tile.minimum, *tile.maximum))
+        twin = seen.setdefault(key, tile)
+        if twin is not tile:
+            progress.warning(
+                f"{twin.path.name} and {tile.path.name} have the same extent and number of points:"
+                " if these are the same points, take one of them out."
+            )
+
+
+class _Tally(Progress):
+    """Hears the same of many files, to tell it once."""
+
+    def __init__(self) -> None:
+        self._heard: dict[tuple[bool, str], int] = {}
+
+    def info(self, text: str) -> None:
+        self._hear(False, text)
+
+    def warning(self, text: str) -> None:
+        self._hear(True, text)
+
+    def _hear(self, is_warning: bool, text: str) -> None:
+        self._heard[is_warning, text] = self._heard.get((is_warning, text), 0) + 1
+
+    def tell(self, progress: Progress) -> None:
+        """Pass on what was heard, with the number of files."""
+        for (is_warning, text), count in self._heard.items():
+            text = f"{text} (in {count} files)" if count > 1 else text
+            (progress.warning if is_warning else progress.info)(text)

@@ -1,0 +1,386 @@
+"""Which points take part in a classification, and what the classes become."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.parameters import ParameterSet, parameter
+from ..core.progress import Progress
+from ..las.cloud import PointCloud
+from ..las.records import check_class
+
+NEVER_CLASSIFIED, UNCLASSIFIED, GROUND = 0, 1, 2
+LOW_NOISE = 7
+NOISE = (LOW_NOISE, 18)
+_STEP = 1 << 20
+
+
+class Special(NamedTuple):
+    """What is looked for beside the ground.
+
+    Attributes
+    ----------
+    low_noise_depth : float or None
+        Points that lie so many metres below the ground are low outliers; none are looked for if it
+        is None.
+    bridges : str
+        Whether decks of bridges are: ``find``, ``keep`` (as ground), or ``automatic`` if that is
+        for the method to say.
+    """
+
+    low_noise_depth: float | None = None
+    bridges: str = "automatic"
+
+
+@dataclass(frozen=True)
+class Selection(ParameterSet):
+    """The policy for points and classes, one for every ground filter."""
+
+    from_classes: tuple[int, ...] | None = parameter(
+        None,
+        kind="integers",
+        label="Classes to classify anew",
+        minimum=0,
+        maximum=255,
+        empty="all but noise",
+        help="Only points of these classes take part and may change their class; every class but"
+        " low and high noise (7 and 18) when none is given.",
+    )
+    seed_classes: tuple[int, ...] | None = parameter(
+        None,
+        kind="integers",
+        label="Classes of known ground",
+        minimum=0,
+        maximum=255,
+        empty="none",
+        help="Points of these classes are ground for certain, whatever their return: they are not"
+        " judged, and the TIN densification starts from them. They get the class of the ground,"
+        " too, unless theirs is not among those to classify anew.",
+    )
+    to_class: int = parameter(
+        GROUND,
+        label="Class of the ground",
+        minimum=0,
+        maximum=255,
+        help="The class that ground points get; 2 is ground in the LAS specification. Point formats"
+        " 0 to 5 hold classes up to 31.",
+    )
+    returns: str = parameter(
+        "last",
+        label="Returns",
+        choices={
+            "last": "Last and single returns (return number = number of returns)",
+            "all": "All returns",
+        },
+        help="The laser reaches the ground last. Take all returns where the return numbers of the"
+        " file are wrong.",
+    )
+    others: str = parameter(
+        "keep",
+        label="Class of other points",
+        choices={
+            "keep": "Keep, but old ground that is not confirmed becomes 1",
+            "unclassified": "Set to 1 (unclassified)",
+        },
+        help="What becomes of points that are not ground. Points that were never classified (0)"
+        " become 1 in either case; noise, withheld points and other classes than those to classify"
+        " anew stay as they are.",
+    )
+    low_noise_class: bool = parameter(
+        False,
+        label="Put low outliers into class 7",
+        help="Points that took part and lie far below the ground that was found (multipath, faults"
+        " of the sensor) become low noise, class 7, instead of what becomes of other points.",
+    )
+    low_noise_depth: float = parameter(
+        1.0,
+        label="Depth of low outliers",
+        unit="m",
+        minimum=0.05,
+        maximum=1000.0,
+        advanced=True,
+        help="How far below the ground a point must lie to become low noise, in level terrain; on"
+        " slopes the rise of the ground over 1 m is added. Only where low outliers are put into"
+        " class 7.",
+    )
+    bridges: str = parameter(
+        "automatic",
+        label="Bridges",
+        choices={
+            "automatic": "Not ground, but with a classic preset",
+            "find": "Not ground",
+            "keep": "Ground, if the method takes them for it",
+        },
+        help="What becomes of the decks of bridges. They are found by cross-sections that fall to"
+        " lower ground on both sides; ramps, dams and embankments stay ground. A classic preset"
+        " (Whitebox, LiDAR360's, the paper's) does just what the original does.",
+    )
+    bridge_class: int | None = parameter(
+        None,
+        kind="integer",
+        label="Class of bridges",
+        minimum=0,
+        maximum=255,
+        advanced=True,
+        empty="as other points",
+        help="The class that decks of bridges get; 17 in the LAS specification, which point formats"
+        " 0 to 5 hold as well. Only where bridges are not ground.",
+    )
+
+    @property
+    def special(self) -> Special:
+        """What is to be looked for beside the ground."""
+        return Special(self.low_noise_depth if self.low_noise_class else None, self.bridges)
+
+    def select(
+        self, cloud: PointCloud, progress: Progress, within: np.ndarray | None = None
+    ) -> np.ndarray:
+        """Return which points take part.
+
+        Parameters
+        ----------
+        cloud : PointCloud
+            All points, with their present classes.
+        progress : Progress
+            Told how many points are left out, and why.
+        within : numpy.ndarray of bool, shape (n,), optional
+            Points outside take no part; all are within where it is not given.
+
+        Returns
+        -------
+        numpy.ndarray of bool, shape (n,)
+
+        Raises
+        ------
+        BareEarthError
+            If no point is left, the CRS is geographic, or the points cannot hold the class.
+        """
+        self.check(cloud)
+        tally = Tally()
+        selected = self.choose(cloud, tally, within)
+        self.tell(tally, cloud.path, progress, within is not None)
+        return selected
+
+    def check(self, cloud: PointCloud) -> None:
+        """Refuse a file, whatever its points, whose CRS or point format does not do.
+
+        Raises
+        ------
+        BareEarthError
+            If the CRS is geographic, or the points cannot hold the class.
+        """
+        cloud.require_projected()
+        for value, name in self.new_classes():
+            check_class(cloud.path, cloud.point_format, value, name)
+
+    def new_classes(self) -> list[tuple[int, str]]:
+        """Return the classes that the user chose for points, each with what gets it."""
+        chosen = ((self.to_class, "the ground"), (self.bridge_class, "bridges"))
+        return [(value, name) for value, name in chosen if value is not None]
+
+    def choose(
+        self, part: PointCloud, tally: Tally, within: np.ndarray | None = None
+    ) -> np.ndarray:
+        """Return which points of a part of a file take part, and count them.
+
+        Parameters
+        ----------
+        part : PointCloud
+            Any points of the file.
+        tally : Tally
+            Gets what there is to tell of them added.
+        within : numpy.ndarray of bool, shape (n,), optional
+            As for `select`.
+
+        Returns
+        -------
+        numpy.ndarray of bool, shape (n,)
+        """
+        unnumbered = (part.return_number == 0) | (part.number_of_returns == 0)
+        eligible = self._eligible(part, within)
+        selected = eligible
+        if self.returns == "last":
+            # A number above the total is wrong, but a last return whatever the total should be.
+            selected = eligible & ((part.return_number >= part.number_of_returns) | unnumbered)
+        tally.add(part, within, unnumbered=unnumbered, eligible=eligible, of_returns=selected)
+        if self.seed_classes:
+            known = self.known_ground(part, within)
+            selected = selected | known
+            tally.add_counts(known=known)
+        tally.add_counts(selected=selected)
+        return selected
+
+    def tell(self, tally: Tally, path: Path, progress: Progress, in_area: bool = False) -> None:
+        """Tell how many points of a file are left out, and why.
+
+        Raises
+        ------
+        BareEarthError
+            If no point is left.
+        """
+        noise = [value for value in NOISE if value not in (self.from_classes or ())]
+        counts = ", ".join(
+            f"{tally.classes[value]:,} of class {value}" for value in noise if tally.classes[value]
+        )
+        if counts:
+            progress.info(f"Noise is left out: {counts}.")
+        if tally.withheld:
+            progress.info(f"{tally.withheld:,} withheld points are left out.")
+        if self.returns == "last" and tally.unnumbered == tally.points:
+            progress.warning("The points have no return numbers: all of them are used.")
+        elif self.returns == "last" and tally.unnumbered:
+            progress.warning(
+                f"{tally.unnumbered:,} points have no return number: they are taken as single"
+                " returns."
+            )
+        if not tally.of_returns:
+            raise BareEarthError(tally.why_empty(f"{path} in the area" if in_area else f"{path}"))
+        if self.seed_classes:
+            classes = ", ".join(map(str, self.seed_classes))
+            if tally.known:
+                progress.info(f"{tally.known:,} points of class {classes} are known ground.")
+            else:
+                progress.warning(f"There are no points of known ground (class {classes}).")
+        progress.info(f"{tally.selected:,} of {tally.points:,} points take part.")
+
+    def known_ground(self, cloud: PointCloud, within: np.ndarray | None = None) -> np.ndarray:
+        """Return which points, of those within, are ground for certain."""
+        known = _is_one_of(cloud.classification, self.seed_classes or ()) & ~cloud.withheld
+        return known if within is None else known & within
+
+    def classes(
+        self,
+        cloud: PointCloud,
+        ground: np.ndarray,
+        low: np.ndarray | None = None,
+        inside: np.ndarray | None = None,
+        decks: np.ndarray | None = None,
+    ) -> np.ndarray:
+        """Return the new class of every point.
+
+        Parameters
+        ----------
+        cloud : PointCloud
+            All points, with their present classes.
+        ground : numpy.ndarray of bool, shape (n,)
+            Which points, of those that took part, are ground.
+        low : numpy.ndarray of bool, shape (n,), optional
+            Which of the others are low outliers.
+        inside : numpy.ndarray of bool, shape (n,), optional
+            Points outside keep their class; all are inside where it is not given.
+        decks : numpy.ndarray of bool, shape (n,), optional
+            Which of the others lie on decks of bridges.
+
+        Returns
+        -------
+        numpy.ndarray of uint8, shape (n,)
+        """
+        old = cloud.classification
+        eligible = self._eligible(cloud, inside)
+        changes = eligible
+        if self.others == "keep":
+            # Old ground of returns that did not take part goes too: it was not confirmed either.
+            changes = eligible & _is_one_of(old, (NEVER_CLASSIFIED, GROUND, self.to_class))
+        classes = old.copy()
+        np.copyto(classes, UNCLASSIFIED, where=changes)
+        np.copyto(classes, self.to_class, where=eligible & ground)
+        if low is not None:
+            np.copyto(classes, LOW_NOISE, where=eligible & low)
+        if decks is not None and self.bridge_class is not None:
+            np.copyto(classes, self.bridge_class, where=eligible & decks)
+        return classes
+
+    def _eligible(self, cloud: PointCloud, within: np.ndarray | None) -> np.ndarray:
+        """Return which points, of those within, may change their class, whatever their return."""
+        if self.from_classes:
+            eligible = _is_one_of(cloud.classification, self.from_classes)
+        else:
+            eligible = ~_is_one_of(cloud.classification, NOISE)
+        eligible &= ~cloud.withheld
+        return eligible if within is None else eligible & within
+
+
+@dataclass
+class Tally:
+    """What a selection counted, in the parts of a file that it has seen so far.
+
+    Attributes
+    ----------
+    points, within, withheld, unnumbered : int
+        Points of all parts, those in the area (all without one), those withheld and those without
+        return number.
+    free : int
+        Points in the area that are not withheld.
+    eligible, of_returns, known, selected : int
+        Points that may change their class, those of them of the wanted returns, those surely
+        ground, and all that take part.
+    classes, classes_within : numpy.ndarray of int64, shape (256,)
+        Points of each class, of all parts and in the area.
+    """
+
+    points: int = 0
+    within: int = 0
+    withheld: int = 0
+    unnumbered: int = 0
+    free: int = 0
+    eligible: int = 0
+    of_returns: int = 0
+    known: int = 0
+    selected: int = 0
+    classes: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
+    classes_within: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
+
+    def add(self, part: PointCloud, within: np.ndarray | None, **masks: np.ndarray) -> None:
+        """Count the points of a part, and those of some masks."""
+        self.points += part.count
+        classes, free = part.classification, ~part.withheld
+        counts = count_classes(classes)
+        self.classes += counts
+        if within is not None:
+            classes, free = classes[within], free & within
+            counts = count_classes(classes)
+        self.within += len(classes)
+        self.classes_within += counts
+        self.add_counts(withheld=part.withheld, free=free, **masks)
+
+    def add_counts(self, **masks: np.ndarray) -> None:
+        """Count the points of masks, each named as the attribute."""
+        for name, mask in masks.items():
+            setattr(self, name, getattr(self, name) + int(np.count_nonzero(mask)))
+
+    def why_empty(self, place: str) -> str:
+        """Return the sentence for a selection without points: what to change."""
+        if self.eligible:
+            return f"No point of {place} is a last or single return. Choose all returns instead."
+        if not self.free:
+            return f"All points of {place} are withheld. Clear that flag first."
+        present = ", ".join(map(str, np.flatnonzero(self.classes_within)))
+        return (
+            f"No point of {place} is left to classify: it has the classes {present}. Choose among"
+            " them the classes to classify anew."
+        )
+
+
+def _is_one_of(classification: np.ndarray, classes: tuple[int, ...]) -> np.ndarray:
+    """Return which points have one of the classes, which are few as a rule."""
+    found = np.zeros(len(classification), dtype=bool)
+    for each in classes:
+        found |= classification == each
+    return found
+
+
+def count_classes(classes: np.ndarray) -> np.ndarray:
+    """Return the number of points of each class; in steps, as bincount needs 8 bytes a number."""
+    counts = np.zeros((256, 256), dtype=np.int64)
+    even = len(classes) - len(classes) % 2
+    # Two classes as one number: half as many to count.
+    pairs = np.ascontiguousarray(classes[:even]).view(np.uint16)
+    for first in range(0, len(pairs), _STEP):
+        step = np.bincount(pairs[first : first + _STEP], minlength=counts.size)
+        counts += step.reshape(counts.shape)
+    return counts.sum(axis=0) + counts.sum(axis=1) + np.bincount(classes[even:], minlength=256)

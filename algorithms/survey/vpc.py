@@ -1,0 +1,310 @@
+"""Virtual point clouds (.vpc): one small file that lists many point clouds.
+
+It is a feature collection of STAC items, as `pdal_wrench build_vpc` and QGIS write and read it.
+
+References
+----------
+https://github.com/PDAL/wrench/blob/main/vpc-spec.md
+STAC item 1.0.0 with the extensions "pointcloud" 1.0.0 and "projection" 1.1.0
+"""
+
+from __future__ import annotations
+
+import datetime
+import json
+import math
+import os
+import re
+import struct
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Iterable, NamedTuple
+from urllib.parse import unquote, urlsplit
+from urllib.request import url2pathname
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.files import check_output, replacing
+from ..core.progress import SILENT, Progress
+from ..crs.reading import compound_wkt, read_crs
+from ..crs.wgs84 import to_wgs84
+from ..las.extrabytes import extra_dimensions
+from ..las.lasbytes import LasLayout, read_layout
+from .area import Box
+
+SUFFIX = ".vpc"
+_EXTENSIONS = [
+    "https://stac-extensions.github.io/pointcloud/v1.0.0/schema.json",
+    "https://stac-extensions.github.io/projection/v1.1.0/schema.json",
+]
+_CREATION_DAY = 90
+# "s3://", "https://"; one letter would be a drive of Windows.
+_REMOTE = re.compile(r"[a-z][a-z0-9+.-]+://|/vsi", re.IGNORECASE)
+
+
+class Dimension(NamedTuple):
+    """What a point has, in the terms of PDAL: by them QGIS knows what it can style by."""
+
+    name: str
+    type: str
+    size: int
+
+
+_LOCATION = [Dimension(name, "floating", 8) for name in "XYZ"]
+_ALWAYS = [
+    Dimension(name, "unsigned", size)
+    for name, size in (
+        ("Intensity", 2),
+        ("ReturnNumber", 1),
+        ("NumberOfReturns", 1),
+        ("ScanDirectionFlag", 1),
+        ("EdgeOfFlightLine", 1),
+        ("Classification", 1),
+        ("Synthetic", 1),
+        ("KeyPoint", 1),
+        ("Withheld", 1),
+        ("Overlap", 1),
+        ("UserData", 1),
+        ("PointSourceId", 2),
+    )
+]
+_ANGLE, _TIME = Dimension("ScanAngleRank", "floating", 4), Dimension("GpsTime", "floating", 8)
+_CHANNEL, _INFRARED = Dimension("ScanChannel", "unsigned", 1), Dimension("Infrared", "unsigned", 2)
+_COLOURS = [Dimension(name, "unsigned", 2) for name in ("Red", "Green", "Blue")]
+
+
+@dataclass(frozen=True)
+class VpcEntry:
+    """What a virtual point cloud says of one of its files; the file itself is not looked at.
+
+    Attributes
+    ----------
+    path : Path
+        The file.
+    count : int or None
+        Number of points.
+    box : tuple of float or None
+        Smallest x and y, largest x and y in the CRS.
+    wkt : str or None
+        The CRS as well-known text.
+    """
+
+    path: Path
+    count: int | None
+    box: Box | None
+    wkt: str | None
+
+
+def read_vpc(path: Path) -> list[VpcEntry]:
+    """Read which files a virtual point cloud lists.
+
+    Parameters
+    ----------
+    path : Path
+        A .vpc file. Paths in it that are not absolute are relative to its folder.
+
+    Raises
+    ------
+    BareEarthError
+        If it cannot be read, is none, lists nothing, or lists what is not on this computer.
+    """
+    path = Path(path)
+    try:
+        content = json.loads(path.read_text(encoding="utf-8-sig"))
+    except OSError as error:
+        raise BareEarthError(f"Cannot read {path}: {error.strerror or error}.") from error
+    except (ValueError, RecursionError) as error:
+        raise _not_one(path, "it is not JSON") from error
+    if not isinstance(content, dict) or content.get("type") != "FeatureCollection":
+        raise _not_one(path, "it is not a feature collection")
+    try:
+        entries = [_entry(path.parent, each) for each in content["features"]]
+    except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
+        raise _not_one(path, "one of its features names no file") from error
+    if not entries:
+        raise BareEarthError(f"{path} lists no files. Build it anew.")
+    return entries
+
+
+def write_vpc(path: Path, files: Iterable[Path], progress: Progress = SILENT) -> None:
+    """Write a virtual point cloud, of which QGIS shows COPC files whole and others as outlines.
+
+    Points are not read: what it says is what the headers of the files say. Paths are relative to
+    the folder of `path`, so that it can be moved together with the files.
+
+    Parameters
+    ----------
+    path : Path
+        The .vpc file to make.
+    files : iterable of Path
+        LAS, LAZ or COPC files.
+    progress : Progress
+        Receives progress, and is told if the places of the files on the globe are not known.
+
+    Raises
+    ------
+    BareEarthError
+        If a file cannot be read, or the output cannot be written.
+    Cancelled
+        If the user asked to stop.
+    """
+    path, files = Path(path), [Path(each) for each in files]
+    if path.suffix.lower() != SUFFIX:
+        raise BareEarthError(f"Cannot write {path}: name it {SUFFIX}.")
+    if not files:
+        raise BareEarthError(f"Cannot write {path}: there are no files to list. Give at least one.")
+    check_output(path, tuple(files))
+    features, unplaced = [], 0
+    for number, file in enumerate(files, start=1):
+        feature = _feature(path, read_layout(file))
+        unplaced += not feature["properties"]["proj:wkt2"]
+        features.append(feature)
+        progress(number / len(files))
+    _make_ids_unique(features)
+    if unplaced:
+        progress.warning(
+            f"{path.name} does not state the CRS of {unplaced} of its {len(files)} files: it is not"
+            " known, or there is no GDAL or pyproj to find their places on the globe. Set the"
+            " CRS of the layer in QGIS."
+        )
+    text = json.dumps(
+        {"type": "FeatureCollection", "features": features}, indent=1, allow_nan=False
+    )
+    with replacing(path) as temporary:
+        temporary.write_text(text + "\n", encoding="utf-8")
+
+
+def _not_one(path: Path, why: str) -> BareEarthError:
+    return BareEarthError(
+        f"{path} is not a virtual point cloud: {why}. Give one that QGIS or 'pdal_wrench build_vpc'"
+        " made."
+    )
+
+
+def _entry(folder: Path, feature: dict[str, Any]) -> VpcEntry:
+    properties = feature["properties"]
+    box, count = properties.get("proj:bbox"), properties.get("pc:count")
+    if box is not None:
+        # Of six numbers the third and the last are heights.
+        half = len(box) // 2
+        box = tuple(float(each) for each in (*box[:2], *box[half : half + 2]))
+    return VpcEntry(
+        path=_path_of(_href(feature["assets"]), folder),
+        count=None if count is None else int(count),
+        box=box,
+        wkt=properties.get("proj:wkt2") or None,
+    )
+
+
+def _href(assets: dict[str, dict[str, Any]]) -> str:
+    """Return where the points are, which may have an overview beside them."""
+    asset = assets.get("data")
+    if asset is None:
+        asset = next(each for each in assets.values() if "overview" not in each.get("roles", ()))
+    if not isinstance(asset["href"], str):
+        raise TypeError
+    return asset["href"]
+
+
+def _path_of(href: str, folder: Path) -> Path:
+    if href.lower().startswith("file:"):
+        parts = urlsplit(href)
+        host = f"//{parts.netloc}" if parts.netloc not in ("", "localhost") else ""
+        return Path(url2pathname(host + parts.path))
+    if _REMOTE.match(href):
+        raise BareEarthError(
+            f"{href} is not on this computer. Download it, and build the virtual point cloud anew."
+        )
+    path = folder / href
+    # Some programs write a path as it is, and some as the path of a URL.
+    if "%" in href and not path.exists() and (folder / unquote(href)).exists():
+        return folder / unquote(href)
+    return path
+
+
+def _feature(target: Path, layout: LasLayout) -> dict[str, Any]:
+    """Return the STAC item of a file."""
+    extent = [*layout.minimum, *layout.maximum]
+    if not all(map(math.isfinite, extent)):
+        raise BareEarthError(
+            f"The header of {layout.path} does not state the extent of its points. Write the file"
+            " anew with a program that corrects it."
+        )
+    west, south, low, east, north, high = extent
+    ring = np.array(
+        [(west, south), (east, south), (east, north), (west, north), (west, south)], dtype=float
+    )
+    wkt = compound_wkt(read_crs(layout)) or ""
+    globe = to_wgs84(wkt, ring) if wkt else None
+    if globe is None:
+        # As pdal_wrench does it where there is no CRS. With one, QGIS would take these coordinates
+        # for degrees and leave the file out.
+        wkt, globe = "", ring
+    return {
+        "type": "Feature",
+        "stac_version": "1.0.0",
+        "stac_extensions": _EXTENSIONS,
+        "id": layout.path.stem,
+        "geometry": _polygon(globe),
+        "bbox": [*globe.min(axis=0).tolist(), low, *globe.max(axis=0).tolist(), high],
+        "properties": {
+            "datetime": _creation(layout),
+            "pc:count": layout.count,
+            "pc:type": "lidar",
+            "pc:encoding": "LASzip" if layout.is_compressed else "LAS",
+            "pc:schemas": [each._asdict() for each in _dimensions(layout)],
+            "proj:wkt2": wkt,
+            "proj:geometry": _polygon(ring),
+            "proj:bbox": extent,
+        },
+        "links": [],
+        "assets": {"data": {"href": _reference(layout.path, target), "roles": ["data"]}},
+    }
+
+
+def _polygon(ring: np.ndarray) -> dict[str, Any]:
+    return {"type": "Polygon", "coordinates": [ring.tolist()]}
+
+
+def _creation(layout: LasLayout) -> str:
+    """Return the day on which the file was made; 1970 where that is none, as pdal_wrench does."""
+    day, year = struct.unpack_from("<HH", layout.header, _CREATION_DAY)
+    year = year if 1 <= year <= 9999 else 1970
+    made = datetime.date(year, 1, 1)
+    if 1 <= day <= datetime.date(year, 12, 31).timetuple().tm_yday:
+        made += datetime.timedelta(days=day - 1)
+    return f"{made.isoformat()}T00:00:00Z"
+
+
+def _dimensions(layout: LasLayout) -> list[Dimension]:
+    number = layout.point_format
+    found = [*_LOCATION, *_ALWAYS, _ANGLE]
+    if number not in (0, 2):
+        found.append(_TIME)
+    if number >= 6:
+        found.append(_CHANNEL)
+    if number in (2, 3, 5, 7, 8, 10):
+        found += _COLOURS
+    if number in (8, 10):
+        found.append(_INFRARED)
+    return found + [Dimension(*each) for each in extra_dimensions(layout)]
+
+
+def _reference(file: Path, target: Path) -> str:
+    """Return how the virtual point cloud names a file."""
+    # The folders are resolved, since ".." leads elsewhere behind a symbolic link.
+    place = file.parent.resolve() / file.name
+    try:
+        return "./" + Path(os.path.relpath(place, target.parent.resolve())).as_posix()
+    except ValueError:  # another drive of Windows
+        return place.as_posix()
+
+
+def _make_ids_unique(features: list[dict[str, Any]]) -> None:
+    seen: dict[str, int] = {}
+    for feature in features:
+        name = feature["id"]
+        seen[name] = seen.get(name, 0) + 1
+        if seen[name] > 1:
+            feature["id"] = f"{name}-{seen[name]}"

@@ -1,0 +1,158 @@
+"""Reading those points of a file that lie in a window."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Iterator
+
+import numpy as np
+
+from ..core.progress import SILENT, Progress
+from ..crs.reading import read_crs
+from ..las.backends import require
+from ..las.cloud import PointCloud
+from ..las.copc_nodes import OctreeError, find_nodes, read_hierarchy, read_nodes
+from ..las.lasbytes import LasLayout, read_layout
+from ..las.reading import _chunks, _opened, _packages
+from .area import Area, Box
+
+if TYPE_CHECKING:
+    import laspy
+
+_COLUMNS = {
+    "x": ("X", np.int32),
+    "y": ("Y", np.int32),
+    "z": ("Z", np.int32),
+    "classification": ("classification", np.uint8),
+    "return_number": ("return_number", np.uint8),
+    "number_of_returns": ("number_of_returns", np.uint8),
+    "withheld": ("withheld", bool),
+}
+Columns = dict[str, np.ndarray]
+
+
+def read_window(
+    path: Path, box: Box, progress: Progress = SILENT, trust_header: bool = False
+) -> PointCloud:
+    """Read the points of a LAS, LAZ or COPC file that lie in a rectangle.
+
+    Of COPC only the nodes of the octree that touch the rectangle are read, unless the octree turns
+    out to be damaged. LAS and LAZ are read in chunks from beginning to end.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    box : tuple of float
+        Smallest x and y, largest x and y in units of the CRS; the border belongs to it.
+    progress : Progress
+        Receives progress, what is odd about the CRS, and where header or octree are wrong.
+    trust_header : bool
+        Whether a LAS or LAZ file need not be read if its header states an extent that the
+        rectangle does not touch. A wrong header then hides points.
+
+    Returns
+    -------
+    PointCloud
+        The points in file order; it may have none.
+
+    Raises
+    ------
+    BareEarthError
+        If the file cannot be read, with what to do about it, or the rectangle is none.
+    Cancelled
+        If the user asked to stop.
+    """
+    area = Area(box=tuple(map(float, box)))
+    layout = read_layout(Path(path))
+    require(*_packages(layout))
+    if layout.is_copc:
+        try:
+            return _cloud(layout, _in_nodes(layout, area, progress), progress)
+        except OctreeError as error:
+            progress.warning(f"{error} All of the file is read instead, which takes longer.")
+    if trust_header and not _touches(layout, area.bounds):
+        return _cloud(layout, iter(()), progress)
+    return _cloud(layout, _in_chunks(layout, area, progress), progress)
+
+
+def _in_nodes(layout: LasLayout, area: Area, progress: Progress) -> Iterator[Columns]:
+    hierarchy = read_hierarchy(layout)
+    nodes = find_nodes(hierarchy, area.bounds)
+    done, total = 0, int(nodes["count"].sum(dtype=np.int64))
+    with _opened(layout) as reader:
+        for chunk in read_nodes(hierarchy, nodes, reader):
+            yield _inside(layout, area, chunk)
+            done += len(chunk)
+            progress(done / total)
+
+
+def _in_chunks(layout: LasLayout, area: Area, progress: Progress) -> Iterator[Columns]:
+    done, is_outside = 0, False
+    with _opened(layout) as reader:
+        for chunk in _chunks(layout, reader):
+            yield _inside(layout, area, chunk)
+            is_outside |= _leaves_header(layout, chunk)
+            done += len(chunk)
+            progress(done / layout.count)
+    if is_outside:
+        progress.warning(
+            f"The header of {layout.path.name} states a smaller extent than its points have: other"
+            " programs may miss some. Write the file anew with one that corrects it."
+        )
+
+
+def _inside(layout: LasLayout, area: Area, chunk: laspy.PackedPointRecord) -> Columns:
+    """Return the columns of the points of a chunk that lie in the area."""
+    x, y = (
+        np.asarray(chunk[name]) * layout.scale[axis] + layout.offset[axis]
+        for axis, name in enumerate("XY")
+    )
+    which = np.flatnonzero(area.contains(x, y))
+    return {
+        name: np.asarray(chunk[source])[which].astype(kind)
+        for name, (source, kind) in _COLUMNS.items()
+    }
+
+
+def _leaves_header(layout: LasLayout, chunk: laspy.PackedPointRecord) -> bool:
+    """Return whether a point lies outside of the extent that the header states."""
+    for axis, name in enumerate("XY"):
+        integers = np.asarray(chunk[name])
+        scale, offset = layout.scale[axis], layout.offset[axis]
+        lowest, highest = (int(pick(integers)) * scale + offset for pick in (np.min, np.max))
+        # Headers are rounded in many ways.
+        if lowest < layout.minimum[axis] - scale or highest > layout.maximum[axis] + scale:
+            return True
+    return False
+
+
+def _touches(layout: LasLayout, box: Box) -> bool:
+    """Return whether the extent in the header touches a box; one that is none touches all."""
+    (west, south, _), (east, north, _) = layout.minimum, layout.maximum
+    if not (west <= east and south <= north):
+        return True
+    more = layout.scale
+    return (
+        west - more[0] <= box[2]
+        and east + more[0] >= box[0]
+        and south - more[1] <= box[3]
+        and north + more[1] >= box[1]
+    )
+
+
+def _cloud(layout: LasLayout, parts: Iterator[Columns], progress: Progress) -> PointCloud:
+    kept = {name: [np.empty(0, dtype=kind)] for name, (_, kind) in _COLUMNS.items()}
+    for part in parts:
+        for name, values in part.items():
+            kept[name].append(values)
+    # One after the other, so that not all columns are there twice at the same time.
+    columns = {name: np.concatenate(kept.pop(name)) for name in _COLUMNS}
+    return PointCloud(
+        path=layout.path,
+        scale=layout.scale,
+        offset=layout.offset,
+        point_format=layout.point_format,
+        crs=read_crs(layout, progress),
+        **columns,
+    )
