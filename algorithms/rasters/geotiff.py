@@ -107,6 +107,15 @@ class RasterGrid:
         return self.cell_size * self.frame.horizontal_unit
 
     @property
+    def corner(self) -> tuple[float, float]:
+        """X and y of the lower left corner, in local metres."""
+        south = self.north - self.rows * self.cell_size
+        return tuple(
+            (each - origin) * self.frame.horizontal_unit
+            for each, origin in zip((self.west, south), self.frame.origin)
+        )
+
+    @property
     def x(self) -> np.ndarray:
         """Cell centres from west to east, in local metres."""
         centres = (
