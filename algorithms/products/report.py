@@ -15,7 +15,7 @@ from ..core.files import replacing
 from ..core.points import Points
 from ..grids.hillshade import hillshade
 from ..grids.inpaint import inpaint
-from .assessment import Assessment, AssessmentOptions, Comparison
+from .comparison import Assessment, AssessmentOptions, Comparison
 
 # Told apart by colour-blind eyes, and in print.
 _TYPE_1, _TYPE_2 = "#d1157f", "#f07f09"
@@ -170,7 +170,7 @@ def report_html(
     assessment: Assessment, picture: Picture, options: AssessmentOptions, files: tuple[Path, Path]
 ) -> str:
     """Return the page of the report; see `write_report`."""
-    from ... import __version__
+    from ..core.version import __version__
 
     title = escape(f"Assessment of {files[0].name}")
     return f"""<!DOCTYPE html>

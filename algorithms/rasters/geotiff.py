@@ -14,7 +14,7 @@ from ..core.errors import BareEarthError
 from ..core.files import check_output, replacing, shown
 from ..core.points import Frame, Points
 from ..core.progress import SILENT, Progress
-from ..crs.reading import unit_name
+from ..crs.system import unit_name
 from ..crs.wkt import read_wkt
 
 NODATA = -9999.0
