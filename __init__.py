@@ -1,6 +1,6 @@
 """Bare Earth: classifies lidar points into ground and non-ground, and makes terrain models."""
 
-__version__ = "0.1.0"
+from .algorithms.core.version import __version__ as __version__
 
 
 def classFactory(iface):

@@ -15,7 +15,7 @@ from bare_earth.algorithms.core.parameters import ParameterSet
 from bare_earth.algorithms.engine.classification import classify
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.las.cloud import PointCloud
-from bare_earth.algorithms.products.assessment import Assessment, AssessmentOptions, compare
+from bare_earth.algorithms.products.comparison import Assessment, AssessmentOptions, compare
 from bare_earth.algorithms.products.terrain_model import interpolate
 from bare_earth.algorithms.rasters.geotiff import RasterGrid
 

@@ -13,7 +13,7 @@ from bare_earth.algorithms.core.parameters import Declaration
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.las.cloud import PointCloud
-from bare_earth.algorithms.products.assessment import AssessmentOptions, compare
+from bare_earth.algorithms.products.comparison import AssessmentOptions, compare
 from bare_earth.algorithms.survey.selection import Selection
 
 from . import data

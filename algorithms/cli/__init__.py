@@ -63,7 +63,7 @@ def _say(
 
 
 def _parser(arguments: Sequence[str]) -> argparse.ArgumentParser:
-    from ... import __version__
+    from ..core.version import __version__
 
     parser = argparse.ArgumentParser(
         prog="bare-earth",

@@ -8,6 +8,7 @@ import json
 import sys
 from typing import Any
 
+from ..core.errors import printable
 from ..core.progress import Progress
 
 
@@ -41,7 +42,7 @@ class Terminal(Progress):
     def _write(self, text: str) -> None:
         if self._bar is not None:
             self._bar.clear()
-        print(text, file=sys.stderr)
+        print(printable(text), file=sys.stderr)
 
     def __enter__(self) -> Terminal:
         return self

@@ -4,17 +4,26 @@ from __future__ import annotations
 
 import contextlib
 import errno
+import functools
 import itertools
 import os
 import re
+import socket
 import sys
+import time
 from pathlib import Path
-from typing import Container, Iterator
+from typing import Container, Iterable, Iterator
 
 from .errors import BareEarthError
 
 _numbers = itertools.count()
-_TEMPORARY = re.compile(r"\.(\d+)-\d+\.part\.")
+# The computer and the process that hold a temporary file, and a number.
+_TEMPORARY = re.compile(r"\.(\w+)-(\d+)-(\d+)\.part\.")
+_LONGEST_NAME = 255
+# Whether a process of another computer is gone cannot be seen, but whether it still writes.
+_FORGOTTEN_SECONDS = 86_400.0
+# What this process writes right now.
+_held: set[str] = set()
 
 # What a system says of a file that another process has locked.
 _LOCKED = (errno.EACCES, errno.EAGAIN, errno.EDEADLK)
@@ -24,11 +33,14 @@ _REASONS = {
     errno.EACCES: "you have no permission to write there. Choose another folder",
     errno.EPERM: "you have no permission to write there. Choose another folder",
     errno.EROFS: "the disk is read-only. Choose another folder",
+    errno.ENAMETOOLONG: "the name is too long. Choose a shorter one",
 }
 
 
 def check_output(target: Path, sources: tuple[Path, ...] = ()) -> None:
     """Refuse, before any work is done, an output that could not be written at the end.
+
+    What killed runs left in the folder is removed: its space may be needed.
 
     Parameters
     ----------
@@ -40,43 +52,138 @@ def check_output(target: Path, sources: tuple[Path, ...] = ()) -> None:
     Raises
     ------
     BareEarthError
-        If the folder is missing, or the target is a folder or one of the sources.
+        If the folder is missing or not writable, or the target is a folder, no ordinary file, one
+        of the sources, or has a name that is too long.
     """
-    if not target.parent.is_dir():
-        raise BareEarthError(
-            f"Cannot write {target}: the folder {target.parent} does not exist. Create it first."
-        )
-    if target.is_dir():
-        raise BareEarthError(f"Cannot write {target}: it is a folder. Give a file name.")
-    for source in sources:
-        if target.exists() and source.exists() and os.path.samefile(source, target):
+    try:
+        if not target.parent.is_dir():
             raise BareEarthError(
-                f"Input and output are the same file, {source}. Choose another output."
+                f"Cannot write {target}: the folder {target.parent} does not exist. Create it"
+                " first."
             )
+        if target.is_dir():
+            raise BareEarthError(f"Cannot write {target}: it is a folder. Give a file name.")
+        if target.exists() and not target.is_file():
+            raise BareEarthError(
+                f"Cannot write {target}: it is no file, but a device or a pipe. Choose another"
+                " output."
+            )
+        for source in sources:
+            if is_same_file(source, target):
+                raise BareEarthError(
+                    f"Input and output are the same file, {source}. Choose another output."
+                )
+        remove_leftovers(target.parent)
+        _remove(_make_temporary(target))
+    except (OSError, ValueError) as error:  # a name with a null character is a ValueError
+        raise describe_write_error(target, error) from error
+
+
+def check_distinct(outputs: Iterable[Path | None]) -> None:
+    """Refuse, before any work is done, outputs of one run that would overwrite each other.
+
+    Parameters
+    ----------
+    outputs : iterable of Path or None
+        The files to be made; None for those that are not wanted.
+
+    Raises
+    ------
+    BareEarthError
+        If two of them are the same file.
+    """
+    wanted = [each for each in outputs if each is not None]
+    for one, other in itertools.combinations(wanted, 2):
+        if is_same_file(one, other):
+            raise BareEarthError(f"Two outputs are the same file, {one}. Give each its own name.")
+
+
+def is_same_file(one: Path, other: Path) -> bool:
+    """Return whether two paths name the same file, which need not be there yet."""
+    if one.exists() and other.exists():
+        return os.path.samefile(one, other)
+    return os.path.normcase(one.resolve()) == os.path.normcase(other.resolve())
 
 
 @contextlib.contextmanager
 def replacing(target: Path) -> Iterator[Path]:
-    """Give a temporary name beside `target` to write to; rename it when the block ends well.
+    """Give a temporary file beside `target` to write to; rename it when the block ends well.
 
     If the block ends with any exception (a cancel among them), the temporary file is removed and
     what was at `target` before is untouched. The temporary name keeps the suffixes of the target,
-    since libraries choose the format by them.
+    since libraries choose the format by them. The permissions of a former target are kept.
 
     Raises
     ------
     BareEarthError
         If the operating system refuses to write, with what to do about it.
     """
-    temporary = target.with_name(f".{os.getpid()}-{next(_numbers)}.part.{target.name}")
+    temporary = None
     try:
+        mode = _mode_of(target)
+        temporary = _make_temporary(target, mode)
         yield temporary
+        if mode is not None:
+            with contextlib.suppress(OSError):  # not every file system has them
+                os.chmod(temporary, mode)
         os.replace(temporary, target)
     except OSError as error:
         raise describe_write_error(target, error) from error
     finally:
-        with contextlib.suppress(OSError):
-            temporary.unlink()
+        if temporary is not None:
+            _remove(temporary)
+
+
+def _remove(temporary: Path) -> None:
+    """Remove a temporary file, if it is still there, and hold it no longer."""
+    with contextlib.suppress(OSError):
+        temporary.unlink()
+    _held.discard(temporary.name)
+
+
+def _mode_of(target: Path) -> int | None:
+    """Return the permissions of a file, None if there is none."""
+    try:
+        return os.stat(target).st_mode & 0o777
+    except FileNotFoundError:
+        return None
+
+
+def _make_temporary(target: Path, mode: int | None = None) -> Path:
+    """Make an empty file beside the target whose name says who writes it.
+
+    Never one that is there already: whoever knew the name could have put a link in its place.
+    """
+    while True:
+        marks = f".{_computer()}-{os.getpid()}-{next(_numbers)}.part."
+        temporary = target.with_name(marks + _cut(target.name, len(marks)))
+        # Before it is there: another thread must not take it for one that was left.
+        _held.add(temporary.name)
+        try:
+            flags = os.O_CREAT | os.O_EXCL | os.O_WRONLY
+            os.close(os.open(temporary, flags, 0o666 if mode is None else mode | 0o600))
+        except FileExistsError:
+            _held.discard(temporary.name)
+            continue
+        except OSError:
+            _held.discard(temporary.name)
+            raise
+        return temporary
+
+
+def _cut(name: str, taken: int) -> str:
+    """Return the end of a file name, so long that it fits behind some other bytes."""
+    if len(os.fsencode(name)) > _LONGEST_NAME:
+        return name  # too long by itself, which the operating system says better
+    while len(os.fsencode(name)) + taken > _LONGEST_NAME:
+        name = name[1:]
+    return name
+
+
+@functools.lru_cache(maxsize=None)
+def _computer() -> str:
+    """Return the name of this computer, as it stands in the names of temporary files."""
+    return re.sub(r"\W", "_", socket.gethostname(), flags=re.ASCII)[:32] or "_"
 
 
 @contextlib.contextmanager
@@ -128,23 +235,64 @@ def _lock(number: int) -> None:
 def remove_leftovers(folder: Path, processes: Container[int] | None = None) -> None:
     """Remove what `replacing` left in a folder when its process was killed.
 
+    Files of processes that are still there stay. Of those of other computers, on a disk that
+    several share, only what nobody wrote to for a day is removed.
+
     Parameters
     ----------
     folder : Path
-        The folder; nothing else may be writing into it.
+        The folder.
     processes : container of int, optional
         Only the files of these processes; of all if it is not given.
     """
-    for path in folder.iterdir() if folder.is_dir() else ():
-        found = _TEMPORARY.match(path.name)
-        if found and (processes is None or int(found.group(1)) in processes):
+    if not folder.is_dir():
+        return
+    with os.scandir(folder) as entries:
+        found = [(each, _TEMPORARY.match(each.name)) for each in entries]
+    for entry, marks in found:
+        if marks and (processes is None or int(marks[2]) in processes):
             with contextlib.suppress(OSError):
-                path.unlink()
+                if _is_left(entry, marks[1], int(marks[2])):
+                    os.unlink(entry.path)
 
 
-def describe_write_error(target: Path, error: OSError) -> BareEarthError:
+def _is_left(entry: os.DirEntry, computer: str, process: int) -> bool:
+    """Return whether nobody writes a temporary file any more."""
+    if computer != _computer():
+        age = time.time() - entry.stat(follow_symlinks=False).st_mtime
+        return age > _FORGOTTEN_SECONDS
+    if process == os.getpid():
+        return entry.name not in _held
+    return not _is_running(process)
+
+
+def _is_running(process: int) -> bool:
+    """Return whether a process of this computer is there."""
+    if sys.platform == "win32":
+        import ctypes
+
+        kernel, code = ctypes.windll.kernel32, ctypes.c_ulong()
+        handle = kernel.OpenProcess(0x1000, False, process)  # to ask for its state, no more
+        if not handle:
+            return kernel.GetLastError() == 5  # access denied: it is there
+        try:
+            return bool(kernel.GetExitCodeProcess(handle, ctypes.byref(code))) and code.value == 259
+        finally:
+            kernel.CloseHandle(handle)
+    try:
+        os.kill(process, 0)
+    except (ProcessLookupError, OverflowError):
+        return False
+    except PermissionError:
+        return True
+    return True
+
+
+def describe_write_error(target: Path, error: OSError | ValueError) -> BareEarthError:
     """Turn an operating system error met while writing `target` into a sentence."""
-    reason = _REASONS.get(error.errno or 0, error.strerror or str(error))
+    reason = str(error)
+    if isinstance(error, OSError):
+        reason = _REASONS.get(error.errno or 0, error.strerror or reason)
     return BareEarthError(f"Cannot write {shown(target)}: {reason}.")
 
 

@@ -7,6 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+# Smallest x and y, largest x and y.
+Box = tuple[float, float, float, float]
+
 
 @dataclass(frozen=True)
 class Frame:

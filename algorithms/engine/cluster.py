@@ -95,7 +95,7 @@ class Cluster(Workers):
 
     def _check(self, folder: Path) -> dict[str, _Facts]:
         """Return what the workers say of themselves; refuse those that could not work."""
-        from ... import __version__
+        from ..core.version import __version__
 
         marker = folder / f".{uuid.uuid4().hex}.part"
         marker.touch()
@@ -160,7 +160,7 @@ class Cluster(Workers):
 def _facts(marker: str) -> _Facts:
     import socket
 
-    from ... import __version__
+    from ..core.version import __version__
 
     return _Facts(__version__, Path(marker).exists(), free_memory(), socket.gethostname())
 

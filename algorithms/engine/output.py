@@ -9,7 +9,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
-from ..crs.reading import unit_name
+from ..crs.system import unit_name
 from ..las.changes import Changes
 from ..las.cloud import PointCloud
 from ..las.extrabytes import ExtraDimension

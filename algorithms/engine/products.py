@@ -15,7 +15,7 @@ from ..core.errors import BareEarthError
 from ..core.files import check_output, replacing
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
-from ..crs.reading import unit_name
+from ..crs.system import unit_name
 from ..grids.model_key_points import ModelKeyPoints, model_key_points
 from ..las.changes import Changes
 from ..las.cloud import PointCloud

@@ -76,7 +76,7 @@ def label_file(survey: Survey, folder: Path, place: Place, sources: Iterable[Sta
 
 
 def _settings(survey: Survey) -> dict[str, Any]:
-    from ... import __version__
+    from ..core.version import __version__
     from ..filters import method_of
 
     blocks = survey.blocks

@@ -14,7 +14,7 @@ from ..core.errors import BareEarthError
 from ..core.points import Frame, Points
 from ..core.progress import SILENT
 from ..core.threads import in_threads, over_parts, parts_of
-from ..crs.reading import Crs
+from ..crs.system import Crs
 
 _POINTS_A_PART = 1 << 15
 # Points of the parts of a cloud.

@@ -19,8 +19,9 @@ from typing import BinaryIO, Iterator, NamedTuple
 import numpy as np
 
 from ..core.progress import SILENT, Progress
-from ..crs.reading import GEOKEY_RECORDS, WKT_RECORD, compound_wkt, read_crs, wkt_text
+from ..crs.system import compound_wkt
 from .changes import Rewriting
+from .crs_records import GEOKEY_RECORDS, WKT_RECORD, read_crs, wkt_text
 from .lasbytes import (
     COPC_EXTENTS,
     COPC_HIERARCHY,

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, BinaryIO, Callable, Iterator
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..survey.area import Box
+from ..core.points import Box
 from .copc import HIERARCHY_ENTRY
 from .lasbytes import COPC_INFO, LASZIP, LasLayout
 from .records import NEEDED, selection_of

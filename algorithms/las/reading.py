@@ -11,9 +11,10 @@ import numpy as np
 
 from ..core.progress import SILENT, Progress
 from ..core.threads import over_parts, parts_of
-from ..crs.reading import Crs, read_crs, unit_name
+from ..crs.system import Crs, unit_name
 from .backends import require
 from .cloud import PointCloud
+from .crs_records import read_crs
 from .lasbytes import LasLayout, read_layout
 from .records import FIRST_EXTENDED_FORMAT, MOST_KEPT, NEEDED, read_records
 from .sources import damage_told

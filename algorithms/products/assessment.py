@@ -1,187 +1,21 @@
-"""How well a classification agrees with a reference: type I, type II and total error, kappa."""
+"""Comparing a classified file with a reference: figures, a report and a map of the errors."""
 
 from __future__ import annotations
 
 import contextlib
-from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.files import check_output, replacing
-from ..core.parameters import ParameterSet, parameter
 from ..core.points import Frame, Points
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
 from ..las.reading import read_cloud
 from ..rasters.geotiff import NODATA, RasterGrid, check_raster_output, write_geotiff
-
-GROUND = 2
-
-
-@dataclass(frozen=True)
-class AssessmentOptions(ParameterSet):
-    """Which classes count as ground, which do not count at all, and how errors are mapped."""
-
-    ground_classes: tuple[int, ...] = parameter(
-        (GROUND,),
-        label="Ground classes of the reference",
-        minimum=0,
-        maximum=255,
-        help="Classes of the reference that are ground; add 9 where water counts as ground.",
-    )
-    ignored_classes: tuple[int, ...] | None = parameter(
-        None,
-        kind="integers",
-        label="Ignored classes of the reference",
-        minimum=0,
-        maximum=255,
-        help="Points of these classes of the reference are left out, noise (7, 18) for example.",
-    )
-    map_cell_size: float = parameter(
-        1.0,
-        label="Cell size of the error map",
-        unit="m",
-        minimum=0.01,
-        maximum=1000.0,
-        advanced=True,
-        help="Side of a cell of the raster that tells the share of wrong points. The map in the"
-        " report chooses its own.",
-    )
-
-
-class Comparison(NamedTuple):
-    """What became of each point.
-
-    Attributes
-    ----------
-    counted : numpy.ndarray of bool, shape (n,)
-        Points that are not left out.
-    rejected, accepted : numpy.ndarray of bool, shape (n,)
-        The wrong ones of these: ground taken for other (type I), other taken for ground (type II).
-    """
-
-    counted: np.ndarray
-    rejected: np.ndarray
-    accepted: np.ndarray
-
-    @classmethod
-    def of(
-        cls, ground: np.ndarray, reference: np.ndarray, options: AssessmentOptions
-    ) -> Comparison:
-        """Compare a ground mask with reference classes of the same points; see `compare`."""
-        counted = ~np.isin(reference, options.ignored_classes or ())
-        truth = np.isin(reference, options.ground_classes)
-        return cls(counted, counted & truth & ~ground, counted & ~truth & ground)
-
-
-@dataclass(frozen=True)
-class Assessment:
-    """Agreement of a classification with a reference.
-
-    Type I error is the share of reference ground that was rejected, type II error the share of
-    reference non-ground that was accepted, total error the share of all points that is wrong; all
-    three in percent. Kappa is Cohen's, in percent. A figure is NaN where it has no points.
-
-    References
-    ----------
-    Sithole, G., Vosselman, G. (2004): Experimental comparison of filter algorithms for bare-Earth
-    extraction from airborne laser scanning point clouds. ISPRS Journal 59, section 3.2.
-    Cohen, J. (1960): A coefficient of agreement for nominal scales.
-    """
-
-    point_count: int
-    ground_as_ground: int
-    ground_as_other: int
-    other_as_ground: int
-    other_as_other: int
-    type_1_error: float
-    type_2_error: float
-    total_error: float
-    kappa: float
-    classes: dict[int, dict[str, int]] = field(default_factory=dict)
-
-    def as_dict(self) -> dict[str, Any]:
-        """Return all figures as plain values; NaN becomes None, as JSON has no NaN."""
-        figures = asdict(self)
-        return {
-            name: None if isinstance(value, float) and np.isnan(value) else value
-            for name, value in figures.items()
-        }
-
-    def lines(self) -> list[str]:
-        """Return the figures as lines of text for a terminal or a log."""
-        rows = [
-            f"points            {self.point_count:>12,}",
-            f"type I error      {self.type_1_error:>12.2f} %   ground taken for other "
-            f"({self.ground_as_other:,} of {self.ground_as_ground + self.ground_as_other:,})",
-            f"type II error     {self.type_2_error:>12.2f} %   other taken for ground "
-            f"({self.other_as_ground:,} of {self.other_as_ground + self.other_as_other:,})",
-            f"total error       {self.total_error:>12.2f} %",
-            f"kappa             {self.kappa:>12.2f} %",
-        ]
-        for value, counts in self.classes.items():
-            rows.append(
-                f"reference class {value:>3} {counts['points']:>10,}     "
-                f"classified as ground {counts['ground']:,}"
-            )
-        return rows
-
-
-def compare(
-    ground: np.ndarray, reference: np.ndarray, options: AssessmentOptions = AssessmentOptions()
-) -> Assessment:
-    """Compare a ground mask with reference classes of the same points.
-
-    Parameters
-    ----------
-    ground : numpy.ndarray of bool, shape (n,)
-        Which points were classified as ground.
-    reference : numpy.ndarray of int, shape (n,)
-        Reference class of each point.
-    options : AssessmentOptions
-        Which reference classes are ground, and which are left out.
-
-    Returns
-    -------
-    Assessment
-
-    Examples
-    --------
-    >>> compare(np.array([True, False]), np.array([2, 1])).total_error
-    0.0
-    """
-    counted, rejected, accepted = Comparison.of(ground, reference, options)
-    truth = np.isin(reference, options.ground_classes)
-    b, c = int(np.count_nonzero(rejected)), int(np.count_nonzero(accepted))
-    a = int(np.count_nonzero(counted & truth)) - b
-    d = int(np.count_nonzero(counted & ~truth)) - c
-    ground, reference = ground[counted], reference[counted]
-    classes = {
-        int(value): {
-            "points": int(np.count_nonzero(reference == value)),
-            "ground": int(np.count_nonzero(ground[reference == value])),
-        }
-        for value in np.unique(reference)
-    }
-    n = a + b + c + d
-    chance = ((a + b) * (a + c) + (c + d) * (b + d)) / n**2 if n else float("nan")
-    agreement = _percent(a + d, n) / 100
-    kappa = (agreement - chance) / (1 - chance) * 100 if chance != 1 else float("nan")
-    return Assessment(
-        point_count=n,
-        ground_as_ground=a,
-        ground_as_other=b,
-        other_as_ground=c,
-        other_as_other=d,
-        type_1_error=_percent(b, a + b),
-        type_2_error=_percent(c, c + d),
-        total_error=_percent(b + c, n),
-        kappa=kappa,
-        classes=classes,
-    )
+from .comparison import GROUND, Assessment, AssessmentOptions, Comparison, compare
+from .report import write_report
 
 
 def assess_files(
@@ -232,9 +66,6 @@ def assess_files(
         raise BareEarthError("All points are of ignored classes: there is nothing to assess.")
     progress(0.8)
     if report is not None or error_map is not None:
-        # It knows this module, too.
-        from .report import write_report
-
         points, comparison = result.points(order_result), Comparison.of(ground, classes, options)
         with contextlib.ExitStack() as outputs:  # both or none
             report, error_map = (
@@ -294,7 +125,3 @@ def _matching_orders(one: PointCloud, other: PointCloud) -> tuple[np.ndarray | s
 
 def _columns(cloud: PointCloud) -> list[np.ndarray]:
     return [cloud.x, cloud.y, cloud.z, cloud.return_number]
-
-
-def _percent(part: int, whole: int) -> float:
-    return 100.0 * part / whole if whole else float("nan")

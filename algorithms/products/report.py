@@ -11,11 +11,12 @@ from pathlib import Path
 
 import numpy as np
 
+from ..core.errors import printable
 from ..core.files import replacing
 from ..core.points import Points
 from ..grids.hillshade import hillshade
 from ..grids.inpaint import inpaint
-from .assessment import Assessment, AssessmentOptions, Comparison
+from .comparison import Assessment, AssessmentOptions, Comparison
 
 # Told apart by colour-blind eyes, and in print.
 _TYPE_1, _TYPE_2 = "#d1157f", "#f07f09"
@@ -170,9 +171,10 @@ def report_html(
     assessment: Assessment, picture: Picture, options: AssessmentOptions, files: tuple[Path, Path]
 ) -> str:
     """Return the page of the report; see `write_report`."""
-    from ... import __version__
+    from ..core.version import __version__
 
-    title = escape(f"Assessment of {files[0].name}")
+    title = escape(printable(f"Assessment of {files[0].name}"))
+    classified, reference = (escape(printable(str(file))) for file in files)
     return f"""<!DOCTYPE html>
 <html lang="en">
 <head>
@@ -183,7 +185,7 @@ def report_html(
 </head>
 <body>
 <h1>{title}</h1>
-<p class="files">Classified: {escape(str(files[0]))}<br>Reference: {escape(str(files[1]))}</p>
+<p class="files">Classified: {classified}<br>Reference: {reference}</p>
 <dl>{_figures(assessment)}</dl>
 <p>Type I error: the share of the reference's ground that was rejected. Type II error: the share of
 all other points that was accepted as ground. Kappa: the agreement beyond what chance alone gives.

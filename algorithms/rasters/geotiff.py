@@ -14,7 +14,7 @@ from ..core.errors import BareEarthError
 from ..core.files import check_output, replacing, shown
 from ..core.points import Frame, Points
 from ..core.progress import SILENT, Progress
-from ..crs.reading import unit_name
+from ..crs.system import unit_name
 from ..crs.wkt import read_wkt
 
 NODATA = -9999.0
@@ -430,6 +430,7 @@ def _write_with_rasterio(
 ) -> None:
     import rasterio
     from rasterio.errors import CRSError, RasterioError
+    from rasterio.io import MemoryFile
     from rasterio.transform import Affine
 
     crs = None
@@ -439,16 +440,23 @@ def _write_with_rasterio(
         except CRSError:
             _warn_without_crs(progress)
     try:
-        with rasterio.open(
-            path, "w", driver="GTiff", width=values.shape[1], height=values.shape[0], count=1,
-            dtype=values.dtype.name, nodata=nodata, crs=crs, tiled=True, compress="deflate",
-            predictor=3 if values.dtype.kind == "f" else 2, blockxsize=_BLOCK, blockysize=_BLOCK,
-            transform=Affine.from_gdal(*grid.geotransform),
-            BIGTIFF="IF_SAFER",
-        ) as dataset:  # fmt: skip
-            dataset.write(values, 1)
-            if grid.unit:
-                dataset.units = (grid.unit,)
+        # In memory first: if the disk is full when the file is closed, rasterio raises no error.
+        # No side-car file: it would stay behind under the temporary name.
+        with rasterio.Env(GDAL_PAM_ENABLED="NO"), MemoryFile() as memory:
+            with memory.open(
+                driver="GTiff", width=values.shape[1], height=values.shape[0], count=1,
+                dtype=values.dtype.name, nodata=nodata, crs=crs, tiled=True, compress="deflate",
+                predictor=3 if values.dtype.kind == "f" else 2,
+                blockxsize=_BLOCK, blockysize=_BLOCK,
+                transform=Affine.from_gdal(*grid.geotransform), BIGTIFF="IF_SAFER",
+            ) as dataset:  # fmt: skip
+                dataset.write(values, 1)
+                if grid.unit:
+                    dataset.units = (grid.unit,)
+            with memory.open() as dataset:
+                if crs is not None and dataset.crs is None:
+                    _warn_without_crs(progress)
+            path.write_bytes(memory.getbuffer())
     except RasterioError as error:
         raise BareEarthError(f"Cannot write {shown(path)}: {shown(error)}.") from error
 

@@ -11,6 +11,7 @@ from typing import Any, Iterable, Iterator
 import numpy as np
 
 from ..core.errors import BareEarthError
+from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
 
@@ -19,7 +20,6 @@ _POINTS_A_STEP = 1 << 21
 _WKT_POLYGON = re.compile(r"\b(MULTI)?POLYGON\s*(?:ZM|Z|M)?\s*(?=\()", re.IGNORECASE)
 _WKT_PART = re.compile(r"[()]|[^()]+")
 
-Box = tuple[float, float, float, float]
 Polygon = tuple[np.ndarray, ...]
 
 

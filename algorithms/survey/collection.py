@@ -12,10 +12,11 @@ from typing import Iterable, Iterator
 import numpy as np
 
 from ..core.errors import BareEarthError
+from ..core.points import Box
 from ..core.progress import SILENT, Progress
-from ..crs.reading import Crs, read_crs, unit_name
+from ..crs.system import Crs, unit_name
+from ..las.crs_records import read_crs
 from ..las.lasbytes import LasLayout, read_layout
-from .area import Box
 from .vpc import SUFFIX as VPC_SUFFIX
 from .vpc import read_vpc
 

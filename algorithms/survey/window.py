@@ -7,14 +7,15 @@ from typing import TYPE_CHECKING, Iterator
 
 import numpy as np
 
+from ..core.points import Box
 from ..core.progress import SILENT, Progress
-from ..crs.reading import read_crs
 from ..las.backends import require
 from ..las.cloud import PointCloud
 from ..las.copc_nodes import OctreeError, find_nodes, read_hierarchy, read_nodes
+from ..las.crs_records import read_crs
 from ..las.lasbytes import LasLayout, read_layout
 from ..las.reading import _chunks, _opened, _packages
-from .area import Area, Box
+from .area import Area
 
 if TYPE_CHECKING:
     import laspy

@@ -10,7 +10,7 @@ from typing import Callable, NamedTuple
 import numpy as np
 
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.crs.reading import Crs
+from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.las.cloud import PointCloud
 
 from .classes import GROUND

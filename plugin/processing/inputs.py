@@ -25,7 +25,7 @@ from qgis.core import (
 from qgis.PyQt.QtCore import QUrl
 
 from ...algorithms.core.errors import BareEarthError
-from ...algorithms.crs.reading import read_crs
+from ...algorithms.las.crs_records import read_crs
 from ...algorithms.las.lasbytes import read_layout
 from ...algorithms.survey.area import Area, Polygon
 from .. import compat

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from bare_earth.algorithms.core.errors import BareEarthError
-from bare_earth.algorithms.crs.reading import Crs
+from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.survey import area as area_module
 from bare_earth.algorithms.survey.area import Area, read_boundary

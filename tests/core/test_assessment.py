@@ -14,12 +14,8 @@ from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.products import report
-from bare_earth.algorithms.products.assessment import (
-    AssessmentOptions,
-    Comparison,
-    assess_files,
-    compare,
-)
+from bare_earth.algorithms.products.assessment import assess_files
+from bare_earth.algorithms.products.comparison import AssessmentOptions, Comparison, compare
 
 
 def test_the_four_figures_of_a_known_confusion():

@@ -8,7 +8,7 @@ import pytest
 from bare_earth.algorithms.core.parameters import Declaration
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.las.reading import read_cloud
-from bare_earth.algorithms.products.assessment import compare
+from bare_earth.algorithms.products.comparison import compare
 from benchmarks import accuracy, cache, data, maps, measure, peers, report, tables
 from benchmarks.measure import Filter
 from benchmarks.scenes import KINDS, make

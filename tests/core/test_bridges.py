@@ -8,7 +8,7 @@ from realdata import real
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.crs.reading import Crs
+from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.engine.classification import classify
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
 from bare_earth.algorithms.filters.shared.bridges import bridge_decks

@@ -8,7 +8,7 @@ import pytest
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.progress import SILENT
-from bare_earth.algorithms.crs.reading import Crs
+from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.engine import classification, cloudstore, ground
 from bare_earth.algorithms.engine.classification import classify, classify_file
 from bare_earth.algorithms.filters import METHODS

@@ -3,9 +3,10 @@ import sys
 
 import pytest
 
-from bare_earth.algorithms.crs import reading as crs_module
-from bare_earth.algorithms.crs.reading import Crs, compound_wkt, read_crs, unit_name
+from bare_earth.algorithms.crs import system as crs_module
+from bare_earth.algorithms.crs.system import Crs, compound_wkt, unit_name
 from bare_earth.algorithms.crs.wkt import read_wkt
+from bare_earth.algorithms.las.crs_records import read_crs
 from bare_earth.algorithms.las.lasbytes import read_layout
 
 SURVEY, FOOT = 1200 / 3937, 0.3048

@@ -10,6 +10,7 @@ import pytest
 from surveys import bytes_of, cut, strip
 
 from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.core import version
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine import cluster as cluster_module
@@ -103,9 +104,7 @@ def test_a_scheduler_that_is_not_there_is_told(survey, tmp_path, monkeypatch, ca
 
 
 def test_workers_of_another_version_are_refused(dask, survey, tmp_path, monkeypatch):
-    import bare_earth
-
-    monkeypatch.setattr(bare_earth, "__version__", "99.9")
+    monkeypatch.setattr(version, "__version__", "99.9")
     with pytest.raises(BareEarthError, match=r"has version .* and this computer 99\.9"):
         classify_tiles([survey[0]], tmp_path / "out", FAST, workers=Cluster(dask[0]))
 

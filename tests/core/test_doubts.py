@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.crs.reading import Crs
+from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.classification import classify
 from bare_earth.algorithms.engine.cloudstore import CloudStore, Part

@@ -1,9 +1,20 @@
 import errno
+import itertools
+import os
+import pickle
+import subprocess
+import sys
 
 import pytest
 
+from bare_earth.algorithms.core import files
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.core.files import check_output, replacing
+from bare_earth.algorithms.core.files import (
+    check_distinct,
+    check_output,
+    remove_leftovers,
+    replacing,
+)
 
 
 def test_the_target_appears_only_at_the_end(tmp_path):
@@ -48,3 +59,113 @@ def test_a_missing_folder_a_folder_and_the_input_itself_are_refused(tmp_path):
     for same in (source, tmp_path / "link.las", tmp_path / "." / "in.las"):
         with pytest.raises(BareEarthError, match="same file"):
             check_output(same, (source,))
+
+
+def left_by(process, name="a.las", computer=None):
+    """Return the name of what a process that was killed leaves beside a target."""
+    computer = computer or files._computer()
+    return f".{computer}-{process}-0.part.{name}"
+
+
+@pytest.fixture
+def gone():
+    """Return the number of a process that has ended."""
+    done = subprocess.Popen([sys.executable, "-c", ""])
+    done.wait()
+    return done.pid
+
+
+def test_what_killed_runs_left_is_removed_before_any_work(tmp_path, gone):
+    (tmp_path / left_by(gone)).write_text("half")
+    (tmp_path / left_by(os.getpid())).write_text("of an earlier process with this number")
+    check_output(tmp_path / "b.las")
+    assert not list(tmp_path.iterdir())
+
+
+def test_what_another_run_writes_right_now_is_left_alone(tmp_path):
+    code = "import sys; print(flush=True); sys.stdin.read()"
+    with subprocess.Popen([sys.executable, "-c", code], stdin=-1, stdout=-1) as other:
+        other.stdout.readline()
+        theirs, far = left_by(other.pid), left_by(1, computer="elsewhere")
+        for each in (theirs, far):
+            (tmp_path / each).write_text("half")
+        with replacing(tmp_path / "mine.las") as mine:
+            remove_leftovers(tmp_path)
+            assert {path.name for path in tmp_path.iterdir()} == {theirs, far, mine.name}
+        other.communicate()
+    remove_leftovers(tmp_path)
+    assert {path.name for path in tmp_path.iterdir()} == {"mine.las", far}
+    os.utime(tmp_path / far, (0, 0))  # of another computer: when nobody wrote to it for a day
+    remove_leftovers(tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == ["mine.las"]
+
+
+def test_a_link_at_the_temporary_name_is_not_followed(tmp_path, monkeypatch):
+    precious = tmp_path / "precious"
+    precious.write_text("data")
+    monkeypatch.setattr(files, "_numbers", itertools.count(5_000))
+    for number in range(5_000, 5_010):
+        link = left_by(os.getpid()).replace("-0.part", f"-{number}.part")
+        (tmp_path / link).symlink_to(precious)
+    with replacing(tmp_path / "a.las") as temporary, open(temporary, "w+b") as file:
+        file.write(b"points")
+    assert precious.read_text() == "data"
+    assert (tmp_path / "a.las").read_bytes() == b"points"
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no such permissions")
+def test_the_permissions_of_an_old_target_stay(tmp_path):
+    target = tmp_path / "a.las"
+    target.write_text("old")
+    for mode in (0o600, 0o640, 0o444):
+        target.chmod(mode)
+        with replacing(target) as temporary:
+            assert temporary.stat().st_mode & 0o077 == mode & 0o077
+            temporary.write_text("new")
+        assert target.stat().st_mode & 0o777 == mode
+
+
+def test_names_as_long_as_can_be_are_written_and_longer_ones_refused_at_once(tmp_path):
+    target = tmp_path / ("ä" * 125 + ".las")
+    check_output(target)
+    with replacing(target) as temporary:
+        temporary.write_text("new")
+        assert temporary.suffix == ".las"
+    assert [path.name for path in tmp_path.iterdir()] == [target.name]
+    with pytest.raises(BareEarthError, match="the name is too long"):
+        check_output(tmp_path / ("a" * 300 + ".las"))
+    with pytest.raises(BareEarthError, match="Cannot write"):
+        check_output(tmp_path / "a\0b.las")
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with names here")
+def test_a_pipe_is_no_output(tmp_path):
+    os.mkfifo(tmp_path / "a.las")
+    with pytest.raises(BareEarthError, match="it is no file"):
+        check_output(tmp_path / "a.las")
+
+
+@pytest.mark.skipif(
+    not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root may write where it likes"
+)
+def test_a_folder_that_must_not_be_written_to_is_refused_at_once(tmp_path):
+    tmp_path.chmod(0o500)
+    with pytest.raises(BareEarthError, match="no permission to write"):
+        check_output(tmp_path / "a.las")
+    tmp_path.chmod(0o700)
+
+
+def test_two_outputs_of_one_name_are_refused(tmp_path):
+    (tmp_path / "folder").mkdir()
+    same = tmp_path / "folder" / ".." / "dtm.tif"
+    check_distinct([tmp_path / "a.las", None, same, None])
+    with pytest.raises(BareEarthError, match=r"Two outputs are the same file, .*dtm\.tif"):
+        check_distinct([tmp_path / "dtm.tif", None, same])
+    with pytest.raises(BareEarthError, match="same file"):  # none of them is there yet
+        check_output(tmp_path / "dtm.tif", (same,))
+
+
+def test_messages_are_one_line_without_what_steers_a_terminal():
+    error = BareEarthError("\x1b[31mno\nsuch \udcff file\x07 in Zürich")
+    assert str(error) == "\\x1b[31mno\\nsuch \\xff file\\x07 in Zürich"
+    assert str(pickle.loads(pickle.dumps(error))) == str(error)

@@ -8,7 +8,7 @@ from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.filters import METHODS, method_of
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
-from bare_earth.algorithms.products.assessment import compare
+from bare_earth.algorithms.products.comparison import compare
 from benchmarks import data
 from benchmarks.scenes.simple import village
 

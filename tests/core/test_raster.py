@@ -1,3 +1,6 @@
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -66,3 +69,57 @@ def test_a_crs_that_is_not_understood_is_left_out_with_a_warning(tmp_path):
     grid = RasterGrid.over(square(3.0), Frame(wkt="LOCAL"), 1.0)
     write_geotiff(tmp_path / "a.tif", np.zeros((3, 3), np.float32), grid, NODATA, Listener())
     assert "without a CRS" in warnings[0]
+
+
+FULL_DISK = """
+import resource, sys
+import numpy as np
+from pathlib import Path
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.points import Frame
+from bare_earth.algorithms.core.progress import SILENT
+from bare_earth.algorithms.rasters.geotiff import RasterGrid, write_geotiff
+
+values = np.random.default_rng(1).random((300, 300)).astype(np.float32)
+grid = RasterGrid(0.0, 300.0, 1.0, 300, 300, Frame())
+target = Path(sys.argv[1])
+write_geotiff(target.with_name("whole.tif"), values, grid, -9999.0, SILENT)
+size = target.with_name("whole.tif").stat().st_size
+for missing in (size - 1, 100_000, 20_000, 200, 1):  # the end is written when the file is closed
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size - missing, resource.RLIM_INFINITY))
+    try:
+        write_geotiff(target, values, grid, -9999.0, SILENT)
+        print("written all the same")
+    except BareEarthError as error:
+        print(error)
+"""
+
+
+def test_a_disk_that_becomes_full_leaves_the_old_raster(tmp_path):
+    pytest.importorskip("resource")
+    target = tmp_path / "a.tif"
+    target.write_text("old")
+    command = [sys.executable, "-c", FULL_DISK, str(target)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines() == [f"Cannot write {target}: File too large."] * 5
+    assert done.stderr == ""
+    assert target.read_text() == "old"
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.tif", "whole.tif"]
+
+
+def test_a_crs_that_geotiff_cannot_hold_is_left_out_with_a_warning_and_no_side_car(tmp_path):
+    warnings = []
+
+    class Listener(type(SILENT)):
+        def warning(self, text):
+            warnings.append(text)
+
+    wkt = (
+        f'COMPD_CS["both",{rasterio.crs.CRS.from_epsg(25832).to_wkt()},'
+        'VERT_CS["Ellipsoid",VERT_DATUM["Ellipsoid",2002],UNIT["metre",1],AXIS["Up",UP]]]'
+    )
+    grid = RasterGrid.over(square(3.0), Frame(wkt=wkt), 1.0)
+    write_geotiff(tmp_path / "a.tif", np.zeros((3, 3), np.float32), grid, NODATA, Listener())
+    with rasterio.open(tmp_path / "a.tif") as raster:
+        assert "without a CRS" in warnings[0] and raster.crs is None
+    assert [path.name for path in tmp_path.iterdir()] == ["a.tif"]

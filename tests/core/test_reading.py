@@ -6,7 +6,7 @@ import pytest
 
 from bare_earth.algorithms.core import progress
 from bare_earth.algorithms.core.errors import Cancelled
-from bare_earth.algorithms.crs.reading import Crs
+from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.las.reading import inspect, read_cloud
 
 VERSIONS = {0: (0, 1), 1: (0, 1), 2: range(4), 3: range(6), 4: range(11)}

@@ -5,7 +5,7 @@ import pytest
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.progress import SILENT
-from bare_earth.algorithms.crs.reading import Crs
+from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.survey.selection import Selection
 

@@ -9,8 +9,8 @@ from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.core.threads import may_use
-from bare_earth.algorithms.filters.slope.cell_bounds import CellBounds
 from bare_earth.algorithms.filters.slope import standing_above
+from bare_earth.algorithms.filters.slope.cell_bounds import CellBounds
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter, classify
 from bare_earth.algorithms.filters.slope.low_clusters import low_clusters
 from bare_earth.algorithms.filters.slope.neighbourhood import Neighbourhood

@@ -10,7 +10,7 @@ from realdata import real
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.core.progress import SILENT, Progress
 from bare_earth.algorithms.core.threads import workers
-from bare_earth.algorithms.crs.reading import Crs
+from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.engine import ground as ground_module
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.classification import classify

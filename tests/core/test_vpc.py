@@ -8,7 +8,7 @@ import pytest
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.crs import wgs84
-from bare_earth.algorithms.crs.reading import wkt_of_epsg
+from bare_earth.algorithms.crs.system import wkt_of_epsg
 from bare_earth.algorithms.crs.wgs84 import to_wgs84
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
 

@@ -21,6 +21,21 @@ WRAPPERS = [
 ]
 # Qt's own names may come from here only, so that one code runs with Qt 5 and Qt 6.
 QT = {"PyQt5", "PyQt6", "PySide2", "PySide6", "sip"}
+# Which rooms of `algorithms` a room may import, besides itself: the floors below it.
+FLOORS = {
+    "core": "",
+    "crs": "core",
+    "grids": "core",
+    "las": "core crs",
+    "survey": "core crs las",
+    "rasters": "core crs",
+    "filters": "core grids",
+    "products": "core crs grids las survey rasters filters engine",
+    "engine": "core crs grids las survey rasters filters products",
+    "cli": "core crs grids las survey rasters filters products engine",
+    "__main__": "cli",
+    "__init__": "core crs grids las survey rasters filters products engine",
+}
 
 
 def _name(path):
@@ -32,24 +47,22 @@ def _tree(path):
 
 
 def _imports(path):
-    """Return the modules that a file imports anywhere, relative ones as paths below the root."""
+    """Return the modules that a file imports anywhere; those of the package as ".algorithms..."."""
     package = path.relative_to(ROOT).parts[:-1]
     found = set()
     for node in ast.walk(_tree(path)):
         if isinstance(node, ast.Import):
             found |= {each.name for each in node.names}
         elif isinstance(node, ast.ImportFrom):
-            base = list(package[: len(package) - node.level + 1]) if node.level else []
-            base += (node.module or "").split(".") if node.module else []
-            base = ".".join(["." if node.level else "", *base]).replace("..", ".")
-            found |= {base, *(f"{base}.{each.name}" for each in node.names)}
+            above = package[: len(package) - node.level + 1] if node.level else ()
+            base = ".".join([*above, *([node.module] if node.module else [])])
+            base = f".{base}" if node.level else base
+            found |= {base, *(f"{base.rstrip('.')}.{each.name}" for each in node.names)}
     return found
 
 
 def _within(modules, *packages):
-    return sorted(
-        each for each in modules if any(f"{each}.".startswith(f"{name}.") for name in packages)
-    )
+    return {each for each in modules if any(f"{each}.".startswith(f"{name}.") for name in packages)}
 
 
 @pytest.fixture(params=SHIPPED, ids=_name)
@@ -63,6 +76,7 @@ def test_the_imports_are_read_rightly(tmp_path):
     assert ".algorithms.filters.tin_densification" in _imports(here)
     assert ".algorithms.las.reading" in _imports(ROOT / "algorithms" / "cli" / "comparing.py")
     assert "numpy" in _imports(here)
+    assert "typing.Callable" in _imports(here)
     assert len(SHIPPED) > 20
 
 
@@ -71,10 +85,42 @@ def test_the_classifier_imports_neither_qgis_nor_the_plugin():
         assert not _within(_imports(path), "qgis", "osgeo.gdal.qgis", ".plugin", *QT), path
 
 
-def test_the_filters_import_no_files_no_tiling_and_no_front_end():
-    for path in (ROOT / "algorithms" / "filters").rglob("*.py"):
-        above = [f".algorithms.{name}" for name in ("las", "survey", "engine", "cli", "core.files")]
-        assert not _within(_imports(path), *above, "laspy", "lazrs"), path
+def test_grids_and_filters_know_no_files():
+    for room in ("grids", "filters"):
+        for path in (ROOT / "algorithms" / room).rglob("*.py"):
+            assert not _within(_imports(path), ".algorithms.core.files", "laspy", "lazrs"), path
+
+
+def _room(path):
+    return path.relative_to(ROOT / "algorithms").with_suffix("").parts[0]
+
+
+def test_each_room_imports_only_the_floors_below_it():
+    assert set(FLOORS) == {_room(path) for path in (ROOT / "algorithms").rglob("*.py")}
+    for path in (ROOT / "algorithms").rglob("*.py"):
+        room = _room(path)
+        relative = {each for each in _imports(path) if each.startswith(".")}
+        below = [f".algorithms.{name}" for name in (room, *FLOORS[room].split())]
+        # A room and the rooms below it; `from .. import core` names the house as well.
+        assert relative - {".algorithms"} <= _within(relative, *below), path
+
+
+def _algorithms_of(path):
+    """Return the files of the classifier that a file of it imports, wherever in the file."""
+    found = set()
+    for module in _within(_imports(path), ".algorithms"):
+        place = ROOT.joinpath(*module.split(".")[1:])
+        found |= {place.with_suffix(".py"), place / "__init__.py"}
+    return {each for each in found if each.is_file()} - {path}
+
+
+def test_no_file_imports_itself_by_way_of_others():
+    left = {path: _algorithms_of(path) for path in (ROOT / "algorithms").rglob("*.py")}
+    assert sum(map(len, left.values())) > 200
+    # What imports nothing that is left can be loaded; circles are what remains in the end.
+    while free := {path for path, others in left.items() if not others & left.keys()}:
+        left = {path: others for path, others in left.items() if path not in free}
+    assert not left, sorted(map(_name, left))
 
 
 def test_only_the_point_cloud_package_knows_the_file_format():

@@ -263,9 +263,7 @@ def test_a_full_disk_is_told_and_leaves_nothing(las, monkeypatch, name, room):
 
     source = las.make(count=400)
     for module in ("writing", "copc"):
-        monkeypatch.setattr(
-            f"bare_earth.algorithms.las.{module}.open", opened, raising=False
-        )
+        monkeypatch.setattr(f"bare_earth.algorithms.las.{module}.open", opened, raising=False)
     with pytest.raises(BareEarthError, match=r"^Cannot write .*out\.\S+: the disk is full\."):
         write_classified(source, las.folder / name, new_classes(400))
     assert list(las.folder.iterdir()) == [source]
