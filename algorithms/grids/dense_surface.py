@@ -2,7 +2,8 @@
 
 Where points lie in most cells of the lattice, the triangle round a query follows from the few
 vertices near it (`enclosing`). What is left is round gaps: only the vertices near these are
-triangulated. The heights are those of the one Delaunay triangulation of all vertices.
+triangulated. The heights are those of the one Delaunay triangulation of all vertices, but where four
+vertices round a query are taken for all that matter (`heights_of_four`).
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ import numpy as np
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import over_parts
-from .enclosing import NOWHERE, enclosing_heights
+from .enclosing import NOWHERE, enclosing_heights, heights_of_four
 from .surface import CellLattice, Surface
 from .thinned import TILE, ThinnedPoints, Window
 
@@ -23,7 +24,7 @@ VERTICES_A_SIDE = 2
 # Widths of the windows in which the triangle is looked for; queries that are looked at together, so
 # that their arrays stay in the processor's cache; and queries a vertex of the tile, beyond which
 # triangulating these takes less time.
-_WINDOWS = ((4, 1 << 13, 8.0), (8, 1 << 11, 2.0), (16, 1 << 9, 0.5))
+_WINDOWS = ((2, 1 << 14, 20.0), (4, 1 << 14, 8.0), (8, 1 << 12, 2.0), (16, 1 << 10, 0.5))
 _WIDEST = _WINDOWS[-1][0]
 _MARGIN = _WIDEST // 2 + 1
 # Cells of the lattice round queries that are left whose vertices are triangulated. The circle round
@@ -217,14 +218,15 @@ class DenseSurface:
 
     def _vertices(self, near: tuple[np.ndarray, np.ndarray] | None = None) -> np.ndarray:
         """Return which points are vertices, in ascending order; all, or those near some places."""
-        found = [self._thinned.hull()]
+        is_vertex = np.zeros(self._points.count, dtype=bool)
+        is_vertex[self._thinned.hull()] = True
         marked = None if near is None else _marked(self._thinned, *near)
         for place, tile in self._thinned.tiles.items():
             if marked is None:
-                found.append(tile.which)
+                is_vertex[tile.which] = True
             elif place in marked:
-                found.append(tile.which[marked[place][tile.slots]])
-        return np.unique(np.concatenate(found))
+                is_vertex[tile.which[marked[place][tile.slots]]] = True
+        return np.flatnonzero(is_vertex)
 
 
 class _Near:
@@ -257,6 +259,10 @@ class _Near:
         cells = (across[:, None] * self._columns + across).ravel()
         found = self._lattice[start + cells[:, None]]
         x, y = self._x[found] - queries.x, self._y[found] - queries.y
+        if width == 2:
+            in_turn = [0, 1, 3, 2]
+            four = (each[in_turn] for each in (x, y, self._z[found]))
+            return heights_of_four(*four, self._max_edge)
         quarters = _quarters(width) if self._are_corners else None
         by = queries.column - queries.x, queries.row - queries.y
         borders = np.array([half - by[0], half - by[1], half + by[0], half + by[1]])
