@@ -2,8 +2,8 @@
 
 Where points lie in most cells of the lattice, the triangle round a query follows from the few
 vertices near it (`enclosing`). What is left is round gaps: only the vertices near these are
-triangulated. The heights are those of the one Delaunay triangulation of all vertices, but where four
-vertices round a query are taken for all that matter (`heights_of_four`).
+triangulated. The heights are those of the one Delaunay triangulation of all vertices, but where
+four vertices round a query are taken for all that matter (`heights_of_four`).
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ VERTICES_A_SIDE = 2
 # Widths of the windows in which the triangle is looked for; queries that are looked at together, so
 # that their arrays stay in the processor's cache; and queries a vertex of the tile, beyond which
 # triangulating these takes less time.
-_WINDOWS = ((2, 1 << 14, 20.0), (4, 1 << 14, 8.0), (8, 1 << 12, 2.0), (16, 1 << 10, 0.5))
+_WINDOWS = ((2, 1 << 14, 6.0), (4, 1 << 14, 5.0), (8, 1 << 12, 2.0), (16, 1 << 10, 0.5))
 _WIDEST = _WINDOWS[-1][0]
 _MARGIN = _WIDEST // 2 + 1
 # Cells of the lattice round queries that are left whose vertices are triangulated. The circle round

@@ -67,26 +67,22 @@ def enclosing_heights(
         above = distance - slope_x * x
         above -= slope_y * y
         worst = above.argmin(axis=0)
-        weights = _opposite_areas(a, b)
         done = ~(above[worst, column] - level < -_ON_CIRCLE * np.maximum(np.abs(level), 1.0))
         ended = np.flatnonzero(done)
         if len(ended):
             which = active[ended]
-            some = np.maximum(weights[:, ended], 0.0)
-            corner_heights = z[triangle[:, ended], which]
-            with np.errstate(invalid="ignore"):  # no triangle, but three vertices on one line
-                heights[which] = (some * corner_heights).sum(axis=0) / some.sum(axis=0)
+            heights[which] = interpolated(a[:, ended], b[:, ended], z[triangle[:, ended], which])
             sure[which] = _lies_within(
                 slope_x[ended] / 2.0, slope_y[ended] / 2.0, level[ended], window[:, which]
             )
-            heights[which[_longest_edge(a[:, ended], b[:, ended]) > max_edge]] = np.nan
+            heights[which[longest_edge(a[:, ended], b[:, ended]) > max_edge]] = np.nan
             left = np.flatnonzero(~done)
             if not len(left):
                 break
             active, column = active[left], np.arange(len(left))
             x, y, distance, triangle = (each[:, left] for each in (x, y, distance, triangle))
-            a, b, weights, worst = a[:, left], b[:, left], weights[:, left], worst[left]
-        leaving = _leaving(a, b, x[worst, column], y[worst, column], weights)
+            a, b, worst = a[:, left], b[:, left], worst[left]
+        leaving = leaving_corner(a, b, x[worst, column], y[worst, column])
         triangle[leaving, column] = worst
     return heights, sure
 
@@ -135,7 +131,7 @@ def heights_of_four(
     found = (weights >= 0.0).all(axis=0) & (total > 0.0) & (np.abs(x).max(axis=0) < NOWHERE / 2.0)
     with np.errstate(divide="ignore", invalid="ignore"):
         heights = (weights * z[corners, column]).sum(axis=0) / total
-    heights[~found | (_longest_edge(a, b) > max_edge)] = np.nan
+    heights[~found | (longest_edge(a, b) > max_edge)] = np.nan
     return heights, found
 
 
@@ -180,21 +176,56 @@ def _plane(a: np.ndarray, b: np.ndarray, lifted: np.ndarray) -> tuple[np.ndarray
     return slope_x, slope_y, lifted[0] - slope_x * a[0] - slope_y * b[0]
 
 
+def circumcircles(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return x, y and radius of the circles through corners at x `a` and y `b`, shape (3, q)."""
+    bx, by, cx, cy = a[1] - a[0], b[1] - b[0], a[2] - a[0], b[2] - b[0]
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        double = 2.0 * (bx * cy - by * cx)
+        b2, c2 = bx**2 + by**2, cx**2 + cy**2
+        x, y = (cy * b2 - by * c2) / double, (bx * c2 - cx * b2) / double
+        return a[0] + x, b[0] + y, np.hypot(x, y)
+
+
+def interpolated(a: np.ndarray, b: np.ndarray, z: np.ndarray) -> np.ndarray:
+    """Return heights at queries in triangles; NaN where the corners lie on one line.
+
+    Parameters
+    ----------
+    a, b, z : numpy.ndarray of float64, shape (3, q)
+        x and y of the corners, relative to the query, and their heights.
+    """
+    weights = np.maximum(_opposite_areas(a, b), 0.0)
+    with np.errstate(invalid="ignore"):
+        return (weights * z).sum(axis=0) / weights.sum(axis=0)
+
+
+def leaving_corner(a: np.ndarray, b: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Return which corner a new vertex replaces so that the triangle still holds the query.
+
+    Parameters
+    ----------
+    a, b : numpy.ndarray of float64, shape (3, q)
+        x and y of the corners, relative to the query.
+    x, y : numpy.ndarray of float64, shape (q,)
+        Those of the new vertices.
+    """
+    shares, weights = _opposite_areas(a - x, b - y), _opposite_areas(a, b)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratio = np.where(shares > _NO_WEIGHT, np.maximum(weights, 0.0) / shares, np.inf)
+    return ratio.argmin(axis=0)
+
+
+def longest_edge(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Return the length of the longest edge of triangles with corners (3, q)."""
+    next_a, next_b = np.roll(a, 1, axis=0), np.roll(b, 1, axis=0)
+    return np.sqrt(((next_a - a) ** 2 + (next_b - b) ** 2).max(axis=0))
+
+
 def _opposite_areas(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """Return twice the area between the query and the edge opposite to each corner (3, q)."""
     return np.stack(
         (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
     )
-
-
-def _leaving(
-    a: np.ndarray, b: np.ndarray, x: np.ndarray, y: np.ndarray, weights: np.ndarray
-) -> np.ndarray:
-    """Return which corner a new vertex at x, y replaces so that the triangle holds the query."""
-    shares = _opposite_areas(a - x, b - y)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        ratio = np.where(shares > _NO_WEIGHT, np.maximum(weights, 0.0) / shares, np.inf)
-    return ratio.argmin(axis=0)
 
 
 def _lies_within(
@@ -204,9 +235,3 @@ def _lies_within(
     radius = np.sqrt(np.maximum(level + centre_x**2 + centre_y**2, 0.0))
     inside = (radius - centre_x <= window[0]) & (radius - centre_y <= window[1])
     return inside & (radius + centre_x <= window[2]) & (radius + centre_y <= window[3])
-
-
-def _longest_edge(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Return the length of the longest edge of triangles with corners (3, q)."""
-    next_a, next_b = np.roll(a, 1, axis=0), np.roll(b, 1, axis=0)
-    return np.sqrt(((next_a - a) ** 2 + (next_b - b) ** 2).max(axis=0))
