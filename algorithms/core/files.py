@@ -180,7 +180,7 @@ def _cut(name: str, taken: int) -> str:
     return name
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def _computer() -> str:
     """Return the name of this computer, as it stands in the names of temporary files."""
     return re.sub(r"\W", "_", socket.gethostname(), flags=re.ASCII)[:32] or "_"
