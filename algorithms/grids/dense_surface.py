@@ -185,6 +185,16 @@ class DenseSurface:
         tree = cKDTree(np.column_stack(vertices[:2]), balanced_tree=False, compact_nodes=False)
         return vertices.z[tree.query(np.column_stack((x, y)))[1]]
 
+    @property
+    def vertices(self) -> np.ndarray:
+        """Which of the points are vertices, in ascending order."""
+        return self._vertices()
+
+    @property
+    def hull(self) -> np.ndarray:
+        """Which of the points are the corners of the convex hull."""
+        return self._thinned.hull()
+
     def _in_tile(
         self, place: tuple[int, int], queries: _Queries, are_corners: bool, max_edge: float | None
     ) -> tuple[np.ndarray, np.ndarray]:

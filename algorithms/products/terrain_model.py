@@ -13,7 +13,8 @@ from ..core.progress import SILENT, Progress
 from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
 from ..grids.hillshade import hillshade
 from ..grids.tin import hull_corners
-from ..rasters.geotiff import NODATA, RasterGrid, write_geotiff
+from ..rasters.geotiff import NODATA, RasterGrid
+from ..rasters.writing import write_geotiff
 
 
 @dataclass(frozen=True)
