@@ -13,6 +13,7 @@ from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
 from ..grids.cells import first_of_each
 from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
+from ..grids.morphology import within_square
 
 # Edges of the triangles that a block makes itself, in metres and in cells: those over wider gaps
 # need points from farther away than a block sees, and are made when all blocks are there.
@@ -145,7 +146,8 @@ class RasterStep:
                 row, column = (
                     np.clip(each, 0, most - 1) for each, most in zip((row, column), window.shape)
                 )
-                loose[vertices[np.isnan(heights[row, column])]] = True
+                near_gap = within_square(np.maximum, np.isnan(heights), 1)
+                loose[vertices[near_gap[row, column]]] = True
             loose[surface.hull] = True
         return heights.astype(np.float32), _placed(points, corner, loose & core)
 
