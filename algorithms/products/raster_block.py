@@ -105,7 +105,7 @@ class RasterStep:
         progress : Progress
             Receives progress.
         """
-        window = CellWindow.with_centres_in(box, self.cell)
+        window = CellWindow.with_centres_in(_within(box, points, corner, self.cell), self.cell)
         none = np.zeros((0, 0), dtype=np.float32), np.zeros((0, 3))
         terrain = surface = none
         if self.terrain:
@@ -191,6 +191,19 @@ class RasterStep:
         if self.max_edge is None:
             loose[top[surface.hull]] = True
         return heights.astype(np.float32), _placed(points, corner, loose & core)
+
+
+def _within(box: Box, points: Points, corner: tuple[float, float], margin: float) -> Box:
+    """Return the part of a box in which points lie, or nothing."""
+    if not points.count:
+        return (*box[:2], *box[:2])
+    low, high = (
+        [getattr(each, which)() + at for each, at in zip(points[:2], corner)]
+        for which in ("min", "max")
+    )
+    west, south = (max(a, b - margin) for a, b in zip(box[:2], low))
+    east, north = (min(a, b + margin) for a, b in zip(box[2:], high))
+    return west, south, max(east, west), max(north, south)
 
 
 def _placed(points: Points, corner: tuple[float, float], which: np.ndarray) -> np.ndarray:
