@@ -89,6 +89,7 @@ def over_blocks(
     job_of: Callable[[Block, bool], Callable[[Progress], Any]],
     resources: Resources,
     progress: Progress,
+    is_wanted: Callable[[Block], bool] | None = None,
 ) -> Iterator[tuple[int, Any]]:
     """Yield what a job makes of each block, with the number of the block, as they end.
 
@@ -98,8 +99,12 @@ def over_blocks(
         As for `label_ground`.
     job_of : callable
         Takes a block, and whether it is the only one, and returns its job.
+    is_wanted : callable, optional
+        Says of a block whether it is to be done; all are, if it is not given.
     """
-    todo = list(blocks.over(store))
+    todo = [each for each in blocks.over(store) if is_wanted is None or is_wanted(each)]
+    if not todo:
+        return
     counts = [_count(blocks, each, store) for each in todo]
     at_once = _at_once(len(todo), max(counts), blocks, resources)
     workers = max(1, resources.thread_count // at_once)

@@ -5,6 +5,7 @@ They run in a thread, in another process or on another computer that sees the sa
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Iterator, NamedTuple
 
@@ -71,8 +72,9 @@ class Outcome(NamedTuple):
     failure: str | None = None
 
 
-class LabelJob(NamedTuple):
-    """Labels the points of some blocks.
+@dataclass(frozen=True)
+class BlockJob:
+    """Does something with the points of some blocks.
 
     Attributes
     ----------
@@ -81,7 +83,7 @@ class LabelJob(NamedTuple):
     places : tuple of Place
         The blocks.
     files : tuple of Path
-        Where the labels of each go.
+        Where what is made of each goes.
     sources : tuple of Path
         The files that may have points which these blocks need.
     count : float
@@ -94,11 +96,35 @@ class LabelJob(NamedTuple):
     sources: tuple[Path, ...]
     count: float
 
-    def split(self) -> list[LabelJob]:
+    def split(self) -> list[BlockJob]:
         """Return a job for each of the blocks."""
         count = self.count / len(self.places)
         pairs = zip(self.places, self.files)
-        return [self._replace(places=(a,), files=(b,), count=count) for a, b in pairs]
+        return [replace(self, places=(a,), files=(b,), count=count) for a, b in pairs]
+
+    def run(self, share: Share, progress: Progress) -> None:
+        """Do it."""
+        raise NotImplementedError
+
+    def clouds(self, progress: Progress) -> Iterator[PointCloud]:
+        """Yield the points of each file that the blocks need."""
+        window = self.survey.window(self.places)
+        for number, source in enumerate(self.sources):
+            start, end = (each / len(self.sources) for each in (number, number + 1))
+            try:
+                part = Unsaid(progress.part(start, end))
+                cloud = read_window(source, window, part, trust_header=True)
+            except BareEarthError as error:
+                progress.warning(
+                    f"The tiles beside {source.name} are classified without its points. {error}"
+                )
+                continue
+            if cloud.count:
+                yield cloud
+
+
+class LabelJob(BlockJob):
+    """Labels the points of some blocks."""
 
     def run(self, share: Share, progress: Progress) -> None:
         """Do it."""
@@ -123,23 +149,12 @@ class LabelJob(NamedTuple):
     def _read(self, progress: Progress) -> tuple[list[Part], list[np.ndarray]]:
         """Return the points that the blocks need, and the block of each."""
         selection, parts, codes = self.survey.selection, [], []
-        window = self.survey.window(self.places)
         here = np.array([code(place) for place in self.places])
-        for number, source in enumerate(self.sources):
-            start, end = (each / len(self.sources) for each in (number, number + 1))
-            try:
-                part = Unsaid(progress.part(start, end))
-                cloud = read_window(source, window, part, trust_header=True)
-            except BareEarthError as error:
-                progress.warning(
-                    f"The tiles beside {source.name} are classified without its points. {error}"
-                )
-                continue
-            if cloud.count:
-                selected = selection.choose(cloud, Tally())
-                known = selection.known_ground(cloud, selected)
-                codes.append(self.survey.codes(cloud))
-                parts.append(Part(cloud, selected, known, np.isin(codes[-1], here)))
+        for cloud in self.clouds(progress):
+            selected = selection.choose(cloud, Tally())
+            known = selection.known_ground(cloud, selected)
+            codes.append(self.survey.codes(cloud))
+            parts.append(Part(cloud, selected, known, np.isin(codes[-1], here)))
         return parts, codes
 
     def _write(
@@ -298,7 +313,7 @@ class _KeptLabels:
         return BareEarthError(f"{self._path} changed while it was worked on. Classify it again.")
 
 
-def attempt(job: LabelJob | TileJob, share: Share, progress: Progress) -> Outcome:
+def attempt(job: BlockJob | TileJob, share: Share, progress: Progress) -> Outcome:
     """Run a job; what goes wrong with it is told, not raised."""
     notes = _Notes(progress)
     try:

@@ -25,10 +25,16 @@ from ..las.records import check_class
 from ..las.writing import check_writable, write_changed
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import TerrainModel
-from ..survey.selection import NOISE
 from .memory import Resources
 from .output import HEIGHT_DIMENSION, height_dimension, heights_of
-from .rasters import RasterFiles, RasterRequest, RasterSize, rasters_of_cloud, write_rasters
+from .rasters import (
+    RasterFiles,
+    RasterPoints,
+    RasterRequest,
+    RasterSize,
+    rasters_of_cloud,
+    write_rasters,
+)
 
 _INTEGERS = np.iinfo(np.int32)
 
@@ -312,36 +318,25 @@ def write_terrain_models(
     files.check((source,))
     request = RasterRequest(files, model, surface)
     cloud = read_cloud(source, progress.part(0.0, 0.2))
-    marks = marked(cloud, request, ground)
+    marks = _marks(cloud, request, ground)
     with may_use(resources.thread_count):
-        made = rasters_of_cloud(cloud, *marks, request, resources.now(), progress.part(0.2, 0.8))
+        made = rasters_of_cloud(cloud, marks, request, resources.now(), progress.part(0.2, 0.8))
     with contextlib.ExitStack() as outputs:
         return write_rasters(
             made, survey_frame(cloud.crs), request, outputs, progress.part(0.8, 1.0)
         )
 
 
-def marked(
+def _marks(
     cloud: PointCloud, request: RasterRequest, ground: GroundClasses
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return which points rasters cover, which are ground, and which belong to the surface.
-
-    Raises
-    ------
-    BareEarthError
-        If there are none, or the CRS is geographic.
-    """
+) -> tuple[np.ndarray, ...]:
+    """Return what rasters are made of; refuse a cloud that has none of it."""
     cloud.require_projected()
-    shown = ~np.isin(cloud.classification, NOISE) & ~cloud.withheld
-    is_ground = np.zeros(cloud.count, dtype=bool)
     if request.needs_terrain:
-        is_ground = ground.of(cloud)
-    shown |= is_ground
-    top = shown & request.needs_surface
-    if request.surface.surface_returns == "first":
-        top &= cloud.return_number <= 1
-    if request.needs_surface and not top.any():
+        ground.of(cloud)
+    marks = RasterPoints(ground.ground_classes).of(cloud, request)
+    if request.needs_surface and not marks[2].any():
         raise BareEarthError(
             f"{cloud.path} has no first returns to make a surface of. Take all returns instead."
         )
-    return shown, is_ground, top
+    return marks

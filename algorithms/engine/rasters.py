@@ -6,7 +6,7 @@ import contextlib
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import Callable, Iterator, Sequence
+from typing import Callable, Iterator, NamedTuple, Sequence
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from ..products.surface_model import SurfaceModel, canopy_height
 from ..products.terrain_model import TerrainModel
 from ..rasters.geotiff import NODATA, RasterGrid
 from ..rasters.writing import Rows, check_raster_output, write_geotiff
+from ..survey.selection import NOISE
 from .blocks import Block, Blocks, Store
 from .cloudstore import CloudStore, Part
 from .ground import over_blocks
@@ -132,11 +133,42 @@ class RasterSize:
     rows: int
 
 
+class RasterPoints(NamedTuple):
+    """Which points of a classified cloud the rasters are made of.
+
+    Attributes
+    ----------
+    ground_classes : tuple of int
+        Classes of the ground. Withheld points are left out.
+    covers_ground : bool
+        Whether the rasters reach as far as the ground does, not as all points but noise.
+    """
+
+    ground_classes: tuple[int, ...]
+    covers_ground: bool = False
+
+    def of(self, cloud: PointCloud, request: RasterRequest) -> tuple[np.ndarray, ...]:
+        """Return which points are covered, are ground, and belong to the surface.
+
+        Returns
+        -------
+        shown, ground, top : numpy.ndarray of bool, shape (n,)
+        """
+        ground = np.zeros(cloud.count, dtype=bool)
+        if request.needs_terrain:
+            ground = np.isin(cloud.classification, self.ground_classes) & ~cloud.withheld
+        if self.covers_ground:
+            return ground, ground, np.zeros(cloud.count, dtype=bool)
+        shown = ground | (~np.isin(cloud.classification, NOISE) & ~cloud.withheld)
+        top = shown & request.needs_surface
+        if request.surface.surface_returns == "first":
+            top &= cloud.return_number <= 1
+        return shown, ground, top
+
+
 def rasters_of_cloud(
     cloud: PointCloud,
-    shown: np.ndarray,
-    ground: np.ndarray,
-    top: np.ndarray | None,
+    marks: tuple[np.ndarray, ...],
     request: RasterRequest,
     resources: Resources = Resources(),
     progress: Progress = SILENT,
@@ -147,9 +179,8 @@ def rasters_of_cloud(
     ----------
     cloud : PointCloud
         The points.
-    shown, ground, top : numpy.ndarray of bool, shape (n,)
-        Which points the rasters are to cover, which of them are ground, and which belong to the
-        surface.
+    marks : tuple of numpy.ndarray of bool, shape (n,)
+        What `RasterPoints.of` returns for it.
     request : RasterRequest
         What is wanted.
     resources : Resources
@@ -157,9 +188,8 @@ def rasters_of_cloud(
     progress : Progress
         Receives progress.
     """
-    top = np.zeros(cloud.count, dtype=bool) if top is None else top
     blocks = request.blocks
-    part = Part(cloud, shown, ground, top)
+    part = Part(cloud, *marks)
     store = CloudStore([part], survey_frame(cloud.crs), blocks, progress.part(0.0, 0.1))
     return rasters_of_store(store, request, resources, progress.part(0.1, 1.0))
 
@@ -169,24 +199,27 @@ def rasters_of_store(
     request: RasterRequest,
     resources: Resources = Resources(),
     progress: Progress = SILENT,
+    is_wanted: Callable[[Block], bool] | None = None,
 ) -> list[BlockRasters]:
     """Return the rasters of the blocks of a store, in which ground is known and the top wanted."""
     blocks, step = request.blocks, request.step
     made = {}
     if len(store.leaves.counts):
-        job_of = partial(_job_of, store, blocks, step)
-        for number, result in over_blocks(store, blocks, job_of, resources, progress):
+        # The only block of all need not be looked at for what lies in it.
+        job_of = partial(_job_of, store, blocks, step, is_wanted is None)
+        jobs = over_blocks(store, blocks, job_of, resources, progress, is_wanted)
+        for number, result in jobs:
             made[number] = result
     return [made[number] for number in sorted(made)]
 
 
 def _job_of(
-    store: Store, blocks: Blocks, step: RasterStep, block: Block, is_only: bool
+    store: Store, blocks: Blocks, step: RasterStep, are_all: bool, block: Block, is_only: bool
 ) -> Callable[[Progress], BlockRasters]:
     def job(progress: Progress) -> BlockRasters:
         contents, corner = blocks.contents(block, store), blocks.corner(block)
         core = np.ones(contents.points.count, dtype=bool)
-        if not is_only:
+        if not (is_only and are_all):
             core = block.holds(contents.points, corner)
         marks = contents.known, contents.wanted, core
         return step.of(contents.points, *marks, corner, block.box, progress)

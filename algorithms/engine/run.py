@@ -9,12 +9,12 @@ from pathlib import Path
 
 from ..core.errors import BareEarthError
 from ..core.progress import Progress
-from .jobs import LabelJob, Outcome, TileJob, TileSummary
+from .jobs import BlockJob, Outcome, TileJob, TileSummary
 from .workers import SCHEDULER_GONE, Job, Running, Workers
 
 _POLL = 0.1
-# Labelling a point takes so many times as long as reading and writing it.
-_LABEL_WEIGHT = 2.0
+# What a block does with a point takes so many times as long as reading and writing it.
+_BLOCK_WEIGHT = 2.0
 _DIED = (
     "The process that worked on it ended unexpectedly, perhaps for want of memory. Allow fewer"
     " threads, or less memory."
@@ -26,8 +26,8 @@ class Run:
 
     Parameters
     ----------
-    labels : list of LabelJob
-        The blocks that are not labelled yet, in groups.
+    blocks : list of BlockJob
+        The blocks that are not done yet, in groups.
     tiles : list of TileJob
         The tiles to write.
     workers : Workers
@@ -41,23 +41,26 @@ class Run:
         The tiles that were written.
     failures : dict of Path to str
         Why the others were not, by their inputs.
+    lost : list of str
+        Why blocks were not done.
     """
 
     def __init__(
-        self, labels: list[LabelJob], tiles: list[TileJob], workers: Workers, progress: Progress
+        self, blocks: list[BlockJob], tiles: list[TileJob], workers: Workers, progress: Progress
     ) -> None:
         self.done: list[TileSummary] = []
         self.failures: dict[Path, str] = {}
+        self.lost: list[str] = []
         self._workers, self._progress = workers, progress
-        self._labels, self._ready = collections.deque(labels), collections.deque()
+        self._blocks, self._ready = collections.deque(blocks), collections.deque()
         # Jobs that were running when a worker died: one by one it is found which of them kills.
         self._suspects: collections.deque[Job] = collections.deque()
-        self._missing = {file for job in labels for file in job.files}
+        self._missing = {file for job in blocks for file in job.files}
         self._waiting = list(tiles)
         self._uses = collections.Counter(file for job in tiles for file in job.files)
         self._running: dict[Running, Job] = {}
         self._heard: dict[tuple[str, str], list[str]] = {}
-        self._total = max(sum(map(_weight, (*labels, *tiles))), 1e-9)
+        self._total = max(sum(map(_weight, (*blocks, *tiles))), 1e-9)
         self._finished = 0.0
 
     def work(self) -> None:
@@ -85,7 +88,7 @@ class Run:
     def _fill(self) -> bool:
         """Begin as many jobs as may run; return whether any is running."""
         while len(self._running) < (1 if self._suspects else self._workers.at_once):
-            queues = (self._suspects, self._ready, self._labels)
+            queues = (self._suspects, self._ready, self._blocks)
             queue = next((each for each in queues if each), None)
             if queue is None:
                 break
@@ -125,16 +128,17 @@ class Run:
         self._running.pop(ended, None)
         self._finished += _weight(job)
         self._hear(job, outcome)
-        (self._end_labels if isinstance(job, LabelJob) else self._end_tile)(job, outcome)
+        (self._end_tile if isinstance(job, TileJob) else self._end_blocks)(job, outcome)
 
-    def _end_labels(self, job: LabelJob, outcome: Outcome) -> None:
+    def _end_blocks(self, job: BlockJob, outcome: Outcome) -> None:
         if outcome.failure is not None and len(job.places) > 1:
             parts = job.split()
-            self._labels.extendleft(parts)
+            self._blocks.extendleft(parts)
             self._total += sum(map(_weight, parts))
             return
         self._missing -= set(job.files)
         if outcome.failure is not None:
+            self.lost.append(outcome.failure)
             waiting, self._waiting = self._waiting, []
             for each in waiting:
                 if job.files[0] in each.files:
@@ -185,4 +189,4 @@ def _without_numbers(text: str) -> str:
 
 def _weight(job: Job) -> float:
     """Return the share of a job in the whole, in points to read and write."""
-    return _LABEL_WEIGHT * job.count if isinstance(job, LabelJob) else float(job.tile.count)
+    return float(job.tile.count) if isinstance(job, TileJob) else _BLOCK_WEIGHT * job.count

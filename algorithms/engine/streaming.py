@@ -169,6 +169,7 @@ def classify_parts(
             labels = spill.labels_of(part, selected, taken)
             is_ground = outcome.add(start, part, labels, inside, selection)
             if ground is not None:
+                is_ground &= ~part.withheld
                 ground.append(part, is_ground, is_ground, np.zeros(part.count, dtype=bool))
             start += part.count
             taken += int(np.count_nonzero(selected))

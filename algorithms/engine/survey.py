@@ -49,8 +49,8 @@ class Survey:
 
     Attributes
     ----------
-    parameters : ParameterSet
-        Those of one method.
+    parameters : ParameterSet or None
+        Those of one method; None if nothing is to be classified.
     selection : Selection
         Which points take part, and what their classes become.
     frame : Frame
@@ -59,7 +59,7 @@ class Survey:
         How the survey is cut.
     """
 
-    parameters: ParameterSet
+    parameters: ParameterSet | None
     selection: Selection
     frame: Frame
     blocks: Blocks

@@ -14,7 +14,7 @@ from typing import NamedTuple, Union
 from ..core.errors import Cancelled
 from ..core.files import remove_leftovers
 from ..core.progress import Progress
-from .jobs import LabelJob, Outcome, Share, TileJob, attempt
+from .jobs import BlockJob, Outcome, Share, TileJob, attempt
 from .memory import Resources
 from .record import folders_of
 
@@ -23,7 +23,7 @@ _PATIENCE = 0.7
 
 SCHEDULER_GONE = "The scheduler is gone. Start it again, and go on with --resume."
 
-Job = Union[LabelJob, TileJob]
+Job = Union[BlockJob, TileJob]
 
 
 class Running(NamedTuple):

@@ -45,7 +45,7 @@ def _made(cloud, folder, max_edge=None, files=("dtm",), cell=2.5, shown=True):
     files = RasterFiles(**{name: folder / f"{name}.tif" for name in files})
     request = RasterRequest(files, TerrainModel(cell), SurfaceModel(max_edge=max_edge))
     every = np.full(cloud.count, shown)
-    made = rasters_of_cloud(cloud, every, every, every, request)
+    made = rasters_of_cloud(cloud, (every, every, every), request)
     with contextlib.ExitStack() as outputs:
         write_rasters(made, survey_frame(cloud.crs), request, outputs)
     with rasterio.open(next(iter(files.wanted.values()))) as raster:
