@@ -25,8 +25,7 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
 
     add_input(parser)
     add_output(parser)
-    parser.add_argument("--dtm", metavar="FILE", type=Path, help="write the terrain model (.tif)")
-    parser.add_argument("--hillshade", metavar="FILE", type=Path, help="write its hillshade (.tif)")
+    _add_rasters(parser)
     parser.add_argument(
         "--extent", nargs=4, type=float, metavar=("XMIN", "YMIN", "XMAX", "YMAX"),
         help="classify only points in this rectangle, in the CRS of the points",
@@ -45,6 +44,11 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
             "Threads and memory",
         ),
     )  # fmt: skip
+
+
+def _add_rasters(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--dtm", metavar="FILE", type=Path, help="write the terrain model (.tif)")
+    parser.add_argument("--hillshade", metavar="FILE", type=Path, help="write its hillshade (.tif)")
 
 
 def _add_method(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> Method:
@@ -103,6 +107,7 @@ def _area_of(options: argparse.Namespace) -> Area | None:
 def _add_classify_tiles(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..engine.memory import Resources
     from ..engine.options import TileInput, TileOutput
+    from ..products.terrain_model import TerrainModel
     from ..survey.selection import Selection
 
     parser.add_argument(
@@ -114,6 +119,7 @@ def _add_classify_tiles(parser: argparse.ArgumentParser, arguments: Sequence[str
         "--vpc", metavar="FILE", type=Path,
         help="the virtual point cloud of the results (default: classified.vpc in FOLDER)",
     )  # fmt: skip
+    _add_rasters(parser)
     parser.add_argument(
         "--scheduler", metavar="ADDRESS",
         help="let the workers of this Dask scheduler do it, such as tcp://host:8786; without it,"
@@ -122,28 +128,31 @@ def _add_classify_tiles(parser: argparse.ArgumentParser, arguments: Sequence[str
     method = _add_method(parser, arguments)
     add_json(parser)
     add_parameters(
-        parser, method.parameters, Selection, TileInput, TileOutput, Resources,
+        parser, method.parameters, Selection, TileInput, TileOutput, TerrainModel, Resources,
         titles=(
             f"{method.label} parameters", "Which points, which classes", "Files", "Output",
-            "Threads and memory",
+            "Terrain model", "Threads and memory",
         ),
     )  # fmt: skip
 
 
 def _classify_tiles(options: argparse.Namespace) -> int:
     from ..engine.cluster import Cluster
+    from ..engine.rasters import RasterFiles, RasterRequest
     from ..engine.tiles import classify_tiles
     from ..engine.workers import Processes
 
-    *policy, resources = chosen(options)
+    *policy, terrain, resources = chosen(options)
+    rasters = RasterRequest(RasterFiles(dtm=options.dtm, hillshade=options.hillshade), terrain)
     workers = Processes(resources)
     if options.scheduler:
         workers = Cluster(options.scheduler, resources)
     try:
         with Terminal(options.verbose) as progress:
             summary = classify_tiles(
-                options.input, options.output, *policy, options.vpc, progress, workers
-            )
+                options.input, options.output, *policy, options.vpc, progress, workers,
+                rasters=rasters,
+            )  # fmt: skip
     except (Cancelled, KeyboardInterrupt):
         text = "Cancelled; the tiles that are finished stay. Go on with --resume."
         print(f"bare-earth: {text}", file=sys.stderr)

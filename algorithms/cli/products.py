@@ -71,11 +71,16 @@ def _key_points(options: argparse.Namespace) -> int:
 
 
 def _add_terrain(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
+    from ..engine.memory import Resources
     from ..engine.products import GroundClasses
     from ..products.surface_model import SurfaceModel
     from ..products.terrain_model import TerrainModel
 
-    add_input(parser)
+    parser.add_argument(
+        "input", metavar="INPUT", type=Path, nargs="+",
+        help="files, folders, virtual point clouds (.vpc), or lists of files (.txt): all are one"
+        " survey",
+    )  # fmt: skip
     for name, what in (
         ("dtm", "terrain model"),
         ("dsm", "surface model, the top of all that stands on the terrain"),
@@ -84,18 +89,22 @@ def _add_terrain(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> N
     ):
         parser.add_argument(f"--{name}", metavar="FILE", type=Path, help=f"the {what} (.tif)")
     add_json(parser)
-    add_parameters(parser, GroundClasses, TerrainModel, SurfaceModel)
+    add_parameters(parser, GroundClasses, TerrainModel, SurfaceModel, Resources)
 
 
 def _terrain(options: argparse.Namespace) -> int:
     from ..engine.products import write_terrain_models
     from ..engine.rasters import RasterFiles
+    from ..engine.workers import Processes
 
     files = RasterFiles(options.dtm, options.dsm, options.chm, options.hillshade)
+    *policy, resources = chosen(options)
     with Terminal(options.verbose) as progress:
-        summary = write_terrain_models(options.input, files, *chosen(options), progress)
+        summary = write_terrain_models(
+            options.input, files, *policy, resources, progress, Processes(resources)
+        )
     text = f"{summary.columns:,} x {summary.rows:,} cells of {summary.ground_count:,} ground points"
-    tell(options, summary, f"{options.input}: {text}")
+    tell(options, summary, f"{options.input[0]}: {text}")
     return DONE
 
 
@@ -127,7 +136,8 @@ COMMANDS = (
     Command(
         "terrain",
         "make rasters of the terrain and of what stands on it",
-        "Makes rasters (GeoTIFF) of a classified file. Name at least one.",
+        "Makes rasters (GeoTIFF) of a classified file, or of many as one survey. Name at least"
+        " one.",
         _add_terrain,
         _terrain,
     ),

@@ -221,13 +221,9 @@ def _outcome(
         part = progress.part(0.2, 0.65)
         outcome, *_ = _in_memory(cloud, parameters, scope, resources, part)
         if request.files.wanted:
-            ground, part = (
-                outcome.classification == scope.selection.to_class,
-                progress.part(0.65, 0.75),
-            )
-            outcome.rasters = rasters_of_cloud(
-                cloud, ground, ground, None, request, resources, part
-            )
+            ground = (outcome.classification == scope.selection.to_class) & ~cloud.withheld
+            marks, part = (ground, ground, np.zeros_like(ground)), progress.part(0.65, 0.75)
+            outcome.rasters = rasters_of_cloud(cloud, marks, request, resources, part)
         return outcome
     _check_parts_do(target, output, is_copied, count, progress)
     part = progress.part(0.0, 0.75)

@@ -6,8 +6,10 @@ File in, file out; every front end takes this path.
 from __future__ import annotations
 
 import contextlib
+import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Sequence
 
 import numpy as np
 
@@ -16,25 +18,33 @@ from ..core.files import check_output
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..core.threads import may_use
-from ..crs.system import unit_name
+from ..crs.system import Crs, unit_name
 from ..grids.model_key_points import ModelKeyPoints, model_key_points
 from ..las.changes import Changes
 from ..las.cloud import PointCloud, survey_frame
-from ..las.reading import read_cloud
+from ..las.lasbytes import read_layout
+from ..las.reading import read_cloud, read_parts
 from ..las.records import check_class
 from ..las.writing import check_writable, write_changed
+from ..products.raster_block import BlockRasters
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import TerrainModel
+from ..survey.collection import is_cloud, open_collection
 from .memory import Resources
 from .output import HEIGHT_DIMENSION, height_dimension, heights_of
+from .raster_jobs import make_rasters
 from .rasters import (
     RasterFiles,
     RasterPoints,
     RasterRequest,
     RasterSize,
     rasters_of_cloud,
+    rasters_of_store,
     write_rasters,
 )
+from .spill import Spill
+from .streaming import fits_in_memory
+from .workers import Threads, Workers
 
 _INTEGERS = np.iinfo(np.int32)
 
@@ -280,30 +290,34 @@ def write_key_points(
 
 
 def write_terrain_models(
-    source: Path,
+    sources: Path | Sequence[Path],
     files: RasterFiles,
     ground: GroundClasses = GroundClasses(),
     model: TerrainModel = TerrainModel(),
     surface: SurfaceModel = SurfaceModel(),
-    progress: Progress = SILENT,
     resources: Resources = Resources(),
+    progress: Progress = SILENT,
+    workers: Workers | None = None,
 ) -> RasterSize:
     """Write rasters of the terrain and of what stands on it; all of them or none.
 
     Parameters
     ----------
-    source : Path
-        A classified .las, .laz or .copc.laz file.
+    sources : Path or sequence of Path
+        Classified .las, .laz or .copc.laz files, folders of them, virtual point clouds and lists:
+        all files together are one survey.
     files : RasterFiles
         What to write.
     ground : GroundClasses
         Which points are ground.
     model, surface : TerrainModel, SurfaceModel
         Cell size, light, gaps, and which points make the surface.
-    progress : Progress
-        Receives progress and messages.
     resources : Resources
         Threads and memory.
+    progress : Progress
+        Receives progress and messages.
+    workers : Workers, optional
+        Who makes the rasters of many files; threads of this process if not given.
 
     Raises
     ------
@@ -313,17 +327,66 @@ def write_terrain_models(
     Cancelled
         If the user asked to stop; no output is left behind.
     """
+    sources = [sources] if isinstance(sources, (str, Path)) else sources
+    sources = [Path(each) for each in sources]
+    request = RasterRequest(files, model, surface)
     if not files.wanted:
         raise BareEarthError("Name at least one raster to make.")
-    files.check((source,))
-    request = RasterRequest(files, model, surface)
-    cloud = read_cloud(source, progress.part(0.0, 0.2))
-    marks = _marks(cloud, request, ground)
+    if not ground.ground_classes:
+        raise BareEarthError("Choose at least one ground class.")
+    files.check(tuple(sources))
+    if len(sources) > 1 or sources[0].is_dir() or not is_cloud(sources[0]):
+        return _of_survey(sources, request, ground, workers or Threads(resources), progress)
+    resources = resources.now()
     with may_use(resources.thread_count):
-        made = rasters_of_cloud(cloud, marks, request, resources.now(), progress.part(0.2, 0.8))
+        if fits_in_memory(read_layout(sources[0]).count, resources):
+            cloud = read_cloud(sources[0], progress.part(0.0, 0.2))
+            marks, crs = _marks(cloud, request, ground), cloud.crs
+            part = progress.part(0.2, 0.8)
+            made = rasters_of_cloud(cloud, marks, request, resources, part)
+        else:
+            made, crs = _from_disk(sources[0], request, ground, resources, progress)
     with contextlib.ExitStack() as outputs:
-        return write_rasters(
-            made, survey_frame(cloud.crs), request, outputs, progress.part(0.8, 1.0)
+        return write_rasters(made, survey_frame(crs), request, outputs, progress.part(0.8, 1.0))
+
+
+def _from_disk(
+    source: Path,
+    request: RasterRequest,
+    ground: GroundClasses,
+    resources: Resources,
+    progress: Progress,
+) -> tuple[list[BlockRasters], Crs]:
+    """Return the rasters of the blocks of a file that does not fit into memory, and its CRS."""
+    target = next(iter(request.files.wanted.values()))
+    points, lowest = RasterPoints(ground.ground_classes), []
+    with Spill(target, request.blocks.leaf_side) as spill:
+        for part in read_parts(source, progress.part(0.0, 0.4)):
+            part.require_projected()
+            spill.append(part, *points.of(part, request))
+            lowest.append(part.lowest)
+        spill.finish(tuple(int(each) for each in np.min(lowest, axis=0)))
+        made = rasters_of_store(spill, request, resources, progress.part(0.4, 0.8))
+        return made, spill.cloud.crs
+
+
+def _of_survey(
+    sources: Sequence[Path],
+    request: RasterRequest,
+    ground: GroundClasses,
+    workers: Workers,
+    progress: Progress,
+) -> RasterSize:
+    """Write the rasters of many files."""
+    collection = open_collection(sources, progress=progress.part(0.0, 0.05))
+    request.files.check(tuple(each.path for each in collection.tiles))
+    for each in collection.broken:
+        progress.warning(f"{each.path} is left out. {each.reason}")
+    beside = next(iter(request.files.wanted.values())).parent
+    with tempfile.TemporaryDirectory(prefix=".bare-earth-", dir=beside) as folder:
+        points = RasterPoints(ground.ground_classes)
+        return make_rasters(
+            collection, Path(folder), request, points, workers, progress.part(0.05, 1.0)
         )
 
 
@@ -331,9 +394,9 @@ def _marks(
     cloud: PointCloud, request: RasterRequest, ground: GroundClasses
 ) -> tuple[np.ndarray, ...]:
     """Return what rasters are made of; refuse a cloud that has none of it."""
-    cloud.require_projected()
     if request.needs_terrain:
         ground.of(cloud)
+    cloud.require_projected()
     marks = RasterPoints(ground.ground_classes).of(cloud, request)
     if request.needs_surface and not marks[2].any():
         raise BareEarthError(

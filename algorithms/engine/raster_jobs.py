@@ -40,7 +40,7 @@ class RasterJob(BlockJob):
     """
 
     request: RasterRequest = field(default_factory=RasterRequest)
-    points: RasterPoints = RasterPoints((2,))
+    points: RasterPoints = field(default_factory=lambda: RasterPoints((2,)))
 
     def run(self, share: Share, progress: Progress) -> None:
         """Do it."""

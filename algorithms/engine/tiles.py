@@ -11,7 +11,7 @@ from typing import Any, Iterable, NamedTuple
 from ..core.errors import BareEarthError
 from ..core.files import alone_in, check_output, describe_write_error, remove_leftovers
 from ..core.parameters import ParameterSet
-from ..core.progress import SILENT, Progress
+from ..core.progress import SILENT, Progress, Unsaid
 from ..las.records import check_class
 from ..las.writing import check_writable
 from ..survey.collection import Collection, Tile, open_collection
@@ -22,6 +22,8 @@ from .blocks import Blocks
 from .ground import blocks_of
 from .jobs import LabelJob, TileJob, TileSummary
 from .options import TileInput, TileOutput
+from .raster_jobs import make_rasters
+from .rasters import RasterFiles, RasterPoints, RasterRequest
 from .record import folders_of, label_file, made_of, read_record, remove_record, state_of
 from .run import Run
 from .survey import Place, Survey, frame_of, grouped, memory_of, places_of, points_in
@@ -81,6 +83,7 @@ def classify_tiles(
     progress: Progress = SILENT,
     workers: Workers | None = None,
     blocks: Blocks | None = None,
+    rasters: RasterRequest = RasterRequest(),
 ) -> TilesSummary:
     """Classify the ground points of many files as one survey, and write each anew.
 
@@ -109,6 +112,8 @@ def classify_tiles(
         Who does the work; threads of this process if not given.
     blocks : Blocks, optional
         How the survey is cut, if not as the method has it.
+    rasters : RasterRequest
+        Terrain model and hillshade of the whole survey, if they are wanted.
 
     Raises
     ------
@@ -122,6 +127,7 @@ def classify_tiles(
     collection = open_collection(sources, files.recursive, progress.part(0.0, 0.02))
     _check(collection, folder, vpc, sources if files.recursive else [])
     targets = _targets(collection, folder, output.format)
+    _check_rasters(rasters, folder, (vpc, *targets, *targets.values()))
     blocks = blocks or blocks_of(parameters)
     survey = Survey(parameters, selection, frame_of(collection), blocks)
     workers = Threads() if workers is None else workers
@@ -133,18 +139,24 @@ def classify_tiles(
         _make(*folders)
         kept = plan.keep_done(output.resume, progress)
         labels, tiles = plan.jobs(folder, workers)
-        run = Run(labels, tiles, workers, progress.part(0.05, 0.98))
+        end = 0.8 if rasters.files.wanted else 0.98
+        run = Run(labels, tiles, workers, progress.part(0.05, end))
         try:
             run.work()
         finally:
             workers.stop()
+        done = sorted([*kept, *run.done])
+        if done and rasters.files.wanted:
+            made = open_collection([folder / each.name for each in done], progress=Unsaid(progress))
+            points = RasterPoints((selection.to_class,), covers_ground=True)
+            waiting = folders_of(folder)[2]
+            make_rasters(made, waiting, rasters, points, workers, progress.part(end, 0.98))
         _clear(folder, labels=True)
     failures = {each.path: each.reason for each in collection.broken}
     failures = {**failures, **plan.failures, **run.failures}
     failures = {str(path): failures[path] for path in sorted(failures)}
     for path, reason in failures.items():
         progress.warning(f"{path} is not classified. {reason}")
-    done = sorted([*kept, *run.done])
     if not done:
         raise BareEarthError(f"None of the {len(failures):,} tiles could be classified.")
     write_vpc(vpc, [folder / each.name for each in done], progress.part(0.98, 1.0))
@@ -186,6 +198,15 @@ def _check(collection: Collection, folder: Path, vpc: Path, searched: list[Path]
         raise BareEarthError(f"Cannot write {vpc}: name it {VPC_SUFFIX}.")
     if vpc.parent.resolve() != here:
         check_output(vpc)
+
+
+def _check_rasters(rasters: RasterRequest, folder: Path, others: tuple[Path, ...]) -> None:
+    """Refuse rasters that could not be written; the folder of the output may not be there yet."""
+    if folder.exists():
+        rasters.files.check(others)
+        return
+    elsewhere = {name: path for name, path in rasters.files.wanted.items() if path.parent != folder}
+    RasterFiles(**elsewhere).check(others)
 
 
 def _targets(collection: Collection, folder: Path, format: str) -> dict[Path, Path]:

@@ -206,7 +206,7 @@ def _expand(source: Path, recursive: bool) -> Iterator[Path]:
     if source.is_dir():
         for path in source.rglob("*") if recursive else source.iterdir():
             # Hidden files are those of others, or not finished yet.
-            if _is_cloud(path) and not path.name.startswith(".") and path.is_file():
+            if is_cloud(path) and not path.name.startswith(".") and path.is_file():
                 yield path
     elif suffix == VPC_SUFFIX:
         yield from (entry.path for entry in read_vpc(source))
@@ -215,7 +215,7 @@ def _expand(source: Path, recursive: bool) -> Iterator[Path]:
             if path.suffix.lower() in _LISTS:
                 raise BareEarthError(f"{source} lists another list, {path}. Name the files in it.")
             yield from _expand(path, recursive)
-    elif _is_cloud(source):
+    elif is_cloud(source):
         yield source
     elif not source.exists():
         raise BareEarthError(f"{source} does not exist. Check the path.")
@@ -226,7 +226,8 @@ def _expand(source: Path, recursive: bool) -> Iterator[Path]:
         )
 
 
-def _is_cloud(path: Path) -> bool:
+def is_cloud(path: Path) -> bool:
+    """Return whether a path is named as a point cloud is."""
     return path.suffix.lower() in _CLOUDS
 
 

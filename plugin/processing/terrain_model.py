@@ -60,7 +60,7 @@ class TerrainModelAlgorithm(ProductAlgorithm):
         options = {name.lower(): path for name, path in paths.items()}
         progress.command(command_line("terrain", [str(self.source)], chosen, options))
         files = RasterFiles(*(Path(path) if path else None for path in paths.values()))
-        summary = write_terrain_models(self.source, files, *chosen, progress)
+        summary = write_terrain_models(self.source, files, *chosen, progress=progress)
         progress.info(f"The rasters have {summary.columns:,} x {summary.rows:,} cells.")
         for name in ("DTM", "DSM"):
             style(context, paths[name], ElevationStyle())

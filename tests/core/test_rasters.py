@@ -1,19 +1,31 @@
 """The rasters of a survey are those of one triangulation, however it is cut into blocks."""
 
 import contextlib
+import json
+import os
 
+import laspy
 import numpy as np
 import pytest
+from surveys import cut, strip, write
 
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.engine import blocks as blocks_module
+from bare_earth.algorithms.engine.classification import classify_file
+from bare_earth.algorithms.engine.memory import Resources
+from bare_earth.algorithms.engine.products import write_terrain_models
 from bare_earth.algorithms.engine.rasters import (
     RasterFiles,
     RasterRequest,
     rasters_of_cloud,
     write_rasters,
 )
+from bare_earth.algorithms.engine.tiles import classify_tiles
+from bare_earth.algorithms.engine.workers import Processes, Threads
+from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 from bare_earth.algorithms.grids.tin import Tin
 from bare_earth.algorithms.las.cloud import PointCloud, survey_frame
 from bare_earth.algorithms.products.surface_model import SurfaceModel
@@ -22,6 +34,7 @@ from bare_earth.algorithms.products.terrain_model import TerrainModel, vertices_
 rasterio = pytest.importorskip("rasterio")
 
 SIZE = 900.0
+MUCH, LITTLE = Resources(threads=2, memory=2.0), Resources(threads=2, memory=0.001)
 
 
 def _cloud(x, y, z):
@@ -116,6 +129,84 @@ def test_blocks_of_any_size_give_the_same_rasters(tmp_path, monkeypatch, max_edg
         assert one.shape == other.shape
         most = 1 if one.dtype == np.uint8 else 0.001
         assert np.mean(np.abs(one.astype(float) - other) > most) < 1e-4
+
+
+def _of_files(sources, folder, resources=MUCH, **options):
+    folder.mkdir()
+    files = RasterFiles(*(folder / f"{name}.tif" for name in ("dtm", "dsm", "chm", "shade")))
+    write_terrain_models(sources, files, resources=resources, **options)
+    return [_values(path) for path in files.wanted.values()]
+
+
+def _values(path):
+    with rasterio.open(path) as raster:
+        return raster.read(1), raster.transform
+
+
+def _same(one, other):
+    return all(np.array_equal(a, b) and at == by for (a, at), (b, by) in zip(one, other))
+
+
+@pytest.fixture(scope="module")
+def survey(tmp_path_factory):
+    """One classified file, and the same points in 25 of any extents."""
+    folder = tmp_path_factory.mktemp("survey")
+    points = strip(60_000, 1300.0, 700.0)
+    write(folder / "one.laz", points, classes=np.where(points[:, 2] % 10, 2, 1))
+    cut(folder / "many", points, 24)
+    for path in (folder / "many").iterdir():
+        las = laspy.read(path)
+        las.classification[:] = np.where(np.round(np.asarray(las.z) * 100) % 10, 2, 1)
+        las.write(str(path))
+    return folder
+
+
+def test_many_files_give_the_rasters_of_one_cell_by_cell(survey, small_blocks, tmp_path):
+    one = _of_files(survey / "one.laz", tmp_path / "one")
+    many = _of_files([survey / "many"], tmp_path / "many", workers=Threads(MUCH))
+    assert _same(one, many)
+    assert sorted(os.listdir(tmp_path / "many")) == ["chm.tif", "dsm.tif", "dtm.tif", "shade.tif"]
+
+
+def test_processes_give_the_rasters_of_threads(survey, tmp_path):
+    one = _of_files([survey / "many"], tmp_path / "threads")
+    assert _same(one, _of_files([survey / "many"], tmp_path / "more", workers=Processes(MUCH)))
+
+
+def test_a_file_that_does_not_fit_into_memory_gives_the_same_rasters(survey, tmp_path):
+    one = _of_files(survey / "one.laz", tmp_path / "one")
+    assert _same(one, _of_files(survey / "one.laz", tmp_path / "other", LITTLE))
+
+
+def test_classified_tiles_give_the_terrain_model_of_one_file(survey, tmp_path):
+    dtm, shade = tmp_path / "dtm.tif", tmp_path / "shade.tif"
+    files = RasterFiles(dtm=dtm, hillshade=shade)
+    many = tmp_path / "out"
+    classify_tiles([survey / "many"], many, SlopeFilter(), rasters=RasterRequest(files))
+    classify_file(survey / "one.laz", tmp_path / "one.laz", SlopeFilter(), dtm=tmp_path / "1.tif")
+    assert _same([_values(dtm)], [_values(tmp_path / "1.tif")])
+    assert shade.exists() and not list(many.glob("*.npz"))
+
+
+def test_the_terrain_command_takes_a_folder(survey, tmp_path, capsys):
+    words = ["terrain", str(survey / "many"), "--dtm", str(tmp_path / "dtm.tif"), "--json"]
+    assert main(words) == 0
+    assert json.loads(capsys.readouterr().out)["columns"] == 1300
+    words = ["classify-tiles", str(survey / "many"), str(tmp_path / "out"), "--method", "slope"]
+    assert main([*words, "--hillshade", str(tmp_path / "out" / "shade.tif")]) == 0
+    assert (tmp_path / "out" / "shade.tif").exists()
+
+
+@pytest.mark.parametrize("fraction", [0.1, 0.5, 0.9])
+def test_a_cancel_leaves_nothing(survey, tmp_path, fraction):
+    class Stopped(Progress):
+        def report(self, done):
+            if done > fraction:
+                raise Cancelled
+
+    with pytest.raises(Cancelled):
+        _of_files([survey / "many"], tmp_path / "out", progress=Stopped())
+    assert os.listdir(tmp_path / "out") == []
 
 
 def test_the_file_is_cloud_optimised(tmp_path):
