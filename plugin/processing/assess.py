@@ -73,7 +73,3 @@ class AssessAlgorithm(BareEarthAlgorithm):
         progress.info("\n".join(assessment.lines()))
         numbers = {name: assessment.as_dict()[name.lower()] for name in _NUMBERS}
         return {name: it for name, it in {**paths, **numbers}.items() if it not in (None, "")}
-
-    def createInstance(self):
-        """Return another instance."""
-        return AssessAlgorithm()

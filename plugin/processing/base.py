@@ -135,6 +135,10 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         ]
         return "\n".join([self.about, *paragraphs])
 
+    def createInstance(self) -> BareEarthAlgorithm:
+        """Return another instance."""
+        return type(self)()
+
     def icon(self) -> QIcon:
         """Return the provider's picture."""
         return self.provider().icon() if self.provider() else super().icon()
@@ -230,7 +234,7 @@ def command_line(
     """
     words = ["bare-earth", command, *files]
     for option, value in options.items():
-        words += [f"--{option}", value] if value else []
+        words += [f"--{option.lower()}", value] if value else []
     for parameters in chosen:
         for each in parameters.declarations():
             value = getattr(parameters, each.name)

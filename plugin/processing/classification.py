@@ -5,11 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from qgis.core import (
-    QgsProcessingContext,
-    QgsProcessingOutputNumber,
-    QgsProcessingParameterRasterDestination,
-)
+from qgis.core import QgsProcessingContext, QgsProcessingOutputNumber
 
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.engine.memory import Resources
@@ -21,7 +17,7 @@ from .. import compat
 from .base import BareEarthAlgorithm, command_line
 from .feedback import FeedbackProgress
 from .inputs import AREA_FIELDS, PointCloudInput, add_area, area_of, ignored_filter, source_path
-from .outputs import ClassStyle, ElevationStyle, point_cloud_formats, style
+from .outputs import ClassStyle, add_rasters, point_cloud_formats, raster_files, raster_paths, style
 
 
 class ClassificationAlgorithm(BareEarthAlgorithm):
@@ -48,11 +44,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         self.addParameter(
             compat.point_cloud_output("OUTPUT", "Classified point cloud", point_cloud_formats())
         )
-        rasters = (("DTM", "Terrain model (DTM)", True), ("HILLSHADE", "Hillshade", False))
-        for name, label, by_default in rasters:
-            self.addParameter(
-                QgsProcessingParameterRasterDestination(name, label, None, True, by_default)
-            )
+        add_rasters(self, ("DTM", "HILLSHADE"))
         self.addOutput(QgsProcessingOutputNumber("POINT_COUNT", "Points"))
         self.addOutput(QgsProcessingOutputNumber("AREA_COUNT", "Points in the area"))
         self.addOutput(QgsProcessingOutputNumber("SELECTED_COUNT", "Points that took part"))
@@ -92,12 +84,12 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
 
         chosen = self.chosen(parameters, context)
         output = self.point_cloud_destination(parameters, "OUTPUT", context)
-        dtm = self.parameterAsOutputLayer(parameters, "DTM", context)
-        hillshade = self.parameterAsOutputLayer(parameters, "HILLSHADE", context)
-        options = {"method": self.method, "dtm": dtm, "hillshade": hillshade}
+        paths = raster_paths(self, parameters, context)
+        options = {"method": self.method, **paths}
         command = command_line("classify", [str(self._source), output], chosen, options)
         progress.command(" ".join([command, *self._area_options(progress)]))
-        rasters = [Path(each) if each else None for each in (dtm, hillshade)]
+        files = raster_files(paths)
+        rasters = files.dtm, files.hillshade
         *policy, wanted, resources = chosen
         summary = classify_file(
             self._source, Path(output), *policy, *rasters, progress, self._area, resources, wanted
@@ -108,10 +100,9 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         if not compat.can_load(output):
             progress.info(f"This QGIS cannot show such a file as a layer. It is at {output}.")
         style(context, output, ClassStyle(summary.class_counts))
-        style(context, dtm, ElevationStyle())
-        paths = {"OUTPUT": output, "DTM": dtm, "HILLSHADE": hillshade}
         return {
-            **{name: path for name, path in paths.items() if path},
+            "OUTPUT": output,
+            **paths,
             "POINT_COUNT": summary.point_count,
             "AREA_COUNT": summary.area_count,
             "SELECTED_COUNT": summary.selected_count,

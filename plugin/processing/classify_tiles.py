@@ -10,10 +10,13 @@ from qgis.core import QgsProcessingParameterFolderDestination as Folder
 
 from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.options import TileInput, TileMethod, TileOutput
+from ...algorithms.engine.rasters import RasterRequest
+from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
 from .. import compat
 from .base import BareEarthAlgorithm, command_line
 from .inputs import FOLDER_HELP, add_clouds, clouds_of
+from .outputs import add_rasters, raster_files, raster_paths
 
 _NUMBERS = {
     "TILE_COUNT": "Tiles", "DONE_COUNT": "Classified tiles", "KEPT_COUNT": "Tiles kept",
@@ -34,12 +37,11 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
     ) + FOLDER_HELP
     keywords = (
         "lidar", "point cloud", "las", "laz", "copc", "vpc", "tiles", "batch", "survey", "folder",
-        "ground", "bare earth", "classification", "classify", "filter", "terrain",
-    )  # fmt: skip
+        "ground", "bare earth", "classification", "classify", "filter", "terrain")  # fmt: skip
 
     def parameter_sets(self):
-        """Return method, points and classes, files, and what may be used."""
-        return TileMethod, Selection, TileInput, TileOutput, Resources
+        """Return method, points and classes, files, terrain model, and what may be used."""
+        return TileMethod, Selection, TileInput, TileOutput, TerrainModel, Resources
 
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""
@@ -47,6 +49,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         self.add_declared()
         self.addParameter(Folder("OUTPUT_FOLDER", "Folder of the classified point clouds"))
         self.addParameter(File("OUTPUT_VPC", "Virtual point cloud", "*.vpc", None, True, False))
+        add_rasters(self, ("DTM", "HILLSHADE"), "")
         for name, label in _NUMBERS.items():
             self.addOutput(Number(name, label))
 
@@ -60,19 +63,17 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         from ...algorithms.engine.tiles import VPC_NAME, classify_tiles
         from ...algorithms.engine.workers import Threads
 
-        method, *policy, resources = chosen = self.chosen(parameters, context)
+        method, *policy, terrain, resources = chosen = self.chosen(parameters, context)
         sources = clouds_of(self, parameters, context)
         folder = Path(self.parameterAsFileOutput(parameters, "OUTPUT_FOLDER", context))
         vpc = self.parameterAsFileOutput(parameters, "OUTPUT_VPC", context) or folder / VPC_NAME
-        words = [*map(str, sources), str(folder)]
-        progress.command(command_line("classify-tiles", words, chosen, {"vpc": str(vpc)}))
-        given = (sources, folder, method.parameters, *policy, Path(vpc))
-        summary = classify_tiles(*given, progress, Threads(resources))
+        paths = raster_paths(self, parameters, context)
+        words, options = [*map(str, sources), str(folder)], {"VPC": str(vpc), **paths}
+        progress.command(command_line("classify-tiles", words, chosen, options))
+        given = (sources, folder, method.parameters, *policy, Path(vpc), progress)
+        rasters = RasterRequest(raster_files(paths), terrain)
+        summary = classify_tiles(*given, Threads(resources), rasters=rasters)
         progress.info(f"{summary.text}.")
         compat.load_virtual_point_cloud(str(vpc), "Classified", context)
         results = {name: getattr(summary, name.lower()) for name in _NUMBERS}
-        return {"OUTPUT_FOLDER": str(folder), "OUTPUT_VPC": str(vpc), **results}
-
-    def createInstance(self):
-        """Return another instance."""
-        return ClassifyTilesAlgorithm()
+        return {"OUTPUT_FOLDER": str(folder), "OUTPUT_VPC": str(vpc), **paths, **results}

@@ -28,7 +28,3 @@ class GridMinimumAlgorithm(ClassificationAlgorithm):
         "raster", "lowest", "minimum",
     )  # fmt: skip
     page = "grid-minimum"
-
-    def createInstance(self) -> GridMinimumAlgorithm:
-        """Return another instance."""
-        return GridMinimumAlgorithm()

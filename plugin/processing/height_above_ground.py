@@ -50,7 +50,3 @@ class HeightAboveGroundAlgorithm(ProductAlgorithm):
             f" {summary.unit}."
         )
         return {"OUTPUT": output, **self.numbers_of(summary)}
-
-    def createInstance(self):
-        """Return another instance."""
-        return HeightAboveGroundAlgorithm()

@@ -51,7 +51,3 @@ class ModelKeyPointsAlgorithm(ProductAlgorithm):
         )
         style(context, output, ClassStyle(summary.class_counts))
         return {"OUTPUT": output, **self.numbers_of(summary)}
-
-    def createInstance(self):
-        """Return another instance."""
-        return ModelKeyPointsAlgorithm()

@@ -2,26 +2,76 @@
 
 from __future__ import annotations
 
-from typing import Iterable
+from pathlib import Path
+from typing import Any, Iterable, Sequence
 
 from qgis.core import (
     QgsMapLayer,
     QgsPointCloudCategory,
     QgsPointCloudClassifiedRenderer,
     QgsPointCloudLayer,
+    QgsProcessingAlgorithm,
     QgsProcessingContext,
     QgsProcessingFeedback,
     QgsProcessingLayerPostProcessorInterface,
+    QgsProcessingParameterRasterDestination,
     QgsRasterLayer,
 )
 from qgis.PyQt.QtGui import QColor
 
+from ...algorithms.engine.rasters import RasterFiles
 from ...algorithms.las.backends import WRITING_COPC, missing_packages
 from .. import compat
 
 # QGIS calls them after the algorithm is gone, and owns the C++ half of each: one for each layer,
 # and a reference here that keeps the Python half.
 _KEPT: list[QgsProcessingLayerPostProcessorInterface] = []
+
+
+# Name and label of each raster that can be made.
+_RASTERS = {
+    "DTM": "Terrain model (DTM)",
+    "DSM": "Surface model (DSM)",
+    "CHM": "Canopy height (CHM)",
+    "HILLSHADE": "Hillshade",
+}
+
+
+def add_rasters(
+    algorithm: QgsProcessingAlgorithm, names: Sequence[str] = tuple(_RASTERS), default: str = "DTM"
+) -> None:
+    """Add fields for rasters, of which none has to be made; one of them is made by default."""
+    for name in names:
+        algorithm.addParameter(
+            QgsProcessingParameterRasterDestination(
+                name, _RASTERS[name], None, True, name == default
+            )
+        )
+
+
+def raster_paths(
+    algorithm: QgsProcessingAlgorithm,
+    parameters: dict[str, Any],
+    context: QgsProcessingContext,
+) -> dict[str, str]:
+    """Return the paths of the rasters that are wanted, by the names of their fields.
+
+    Heights get the property of elevation.
+    """
+    paths = {}
+    for name in _RASTERS:
+        if algorithm.parameterDefinition(name) is not None:
+            path = algorithm.parameterAsOutputLayer(parameters, name, context)
+            if path:
+                paths[name] = path
+    for name in {"DTM", "DSM"} & set(paths):
+        style(context, paths[name], ElevationStyle())
+    return paths
+
+
+def raster_files(paths: dict[str, str]) -> RasterFiles:
+    """Return the same for the classifier."""
+    return RasterFiles(**{name.lower(): Path(path) for name, path in paths.items()})
 
 
 def point_cloud_formats() -> list[str]:

@@ -65,7 +65,3 @@ class RemoveOffTerrainObjectsAlgorithm(BareEarthAlgorithm):
         style(context, output, ElevationStyle())
         counts = {"CELL_COUNT": removal.cell_count, "REMOVED_COUNT": removal.removed_count}
         return {"OUTPUT": output, **counts}
-
-    def createInstance(self):
-        """Return another instance."""
-        return RemoveOffTerrainObjectsAlgorithm()

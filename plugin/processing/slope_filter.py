@@ -26,7 +26,3 @@ class SlopeFilterAlgorithm(ClassificationAlgorithm):
         "vosselman", "whitebox", "top-hat",
     )  # fmt: skip
     page = "slope-filter"
-
-    def createInstance(self) -> SlopeFilterAlgorithm:
-        """Return another instance."""
-        return SlopeFilterAlgorithm()

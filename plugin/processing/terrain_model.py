@@ -2,25 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
-from qgis.core import QgsProcessingParameterRasterDestination as Raster
-
 from ...algorithms.core.errors import BareEarthError
+from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.products import GroundClasses, write_terrain_models
-from ...algorithms.engine.rasters import RasterFiles
 from ...algorithms.products.surface_model import SurfaceModel
 from ...algorithms.products.terrain_model import TerrainModel
 from .base import command_line
-from .outputs import ElevationStyle, style
+from .outputs import add_rasters, raster_files, raster_paths
 from .products import ProductAlgorithm
-
-_RASTERS = {
-    "DTM": "Terrain model (DTM)",
-    "DSM": "Surface model (DSM)",
-    "CHM": "Canopy height (CHM)",
-    "HILLSHADE": "Hillshade",
-}
 
 
 class TerrainModelAlgorithm(ProductAlgorithm):
@@ -43,30 +32,21 @@ class TerrainModelAlgorithm(ProductAlgorithm):
     numbers = (("GROUND_COUNT", "Ground points"), ("SURFACE_COUNT", "Points of the surface"))
 
     def parameter_sets(self):
-        """Return ground classes, cells and light, and what makes the surface."""
-        return GroundClasses, TerrainModel, SurfaceModel
+        """Return ground classes, cells and light, what makes the surface, and what may be used."""
+        return GroundClasses, TerrainModel, SurfaceModel, Resources
 
     def add_outputs(self):
         """Add the rasters; none of them has to be made."""
-        for name, label in _RASTERS.items():
-            self.addParameter(Raster(name, label, None, True, name == "DTM"))
+        add_rasters(self)
 
     def compute(self, parameters, context, progress):
         """Make those that are wanted."""
         chosen = self.chosen(parameters, context)
-        paths = {name: self.parameterAsOutputLayer(parameters, name, context) for name in _RASTERS}
-        if not any(paths.values()):
+        paths = raster_paths(self, parameters, context)
+        if not paths:
             raise BareEarthError("Choose at least one raster to make.")
-        options = {name.lower(): path for name, path in paths.items()}
-        progress.command(command_line("terrain", [str(self.source)], chosen, options))
-        files = RasterFiles(*(Path(path) if path else None for path in paths.values()))
+        progress.command(command_line("terrain", [str(self.source)], chosen, paths))
+        files = raster_files(paths)
         summary = write_terrain_models(self.source, files, *chosen, progress=progress)
         progress.info(f"The rasters have {summary.columns:,} x {summary.rows:,} cells.")
-        for name in ("DTM", "DSM"):
-            style(context, paths[name], ElevationStyle())
-        made = {name: path for name, path in paths.items() if path}
-        return {**made, **self.numbers_of(summary)}
-
-    def createInstance(self):
-        """Return another instance."""
-        return TerrainModelAlgorithm()
+        return {**paths, **self.numbers_of(summary)}

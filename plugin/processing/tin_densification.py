@@ -25,7 +25,3 @@ class TinDensificationAlgorithm(ClassificationAlgorithm):
         "axelsson",
     )  # fmt: skip
     page = "tin-densification"
-
-    def createInstance(self) -> TinDensificationAlgorithm:
-        """Return another instance."""
-        return TinDensificationAlgorithm()

@@ -57,8 +57,9 @@ PARAMETERS = {
         "FROM_CLASSES", "SEED_CLASSES", "TO_CLASS", "RETURNS", "OTHERS",
         "LOW_NOISE_CLASS", "LOW_NOISE_DEPTH", "BRIDGES", "BRIDGE_CLASS",
         "RECURSIVE", "FORMAT", "RESUME",
+        "DTM_CELL_SIZE", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
         "THREADS", "MEMORY",
-        "OUTPUT_FOLDER", "OUTPUT_VPC",
+        "OUTPUT_FOLDER", "OUTPUT_VPC", "DTM", "HILLSHADE",
     ],
     "bareearth:heightaboveground": ["INPUT", "GROUND_CLASSES", "OUTPUT_AS", "OUTPUT"],
     "bareearth:modelkeypoints": [
@@ -71,6 +72,7 @@ PARAMETERS = {
         "INPUT", "GROUND_CLASSES",
         "DTM_CELL_SIZE", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
         "SURFACE_RETURNS", "MAX_EDGE",
+        "THREADS", "MEMORY",
         "DTM", "DSM", "CHM", "HILLSHADE",
     ],
     "bareearth:assess": [
@@ -88,6 +90,8 @@ OUTPUTS = {
     "bareearth:classifytiles": [
         "OUTPUT_FOLDER",
         "OUTPUT_VPC",
+        "DTM",
+        "HILLSHADE",
         "TILE_COUNT",
         "DONE_COUNT",
         "KEPT_COUNT",
