@@ -180,7 +180,7 @@ def _cut(name: str, taken: int) -> str:
     return name
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def _computer() -> str:
     """Return the name of this computer, as it stands in the names of temporary files."""
     return re.sub(r"\W", "_", socket.gethostname(), flags=re.ASCII)[:32] or "_"
@@ -285,7 +285,11 @@ def _is_running(process: int) -> bool:
         return False
     except PermissionError:
         return True
-    return True
+    try:
+        state = Path(f"/proc/{process}/stat").read_bytes().rpartition(b")")[2].split()[:1]
+    except OSError:  # not every system has it
+        return True
+    return state not in ([b"Z"], [b"X"])  # one that ended, but nobody asked how
 
 
 def describe_write_error(target: Path, error: OSError | ValueError) -> BareEarthError:

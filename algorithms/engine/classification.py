@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import check_output, replacing
+from ..core.files import check_distinct, check_output, replacing
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
 from ..core.threads import may_use
@@ -170,6 +170,7 @@ def classify_file(
         If the user asked to stop; no output is left behind.
     """
     check_output(target, (source,))
+    check_distinct((target, dtm, hillshade))
     check_writable(target)
     for raster in filter(None, (dtm, hillshade)):
         check_raster_output(raster, (source, target))

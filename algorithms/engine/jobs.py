@@ -5,6 +5,7 @@ They run in a thread, in another process or on another computer that sees the sa
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Any, Iterator, NamedTuple
 
@@ -153,13 +154,18 @@ class LabelJob(NamedTuple):
     ) -> None:
         """Keep the labels of a block: for each file those of its points there, in its order."""
         kept = {
-            part.cloud.path.name: values[there == block]
+            _key(part.cloud.path): values[there == block]
             for part, there, values in zip(parts, codes, labels)
         }
         if failure:
             kept[_FAILURE] = np.array(failure)
         with replacing(file) as temporary:
             np.savez(temporary, **kept)
+
+
+def _key(path: Path) -> str:
+    """Return a name for the labels of a file; its own may be none that can be written."""
+    return os.fsencode(path.name).hex()
 
 
 class TileSummary(NamedTuple):
@@ -260,8 +266,8 @@ class _KeptLabels:
         self._left: dict[int, np.ndarray] = {}
         for place, file in zip(job.places, job.files):
             with np.load(file, allow_pickle=False) as kept:
-                if self._path.name in kept:
-                    self._left[code(place)] = kept[self._path.name]
+                if _key(self._path) in kept:
+                    self._left[code(place)] = kept[_key(self._path)]
                     self._failure = self._failure or str(kept.get(_FAILURE, ""))
 
     def of(self, part: PointCloud) -> np.ndarray:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Iterator
 
 import numpy as np
 
+from ..core.errors import printable
 from ..core.progress import SILENT, Progress
 from ..core.threads import over_parts, parts_of
 from ..crs.system import Crs, unit_name
@@ -180,7 +181,8 @@ class Description:
             "software": self.software,
         }
         lines = [f"{title:<10} {text}".rstrip() for title, text in rows.items()]
-        return lines + [f"{'record':<10} {record}" for record in self.records]
+        lines += [f"{'record':<10} {record}" for record in self.records]
+        return list(map(printable, lines))
 
 
 def inspect(path: Path, progress: Progress = SILENT) -> Description:

@@ -4,6 +4,7 @@ import os
 import pickle
 import subprocess
 import sys
+import time
 
 import pytest
 
@@ -80,6 +81,18 @@ def test_what_killed_runs_left_is_removed_before_any_work(tmp_path, gone):
     (tmp_path / left_by(os.getpid())).write_text("of an earlier process with this number")
     check_output(tmp_path / "b.las")
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/stat"), reason="asks Linux")
+def test_a_process_that_ended_holds_nothing_even_if_nobody_asked_how_it_ended(tmp_path):
+    with subprocess.Popen([sys.executable, "-c", ""], stdout=-1) as other:
+        other.stdout.read()  # to its end, but it is waited for only behind this block
+        end = time.monotonic() + 30
+        while files._is_running(other.pid) and time.monotonic() < end:
+            time.sleep(0.01)
+        (tmp_path / left_by(other.pid)).write_text("half")
+        remove_leftovers(tmp_path)
+        assert not list(tmp_path.iterdir())
 
 
 def test_what_another_run_writes_right_now_is_left_alone(tmp_path):

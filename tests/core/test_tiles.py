@@ -38,7 +38,7 @@ from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.survey.collection import open_collection
 from bare_earth.algorithms.survey.selection import Selection
-from bare_earth.algorithms.survey.vpc import read_vpc
+from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
 BLOCKS = Blocks(80.0, 30.0, most_points=2500)
@@ -549,6 +549,25 @@ def test_a_second_run_into_the_same_folder_is_refused_and_the_first_goes_on(six,
     assert refused and first.done_count == 6
     again = classify_tiles([six], tmp_path / "out", FAST, output=RESUME)
     assert again.kept_count == 6
+
+
+def test_the_virtual_point_cloud_of_the_inputs_is_not_overwritten(six, tmp_path):
+    listed = tmp_path / "in.vpc"
+    write_vpc(listed, sorted(six.iterdir()))
+    before = listed.read_bytes()
+    with pytest.raises(BareEarthError, match=r"same file, .*in\.vpc"):
+        classify_tiles([listed], tmp_path / "out", FAST, vpc=tmp_path / "." / "in.vpc")
+    assert listed.read_bytes() == before and not (tmp_path / "out").exists()
+
+
+@pytest.mark.skipif(sys.platform in ("win32", "darwin"), reason="names are Unicode there")
+def test_a_name_that_is_not_utf_8_harms_nobody(six, tmp_path):
+    files = sorted(six.iterdir())
+    files[2].rename(six / "t\udcff\n.laz")
+    done = classify_tiles([six], tmp_path / "out", FAST)
+    assert done.done_count == 6 and not done.failures
+    assert (tmp_path / "out" / "t\udcff\n.laz").exists()
+    assert {each.path.name for each in read_vpc(Path(done.vpc))} == set(os.listdir(six))
 
 
 def test_methods_in_short_have_the_presets_of_all():
