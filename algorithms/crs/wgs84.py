@@ -6,6 +6,9 @@ import importlib.util
 
 import numpy as np
 
+# In units of the CRS: farther off is no place on earth, and PROJ may not bear the number.
+_FARTHEST = 1e9
+
 
 def to_wgs84(wkt: str, places: np.ndarray) -> np.ndarray | None:
     """Transform places to WGS 84, by GDAL, pyproj or rasterio.
@@ -23,6 +26,8 @@ def to_wgs84(wkt: str, places: np.ndarray) -> np.ndarray | None:
         Longitudes and latitudes in degrees; None if there is none of these libraries, the CRS is
         not known to it, or a place is outside of where the CRS holds.
     """
+    if not (np.isfinite(places).all() and (np.abs(places) <= _FARTHEST).all()):
+        return None
     for package, transform in (
         ("osgeo", _by_gdal),
         ("pyproj", _by_pyproj),

@@ -177,6 +177,7 @@ def classify_file(
     resources = resources.now()
     scope = Scope(selection, area, method_of(parameters).reach(parameters))
     model = terrain if dtm or hillshade else None
+    opened = read_layout(source)
     with may_use(resources.thread_count):
         outcome = _outcome(source, target, parameters, scope, resources, model, output, progress)
     with contextlib.ExitStack() as outputs:
@@ -193,7 +194,7 @@ def classify_file(
         if output.changes_points:
             ground = classes == selection.to_class
             changes = output.changes(outcome.cloud, classes, ground, progress.part(0.85, 0.9))
-        write_changed(source, target, changes, progress.part(0.9, 1.0), outcome.cloud)
+        write_changed(opened, target, changes, progress.part(0.9, 1.0), outcome.cloud)
     counts = outcome.class_counts
     written = [selection.to_class] if output.ground_only else np.flatnonzero(counts)
     return Summary(

@@ -21,15 +21,13 @@ from typing import BinaryIO, Iterable, Iterator, NamedTuple, Sequence
 import numpy as np
 
 from .cloud import PointCloud
-from .lasbytes import LASZIP, RECORD_LENGTHS, LasLayout
+from .lasbytes import RECORD_LENGTHS, LasLayout
+from .laszip import EXTRA_BYTES_14, LAYERED, POINT_14, Compression
 from .records import LazRecordWriter, laszip_vlr, read_records
-from .sources import damage_told, damaged, open_source
+from .sources import damaged, open_source
 
-# What the record of the compression says: its kind, and of what a point is put together.
-_LAYERED_CHUNKS, _POINT, _EXTRA_BYTES = 3, 10, 14
-_KIND, _ITEM_COUNT, _ITEMS = "<H", 32, 34
 # Layers of a point, its colours, those with near infrared, and its wave packet.
-_LAYERS = {_POINT: 9, 11: 1, 12: 2, 13: 1}
+_LAYERS = {POINT_14: 9, 11: 1, 12: 2, 13: 1}
 _FORMAT, _RETURNS, _CHANNEL, _CLASS, _CLASS_LAYER = 6, 14, 15, 16, 2
 # Returns of a pulse that has one, and that has more: as small as can be.
 _ONLY, _FIRST_OF_TWO = 0x11, 0x21
@@ -97,8 +95,7 @@ def class_layers(layout: LasLayout) -> ClassLayers | None:
     BareEarthError
         If it cannot be read.
     """
-    record = layout.vlr(LASZIP) if layout.is_compressed else None
-    layers = 0 if record is None else _layers_of(record.data)
+    layers = _layers_of(Compression.of(layout.laszip)) if layout.is_compressed else 0
     if not layers:
         return None
     head = _Head(layout.record_length, layers)
@@ -106,34 +103,22 @@ def class_layers(layout: LasLayout) -> ClassLayers | None:
     return None if chunks is None else ClassLayers(layout, chunks, head)
 
 
-def _layers_of(record: bytes) -> int:
+def _layers_of(compression: Compression) -> int:
     """Return how many layers the compressed points have; 0 if it is not known."""
-    if len(record) < _ITEMS or struct.unpack_from(_KIND, record)[0] != _LAYERED_CHUNKS:
+    kinds = [kind for kind, *_ in compression.items]
+    is_known = compression.kind == LAYERED and kinds[0] == POINT_14
+    if not is_known or not set(kinds) <= {*_LAYERS, EXTRA_BYTES_14}:
         return 0
-    (count,) = struct.unpack_from("<H", record, _ITEM_COUNT)
-    if len(record) < _ITEMS + 6 * count:
-        return 0
-    items = [struct.unpack_from("<HH", record, _ITEMS + 6 * number) for number in range(count)]
-    kinds = [kind for kind, _ in items]
-    if kinds[:1] != [_POINT] or not set(kinds) <= {*_LAYERS, _EXTRA_BYTES}:
-        return 0
-    return sum(size if kind == _EXTRA_BYTES else _LAYERS[kind] for kind, size in items)
+    return sum(
+        size if kind == EXTRA_BYTES_14 else _LAYERS[kind] for kind, size, _ in compression.items
+    )
 
 
 def _chunks(layout: LasLayout, head: _Head) -> list[Chunk] | None:
     """Return the chunks of a file; None if they are not made as they should be."""
-    import lazrs
-
-    chunks, start = [], 0
+    chunks, start, place = [], 0, layout.points_start + 8
     with open_source(layout.path) as file:
-        file.seek(layout.points_start)
-        with damage_told(layout.path):
-            sizes = [
-                size
-                for _, size in lazrs.read_chunk_table(file, lazrs.LazVlr(layout.vlr(LASZIP).data))
-            ]
-        place = layout.points_start + 8
-        for size in sizes:
+        for _, size in layout.chunk_table:
             file.seek(place)
             data = file.read(head.size)
             if len(data) != head.size:
@@ -217,7 +202,7 @@ class ClassLayers:
                 yield group[-1].end / layout.count
         end = file.tell()
         sizes = [(each.end - each.start, self.moved[each.place][1]) for each in self.chunks]
-        lazrs.write_chunk_table(file, sizes, lazrs.LazVlr(layout.vlr(LASZIP).data))
+        lazrs.write_chunk_table(file, sizes, lazrs.LazVlr(layout.laszip))
         file.seek(table)
         file.write(struct.pack("<q", end))
         file.seek(0, io.SEEK_END)
@@ -275,7 +260,7 @@ def _new_layers(
     chunks: Sequence[slice],
 ) -> Iterator[bytes]:
     """Yield the layer of the classes for each chunk of some points."""
-    head = _Head(RECORD_LENGTHS[_FORMAT], _LAYERS[_POINT])
+    head = _Head(RECORD_LENGTHS[_FORMAT], _LAYERS[POINT_14])
     points = np.zeros((len(classes), head.record_length), dtype=np.uint8)
     is_only = (return_number == 1) & (number_of_returns <= 1)
     points[:, _RETURNS] = np.where(is_only, _ONLY, _FIRST_OF_TWO)

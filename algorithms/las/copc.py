@@ -27,6 +27,7 @@ from .lasbytes import (
     COPC_HIERARCHY,
     COPC_INFO,
     HEADER_SIZES,
+    LARGEST_VLR,
     LASZIP,
     RECORD_LENGTHS,
     WAVEFORM_PACKETS,
@@ -453,6 +454,12 @@ def _wkt(layout: LasLayout, progress: Progress) -> Vlr | None:
                 "The CRS of the input is not known as well-known text, as COPC wants it: it stays"
                 " in GeoTIFF keys, which not every program will read."
             )
+        return None
+    if len(text.encode()) >= LARGEST_VLR:
+        progress.warning(
+            "The well-known text of the CRS is too long for a record of COPC: its records stay as"
+            " they are, which not every program will read."
+        )
         return None
     for vlr in layout.vlrs:
         if vlr.key == WKT_RECORD and wkt_text(vlr.data) == text:

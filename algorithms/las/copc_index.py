@@ -67,7 +67,7 @@ class CopcIndex:
                 if entry["count"] > 0:
                     entry["start"], entry["size"] = moved[int(entry["start"])]
                 elif entry["count"] < 0:
-                    entry["start"] += shift
+                    entry["start"] = int(entry["start"]) + shift  # unsigned: shift may be negative
             file.seek(start + shift)
             file.write(entries.tobytes())
         place = len(self._layout.header)

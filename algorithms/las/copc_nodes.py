@@ -19,8 +19,8 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.points import Box
 from .copc import HIERARCHY_ENTRY
-from .lasbytes import COPC_INFO, LASZIP, LasLayout
-from .records import NEEDED, selection_of
+from .lasbytes import COPC_INFO, LasLayout
+from .records import NEEDED, named, selection_of
 from .sources import damage_told, damaged, open_source
 
 if TYPE_CHECKING:
@@ -164,9 +164,7 @@ def read_pages(hierarchy: Hierarchy) -> dict[int, np.ndarray]:
     return pages
 
 
-def read_nodes(
-    hierarchy: Hierarchy, nodes: np.ndarray, reader: laspy.LasReader
-) -> Iterator[laspy.PackedPointRecord]:
+def read_nodes(hierarchy: Hierarchy, nodes: np.ndarray) -> Iterator[laspy.PackedPointRecord]:
     """Yield the points of nodes, about a million at once.
 
     Parameters
@@ -175,8 +173,6 @@ def read_nodes(
         The octree.
     nodes : numpy.ndarray of HIERARCHY_ENTRY
         From `find_nodes`.
-    reader : laspy.LasReader
-        The opened file; knows the point format.
 
     Raises
     ------
@@ -185,14 +181,12 @@ def read_nodes(
     BareEarthError
         If the points are damaged.
     """
-    import laspy
-
     layout = hierarchy.layout
     with open_source(layout.path) as file:
         for batch in _batches(nodes):
             with damage_told(layout.path):
                 records = _decompress(layout, file, batch)
-                chunk = laspy.PackedPointRecord.from_buffer(records, reader.header.point_format)
+                chunk = named(layout, records)
             _check_places(hierarchy, batch, chunk)
             yield chunk
 
@@ -266,7 +260,7 @@ def _decompress(layout: LasLayout, file: BinaryIO, nodes: np.ndarray) -> np.ndar
     records = np.zeros(sum(counts) * layout.record_length, dtype=np.uint8)
     lazrs.decompress_points_with_chunk_table(
         compressed,
-        layout.vlr(LASZIP).data,
+        layout.laszip,
         records,
         list(zip(counts, nodes["size"].tolist())),
         selection_of(NEEDED),

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..core.errors import BareEarthError
-from .lasbytes import RECORD_LENGTHS, LasLayout, Vlr, new_vlr, with_record_length
+from .lasbytes import LARGEST_VLR, RECORD_LENGTHS, LasLayout, Vlr, new_vlr, with_record_length
 
 EXTRA_BYTES = ("LASF_Spec", 4)
 _DESCRIPTOR = 192
@@ -118,6 +118,14 @@ def extra_dimensions(layout: LasLayout) -> list[tuple[str, str, int]]:
     return found
 
 
+def dimension_names(layout: LasLayout) -> list[str]:
+    """Return the names of the dimensions in extra bytes; what nothing is said of has none."""
+    try:
+        return [_text(each[4:36]) for each in _descriptors(layout) if _size(each)]
+    except BareEarthError:
+        return []
+
+
 def _descriptors(layout: LasLayout) -> list[bytes]:
     """Return the descriptors that a file has.
 
@@ -174,7 +182,7 @@ def _descriptor(dimension: ExtraDimension, kind: int) -> bytes:
 def _with_record(layout: LasLayout, descriptors: list[bytes]) -> LasLayout:
     """Return the layout with the descriptors in a VLR, where they were or behind the others."""
     data = b"".join(descriptors)
-    if len(data) > _LARGEST_RECORD:
+    if len(data) > LARGEST_VLR:
         raise BareEarthError(f"{layout.path} has too many extra dimensions to add one.")
     vlrs = list(layout.vlrs)
     keys = [vlr.key for vlr in vlrs]

@@ -7,6 +7,7 @@ of the LAS 1.0 to 1.4 specifications.
 
 from __future__ import annotations
 
+import math
 import struct
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -14,9 +15,10 @@ from pathlib import Path
 from typing import BinaryIO, Sequence
 
 from ..core.errors import BareEarthError
-from .sources import damaged, open_source
+from .laszip import Compression
+from .sources import FileState, changed, damage_told, damaged, open_source
 
-VLR_HEADER, EVLR_HEADER = 54, 60
+VLR_HEADER, EVLR_HEADER, LARGEST_VLR = 54, 60, 65535
 LASZIP = ("laszip encoded", 22204)
 COPC_INFO = ("copc", 1)
 COPC_HIERARCHY = ("copc", 1000)
@@ -29,6 +31,10 @@ RECORD_LENGTHS = (20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67)
 HEADER_SIZES = {0: 227, 1: 227, 2: 227, 3: 235, 4: 375}
 _MOST_EVLRS = 1_000_000
 _LARGEST_KEPT = 1 << 20
+# Integers of points have 32 bits; a few more, since extents are rounded.
+_MOST_STEPS = (1 << 31) + 16
+# In units of the CRS: beyond these, coordinates are no numbers that can be calculated with.
+_SMALLEST_SCALE, _LARGEST_SCALE, _LARGEST_OFFSET = 1e-12, 1e6, 1e12
 
 _ENCODING, _VERSION, _SYSTEM, _SOFTWARE, _HEADER_SIZE = 6, 24, 26, 58, 94
 _POINTS_START, _VLR_COUNT, _FORMAT, _RECORD_LENGTH, _LEGACY_COUNT = 96, 100, 104, 105, 107
@@ -100,6 +106,8 @@ class LasLayout:
         The records after the points (LAS 1.4).
     waveform_record : int
         Where the waveform packets lie inside this file (LAS 1.3 and 1.4); 0 if they do not.
+    state : FileState
+        By what it is seen that the file changed since.
     """
 
     path: Path
@@ -109,6 +117,7 @@ class LasLayout:
     padding: bytes
     evlrs: tuple[Evlr, ...]
     waveform_record: int
+    state: FileState
 
     def _get(self, layout: str, start: int):
         values = struct.unpack_from("<" + layout, self.header, start)
@@ -186,6 +195,19 @@ class LasLayout:
         return self._get("6d", _EXTENT)[0::2]
 
     @property
+    def states_extent(self) -> bool:
+        """Whether the extent in the header is one that the integers of points can have.
+
+        Heights only have to be numbers.
+        """
+        corners = self.minimum, self.maximum
+        return all(math.isfinite(corner[2]) for corner in corners) and all(
+            abs(corner[axis] - self.offset[axis]) <= _MOST_STEPS * self.scale[axis]
+            for corner in corners
+            for axis in (0, 1)
+        )
+
+    @property
     def points_start(self) -> int:
         """Where the points begin."""
         return self._get("I", _POINTS_START)
@@ -207,9 +229,50 @@ class LasLayout:
         starts = [evlr.start for evlr in self.evlrs[:1]]
         return min([*starts, self.waveform_record or self.size, self.size])
 
+    @property
+    def laszip(self) -> bytes | None:
+        """What the record before the points says of their compression; None if there is none."""
+        return next((vlr.data for vlr in self.vlrs if vlr.key == LASZIP), None)
+
     def vlr(self, *key: tuple[str, int]) -> Vlr | Evlr | None:
         """Return the first VLR or EVLR that has one of the keys."""
         return next((each for each in (*self.vlrs, *self.evlrs) if each.key in key), None)
+
+    def check_unchanged(self) -> None:
+        """Refuse a file that is another one than when it was opened.
+
+        Raises
+        ------
+        BareEarthError
+            If its size, time, place on the disk, or what lies before its points differs.
+        """
+        with open_source(self.path) as file:
+            before = b"".join((self.header, *(vlr.raw for vlr in self.vlrs), self.padding))
+            if FileState.of(file) != self.state or file.read(len(before)) != before:
+                raise changed(self.path)
+
+    @cached_property
+    def chunk_table(self) -> list[tuple[int, int]]:
+        """Points and bytes of each chunk of a compressed file, as its chunk table says.
+
+        Raises
+        ------
+        BareEarthError
+            If the file cannot have such chunks.
+        """
+        import lazrs
+
+        with open_source(self.path) as file, damage_told(self.path):
+            file.seek(self.points_start)
+            table = lazrs.read_chunk_table(file, lazrs.LazVlr(self.laszip))
+        if not Compression.of(self.laszip).table_fits(table, self.count, self._room):
+            raise damaged(self.path)
+        return table
+
+    @property
+    def _room(self) -> int:
+        """Most bytes that compressed points can have."""
+        return self.size - self.points_start - 8
 
     def prefix(self, vlrs: tuple[Vlr, ...], compressed: bool) -> bytearray:
         """Return header, the given VLRs and padding, with what follows from them mended."""
@@ -309,23 +372,25 @@ def with_statistics(
     return replace(layout, header=bytes(header))
 
 
-def read_layout(path: Path) -> LasLayout:
-    """Read what lies around the points of a file.
+def read_layout(path: Path | LasLayout) -> LasLayout:
+    """Read what lies around the points of a file; what was read already is given back.
 
     Raises
     ------
     BareEarthError
         If it cannot be opened, is not LAS or LAZ, is cut off, or has no points.
     """
+    if isinstance(path, LasLayout):
+        return path
     path = Path(path)
     with open_source(path) as file:
-        size = file.seek(0, 2)
-        file.seek(0)
+        state = FileState.of(file)
+        size = state.size
         header = _read_header(path, file, size)
         points_start, vlr_count = struct.unpack_from("<II", header, _POINTS_START)
         vlrs, padding = _split_vlrs(file.read(points_start - len(header)), vlr_count)
         evlrs, waveforms = _read_evlrs(file, size, header)
-    layout = LasLayout(path, size, header, vlrs, padding, evlrs, waveforms)
+    layout = LasLayout(path, size, header, vlrs, padding, evlrs, waveforms, state)
     _check_points(layout)
     return layout
 
@@ -400,12 +465,15 @@ def _read_evlr(file: BinaryIO, size: int, start: int) -> Evlr | None:
 
 
 def _check_points(layout: LasLayout) -> None:
+    """Refuse what no points can be read of, or what would ask native code for the impossible."""
     path = layout.path
     if layout.point_format >= len(RECORD_LENGTHS):
         raise BareEarthError(
             f"{path} has point format {layout.point_format}; 0 to 10 can be read. Convert it first."
         )
-    if layout.extra_bytes < 0 or not all(0 < each < float("inf") for each in layout.scale):
+    is_sound = all(_SMALLEST_SCALE <= each <= _LARGEST_SCALE for each in layout.scale)
+    is_sound &= all(abs(each) <= _LARGEST_OFFSET for each in layout.offset)
+    if layout.extra_bytes < 0 or not is_sound:
         raise BareEarthError(f"The header of {path} is damaged. Copy or download it again.")
     if layout.count == 0:
         raise BareEarthError(f"{path} holds no points. Give a file that has some.")
@@ -416,14 +484,22 @@ def _check_points(layout: LasLayout) -> None:
 
 
 def _check_compressed(layout: LasLayout) -> None:
-    """Check what tells a cut off LAZ file before any of it is decompressed.
+    """Check what tells a damaged LAZ file before any of it is decompressed.
 
     The first eight bytes of the points say where the chunk table lies, behind the points; writers
     that could not go back leave -1 there, and say it in the last eight bytes of the file.
     """
-    if all(vlr.key != LASZIP for vlr in layout.vlrs):
+    if layout.laszip is None:
         raise BareEarthError(
             f"{layout.path} has compressed points but no word on how. Copy or download it again."
+        )
+    compression = Compression.of(layout.laszip)
+    if compression is None or compression.record_length != layout.record_length:
+        raise damaged(layout.path)
+    if not compression.is_known:
+        raise BareEarthError(
+            f"{layout.path} is compressed in a way that cannot be read here (LASzip compressor"
+            f" {compression.kind}). Write it anew with LASzip."
         )
     with open_source(layout.path) as file:
         file.seek(layout.points_start)
@@ -431,7 +507,12 @@ def _check_compressed(layout: LasLayout) -> None:
         if place == b"\xff" * 8:
             file.seek(-8, 2)
             place = file.read(8)
-    if len(place) < 8 or not layout.points_start < struct.unpack("<q", place)[0] <= layout.size - 8:
+        table = struct.unpack("<q", place)[0] if len(place) == 8 else 0
+        if not layout.points_start + 8 <= table <= layout.size - 8:
+            raise damaged(layout.path)
+        file.seek(table)
+        _, chunks = struct.unpack("<II", file.read(8))
+    if not compression.chunk_count_fits(chunks, layout.count, table - layout.points_start - 8):
         raise damaged(layout.path)
 
 

@@ -9,9 +9,11 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.progress import paced
 from .lasbytes import LASZIP, LasLayout, Vlr, new_vlr
-from .sources import damage_told, damaged, open_source
+from .laszip import with_chunk_size, with_wave_packets_of_1
+from .sources import changed, damage_told, damaged, open_source
 
 if TYPE_CHECKING:
+    import laspy
     import lazrs
 
 # What a `PointCloud` has of points that are compressed by columns (formats 6 to 10), besides x, y,
@@ -108,6 +110,17 @@ def read_records(
                 elif file.readinto(records.reshape(-1)) != records.size:
                     raise damaged(layout.path)
             yield records
+
+
+def named(layout: LasLayout, records: np.ndarray) -> laspy.PackedPointRecord:
+    """Return points, given as their bytes, by the names that laspy has for their columns."""
+    import laspy
+
+    point_type = laspy.PointFormat(layout.point_format)
+    if layout.extra_bytes:
+        kind = f"{layout.extra_bytes}u1"
+        point_type.add_extra_dimension(laspy.ExtraBytesParams("extra_bytes", kind))
+    return laspy.PackedPointRecord.from_buffer(records, point_type)
 
 
 def set_classes(layout: LasLayout, records: np.ndarray, classes: np.ndarray) -> None:
@@ -262,7 +275,8 @@ def laszip_vlr(point_format: int, extra_bytes: int, variable_chunks: bool = Fals
             f"This version of lazrs cannot compress point format {point_format}. Install a newer"
             " one, or name the output .las."
         ) from error
-    return new_vlr(LASZIP, bytes(vlr.record_data()), "by lazrs")
+    record = with_wave_packets_of_1(bytes(vlr.record_data()))
+    return new_vlr(LASZIP, record, "by lazrs")
 
 
 def copy_range(source: BinaryIO, target: BinaryIO, start: int, end: int) -> None:
@@ -277,7 +291,7 @@ def copy_range(source: BinaryIO, target: BinaryIO, start: int, end: int) -> None
     while start < end:
         block = source.read(min(_BLOCK, end - start))
         if not block:
-            raise BareEarthError(f"{source.name} has changed while it was classified.")
+            raise changed(source.name)
         target.write(block)
         start += len(block)
 
@@ -285,7 +299,10 @@ def copy_range(source: BinaryIO, target: BinaryIO, start: int, end: int) -> None
 def _decompressor(layout: LasLayout, file: BinaryIO, columns: Sequence[str] | None):
     import lazrs
 
-    record = layout.vlr(LASZIP)
+    record, points = layout.laszip, layout.chunk_table[0][0]
+    if points > layout.count:
+        # Room for a whole chunk is made, however few points there are.
+        record = with_chunk_size(record, layout.count)
     selection = None if columns is None else selection_of(columns)
     with damage_told(layout.path):
-        return lazrs.ParLasZipDecompressor(file, record.data, selection)
+        return lazrs.ParLasZipDecompressor(file, record, selection)

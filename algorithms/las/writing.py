@@ -56,7 +56,7 @@ def check_writable(target: Path) -> None:
 
 
 def write_classified(
-    source: Path, target: Path, classification: np.ndarray, progress: Progress = SILENT
+    source: Path | LasLayout, target: Path, classification: np.ndarray, progress: Progress = SILENT
 ) -> None:
     """Write `source` anew with other classes.
 
@@ -71,7 +71,7 @@ def write_classified(
 
 
 def write_changed(
-    source: Path,
+    source: Path | LasLayout,
     target: Path,
     changes: Changes,
     progress: Progress = SILENT,
@@ -86,8 +86,11 @@ def write_changed(
 
     Parameters
     ----------
-    source, target : Path
-        The input, and the output: .las, .laz or .copc.laz.
+    source : Path or LasLayout
+        The input. If it is what `read_layout` read of it before its points were read, or `cloud` is
+        given, a file that changed since is refused.
+    target : Path
+        The output: .las, .laz or .copc.laz.
     changes : Changes
         What changes.
     progress : Progress
@@ -103,9 +106,10 @@ def write_changed(
     Cancelled
         If the user asked to stop; nothing is left behind.
     """
-    source, target = Path(source), Path(target)
+    target = Path(target)
     check_writable(target)
-    layout = read_layout(source)
+    layout = cloud.layout if cloud is not None and cloud.layout else read_layout(source)
+    layout.check_unchanged()
     rewriting = Rewriting(layout, changes, None if cloud is None else cloud.records)
     if layout.is_compressed:
         require("lazrs")
@@ -117,6 +121,7 @@ def write_changed(
             write_copc(rewriting, temporary, progress)
         else:
             _write(rewriting, temporary, progress)
+        layout.check_unchanged()
     if not is_copc(target):
         _tell_of_waveforms(layout, target, progress)
 

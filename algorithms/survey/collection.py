@@ -17,6 +17,7 @@ from ..core.progress import SILENT, Progress
 from ..crs.system import Crs, unit_name
 from ..las.crs_records import read_crs
 from ..las.lasbytes import LasLayout, read_layout
+from ..las.sources import read_text
 from .vpc import SUFFIX as VPC_SUFFIX
 from .vpc import read_vpc
 
@@ -233,9 +234,7 @@ def _is_cloud(path: Path) -> bool:
 def _listed(source: Path) -> list[Path]:
     """Return the paths in a text file; empty lines and those that begin with # are none."""
     try:
-        lines = source.read_text(encoding="utf-8-sig").splitlines()
-    except OSError as error:
-        raise BareEarthError(f"Cannot read {source}: {error.strerror or error}.") from error
+        lines = read_text(source).splitlines()
     except UnicodeDecodeError:
         raise BareEarthError(f"{source} is not a text file in UTF-8. Save it as one.") from None
     names = [line.strip().strip('"') for line in lines]
@@ -267,8 +266,7 @@ def _tile(layout: LasLayout, known: dict[Crs, Crs], heard: _Tally) -> Tile:
 def _check_extent(layout: LasLayout) -> None:
     """Refuse a header that leaves open where the points lie."""
     lowest, highest = layout.minimum[:2], layout.maximum[:2]
-    is_one = all(map(math.isfinite, (*lowest, *highest)))
-    is_one &= lowest[0] <= highest[0] and lowest[1] <= highest[1]
+    is_one = layout.states_extent and lowest[0] <= highest[0] and lowest[1] <= highest[1]
     if not is_one or (lowest == highest and layout.count > 1):
         raise BareEarthError(
             f"The header of {layout.path} does not state the extent of its points. Write the file"

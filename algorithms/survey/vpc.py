@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import datetime
 import json
-import math
 import os
 import re
 import struct
@@ -33,6 +32,7 @@ from ..crs.wgs84 import to_wgs84
 from ..las.crs_records import read_crs
 from ..las.extrabytes import extra_dimensions
 from ..las.lasbytes import LasLayout, read_layout
+from ..las.sources import read_text
 
 SUFFIX = ".vpc"
 _EXTENSIONS = [
@@ -112,16 +112,17 @@ def read_vpc(path: Path) -> list[VpcEntry]:
     """
     path = Path(path)
     try:
-        content = json.loads(path.read_text(encoding="utf-8-sig"))
-    except OSError as error:
-        raise BareEarthError(f"Cannot read {path}: {error.strerror or error}.") from error
+        content = json.loads(read_text(path))
     except (ValueError, RecursionError) as error:
         raise _not_one(path, "it is not JSON") from error
     if not isinstance(content, dict) or content.get("type") != "FeatureCollection":
         raise _not_one(path, "it is not a feature collection")
     try:
         entries = [_entry(path.parent, each) for each in content["features"]]
-    except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
+    except (
+        KeyError, TypeError, ValueError, AttributeError, IndexError, OverflowError, OSError,
+        StopIteration,
+    ) as error:  # fmt: skip
         raise _not_one(path, "one of its features names no file") from error
     if not entries:
         raise BareEarthError(f"{path} lists no files. Build it anew.")
@@ -203,7 +204,7 @@ def _href(assets: dict[str, dict[str, Any]]) -> str:
     asset = assets.get("data")
     if asset is None:
         asset = next(each for each in assets.values() if "overview" not in each.get("roles", ()))
-    if not isinstance(asset["href"], str):
+    if not isinstance(asset["href"], str) or "\0" in asset["href"]:
         raise TypeError
     return asset["href"]
 
@@ -227,7 +228,7 @@ def _path_of(href: str, folder: Path) -> Path:
 def _feature(target: Path, layout: LasLayout) -> dict[str, Any]:
     """Return the STAC item of a file."""
     extent = [*layout.minimum, *layout.maximum]
-    if not all(map(math.isfinite, extent)):
+    if not layout.states_extent:
         raise BareEarthError(
             f"The header of {layout.path} does not state the extent of its points. Write the file"
             " anew with a program that corrects it."

@@ -9,12 +9,11 @@ import numpy as np
 
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
-from ..las.backends import require
 from ..las.cloud import PointCloud
 from ..las.copc_nodes import OctreeError, find_nodes, read_hierarchy, read_nodes
 from ..las.crs_records import read_crs
 from ..las.lasbytes import LasLayout, read_layout
-from ..las.reading import _chunks, _opened, _packages
+from ..las.reading import read_chunks, require_packages
 from .area import Area
 
 if TYPE_CHECKING:
@@ -33,7 +32,7 @@ Columns = dict[str, np.ndarray]
 
 
 def read_window(
-    path: Path, box: Box, progress: Progress = SILENT, trust_header: bool = False
+    path: Path | LasLayout, box: Box, progress: Progress = SILENT, trust_header: bool = False
 ) -> PointCloud:
     """Read the points of a LAS, LAZ or COPC file that lie in a rectangle.
 
@@ -42,8 +41,8 @@ def read_window(
 
     Parameters
     ----------
-    path : Path
-        The file.
+    path : Path or LasLayout
+        The file, or what `read_layout` read of it.
     box : tuple of float
         Smallest x and y, largest x and y in units of the CRS; the border belongs to it.
     progress : Progress
@@ -65,8 +64,8 @@ def read_window(
         If the user asked to stop.
     """
     area = Area(box=tuple(map(float, box)))
-    layout = read_layout(Path(path))
-    require(*_packages(layout))
+    layout = read_layout(path)
+    require_packages(layout)
     if layout.is_copc:
         try:
             return _cloud(layout, _in_nodes(layout, area, progress), progress)
@@ -81,21 +80,19 @@ def _in_nodes(layout: LasLayout, area: Area, progress: Progress) -> Iterator[Col
     hierarchy = read_hierarchy(layout)
     nodes = find_nodes(hierarchy, area.bounds)
     done, total = 0, int(nodes["count"].sum(dtype=np.int64))
-    with _opened(layout) as reader:
-        for chunk in read_nodes(hierarchy, nodes, reader):
-            yield _inside(layout, area, chunk)
-            done += len(chunk)
-            progress(done / total)
+    for chunk in read_nodes(hierarchy, nodes):
+        yield _inside(layout, area, chunk)
+        done += len(chunk)
+        progress(done / total)
 
 
 def _in_chunks(layout: LasLayout, area: Area, progress: Progress) -> Iterator[Columns]:
     done, is_outside = 0, False
-    with _opened(layout) as reader:
-        for chunk in _chunks(layout, reader):
-            yield _inside(layout, area, chunk)
-            is_outside |= _leaves_header(layout, chunk)
-            done += len(chunk)
-            progress(done / layout.count)
+    for chunk in read_chunks(layout):
+        yield _inside(layout, area, chunk)
+        is_outside |= _leaves_header(layout, chunk)
+        done += len(chunk)
+        progress(done / layout.count)
     if is_outside:
         progress.warning(
             f"The header of {layout.path.name} states a smaller extent than its points have: other"
@@ -155,5 +152,6 @@ def _cloud(layout: LasLayout, parts: Iterator[Columns], progress: Progress) -> P
         offset=layout.offset,
         point_format=layout.point_format,
         crs=read_crs(layout, progress),
+        layout=layout,
         **columns,
     )

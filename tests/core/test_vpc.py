@@ -175,7 +175,7 @@ def test_what_is_no_virtual_point_cloud_is_told(las, text, told):
 
 
 def test_a_missing_virtual_point_cloud_is_told(las):
-    with pytest.raises(BareEarthError, match="Cannot read"):
+    with pytest.raises(BareEarthError, match="does not exist"):
         read_vpc(las.folder / "none.vpc")
 
 
