@@ -230,6 +230,15 @@ def test_other_classes_leave_the_octree_as_it_is(las, octree, nested, monkeypatc
     classes[:] = cloud.classification
     write_classified(target, las.folder / "again.copc.laz", classes)
     assert (las.folder / "again.copc.laz").read_bytes() == target.read_bytes()
+    # One class takes fewer bytes: all that stands behind moves towards the start of the file.
+    less = las.folder / "less.copc.laz"
+    write_classified(target, less, np.full(POINTS, 2, np.uint8))
+    assert less.stat().st_size < octree.stat().st_size
+    before.records[:, 16] = 2
+    np.testing.assert_array_equal(las.split(less).records, before.records)
+    for box in boxes_in_octree():
+        assert_is_part(read_window(less, box, heard), read_cloud(less), box)
+    assert not any("octree" in each for each in heard.warnings)
 
 
 def test_an_octree_that_is_damaged_is_made_anew(las, octree):
