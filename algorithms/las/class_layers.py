@@ -22,12 +22,10 @@ import numpy as np
 
 from .cloud import PointCloud
 from .lasbytes import RECORD_LENGTHS, LasLayout
-from .laszip import EXTRA_BYTES_14, LAYERED, POINT_14, Compression
+from .laszip import LAYERS, POINT_14, ChunkHead, Compression
 from .records import LazRecordWriter, laszip_vlr, read_records
 from .sources import damaged, open_source
 
-# Layers of a point, its colours, those with near infrared, and its wave packet.
-_LAYERS = {POINT_14: 9, 11: 1, 12: 2, 13: 1}
 _FORMAT, _RETURNS, _CHANNEL, _CLASS, _CLASS_LAYER = 6, 14, 15, 16, 2
 # Returns of a pulse that has one, and that has more: as small as can be.
 _ONLY, _FIRST_OF_TWO = 0x11, 0x21
@@ -52,33 +50,13 @@ class Chunk(NamedTuple):
     size: int
 
 
-class _Head(NamedTuple):
-    """What a chunk begins with: a whole point, how many there are, and the length of each layer.
-
-    Attributes
-    ----------
-    record_length : int
-        Bytes of a point.
-    layers : int
-        How many layers there are.
-    """
-
-    record_length: int
-    layers: int
-
-    @property
-    def size(self) -> int:
-        """Bytes before the first layer."""
-        return self.record_length + 4 + 4 * self.layers
+class _Head(ChunkHead):
+    """The head of a chunk, and where the layer of its classes is."""
 
     @property
     def class_length(self) -> int:
         """Where the length of the layer of the classes stands."""
         return self.record_length + 4 + 4 * _CLASS_LAYER
-
-    def numbers(self, data: bytes | memoryview, start: int = 0) -> tuple[int, ...]:
-        """Return the number of points, and the lengths of the layers, of the chunk at `start`."""
-        return struct.unpack_from(f"<{1 + self.layers}I", data, start + self.record_length)
 
     def class_layer(self, data: bytes | memoryview, start: int = 0) -> slice:
         """Return where the layer of the classes stands of the chunk at `start`."""
@@ -95,23 +73,12 @@ def class_layers(layout: LasLayout) -> ClassLayers | None:
     BareEarthError
         If it cannot be read.
     """
-    layers = _layers_of(Compression.of(layout.laszip)) if layout.is_compressed else 0
+    layers = Compression.of(layout.laszip).layers if layout.is_compressed else 0
     if not layers:
         return None
     head = _Head(layout.record_length, layers)
     chunks = _chunks(layout, head)
     return None if chunks is None else ClassLayers(layout, chunks, head)
-
-
-def _layers_of(compression: Compression) -> int:
-    """Return how many layers the compressed points have; 0 if it is not known."""
-    kinds = [kind for kind, *_ in compression.items]
-    is_known = compression.kind == LAYERED and kinds[0] == POINT_14
-    if not is_known or not set(kinds) <= {*_LAYERS, EXTRA_BYTES_14}:
-        return 0
-    return sum(
-        size if kind == EXTRA_BYTES_14 else _LAYERS[kind] for kind, size, _ in compression.items
-    )
 
 
 def _chunks(layout: LasLayout, head: _Head) -> list[Chunk] | None:
@@ -260,7 +227,7 @@ def _new_layers(
     chunks: Sequence[slice],
 ) -> Iterator[bytes]:
     """Yield the layer of the classes for each chunk of some points."""
-    head = _Head(RECORD_LENGTHS[_FORMAT], _LAYERS[POINT_14])
+    head = _Head(RECORD_LENGTHS[_FORMAT], LAYERS[POINT_14])
     points = np.zeros((len(classes), head.record_length), dtype=np.uint8)
     is_only = (return_number == 1) & (number_of_returns <= 1)
     points[:, _RETURNS] = np.where(is_only, _ONLY, _FIRST_OF_TWO)

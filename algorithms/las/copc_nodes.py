@@ -10,6 +10,7 @@ COPC specification 1.0, https://copc.io
 
 from __future__ import annotations
 
+import itertools
 import struct
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, BinaryIO, Callable, Iterator
@@ -20,6 +21,7 @@ from ..core.errors import BareEarthError
 from ..core.points import Box
 from .copc import HIERARCHY_ENTRY
 from .lasbytes import COPC_INFO, LasLayout
+from .laszip import ChunkHead, Compression
 from .records import NEEDED, named, selection_of
 from .sources import damage_told, damaged, open_source
 
@@ -256,13 +258,17 @@ def _decompress(layout: LasLayout, file: BinaryIO, nodes: np.ndarray) -> np.ndar
         compressed += file.read(int(node["size"]))
     if len(compressed) != int(nodes["size"].sum(dtype=np.int64)):
         raise damaged(layout.path)
-    counts = nodes["count"].tolist()
+    counts, sizes = nodes["count"].tolist(), nodes["size"].tolist()
+    head = ChunkHead(layout.record_length, Compression.of(layout.laszip).layers)
+    starts = itertools.accumulate(sizes, initial=0)
+    if not all(head.fits(compressed, size, start) for size, start in zip(sizes, starts)):
+        raise damaged(layout.path)
     records = np.zeros(sum(counts) * layout.record_length, dtype=np.uint8)
     lazrs.decompress_points_with_chunk_table(
         compressed,
         layout.laszip,
         records,
-        list(zip(counts, nodes["size"].tolist())),
+        list(zip(counts, sizes)),
         selection_of(NEEDED),
     )
     return records

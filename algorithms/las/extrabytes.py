@@ -22,7 +22,7 @@ _KINDS = {9: "<f4", 10: "<f8"}
 _FLOAT = 9
 _HAS_MINIMUM, _HAS_MAXIMUM, _HAS_SCALE, _HAS_OFFSET = 0x02, 0x04, 0x08, 0x10
 _LARGEST_RECORD = 65535
-_MOST_UNDOCUMENTED = 255
+_UNDOCUMENTED, _MOST_UNDOCUMENTED = "undocumented", 255
 
 
 @dataclass(frozen=True)
@@ -85,7 +85,7 @@ def place_dimension(layout: LasLayout, dimension: ExtraDimension) -> tuple[LasLa
     # What no descriptor speaks of comes before the new dimension, so it needs one now.
     while start < layout.record_length:
         size = min(layout.record_length - start, _MOST_UNDOCUMENTED)
-        descriptors.append(struct.pack("<2xBB32s156x", 0, size, b"undocumented"))
+        descriptors.append(struct.pack("<2xBB32s156x", 0, size, _UNDOCUMENTED.encode()))
         start += size
     descriptors.append(_descriptor(dimension, _FLOAT))
     kind = np.dtype(_KINDS[_FLOAT])
@@ -119,11 +119,14 @@ def extra_dimensions(layout: LasLayout) -> list[tuple[str, str, int]]:
 
 
 def dimension_names(layout: LasLayout) -> list[str]:
-    """Return the names of the dimensions in extra bytes; what nothing is said of has none."""
+    """Return the names of the dimensions in extra bytes, of which some may not be described."""
     try:
-        return [_text(each[4:36]) for each in _descriptors(layout) if _size(each)]
+        descriptors = _descriptors(layout)
     except BareEarthError:
-        return []
+        descriptors = []
+    names = [_text(each[4:36]) for each in descriptors if _size(each)]
+    is_all = sum(map(_size, descriptors)) == layout.extra_bytes
+    return names if is_all else [*names, _UNDOCUMENTED]
 
 
 def _descriptors(layout: LasLayout) -> list[bytes]:

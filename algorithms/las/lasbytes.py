@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import BinaryIO, Sequence
 
 from ..core.errors import BareEarthError
-from .laszip import Compression
+from .laszip import ChunkHead, Compression
 from .sources import FileState, changed, damage_told, damaged, open_source
 
 VLR_HEADER, EVLR_HEADER, LARGEST_VLR = 54, 60, 65535
@@ -265,8 +265,15 @@ class LasLayout:
         with open_source(self.path) as file, damage_told(self.path):
             file.seek(self.points_start)
             table = lazrs.read_chunk_table(file, lazrs.LazVlr(self.laszip))
-        if not Compression.of(self.laszip).table_fits(table, self.count, self._room):
-            raise damaged(self.path)
+            compression, place = Compression.of(self.laszip), self.points_start + 8
+            if not compression.table_fits(table, self.count, self._room):
+                raise damaged(self.path)
+            head = ChunkHead(self.record_length, compression.layers)
+            for _, size in table if head.layers else ():
+                file.seek(place)
+                if size and not head.fits(file.read(head.size), size):
+                    raise damaged(self.path)
+                place += size
         return table
 
     @property

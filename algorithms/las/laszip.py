@@ -14,9 +14,11 @@ from __future__ import annotations
 import struct
 from typing import NamedTuple, Sequence
 
-POINT_14, EXTRA_BYTES_14, WAVE_PACKET_13 = 10, 14, 9
+POINT_14, _EXTRA_BYTES_14, _WAVE_PACKET_13 = 10, 14, 9
+# Layers of a point, its colours, those with near infrared, and its wave packet.
+LAYERS = {POINT_14: 9, 11: 1, 12: 2, 13: 1}
 # Kinds of compression: points one by one in chunks, and columns of points in chunks.
-_CHUNKED, LAYERED = 2, 3
+_CHUNKED, _LAYERED = 2, 3
 _HEAD, _ITEM = struct.Struct("<HHBBHIIqqH"), struct.Struct("<HHH")
 _CHUNK_SIZE = 12
 _VARIABLE = 0xFFFFFFFF
@@ -57,7 +59,17 @@ class Compression(NamedTuple):
     @property
     def is_known(self) -> bool:
         """Whether it is one of the two kinds in chunks."""
-        return self.kind in (_CHUNKED, LAYERED)
+        return self.kind == _CHUNKED or self.layers > 0
+
+    @property
+    def layers(self) -> int:
+        """How many layers a chunk has, each byte of its extra bytes among them; 0 if it has none."""
+        kinds = [kind for kind, *_ in self.items]
+        if self.kind != _LAYERED or kinds[0] != POINT_14 or set(kinds) - {*LAYERS, _EXTRA_BYTES_14}:
+            return 0
+        return sum(
+            size if kind == _EXTRA_BYTES_14 else LAYERS[kind] for kind, size, _ in self.items
+        )
 
     @property
     def record_length(self) -> int:
@@ -90,6 +102,36 @@ class Compression(NamedTuple):
         return points >= count
 
 
+class ChunkHead(NamedTuple):
+    """What a chunk of layers begins with: a point, how many there are, the length of each layer.
+
+    Attributes
+    ----------
+    record_length : int
+        Bytes of a point.
+    layers : int
+        How many layers there are.
+    """
+
+    record_length: int
+    layers: int
+
+    @property
+    def size(self) -> int:
+        """Bytes before the first layer."""
+        return self.record_length + 4 + 4 * self.layers
+
+    def numbers(self, data: bytes | memoryview, start: int = 0) -> tuple[int, ...]:
+        """Return the number of points, and the lengths of the layers, of the chunk at `start`."""
+        return struct.unpack_from(f"<{1 + self.layers}I", data, start + self.record_length)
+
+    def fits(self, data: bytes | memoryview, size: int, start: int = 0) -> bool:
+        """Return whether the layers of the chunk at `start` are no longer than the chunk."""
+        if min(size, len(data) - start) < self.size:
+            return False
+        return self.size + sum(self.numbers(data, start)[1:]) <= size
+
+
 def with_chunk_size(record: bytes, points: int) -> bytes:
     """Return a LASzip record that states another number of points for each chunk."""
     return record[:_CHUNK_SIZE] + struct.pack("<I", points) + record[_CHUNK_SIZE + 4 :]
@@ -103,6 +145,6 @@ def with_wave_packets_of_1(record: bytes) -> bytes:
     changed = bytearray(record)
     for start in range(_HEAD.size, len(record) - _ITEM.size + 1, _ITEM.size):
         kind, size, version = _ITEM.unpack_from(record, start)
-        if kind == WAVE_PACKET_13 and version == 2:
+        if kind == _WAVE_PACKET_13 and version == 2:
             _ITEM.pack_into(changed, start, kind, size, 1)
     return bytes(changed)

@@ -27,8 +27,8 @@ from ..core.errors import BareEarthError
 from ..core.files import check_output, replacing
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
+from ..crs.provider import to_wgs84
 from ..crs.system import compound_wkt
-from ..crs.wgs84 import to_wgs84
 from ..las.crs_records import read_crs
 from ..las.extrabytes import extra_dimensions
 from ..las.lasbytes import LasLayout, read_layout

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 
 from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.crs.provider import to_wgs84
 from bare_earth.algorithms.crs.system import crs_of_wkt
-from bare_earth.algorithms.crs.wgs84 import to_wgs84
 from bare_earth.algorithms.las.changes import Changes
 from bare_earth.algorithms.las.extrabytes import ExtraDimension
 from bare_earth.algorithms.las.lasbytes import read_layout
@@ -156,7 +156,7 @@ def test_a_compression_that_is_none(make):
 def test_scales_and_offsets_with_which_nothing_can_be_calculated(las, place, value):
     path = damage(las.make(), "d", (place, value))
     for action in (inspect, read_cloud):
-        with pytest.raises(BareEarthError, match="header of .* is damaged"):
+        with pytest.raises(BareEarthError, match=r"header of .* is damaged"):
             action(path)
 
 

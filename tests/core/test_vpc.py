@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 
 from bare_earth.algorithms.core.errors import BareEarthError
-from bare_earth.algorithms.crs import wgs84
-from bare_earth.algorithms.crs.system import wkt_of_epsg
-from bare_earth.algorithms.crs.wgs84 import to_wgs84
+from bare_earth.algorithms.crs import provider
+from bare_earth.algorithms.crs.provider import to_wgs84, wkt_of_epsg
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
 
 UTM = "EPSG:32632"
@@ -71,9 +70,8 @@ def test_libraries_agree_on_places(las):
     wkt = wkt_of_epsg(2927)
     places = np.array([(1_100_000.0, 600_000.0), (1_200_000.0, 7e5)])
     by_package = {
-        "osgeo": wgs84._by_gdal,
-        "pyproj": wgs84._by_pyproj,
-        "rasterio": wgs84._by_rasterio,
+        "osgeo": provider._Gdal.to_wgs84,
+        "pyproj": provider._Pyproj.to_wgs84,
     }
     present = [by_package[name] for name in by_package if importlib.util.find_spec(name)]
     if not present:
