@@ -63,13 +63,14 @@ class Compression(NamedTuple):
 
     @property
     def layers(self) -> int:
-        """How many layers a chunk has, each byte of its extra bytes among them; 0 if it has none."""
-        kinds = [kind for kind, *_ in self.items]
-        if self.kind != _LAYERED or kinds[0] != POINT_14 or set(kinds) - {*LAYERS, _EXTRA_BYTES_14}:
+        """How many layers a chunk has; 0 if it has none, or that is not known."""
+        if self.kind != _LAYERED or self.items[0][0] != POINT_14:
             return 0
-        return sum(
-            size if kind == _EXTRA_BYTES_14 else LAYERS[kind] for kind, size, _ in self.items
-        )
+        # Each extra byte is a layer of its own.
+        layers = [
+            size if kind == _EXTRA_BYTES_14 else LAYERS.get(kind) for kind, size, _ in self.items
+        ]
+        return 0 if None in layers else sum(layers)
 
     @property
     def record_length(self) -> int:
