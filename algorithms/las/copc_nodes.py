@@ -227,7 +227,7 @@ def _read_page(layout: LasLayout, file: BinaryIO, start: int, size: int) -> np.n
     depth, places = entries["key"][:, 0], entries["key"][:, 1:]
     makes_sense = (depth >= 0) & (depth <= _DEEPEST) & (entries["count"] >= -1)
     makes_sense &= (places >= 0).all(axis=1)
-    makes_sense &= (places < np.exp2(depth)[:, None]).all(axis=1)
+    makes_sense &= (places < np.exp2(np.clip(depth, 0, _DEEPEST))[:, None]).all(axis=1)
     filled = entries["count"] != 0
     end = entries["start"] + np.maximum(entries["size"], 0).astype(np.uint64)
     in_file = (entries["size"] > 0) & (entries["start"] < layout.size) & (end <= layout.size)
