@@ -10,7 +10,8 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.progress import paced
 from .extrabytes import ExtraDimension, place_dimension
-from .lasbytes import LasLayout, with_count, with_z_range
+from .header_changes import with_count, with_z_range
+from .lasfile import LasFile
 from .records import FIRST_EXTENDED_FORMAT, MOST_KEPT, check_class, read_records
 
 _Z = slice(8, 12)
@@ -54,7 +55,7 @@ class Rewriting:
 
     Parameters
     ----------
-    source : LasLayout
+    source : LasFile
         The file as it is.
     changes : Changes
         What changes in its points.
@@ -63,7 +64,7 @@ class Rewriting:
 
     Attributes
     ----------
-    source, target : LasLayout
+    source, target : LasFile
         The file as it is, and its header and records as they are to be.
 
     Raises
@@ -73,7 +74,7 @@ class Rewriting:
     """
 
     def __init__(
-        self, source: LasLayout, changes: Changes, records: np.ndarray | None = None
+        self, source: LasFile, changes: Changes, records: np.ndarray | None = None
     ) -> None:
         read = (source.count, source.record_length) if records is None else records.shape
         if read != (source.count, source.record_length) or any(

@@ -21,7 +21,7 @@ from typing import BinaryIO, Iterable, Iterator, NamedTuple, Sequence
 import numpy as np
 
 from .cloud import PointCloud
-from .lasbytes import RECORD_LENGTHS, LasLayout
+from .lasfile import RECORD_LENGTHS, LasFile
 from .laszip import LAYERS, POINT_14, ChunkHead, Compression
 from .records import LazRecordWriter, laszip_vlr, read_records
 from .sources import damaged, open_source
@@ -65,7 +65,7 @@ class _Head(ChunkHead):
         return slice(place, place + lengths[_CLASS_LAYER])
 
 
-def class_layers(layout: LasLayout) -> ClassLayers | None:
+def class_layers(layout: LasFile) -> ClassLayers | None:
     """Return the layers of the classes of a file; None if it has none that can be replaced.
 
     Raises
@@ -81,7 +81,7 @@ def class_layers(layout: LasLayout) -> ClassLayers | None:
     return None if chunks is None else ClassLayers(layout, chunks, head)
 
 
-def _chunks(layout: LasLayout, head: _Head) -> list[Chunk] | None:
+def _chunks(layout: LasFile, head: _Head) -> list[Chunk] | None:
     """Return the chunks of a file; None if they are not made as they should be."""
     chunks, start, place = [], 0, layout.points_start + 8
     with open_source(layout.path) as file:
@@ -103,7 +103,7 @@ class ClassLayers:
 
     Parameters
     ----------
-    layout : LasLayout
+    layout : LasFile
         The file.
     chunks : list of Chunk
         All of its chunks, in order.
@@ -118,7 +118,7 @@ class ClassLayers:
         Where each that was written begins in the output, and its bytes there, by its `place`.
     """
 
-    def __init__(self, layout: LasLayout, chunks: list[Chunk], head: _Head) -> None:
+    def __init__(self, layout: LasFile, chunks: list[Chunk], head: _Head) -> None:
         self._layout, self.chunks, self._head = layout, chunks, head
         self.moved: dict[int, tuple[int, int]] = {}
 
@@ -199,7 +199,7 @@ class ClassLayers:
 
 
 def _returns(
-    layout: LasLayout, groups: Iterable[Sequence[Chunk]], cloud: PointCloud | None
+    layout: LasFile, groups: Iterable[Sequence[Chunk]], cloud: PointCloud | None
 ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
     """Yield, for each group of chunks, what of the points decides how classes are coded.
 

@@ -15,7 +15,7 @@ from ..core.points import Frame, Points
 from ..core.progress import SILENT
 from ..core.threads import in_threads, over_parts, parts_of
 from ..crs.system import Crs
-from .lasbytes import LasLayout
+from .lasfile import LasFile
 
 _POINTS_A_PART = 1 << 15
 # Points of the parts of a cloud.
@@ -54,7 +54,7 @@ class PointCloud:
         The scanner channel of each point, where the point format has it (6 to 10) and it was read.
     records : numpy.ndarray of uint8, shape (n, record length), optional
         The points as the file has them, where they were kept to be written again.
-    layout : LasLayout, optional
+    layout : LasFile, optional
         The file as it was when the points were read.
     """
 
@@ -72,7 +72,7 @@ class PointCloud:
     crs: Crs
     scanner_channel: np.ndarray | None = None
     records: np.ndarray | None = None
-    layout: LasLayout | None = None
+    layout: LasFile | None = None
 
     @property
     def count(self) -> int:

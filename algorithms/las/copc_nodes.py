@@ -20,7 +20,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.points import Box
 from .copc import HIERARCHY_ENTRY
-from .lasbytes import COPC_INFO, LasLayout
+from .lasfile import COPC_INFO, LasFile
 from .laszip import ChunkHead, Compression
 from .records import NEEDED, named, selection_of
 from .sources import damage_told, damaged, open_source
@@ -54,7 +54,7 @@ class Hierarchy:
         Start and size of the first page.
     """
 
-    layout: LasLayout
+    layout: LasFile
     corner: tuple[float, float]
     side: float
     root: tuple[int, int]
@@ -84,7 +84,7 @@ class Hierarchy:
         return np.array([west - more, south - more, west + sides + more, south + sides + more])
 
 
-def read_hierarchy(layout: LasLayout) -> Hierarchy:
+def read_hierarchy(layout: LasFile) -> Hierarchy:
     """Read where the octree of a COPC file lies.
 
     Raises
@@ -214,7 +214,7 @@ def _pages(
             yield page[0], entries, which
 
 
-def _read_page(layout: LasLayout, file: BinaryIO, start: int, size: int) -> np.ndarray:
+def _read_page(layout: LasFile, file: BinaryIO, start: int, size: int) -> np.ndarray:
     """Return the entries of a page of the hierarchy, all of which make sense."""
     length = HIERARCHY_ENTRY.itemsize
     if size < length or size % length or start + size > layout.size:
@@ -249,7 +249,7 @@ def _batches(nodes: np.ndarray) -> Iterator[np.ndarray]:
     return (run for run in np.split(nodes, np.flatnonzero(np.diff(numbers)) + 1) if len(run))
 
 
-def _decompress(layout: LasLayout, file: BinaryIO, nodes: np.ndarray) -> np.ndarray:
+def _decompress(layout: LasFile, file: BinaryIO, nodes: np.ndarray) -> np.ndarray:
     import lazrs
 
     compressed = bytearray()
@@ -287,9 +287,9 @@ def _check_places(hierarchy: Hierarchy, nodes: np.ndarray, chunk: laspy.PackedPo
             raise _octree_error(layout, "points lie outside of their nodes")
 
 
-def _uncounted(layout: LasLayout) -> OctreeError:
+def _uncounted(layout: LasFile) -> OctreeError:
     return _octree_error(layout, "its numbers of points do not add up to that of the file")
 
 
-def _octree_error(layout: LasLayout, what: str) -> OctreeError:
+def _octree_error(layout: LasFile, what: str) -> OctreeError:
     return OctreeError(f"The octree of {layout.path} is damaged: {what}.")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..core.progress import SILENT, Progress
 from ..crs.geokeys import read_geokeys
 from ..crs.system import Crs, crs_of_geokeys, crs_of_wkt
-from .lasbytes import LasLayout
+from .lasfile import LasFile
 
 WKT_RECORD = ("LASF_Projection", 2112)
 # The directory of the keys, their numbers and their texts.
@@ -13,7 +13,7 @@ GEOKEY_RECORDS = tuple(("LASF_Projection", number) for number in (34735, 34736, 
 _WKT_BIT = 0x10
 
 
-def read_crs(layout: LasLayout, progress: Progress = SILENT) -> Crs:
+def read_crs(layout: LasFile, progress: Progress = SILENT) -> Crs:
     """Return the CRS that the records of a file state.
 
     Well-known text and GeoTIFF keys may both be there: the global encoding of the header says which
@@ -21,7 +21,7 @@ def read_crs(layout: LasLayout, progress: Progress = SILENT) -> Crs:
 
     Parameters
     ----------
-    layout : LasLayout
+    layout : LasFile
         The file.
     progress : Progress
         Told which units are assumed where none is stated.
@@ -44,12 +44,12 @@ def wkt_text(data: bytes) -> str:
     return data.split(b"\0")[0].decode("utf-8", "replace").strip()
 
 
-def _from_wkt(layout: LasLayout, progress: Progress) -> Crs | None:
+def _from_wkt(layout: LasFile, progress: Progress) -> Crs | None:
     record = layout.vlr(WKT_RECORD)
     return crs_of_wkt(wkt_text(record.data), progress) if record and record.data else None
 
 
-def _from_geokeys(layout: LasLayout, progress: Progress) -> Crs | None:
+def _from_geokeys(layout: LasFile, progress: Progress) -> Crs | None:
     records = [layout.vlr(key) for key in GEOKEY_RECORDS]
     keys = read_geokeys(*(record.data or b"" if record else b"" for record in records))
     return None if keys is None else crs_of_geokeys(keys, progress)

@@ -16,7 +16,8 @@ from .backends import require
 from .cloud import PointCloud
 from .crs_records import read_crs
 from .extrabytes import dimension_names
-from .lasbytes import LasLayout, read_layout
+from .lasfile import LasFile
+from .opening import open_las
 from .records import FIRST_EXTENDED_FORMAT, MOST_KEPT, NEEDED, named, read_records
 
 if TYPE_CHECKING:
@@ -35,14 +36,14 @@ _COORDINATES = ("x", "y", "z")
 
 
 def read_cloud(
-    path: Path | LasLayout, progress: Progress = SILENT, keep_records: bool = False
+    path: Path | LasFile, progress: Progress = SILENT, keep_records: bool = False
 ) -> PointCloud:
     """Read the points of a LAS, LAZ or COPC file.
 
     Parameters
     ----------
-    path : Path or LasLayout
-        The file, or what `read_layout` read of it.
+    path : Path or LasFile
+        The file, or what `open_las` read of it.
     progress : Progress
         Receives progress, and what is odd about the CRS.
     keep_records : bool
@@ -60,7 +61,7 @@ def read_cloud(
     Cancelled
         If the user asked to stop.
     """
-    layout = read_layout(path)
+    layout = open_las(path)
     require_packages(layout)
     crs, start = read_crs(layout, progress), 0
     if keep_records:
@@ -80,7 +81,7 @@ def read_cloud(
     return cloud
 
 
-def read_parts(path: Path | LasLayout, progress: Progress = SILENT) -> Iterator[PointCloud]:
+def read_parts(path: Path | LasFile, progress: Progress = SILENT) -> Iterator[PointCloud]:
     """Read a file part by part, so that it need not fit into memory.
 
     Parameters
@@ -100,7 +101,7 @@ def read_parts(path: Path | LasLayout, progress: Progress = SILENT) -> Iterator[
     Cancelled
         If the user asked to stop.
     """
-    layout = read_layout(path)
+    layout = open_las(path)
     require_packages(layout)
     crs, start = read_crs(layout, progress), 0
     for chunk in read_chunks(layout):
@@ -184,7 +185,7 @@ class Description:
         return list(map(printable, lines))
 
 
-def inspect(path: Path | LasLayout, progress: Progress = SILENT) -> Description:
+def inspect(path: Path | LasFile, progress: Progress = SILENT) -> Description:
     """Describe a file, after reading all of its points.
 
     Raises
@@ -192,7 +193,7 @@ def inspect(path: Path | LasLayout, progress: Progress = SILENT) -> Description:
     BareEarthError
         If the file cannot be read, with what to do about it.
     """
-    layout = read_layout(path)
+    layout = open_las(path)
     cloud = read_cloud(layout, progress)
     integers = (cloud.x, cloud.y, cloud.z)
     corners = [
@@ -232,19 +233,19 @@ def inspect(path: Path | LasLayout, progress: Progress = SILENT) -> Description:
     )
 
 
-def require_packages(layout: LasLayout) -> None:
+def require_packages(layout: LasFile) -> None:
     """Refuse to go on where a package that reads the file is missing."""
     require(*(("laspy", "lazrs") if layout.is_compressed else ("laspy",)))
 
 
-def read_chunks(layout: LasLayout) -> Iterator[laspy.PackedPointRecord]:
+def read_chunks(layout: LasFile) -> Iterator[laspy.PackedPointRecord]:
     """Yield all points, as many at a time in each run; the next ones reuse their memory."""
     pieces = parts_of(layout.count, _CHUNK)
     for records in read_records(layout, _CHUNK, columns=NEEDED, pieces=pieces):
         yield named(layout, records)
 
 
-def _empty_cloud(layout: LasLayout, count: int, crs: Crs, **kept: np.ndarray) -> PointCloud:
+def _empty_cloud(layout: LasFile, count: int, crs: Crs, **kept: np.ndarray) -> PointCloud:
     """Return room for points, but for the columns that there are."""
     kinds = {**{name: np.int32 for name in _COORDINATES}, **_SMALL}
     if layout.point_format < FIRST_EXTENDED_FORMAT:

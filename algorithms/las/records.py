@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.progress import paced
-from .lasbytes import LASZIP, LasLayout, Vlr, new_vlr
+from .lasfile import LASZIP, LasFile, Vlr, new_vlr
 from .laszip import with_chunk_size, with_wave_packets_of_1
 from .sources import changed, damage_told, damaged, open_source
 
@@ -63,7 +63,7 @@ def selection_of(columns: Sequence[str]) -> lazrs.DecompressionSelection:
 
 
 def read_records(
-    layout: LasLayout,
+    layout: LasFile,
     most: int = _MOST,
     into: np.ndarray | None = None,
     columns: Sequence[str] | None = None,
@@ -73,7 +73,7 @@ def read_records(
 
     Parameters
     ----------
-    layout : LasLayout
+    layout : LasFile
         The file.
     most : int
         Most points to read at a time; fewer where that takes long.
@@ -112,7 +112,7 @@ def read_records(
             yield records
 
 
-def named(layout: LasLayout, records: np.ndarray) -> laspy.PackedPointRecord:
+def named(layout: LasFile, records: np.ndarray) -> laspy.PackedPointRecord:
     """Return points, given as their bytes, by the names that laspy has for their columns."""
     import laspy
 
@@ -123,12 +123,12 @@ def named(layout: LasLayout, records: np.ndarray) -> laspy.PackedPointRecord:
     return laspy.PackedPointRecord.from_buffer(records, point_type)
 
 
-def set_classes(layout: LasLayout, records: np.ndarray, classes: np.ndarray) -> None:
+def set_classes(layout: LasFile, records: np.ndarray, classes: np.ndarray) -> None:
     """Write classes into the bytes of points; flags in the same byte stay.
 
     Parameters
     ----------
-    layout : LasLayout
+    layout : LasFile
         The file whose point format the records have.
     records : numpy.ndarray of uint8, shape (n, record length)
         Changed in place.
@@ -296,7 +296,7 @@ def copy_range(source: BinaryIO, target: BinaryIO, start: int, end: int) -> None
         start += len(block)
 
 
-def _decompressor(layout: LasLayout, file: BinaryIO, columns: Sequence[str] | None):
+def _decompressor(layout: LasFile, file: BinaryIO, columns: Sequence[str] | None):
     import lazrs
 
     record, points = layout.laszip, layout.chunk_table[0][0]

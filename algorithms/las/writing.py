@@ -22,15 +22,15 @@ from .cloud import PointCloud
 from .copc import write_copc
 from .copc_index import CopcIndex
 from .copc_nodes import OctreeError
-from .lasbytes import (
+from .header import EVLR_COUNT
+from .header_changes import with_statistics
+from .lasfile import (
     COPC_HIERARCHY,
     COPC_INFO,
-    EVLR_COUNT,
     LASZIP,
-    LasLayout,
-    read_layout,
-    with_statistics,
+    LasFile,
 )
+from .opening import open_las
 from .records import LasRecordWriter, LazRecordWriter, Tally, copy_range, laszip_vlr, set_classes
 from .sources import open_source
 
@@ -56,7 +56,7 @@ def check_writable(target: Path) -> None:
 
 
 def write_classified(
-    source: Path | LasLayout, target: Path, classification: np.ndarray, progress: Progress = SILENT
+    source: Path | LasFile, target: Path, classification: np.ndarray, progress: Progress = SILENT
 ) -> None:
     """Write `source` anew with other classes.
 
@@ -71,7 +71,7 @@ def write_classified(
 
 
 def write_changed(
-    source: Path | LasLayout,
+    source: Path | LasFile,
     target: Path,
     changes: Changes,
     progress: Progress = SILENT,
@@ -86,8 +86,8 @@ def write_changed(
 
     Parameters
     ----------
-    source : Path or LasLayout
-        The input. If it is what `read_layout` read of it before its points were read, or `cloud` is
+    source : Path or LasFile
+        The input. If it is what `open_las` read of it before its points were read, or `cloud` is
         given, a file that changed since is refused.
     target : Path
         The output: .las, .laz or .copc.laz.
@@ -108,7 +108,7 @@ def write_changed(
     """
     target = Path(target)
     check_writable(target)
-    layout = cloud.layout if cloud is not None and cloud.layout else read_layout(source)
+    layout = cloud.layout if cloud is not None and cloud.layout else open_las(source)
     layout.check_unchanged()
     rewriting = Rewriting(layout, changes, None if cloud is None else cloud.records)
     if layout.is_compressed:
@@ -146,7 +146,7 @@ class Kept(NamedTuple):
     index: CopcIndex | None
 
 
-def layers_kept(source: LasLayout, target: Path) -> Kept | None:
+def layers_kept(source: LasFile, target: Path) -> Kept | None:
     """Return what has to be known to write nothing of the points anew but their classes.
 
     Returns
@@ -186,7 +186,7 @@ def _replace_classes(
             kept.index.write(file, kept.layers.moved, shift)
 
 
-def _tell_of_index(layout: LasLayout, progress: Progress) -> None:
+def _tell_of_index(layout: LasFile, progress: Progress) -> None:
     if layout.is_copc:
         progress.info(
             "The points stay in the order of the COPC file, but its index is left out: choose an"
@@ -229,7 +229,7 @@ def _write(rewriting: Rewriting, target: Path, progress: Progress) -> None:
         _copy_tail(rewriting, file, COPC_HIERARCHY)
 
 
-def _check_channels(layout: LasLayout, channels: set[int]) -> None:
+def _check_channels(layout: LasFile, channels: set[int]) -> None:
     """Refuse what lazrs compresses wrongly.
 
     It mixes up the waveform packets of points of several scanner channels (seen with 0.6.0 and
@@ -255,11 +255,11 @@ def _copy_tail(rewriting: Rewriting, file: BinaryIO, *dropped: tuple[str, int]) 
         file.seek(place)
         file.write(struct.pack("<Q", pointer))
     if len(tail) > 1:
-        file.seek(EVLR_COUNT)
+        file.seek(EVLR_COUNT.start)
         file.write(struct.pack("<I", len(layout.evlrs) - len(tail) + 1))
 
 
-def _tell_of_waveforms(layout: LasLayout, target: Path, progress: Progress) -> None:
+def _tell_of_waveforms(layout: LasFile, target: Path, progress: Progress) -> None:
     if layout.global_encoding & _EXTERNAL_WAVEFORMS:
         progress.warning(
             f"The waveforms are in a file beside the input: copy"

@@ -16,7 +16,8 @@ from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..crs.system import Crs, unit_name
 from ..las.crs_records import read_crs
-from ..las.lasbytes import LasLayout, read_layout
+from ..las.lasfile import LasFile
+from ..las.opening import open_las
 from ..las.sources import read_text
 from .vpc import SUFFIX as VPC_SUFFIX
 from .vpc import read_vpc
@@ -161,7 +162,7 @@ def open_collection(
     heard, tiles, broken, known = _Tally(), [], [], {}
     for number, path in enumerate(paths, start=1):
         try:
-            tiles.append(_tile(read_layout(path), known, heard))
+            tiles.append(_tile(open_las(path), known, heard))
         except BareEarthError as error:
             broken.append(BrokenTile(path, str(error)))
         progress(number / len(paths))
@@ -241,7 +242,7 @@ def _listed(source: Path) -> list[Path]:
     return [source.parent / name for name in names if name and not name.startswith("#")]
 
 
-def _tile(layout: LasLayout, known: dict[Crs, Crs], heard: _Tally) -> Tile:
+def _tile(layout: LasFile, known: dict[Crs, Crs], heard: _Tally) -> Tile:
     """Return what a header says; `known` keeps one text of each CRS for all files."""
     _check_extent(layout)
     crs = read_crs(layout)
@@ -263,7 +264,7 @@ def _tile(layout: LasLayout, known: dict[Crs, Crs], heard: _Tally) -> Tile:
     )
 
 
-def _check_extent(layout: LasLayout) -> None:
+def _check_extent(layout: LasFile) -> None:
     """Refuse a header that leaves open where the points lie."""
     lowest, highest = layout.minimum[:2], layout.maximum[:2]
     is_one = layout.states_extent and lowest[0] <= highest[0] and lowest[1] <= highest[1]

@@ -14,7 +14,6 @@ import datetime
 import json
 import os
 import re
-import struct
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Iterable, NamedTuple
@@ -31,7 +30,9 @@ from ..crs.provider import to_wgs84
 from ..crs.system import compound_wkt
 from ..las.crs_records import read_crs
 from ..las.extrabytes import extra_dimensions
-from ..las.lasbytes import LasLayout, read_layout
+from ..las.header import CREATION
+from ..las.lasfile import LasFile
+from ..las.opening import open_las
 from ..las.sources import read_text
 
 SUFFIX = ".vpc"
@@ -39,7 +40,6 @@ _EXTENSIONS = [
     "https://stac-extensions.github.io/pointcloud/v1.0.0/schema.json",
     "https://stac-extensions.github.io/projection/v1.1.0/schema.json",
 ]
-_CREATION_DAY = 90
 # "s3://", "https://"; one letter would be a drive of Windows.
 _REMOTE = re.compile(r"[a-z][a-z0-9+.-]+://|/vsi", re.IGNORECASE)
 
@@ -159,7 +159,7 @@ def write_vpc(path: Path, files: Iterable[Path], progress: Progress = SILENT) ->
     check_output(path, tuple(files))
     features, unplaced = [], 0
     for number, file in enumerate(files, start=1):
-        feature = _feature(path, read_layout(file))
+        feature = _feature(path, open_las(file))
         unplaced += not feature["properties"]["proj:wkt2"]
         features.append(feature)
         progress(number / len(files))
@@ -225,7 +225,7 @@ def _path_of(href: str, folder: Path) -> Path:
     return path
 
 
-def _feature(target: Path, layout: LasLayout) -> dict[str, Any]:
+def _feature(target: Path, layout: LasFile) -> dict[str, Any]:
     """Return the STAC item of a file."""
     extent = [*layout.minimum, *layout.maximum]
     if not layout.states_extent:
@@ -269,9 +269,9 @@ def _polygon(ring: np.ndarray) -> dict[str, Any]:
     return {"type": "Polygon", "coordinates": [ring.tolist()]}
 
 
-def _creation(layout: LasLayout) -> str:
+def _creation(layout: LasFile) -> str:
     """Return the day on which the file was made; 1970 where that is none, as pdal_wrench does."""
-    day, year = struct.unpack_from("<HH", layout.header, _CREATION_DAY)
+    day, year = CREATION.get(layout.header)
     year = year if 1 <= year <= 9999 else 1970
     made = datetime.date(year, 1, 1)
     if 1 <= day <= datetime.date(year, 12, 31).timetuple().tm_yday:
@@ -279,7 +279,7 @@ def _creation(layout: LasLayout) -> str:
     return f"{made.isoformat()}T00:00:00Z"
 
 
-def _dimensions(layout: LasLayout) -> list[Dimension]:
+def _dimensions(layout: LasFile) -> list[Dimension]:
     number = layout.point_format
     found = [*_LOCATION, *_ALWAYS, _ANGLE]
     if number not in (0, 2):

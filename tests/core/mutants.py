@@ -17,7 +17,7 @@ from conftest import las_bytes, vlr
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.las.changes import Changes
 from bare_earth.algorithms.las.extrabytes import ExtraDimension
-from bare_earth.algorithms.las.lasbytes import read_layout
+from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import inspect, read_cloud
 from bare_earth.algorithms.las.writing import write_changed, write_classified
 from bare_earth.algorithms.survey.collection import open_collection
@@ -81,7 +81,7 @@ def mutant(originals, random):
 def actions(source):
     """Yield what may be done with a file, one after the other."""
     yield lambda: inspect(source).lines()
-    count = read_layout(source).count
+    count = open_las(source).count
     classes = np.arange(count, dtype=np.int64).astype(np.uint8) % 5
     for suffix in (".las", ".laz", ".copc.laz"):
         target = source.with_name(f"out{suffix}")

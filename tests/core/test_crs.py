@@ -6,7 +6,7 @@ from bare_earth.algorithms.crs import provider
 from bare_earth.algorithms.crs.system import Crs, compound_wkt, unit_name
 from bare_earth.algorithms.crs.wkt import read_wkt
 from bare_earth.algorithms.las.crs_records import read_crs
-from bare_earth.algorithms.las.lasbytes import read_layout
+from bare_earth.algorithms.las.opening import open_las
 
 SURVEY, FOOT = 1200 / 3937, 0.3048
 BASE_1 = 'GEOGCS["g",DATUM["d",SPHEROID["s",6378137,298.25]],UNIT["degree",0.0174532925199433]]'
@@ -129,7 +129,7 @@ def keys(**values):
 
 def crs_of(las, *vlrs, encoding=0):
     heard = las.Heard()
-    layout = read_layout(las.make(vlrs=vlrs, encoding=encoding))
+    layout = open_las(las.make(vlrs=vlrs, encoding=encoding))
     return read_crs(layout, heard), heard
 
 
@@ -221,7 +221,7 @@ def test_the_other_description_is_read_where_the_one_is_not_there(las, encoding)
 def test_text_behind_the_points_is_read(las):
     record = las.evlr(b"LASF_Projection", 2112, projcs(SURVEY_1).encode() + b"\0")
     source = las.make("in.laz", version=4, point_format=6, encoding=0x10, evlrs=[record])
-    assert read_crs(read_layout(source)).horizontal_unit == pytest.approx(SURVEY)
+    assert read_crs(open_las(source)).horizontal_unit == pytest.approx(SURVEY)
 
 
 @pytest.mark.parametrize("data", [b"", b"\0" * 7, b"\1\0" * 5, b"\xff" * 40])

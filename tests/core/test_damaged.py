@@ -18,7 +18,7 @@ from bare_earth.algorithms.crs.provider import to_wgs84
 from bare_earth.algorithms.crs.system import crs_of_wkt
 from bare_earth.algorithms.las.changes import Changes
 from bare_earth.algorithms.las.extrabytes import ExtraDimension
-from bare_earth.algorithms.las.lasbytes import read_layout
+from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import inspect, read_cloud, read_parts
 from bare_earth.algorithms.las.writing import write_changed, write_classified
 from bare_earth.algorithms.survey.area import read_boundary
@@ -129,7 +129,7 @@ def test_a_chunk_longer_than_the_file(make):
     path = make(point_format=6)
     with open(path, "r+b") as file:
         file.seek(chunk_table(path))
-        lazrs.write_chunk_table(file, [(60, 2**40)], lazrs.LazVlr(read_layout(path).laszip))
+        lazrs.write_chunk_table(file, [(60, 2**40)], lazrs.LazVlr(open_las(path).laszip))
     refused(path)
 
 
@@ -185,7 +185,7 @@ def test_the_files_that_broke_it_once(tmp_path, name):
 def test_wave_packets_are_compressed_as_laszip_reads_them(las, point_format):
     source, target = las.make(version=3, point_format=point_format), las.folder / "out.laz"
     write_classified(source, target, np.full(60, 2, np.uint8))
-    record = read_layout(target).laszip
+    record = open_las(target).laszip
     items = [struct.unpack_from("<HHH", record, at) for at in range(34, len(record), 6)]
     assert items[-1] == (9, 29, 1)
     found = laspy.read(target)
@@ -220,7 +220,7 @@ def replace_by_another(path, kind):
 def test_an_input_that_changed_since_it_was_read_is_refused(las, kind, name, point_format, keep):
     source = las.make(name, version=4, point_format=point_format)
     target = las.folder / f"out{source.suffix}"
-    cloud, layout = read_cloud(source, keep_records=keep), read_layout(source)
+    cloud, layout = read_cloud(source, keep_records=keep), open_las(source)
     classes = Changes(classification=np.zeros(60, np.uint8))
     write_changed(source, target, classes, cloud=cloud)
     target.unlink()
@@ -245,7 +245,7 @@ def test_an_input_that_changes_while_it_is_written_is_refused(las):
 
 def test_parts_and_all_points_know_their_file(las):
     source = las.make("a.laz")
-    layout = read_layout(source)
+    layout = open_las(source)
     assert read_cloud(layout).layout is layout
     assert [part.layout for part in read_parts(layout)] == [layout]
 
@@ -257,7 +257,7 @@ def test_the_copc_file_with_sub_pages_of_another_program(tmp_path):
     source = FOLDER / "awkward" / "simple_with_page.copc.laz"
     if not source.is_file():
         pytest.skip(f"{source} is not here")
-    count, target = read_layout(source).count, tmp_path / "out.copc.laz"
+    count, target = open_las(source).count, tmp_path / "out.copc.laz"
     write_classified(source, target, np.full(count, 2, np.uint8))
     with laspy.CopcReader.open(target) as reader:
         assert len(reader.query()) == count
@@ -270,7 +270,7 @@ def test_a_crs_too_long_for_copc_stays_where_it_is(las):
     heard, target = las.Heard(), las.folder / "out.copc.laz"
     write_classified(source, target, np.zeros(60, np.uint8), heard)
     assert any("too long" in each for each in heard.warnings)
-    assert read_layout(target).vlr(("LASF_Projection", 2112)).data == text
+    assert open_las(target).vlr(("LASF_Projection", 2112)).data == text
 
 
 # The CRS
