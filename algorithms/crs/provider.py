@@ -16,8 +16,8 @@ def wkt_of_epsg(code: int) -> str | None:
 
     None if there is none of the libraries, or the code is unknown to it.
     """
-    library = _library()
-    return None if library is None else library.wkt_of_epsg(code)
+    known = library()
+    return None if known is None else known.wkt_of_epsg(code)
 
 
 def to_wgs84(wkt: str, places: np.ndarray) -> np.ndarray | None:
@@ -36,10 +36,10 @@ def to_wgs84(wkt: str, places: np.ndarray) -> np.ndarray | None:
         Longitudes and latitudes in degrees; None if there is none of the libraries, the CRS is
         not known to it, or a place is outside of where the CRS holds.
     """
-    library = _library()
-    if library is None or not _are_within(places, (_FARTHEST, _FARTHEST)):
+    known = library()
+    if known is None or not _are_within(places, (_FARTHEST, _FARTHEST)):
         return None
-    degrees = library.to_wgs84(wkt, places)
+    degrees = known.to_wgs84(wkt, places)
     return None if degrees is None or not _are_within(degrees, (180, 90)) else degrees
 
 
@@ -48,11 +48,11 @@ def _are_within(places: np.ndarray, limits: tuple[float, float]) -> bool:
     return bool(np.isfinite(places).all() and (np.abs(places) <= limits).all())
 
 
-def _library() -> Any:
-    """Return the library that is there; GDAL first, for QGIS."""
-    for package, library in (("osgeo", _Gdal), ("pyproj", _Pyproj)):
+def library() -> Any:
+    """Return what asks the library that is there; GDAL first, for QGIS. None if there is none."""
+    for package, asking in (("osgeo", _Gdal), ("pyproj", _Pyproj)):
         if importlib.util.find_spec(package) is not None:
-            return library
+            return asking
     return None
 
 

@@ -54,7 +54,7 @@ class PointCloud:
         The scanner channel of each point, where the point format has it (6 to 10) and it was read.
     records : numpy.ndarray of uint8, shape (n, record length), optional
         The points as the file has them, where they were kept to be written again.
-    layout : LasFile, optional
+    file : LasFile, optional
         The file as it was when the points were read.
     """
 
@@ -72,7 +72,7 @@ class PointCloud:
     crs: Crs
     scanner_channel: np.ndarray | None = None
     records: np.ndarray | None = None
-    layout: LasFile | None = None
+    file: LasFile | None = None
 
     @property
     def count(self) -> int:

@@ -257,7 +257,7 @@ def _empty_cloud(layout: LasFile, count: int, crs: Crs, **kept: np.ndarray) -> P
         offset=layout.offset,
         point_format=layout.point_format,
         crs=crs,
-        layout=layout,
+        file=layout,
         **empty,
         **kept,
     )

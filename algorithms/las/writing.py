@@ -108,7 +108,7 @@ def write_changed(
     """
     target = Path(target)
     check_writable(target)
-    layout = cloud.layout if cloud is not None and cloud.layout else open_las(source)
+    layout = cloud.file if cloud is not None and cloud.file else open_las(source)
     layout.check_unchanged()
     rewriting = Rewriting(layout, changes, None if cloud is None else cloud.records)
     if layout.is_compressed:

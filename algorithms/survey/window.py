@@ -153,6 +153,6 @@ def _cloud(layout: LasFile, parts: Iterator[Columns], progress: Progress) -> Poi
         offset=layout.offset,
         point_format=layout.point_format,
         crs=read_crs(layout, progress),
-        layout=layout,
+        file=layout,
         **columns,
     )

@@ -246,8 +246,8 @@ def test_an_input_that_changes_while_it_is_written_is_refused(las):
 def test_parts_and_all_points_know_their_file(las):
     source = las.make("a.laz")
     layout = open_las(source)
-    assert read_cloud(layout).layout is layout
-    assert [part.layout for part in read_parts(layout)] == [layout]
+    assert read_cloud(layout).file is layout
+    assert [part.file for part in read_parts(layout)] == [layout]
 
 
 # COPC
