@@ -20,7 +20,7 @@ from ..las.lasbytes import read_layout
 from ..las.reading import read_cloud
 from ..las.writing import check_writable, is_copc, layers_kept, write_changed
 from ..products.terrain_model import TerrainModel, write_terrain_model
-from ..rasters.geotiff import check_raster_output
+from ..rasters.writing import check_raster_output
 from ..survey.area import Area
 from ..survey.scope import Scope
 from ..survey.selection import Selection

@@ -24,7 +24,8 @@ from ..las.records import check_class
 from ..las.writing import check_writable, write_changed
 from ..products.surface_model import SurfaceModel, canopy_height, surface_heights
 from ..products.terrain_model import TerrainModel, interpolate, write_heights, write_hillshade
-from ..rasters.geotiff import RasterGrid, check_raster_output
+from ..rasters.geotiff import RasterGrid
+from ..rasters.writing import check_raster_output
 from ..survey.selection import NOISE
 from .output import HEIGHT_DIMENSION, height_dimension, heights_of
 

@@ -113,16 +113,8 @@ class Cells:
 
         over_parts(compare, points.count, _POINTS_A_PART, SILENT)
         which = np.flatnonzero(is_lowest)
-        cell = self.index[which]
-        for values in (points.x, points.y):
-            those = values[which]
-            least = np.full(lowest.size, np.inf)
-            lower_at(least, cell, those)
-            first = those == least[cell]
-            which, cell = which[first], cell[first]
-        found = np.full(self.rows * self.columns, -1, dtype=np.intp)
-        found[cell] = which  # the last one of points that are all the same
-        return found[found >= 0]
+        keys = points.x[which], points.y[which]
+        return which[first_of_each(self.index[which], lowest.size, *keys)]
 
     def counts(self) -> np.ndarray:
         """Return the number of points in each cell; int32, shape (rows, columns)."""
@@ -202,6 +194,35 @@ def apart(points: Points, reach: float) -> tuple[np.ndarray, int]:
         return np.zeros(0, dtype=np.int32), 1
     inner = groups[_CELLS_A_REACH:-_CELLS_A_REACH, _CELLS_A_REACH:-_CELLS_A_REACH]
     return inner.ravel()[cells.index] - np.int32(1), count
+
+
+def first_of_each(index: np.ndarray, size: int, *keys: np.ndarray) -> np.ndarray:
+    """Return which of the elements in each of `size` cells is the first, in the order of the cells.
+
+    Parameters
+    ----------
+    index : numpy.ndarray of int, shape (n,)
+        The cell of each element, from 0 to `size` - 1.
+    size : int
+        Number of cells.
+    *keys : numpy.ndarray of float, shape (n,)
+        The first of a cell has the least of the first key; of equals, the least of the next.
+
+    Returns
+    -------
+    numpy.ndarray of intp, shape (m,)
+        One element of each cell that has any.
+    """
+    which = np.arange(len(index))
+    for key in keys:
+        cell, values = index[which], key[which]
+        least = np.full(size, np.inf)
+        lower_at(least, cell, values)
+        which = which[values == least[cell]]
+    index = index[which]
+    found = np.full(size, -1, dtype=np.intp)
+    found[index] = which  # the last one of elements that are all the same
+    return found[found >= 0]
 
 
 def lower_at(target: np.ndarray, index: np.ndarray, values: np.ndarray) -> None:

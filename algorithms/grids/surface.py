@@ -2,24 +2,46 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-from typing import Iterator
+import threading
+from typing import Iterator, NamedTuple
 
 import numpy as np
 
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
+from ..core.threads import over_parts
+from .enclosing import circumcircles, interpolated, leaving_corner, longest_edge
 from .tin import Tin, is_one_line, lowest_of_duplicates
+from .tin_cells import triangles_of_cells
 
-# The time of a triangulation grows faster than its vertices, and with these it is a second or two.
-_VERTICES_A_BLOCK = 250_000
-# Vertices round a block that are triangulated with it, as a share of its longer side, and by what
-# that grows where they do not suffice.
-_MARGIN, _GROWTH = 0.05, 3.0
+# Few enough that all threads have work, and a cancel need not wait.
+_VERTICES_A_BLOCK = 60_000
+# Vertices round a block that are triangulated with it, as a share of its longer side.
+_MARGIN = 0.06
+# A search ends long before, unless rounding makes it go round and round.
+_MOST_STEPS = 1000
 # Metres from the hull within which a query may be outside by rounding.
 _ON_HULL = 1e-6
 # Share of its radius by which a vertex may lie inside a circle and count as on it: rounding.
 _ON_CIRCLE = 1e-9
+# Cells over which the queries of a block may spread, as a multiple of these, so that going through
+# all of the cells is faster than looking for each query.
+_MOST_CELLS = 30.0
+
+
+class CellLattice(NamedTuple):
+    """Cells at whose centres queries lie.
+
+    Attributes
+    ----------
+    anchor : tuple of float
+        x and y of a corner of cells in metres.
+    size : float
+        Side of a cell in metres.
+    """
+
+    anchor: tuple[float, float]
+    size: float
 
 
 class Surface:
@@ -28,7 +50,7 @@ class Surface:
     The heights are those of the one Delaunay triangulation of all points. A triangle of a block is
     used only if no point, of the block or not, lies inside its circumcircle, which makes it a
     triangle of that one (where four points lie on a circle either diagonal may be taken). Where
-    it is not, around lakes for example, the triangulation is repeated with a wider margin.
+    it is not, around lakes for example, the triangle is searched for, beginning with it.
 
     Parameters
     ----------
@@ -39,6 +61,8 @@ class Surface:
     def __init__(self, points: Points) -> None:
         # Sorted by x.
         self._vertices = points.take(lowest_of_duplicates(*points))
+        self._lock = threading.Lock()
+        self._tree_of_all = self._border_of_all = None
 
     def heights(
         self,
@@ -46,6 +70,7 @@ class Surface:
         y: np.ndarray,
         max_edge: float | None = None,
         progress: Progress = SILENT,
+        cells: CellLattice | None = None,
     ) -> np.ndarray:
         """Return the height of the surface at each query.
 
@@ -57,6 +82,8 @@ class Surface:
             Triangles with a longer edge, in metres, count as a gap.
         progress : Progress
             Receives progress.
+        cells : CellLattice, optional
+            The cells at whose centres the queries lie, if they do: they are found faster then.
 
         Returns
         -------
@@ -66,33 +93,45 @@ class Surface:
         heights = np.full(len(x), np.nan)
         if is_one_line(np.column_stack(self._vertices[:2])):
             return heights
-        done = 0
-        for queries, size in self._blocks(x, y):
-            if len(queries):
-                heights[queries] = self._block_heights(x[queries], y[queries], size, max_edge)
-                done += len(queries)
-            progress(done / max(len(x), 1))
+        blocks = list(self._blocks(x, y))
+
+        def fill(number: slice) -> None:
+            queries, size = blocks[number.start]
+            heights[queries] = self._block_heights(x[queries], y[queries], size, max_edge, cells)
+
+        over_parts(fill, len(blocks), 1, progress)
         return heights
 
     def nearest(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Return the height of the vertex nearest to each query."""
         return self._vertices.z[self._tree.query(np.column_stack((x, y)))[1]]
 
-    @cached_property
+    @property
     def _tree(self):
         # Not at the start of QGIS, which loads this module, and where scipy may be missing.
         from scipy.spatial import cKDTree
 
-        return cKDTree(np.column_stack((self._vertices.x, self._vertices.y)))
+        with self._lock:
+            if self._tree_of_all is None:
+                # Not balanced: that takes longer than it saves.
+                places = np.column_stack((self._vertices.x, self._vertices.y))
+                self._tree_of_all = cKDTree(places, balanced_tree=False, compact_nodes=False)
+            return self._tree_of_all
 
-    @cached_property
-    def _hull(self) -> tuple[np.ndarray, np.ndarray]:
-        """The lower and the upper border, each as x and y (2, k) from west to east."""
+    @property
+    def _hull(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The lower and the upper border, each as x and y (2, k) from west to east, and which
+        vertices are its corners, counterclockwise.
+        """
         from scipy.spatial import ConvexHull
 
-        xy = np.column_stack((self._vertices.x, self._vertices.y))
-        corners = xy[ConvexHull(xy).vertices]
-        return _border(corners, 1.0), _border(corners, -1.0)
+        with self._lock:
+            if self._border_of_all is None:
+                xy = np.column_stack((self._vertices.x, self._vertices.y))
+                which = ConvexHull(xy).vertices
+                borders = (_border(xy[which], sign) for sign in (1.0, -1.0))
+                self._border_of_all = (*borders, which)
+            return self._border_of_all
 
     def _blocks(self, x: np.ndarray, y: np.ndarray) -> Iterator[tuple[np.ndarray, float]]:
         """Yield the indices of the queries in each block, and the longer side of its vertices.
@@ -105,7 +144,6 @@ class Surface:
         while waiting:
             inside, queries = waiting.pop()
             if not len(queries):
-                yield queries, 0.0
                 continue
             sides = [np.ptp(each[inside]) if len(inside) else 0.0 for each in vertices[:2]]
             axis = int(sides[1] > sides[0])
@@ -118,55 +156,138 @@ class Surface:
                 waiting.append((inside[side(vertices[axis][inside], cut)], queries[side(at, cut)]))
 
     def _block_heights(
-        self, x: np.ndarray, y: np.ndarray, size: float, max_edge: float | None
+        self,
+        x: np.ndarray,
+        y: np.ndarray,
+        size: float,
+        max_edge: float | None,
+        cells: CellLattice | None,
     ) -> np.ndarray:
-        heights = np.full(len(x), np.nan)
-        if self._vertices.count <= _VERTICES_A_BLOCK:
-            tin = Tin(*self._vertices)
-            triangle = tin.locate(x, y)
-            return tin.interpolate(x, y, _without_long(tin, triangle, max_edge))
-        depth = self._depth(x, y)
-        pending = np.flatnonzero(depth > -_ON_HULL)
-        margin = max(_MARGIN * size, _ON_HULL)
-        while len(pending):
-            window, is_all = self._window(x[pending], y[pending], margin)
-            tin = Tin(*window)
-            triangle = tin.locate(x[pending], y[pending])
-            sure = (triangle < 0) & (depth[pending] < _ON_HULL)
-            sure |= is_all
-            inside = np.flatnonzero(~sure & (triangle >= 0))
-            sure[inside] = self._are_delaunay(tin, triangle[inside])
-            triangle = _without_long(tin, triangle, max_edge)[sure]
-            known = pending[sure]
-            heights[known] = tin.interpolate(x[known], y[known], triangle)
-            pending = pending[~sure]
-            margin *= _GROWTH
+        """Return the heights of the queries of a block, on a TIN of the vertices round it."""
+        vertices, margin = self._vertices, max(_MARGIN * size, _ON_HULL)
+        if vertices.count <= _VERTICES_A_BLOCK:
+            tin, which, sure = Tin(*vertices), np.arange(vertices.count), np.ones(len(x), bool)
+            triangle = _located(tin, x, y, cells)
+        else:
+            borders = x.min() - margin, y.min() - margin, x.max() + margin, y.max() + margin
+            which = self._within(borders)
+            tin = Tin(*vertices.take(which))
+            triangle = _located(tin, x, y, cells)
+            depth = self._depth(x, y)
+            sure = (triangle < 0) & (depth < _ON_HULL)
+            triangle[depth <= -_ON_HULL] = -1
+            inside = np.flatnonzero(triangle >= 0)
+            sure[inside] = self._are_delaunay(tin, triangle[inside], borders)
+        heights = tin.interpolate(x, y, _without_long(tin, triangle, max_edge))
+        left = np.flatnonzero(~sure)
+        if len(left):
+            corners = self._fan(x[left], y[left])
+            known = triangle[left] >= 0
+            corners[:, known] = which[tin.source[tin.triangles[triangle[left[known]]]]].T
+            heights[left] = self._searched(x[left], y[left], corners, max_edge)
+        return heights
+
+    def _fan(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Return corners (3, q) of the hull whose triangle holds each query."""
+        corners = self._hull[2]
+        first, others = corners[0], corners[1:]
+        at = self._vertices.x[first], self._vertices.y[first]
+        start = np.arctan2(self._vertices.y[others[0]] - at[1], self._vertices.x[others[0]] - at[0])
+
+        def turned(to_x: np.ndarray, to_y: np.ndarray) -> np.ndarray:
+            angle = np.arctan2(to_y - at[1], to_x - at[0]) - start
+            return (angle + _ON_HULL) % (2.0 * np.pi) - _ON_HULL
+
+        angles = turned(self._vertices.x[others], self._vertices.y[others])
+        sector = np.searchsorted(angles, turned(x, y), side="right") - 1
+        sector = np.clip(sector, 0, len(others) - 2)
+        return np.stack((np.full(len(x), first), others[sector], others[sector + 1]))
+
+    def _searched(
+        self, x: np.ndarray, y: np.ndarray, corners: np.ndarray, max_edge: float | None
+    ) -> np.ndarray:
+        """Return heights on the triangles that hold queries, beginning with any that does.
+
+        As in `enclosing`, but of all vertices: the one nearest to the centre of a circle tells
+        whether any lies in it.
+        """
+        vertices, active = self._vertices, np.arange(len(x))
+        for _ in range(_MOST_STEPS):
+            some = corners[:, active]
+            a, b = vertices.x[some] - x[active], vertices.y[some] - y[active]
+            centre_x, centre_y, radius = circumcircles(a, b)
+            known = np.flatnonzero(np.isfinite(centre_x + centre_y + radius))
+            active, a, b = active[known], a[:, known], b[:, known]
+            places = centre_x[known] + x[active], centre_y[known] + y[active]
+            nearest, vertex = self._tree.query(np.column_stack(places))
+            go = np.flatnonzero(nearest < radius[known] * (1.0 - _ON_CIRCLE) - _ON_CIRCLE)
+            if not len(go):
+                break
+            active, vertex = active[go], vertex[go]
+            leaving = leaving_corner(
+                a[:, go], b[:, go], vertices.x[vertex] - x[active], vertices.y[vertex] - y[active]
+            )
+            corners[leaving, active] = vertex
+        a, b = vertices.x[corners] - x, vertices.y[corners] - y
+        heights = interpolated(a, b, vertices.z[corners])
+        if max_edge is not None:
+            heights[longest_edge(a, b) > max_edge] = np.nan
         return heights
 
     def _depth(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Return how far each query lies inside the hull, measured along y; negative outside."""
-        lower, upper = self._hull
+        lower, upper, _ = self._hull
         depth = np.minimum(y - np.interp(x, *lower), np.interp(x, *upper) - y)
         return np.minimum(depth, np.minimum(x - lower[0, 0], lower[0, -1] - x))
 
-    def _window(self, x: np.ndarray, y: np.ndarray, margin: float) -> tuple[Points, bool]:
-        """Return the vertices round the queries, and whether these are all that there are."""
-        vertices = self._vertices
-        first, last = np.searchsorted(vertices.x, (x.min() - margin, x.max() + margin))
-        strip = vertices.take(slice(first, last))
-        window = strip.take((strip.y >= y.min() - margin) & (strip.y <= y.max() + margin))
-        return window, window.count == vertices.count
+    def _within(self, box: tuple[float, float, float, float]) -> np.ndarray:
+        """Return which vertices lie in a box."""
+        west, south, east, north = box
+        first, last = np.searchsorted(self._vertices.x, (west, east))
+        y = self._vertices.y[first:last]
+        return first + np.flatnonzero((y >= south) & (y <= north))
 
-    def _are_delaunay(self, tin: Tin, triangle: np.ndarray) -> np.ndarray:
+    def _are_delaunay(
+        self, tin: Tin, triangle: np.ndarray, window: tuple[float, ...]
+    ) -> np.ndarray:
         """Return whether triangles of a block (k,) are such of the triangulation of all points."""
         used, back = np.unique(triangle, return_inverse=True)
-        x, y, radius = _circumcircles(tin, used)
-        delaunay = np.ones(len(used), dtype=bool)
+        corners = tin.triangles[used].T
+        # Relative to a corner, so that no digit is lost to the size of the coordinates.
+        x, y, radius = circumcircles(*(each[corners] - each[corners[0]] for each in (tin.x, tin.y)))
+        x, y = x + tin.x[corners[0]], y + tin.y[corners[0]]
+        west, south, east, north = window
+        # All points of the window are vertices: in the circles there is none.
+        delaunay = (x - radius > west) & (x + radius < east)
+        delaunay &= (y - radius > south) & (y + radius < north)
         # Three vertices on one line have no circle; they only occur along the hull.
-        known = np.flatnonzero(np.isfinite(x) & np.isfinite(y) & np.isfinite(radius))
-        nearest = self._tree.query(np.column_stack((x[known], y[known])))[0]
-        delaunay[known] = nearest >= radius[known] * (1.0 - _ON_CIRCLE) - _ON_CIRCLE
+        is_circle = np.isfinite(x) & np.isfinite(y) & np.isfinite(radius)
+        open_ = np.flatnonzero(is_circle & ~delaunay)
+        delaunay |= ~is_circle
+        if len(open_):
+            nearest = self._tree.query(np.column_stack((x[open_], y[open_])))[0]
+            delaunay[open_] = nearest >= radius[open_] * (1.0 - _ON_CIRCLE) - _ON_CIRCLE
         return delaunay[back]
+
+
+def _located(tin: Tin, x: np.ndarray, y: np.ndarray, cells: CellLattice | None) -> np.ndarray:
+    """Return the triangle of each query, -1 for none."""
+    if cells is None or not len(x) or not len(tin.triangles):
+        return tin.locate(x, y)
+    column, row = (
+        np.floor((each - at) / cells.size).astype(np.int64)
+        for each, at in zip((x, y), cells.anchor)
+    )
+    first_row, first_column = int(row.min()), int(column.min())
+    shape = int(row.max()) - first_row + 1, int(column.max()) - first_column + 1
+    if shape[0] * shape[1] > _MOST_CELLS * len(x):
+        return tin.locate(x, y)
+    corner = tuple(
+        at + first * cells.size for at, first in zip(cells.anchor, (first_column, first_row))
+    )
+    return triangles_of_cells(tin, corner, cells.size, shape)[
+        row - first_row, column - first_column
+    ]
 
 
 def _border(corners: np.ndarray, sign: float) -> np.ndarray:
@@ -177,19 +298,6 @@ def _border(corners: np.ndarray, sign: float) -> np.ndarray:
     chain = np.flatnonzero(across < 0.0)
     chain = np.concatenate(([west], chain[np.argsort(x[chain])], [east]))
     return np.stack((x[chain], sign * y[chain]))
-
-
-def _circumcircles(tin: Tin, which: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return x, y and radius of the circles through the corners of triangles."""
-    a, b, c = tin.triangles[which].T
-    # Relative to a corner, so that no digit is lost to the size of the coordinates.
-    bx, by = tin.x[b] - tin.x[a], tin.y[b] - tin.y[a]
-    cx, cy = tin.x[c] - tin.x[a], tin.y[c] - tin.y[a]
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        double = 2.0 * (bx * cy - by * cx)
-        b2, c2 = bx**2 + by**2, cx**2 + cy**2
-        x, y = (cy * b2 - by * c2) / double, (bx * c2 - cx * b2) / double
-    return tin.x[a] + x, tin.y[a] + y, np.hypot(x, y)
 
 
 def _without_long(tin: Tin, triangle: np.ndarray, max_edge: float | None) -> np.ndarray:

@@ -13,7 +13,8 @@ from ..core.points import Frame, Points
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
 from ..las.reading import read_cloud
-from ..rasters.geotiff import NODATA, RasterGrid, check_raster_output, write_geotiff
+from ..rasters.geotiff import NODATA, RasterGrid
+from ..rasters.writing import check_raster_output, write_geotiff
 from .comparison import GROUND, Assessment, AssessmentOptions, Comparison, compare
 from .report import write_report
 

@@ -6,7 +6,12 @@ import numpy as np
 
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
-from ..grids.surface import Surface
+from ..grids.cells import spacing
+from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
+
+# Vertices of the TIN are so many times as far apart as ground points, but no more than 0.5 m: in
+# dense land more of them do not change heights by more than a centimetre or two.
+_SPACINGS, _LEAST, _MOST = 2.0, 0.1, 0.5
 
 
 def height_above_ground(
@@ -26,8 +31,9 @@ def height_above_ground(
     Returns
     -------
     numpy.ndarray of float64, shape (n,)
-        Metres above the TIN of the ground points, negative below it; outside its convex hull,
-        metres above the nearest ground point.
+        0 for ground points; for the others metres above the TIN of the ground points, negative
+        below it, or outside its convex hull above the nearest ground point. Of ground points in
+        a square of 0.5 m, or smaller where they are dense, one is a vertex of the TIN.
 
     Examples
     --------
@@ -36,11 +42,14 @@ def height_above_ground(
     >>> float(height_above_ground(points, np.array([True, True, True, False]))[3])
     2.5
     """
-    surface = Surface(points.take(ground))
-    progress(0.1)
-    below = surface.heights(points.x, points.y, progress=progress.part(0.1, 0.95))
+    terrain, heights = points.take(ground), np.zeros(points.count)
+    apart = min(_SPACINGS * spacing(terrain, _LEAST / _SPACINGS), _MOST)
+    surface = DenseSurface(terrain, VERTICES_A_SIDE * apart)
+    others = points.take(np.flatnonzero(~ground))
+    below = surface.heights(others.x, others.y, progress=progress.part(0.1, 0.95))
     outside = np.flatnonzero(np.isnan(below))
     if len(outside):
-        below[outside] = surface.nearest(points.x[outside], points.y[outside])
+        below[outside] = surface.nearest(others.x[outside], others.y[outside])
+    heights[~ground] = others.z - below
     progress(1.0)
-    return points.z - below
+    return heights

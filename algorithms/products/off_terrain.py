@@ -19,7 +19,8 @@ from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..grids.inpaint import inpaint
 from ..grids.morphology import opening
-from ..rasters.geotiff import NODATA, check_raster_output, read_raster, write_geotiff
+from ..rasters.geotiff import NODATA, read_raster
+from ..rasters.writing import check_raster_output, write_geotiff
 
 # Each pair of opposite directions to the eight neighbours once.
 _DIRECTIONS = ((0, 1), (1, -1), (1, 0), (1, 1))

@@ -9,10 +9,8 @@ import numpy as np
 from ..core.parameters import ParameterSet, parameter
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
-from ..grids.surface import Surface
+from ..grids.surface import CellLattice, Surface
 from ..rasters.geotiff import RasterGrid
-
-_CELLS_A_STRIP = 2_000_000
 
 
 @dataclass(frozen=True)
@@ -70,15 +68,11 @@ def surface_heights(
     progress(0.2)
     empty = np.flatnonzero(np.isnan(heights))
     if len(empty):
-        surface, progress = Surface(points.take(top)), progress.part(0.2, 1.0)
-        x, y = grid.x, grid.y
-        for first in range(0, len(empty), _CELLS_A_STRIP):
-            part = empty[first : first + _CELLS_A_STRIP]
-            row, column = np.divmod(part, grid.columns)
-            end = (first + len(part)) / len(empty)
-            heights[part] = surface.heights(
-                x[column], y[row], max_edge, progress.part(first / len(empty), end)
-            )
+        row, column = np.divmod(empty, grid.columns)
+        surface, cells = Surface(points.take(top)), CellLattice(grid.corner, grid.cell_metres)
+        heights[empty] = surface.heights(
+            grid.x[column], grid.y[row], max_edge, progress.part(0.2, 1.0), cells
+        )
     progress(1.0)
     return heights.reshape(grid.rows, grid.columns)
 

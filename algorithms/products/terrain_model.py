@@ -10,15 +10,11 @@ import numpy as np
 from ..core.parameters import ParameterSet, parameter
 from ..core.points import Frame, Points
 from ..core.progress import SILENT, Progress
+from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
 from ..grids.hillshade import hillshade
-from ..grids.surface import Surface
 from ..grids.tin import hull_corners
-from ..rasters.geotiff import NODATA, RasterGrid, write_geotiff
-
-# Rows are interpolated a strip at a time, so that the places of the cells take little memory.
-_CELLS_A_STRIP = 4_000_000
-# More vertices than this many along the side of a cell do not change the cell, but cost time.
-_VERTICES_A_SIDE = 2
+from ..rasters.geotiff import NODATA, RasterGrid
+from ..rasters.writing import write_geotiff
 
 
 @dataclass(frozen=True)
@@ -79,19 +75,8 @@ def interpolate(
     numpy.ndarray of float64, shape (rows, columns)
         Heights in metres; NaN outside the convex hull, and in gaps.
     """
-    surface = Surface(points.take(vertices_of(points, grid.cell_metres)))
-    progress(0.1)
-    heights = np.empty((grid.rows, grid.columns))
-    x, y = grid.x, grid.y
-    step = max(_CELLS_A_STRIP // grid.columns, 1)
-    for start in range(0, grid.rows, step):
-        rows = slice(start, min(start + step, grid.rows))
-        at_x, at_y = np.meshgrid(x, y[rows])
-        part = progress.part(0.1 + 0.9 * start / grid.rows, 0.1 + 0.9 * rows.stop / grid.rows)
-        strip = surface.heights(at_x.ravel(), at_y.ravel(), max_edge, part)
-        heights[rows] = strip.reshape(at_x.shape)
-    progress(1.0)
-    return heights
+    surface = DenseSurface(points, grid.cell_metres, grid.corner)
+    return surface.raster((0, 0), (grid.rows, grid.columns), max_edge, progress)[::-1]
 
 
 def write_terrain_model(
@@ -164,7 +149,7 @@ def vertices_of(points: Points, cell_size: float) -> np.ndarray:
     cell_size : float
         Side of the cells of the model in metres.
     """
-    vertices = _nearest_to_centre(points, cell_size / _VERTICES_A_SIDE)
+    vertices = _nearest_to_centre(points, cell_size / VERTICES_A_SIDE)
     if points.count:
         vertices = np.union1d(vertices, hull_corners(points.x, points.y))
     return vertices

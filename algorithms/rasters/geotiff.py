@@ -1,8 +1,7 @@
-"""Rasters of the terrain: their grid, and files by GDAL (in QGIS) or rasterio (outside)."""
+"""Rasters of the terrain: their grid, and how they are read."""
 
 from __future__ import annotations
 
-import importlib.util
 import math
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,11 +10,11 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import check_output, replacing, shown
 from ..core.points import Frame, Points
 from ..core.progress import SILENT, Progress
 from ..crs.system import unit_name
 from ..crs.wkt import read_wkt
+from .libraries import GdalErrors, library
 
 NODATA = -9999.0
 _MOST_CELLS = 400_000_000
@@ -23,7 +22,6 @@ _MOST_CELLS = 400_000_000
 # because of a few points with stray coordinates.
 _MANY_CELLS, _SQUARE, _LEAST_COVERED = 10_000_000, 1000.0, 0.01
 _STEP = 1 << 20
-_BLOCK = 256
 _SURVEY_FOOT = 1200 / 3937
 # As files state the unit of their heights, in metres.
 _UNITS = {
@@ -107,6 +105,15 @@ class RasterGrid:
         return self.cell_size * self.frame.horizontal_unit
 
     @property
+    def corner(self) -> tuple[float, float]:
+        """X and y of the lower left corner, in local metres."""
+        south = self.north - self.rows * self.cell_size
+        return tuple(
+            (each - origin) * self.frame.horizontal_unit
+            for each, origin in zip((self.west, south), self.frame.origin)
+        )
+
+    @property
     def x(self) -> np.ndarray:
         """Cell centres from west to east, in local metres."""
         centres = (
@@ -178,7 +185,7 @@ def read_raster(source: str | Path, band: int = 1, progress: Progress = SILENT) 
         If there is no library to read rasters with, the band cannot be read, or the CRS is not a
         projected one.
     """
-    read = _library(_read_with_gdal, _read_with_rasterio, "Reading")
+    read = library(_read_with_gdal, _read_with_rasterio, "Reading")
     content = read(str(source), band)
     values, valid = content.values, content.valid
     if values.dtype.kind not in "iuf":
@@ -234,7 +241,7 @@ def _frame_of(source: str | Path, content: _Content, progress: Progress) -> Fram
 def _read_with_gdal(source: str, band: int) -> _Content:
     from osgeo import gdal
 
-    with _GdalErrors(gdal, "read") as errors:
+    with GdalErrors(gdal, "read") as errors:
         dataset = gdal.Open(source, gdal.GA_ReadOnly)
         errors.check(source)
         if dataset is None:
@@ -285,174 +292,3 @@ def _check_size(source: str, band: int, bands: int, shape: tuple[int, int]) -> N
             f"{source} has {shape[1]:,} x {shape[0]:,} cells, too many to be held in memory. Cut"
             " it into parts that overlap."
         )
-
-
-def write_geotiff(
-    target: Path,
-    values: np.ndarray,
-    grid: RasterGrid | Raster,
-    nodata: float,
-    progress: Progress,
-) -> None:
-    """Write a tiled, deflated, single-band GeoTIFF.
-
-    Parameters
-    ----------
-    target : Path
-        The file to make.
-    values : numpy.ndarray of float32 or uint8, shape (rows, columns)
-        The cells from north to south; `nodata` where there is no value.
-    grid : RasterGrid or Raster
-        Where the cells lie.
-    nodata : float
-        The value that stands for none.
-    progress : Progress
-        Warned if the file has to go without its CRS.
-
-    Raises
-    ------
-    BareEarthError
-        If there is no library to write rasters with, or the file cannot be written.
-    """
-    check_output(target)
-    with replacing(target) as temporary:
-        _writer()(temporary, values, grid, nodata, progress)
-
-
-def check_raster_output(target: Path, sources: tuple[Path, ...] = ()) -> None:
-    """Refuse, before any work is done, a raster that could not be written at the end."""
-    check_output(target, sources)
-    if target.suffix.lower() not in (".tif", ".tiff"):
-        raise BareEarthError(
-            f"Cannot write {target}: rasters are written as GeoTIFF, name it .tif."
-        )
-    _writer()
-
-
-def _writer():
-    """Return the function that writes with the library that is there."""
-    return _library(_write_with_gdal, _write_with_rasterio, "Writing")
-
-
-def _library(by_gdal, by_rasterio, what: str):
-    """Return the function for the library that is there; GDAL first, for QGIS."""
-    if importlib.util.find_spec("osgeo") is not None:
-        return by_gdal
-    if importlib.util.find_spec("rasterio") is not None:
-        return by_rasterio
-    raise BareEarthError(f"{what} a raster needs rasterio: pip install rasterio.")
-
-
-def _write_with_gdal(
-    path: Path,
-    values: np.ndarray,
-    grid: RasterGrid | Raster,
-    nodata: float,
-    progress: Progress,
-) -> None:
-    from osgeo import gdal, osr
-
-    rows, columns = values.shape
-    is_float = values.dtype.kind == "f"
-    options = [
-        "TILED=YES",
-        "COMPRESS=DEFLATE",
-        "BIGTIFF=IF_SAFER",
-        f"PREDICTOR={3 if is_float else 2}",
-    ]
-    options += [f"BLOCKXSIZE={_BLOCK}", f"BLOCKYSIZE={_BLOCK}"]
-    kind = gdal.GDT_Float32 if is_float else gdal.GDT_Byte
-    with _GdalErrors(gdal, "write") as errors:
-        dataset = gdal.GetDriverByName("GTiff").Create(str(path), columns, rows, 1, kind, options)
-        errors.check(path)
-        dataset.SetGeoTransform(grid.geotransform)
-        if grid.frame.wkt:
-            reference = osr.SpatialReference()
-            if reference.ImportFromWkt(grid.frame.wkt) == 0:
-                dataset.SetProjection(reference.ExportToWkt())
-            else:
-                _warn_without_crs(progress)
-            errors.clear()
-        band = dataset.GetRasterBand(1)
-        band.SetNoDataValue(nodata)
-        if grid.unit:
-            band.SetUnitType(grid.unit)
-        band.WriteArray(values)
-        band.FlushCache()
-        dataset.FlushCache()
-        del band, dataset
-        errors.check(path)
-
-
-class _GdalErrors:
-    """Collects GDAL's error messages, whichever of its error modes the application chose."""
-
-    def __init__(self, gdal, what: str) -> None:
-        self._gdal, self._what, self._texts = gdal, what, []
-
-    def __enter__(self) -> _GdalErrors:
-        self._gdal.PushErrorHandler(self._receive)
-        return self
-
-    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
-        self._gdal.PopErrorHandler()
-        if isinstance(error, RuntimeError):  # the application made GDAL raise its errors
-            raise BareEarthError(f"Cannot {self._what} the raster: {shown(error)}") from error
-
-    def _receive(self, severity: int, number: int, text: str) -> None:
-        if severity >= self._gdal.CE_Failure:
-            self._texts.append(text)
-
-    def clear(self) -> None:
-        self._texts.clear()
-
-    def check(self, path: str | Path) -> None:
-        if self._texts:
-            reason = shown(self._texts[0]).rstrip(".")
-            raise BareEarthError(f"Cannot {self._what} {shown(path)}: {reason}.")
-
-
-def _write_with_rasterio(
-    path: Path,
-    values: np.ndarray,
-    grid: RasterGrid | Raster,
-    nodata: float,
-    progress: Progress,
-) -> None:
-    import rasterio
-    from rasterio.errors import CRSError, RasterioError
-    from rasterio.io import MemoryFile
-    from rasterio.transform import Affine
-
-    crs = None
-    if grid.frame.wkt:
-        try:
-            crs = rasterio.crs.CRS.from_wkt(grid.frame.wkt)
-        except CRSError:
-            _warn_without_crs(progress)
-    try:
-        # In memory first: if the disk is full when the file is closed, rasterio raises no error.
-        # No side-car file: it would stay behind under the temporary name.
-        with rasterio.Env(GDAL_PAM_ENABLED="NO"), MemoryFile() as memory:
-            with memory.open(
-                driver="GTiff", width=values.shape[1], height=values.shape[0], count=1,
-                dtype=values.dtype.name, nodata=nodata, crs=crs, tiled=True, compress="deflate",
-                predictor=3 if values.dtype.kind == "f" else 2,
-                blockxsize=_BLOCK, blockysize=_BLOCK,
-                transform=Affine.from_gdal(*grid.geotransform), BIGTIFF="IF_SAFER",
-            ) as dataset:  # fmt: skip
-                dataset.write(values, 1)
-                if grid.unit:
-                    dataset.units = (grid.unit,)
-            with memory.open() as dataset:
-                if crs is not None and dataset.crs is None:
-                    _warn_without_crs(progress)
-            path.write_bytes(memory.getbuffer())
-    except RasterioError as error:
-        raise BareEarthError(f"Cannot write {shown(path)}: {shown(error)}.") from error
-
-
-def _warn_without_crs(progress: Progress) -> None:
-    progress.warning(
-        "The raster is written without a CRS, since that of the cloud is not understood."
-    )

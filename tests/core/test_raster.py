@@ -7,7 +7,8 @@ import pytest
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Frame, Points
 from bare_earth.algorithms.core.progress import SILENT
-from bare_earth.algorithms.rasters.geotiff import NODATA, RasterGrid, write_geotiff
+from bare_earth.algorithms.rasters.geotiff import NODATA, RasterGrid
+from bare_earth.algorithms.rasters.writing import write_geotiff
 
 rasterio = pytest.importorskip("rasterio")
 
@@ -78,7 +79,8 @@ from pathlib import Path
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Frame
 from bare_earth.algorithms.core.progress import SILENT
-from bare_earth.algorithms.rasters.geotiff import RasterGrid, write_geotiff
+from bare_earth.algorithms.rasters.geotiff import RasterGrid
+from bare_earth.algorithms.rasters.writing import write_geotiff
 
 values = np.random.default_rng(1).random((300, 300)).astype(np.float32)
 grid = RasterGrid(0.0, 300.0, 1.0, 300, 300, Frame())

@@ -1,0 +1,143 @@
+"""The rasters of a survey, put together from those of its blocks, some rows at a time."""
+
+from __future__ import annotations
+
+from typing import Callable, Iterator, NamedTuple, Sequence
+
+import numpy as np
+
+from ..core.points import Points
+from ..core.progress import SILENT, Progress
+from ..grids.cell_window import CellWindow
+from ..grids.surface import CellLattice, Surface
+
+# Cells that are put together at a time.
+_CELLS_A_STRIP = 4_000_000
+# Rows of a strip are a multiple of this: the rows of a block of the file.
+_ROWS = 256
+
+
+class Piece(NamedTuple):
+    """The raster of a block.
+
+    Attributes
+    ----------
+    window : CellWindow
+        Its cells.
+    load : callable
+        Returns its heights, rows from south to north.
+    """
+
+    window: CellWindow
+    load: Callable[[], np.ndarray]
+
+
+class Mosaic:
+    """Heights of a survey.
+
+    Parameters
+    ----------
+    pieces : sequence of Piece
+        Those of the blocks. Cells in none of them have no height.
+    window : CellWindow
+        All cells.
+    cell : float
+        Side of a cell in metres.
+    """
+
+    def __init__(self, pieces: Sequence[Piece], window: CellWindow, cell: float) -> None:
+        self._pieces, self.window, self._cell = pieces, window, cell
+        self._gaps: Surface | None = None
+
+    def strips(self) -> list[tuple[int, int]]:
+        """Return the rows, from north, at which strips begin and end."""
+        rows = max(_CELLS_A_STRIP // self.window.columns // _ROWS, 1) * _ROWS
+        count = self.window.rows
+        return [(start, min(start + rows, count)) for start in range(0, count, rows)]
+
+    def rows(self, start: int, end: int) -> np.ndarray:
+        """Return rows of the raster, from north to south; rows beyond it are NaN.
+
+        Returns
+        -------
+        numpy.ndarray of float32, shape (end - start, columns)
+        """
+        whole = self.window
+        strip = CellWindow(whole.row + whole.rows - end, whole.column, end - start, whole.columns)
+        heights = np.full(strip.shape, np.nan, dtype=np.float32)
+        for window, load in self._pieces:
+            target, source = _overlap(strip, window), _overlap(window, strip)
+            if target is not None:
+                heights[target] = load()[source]
+        if self._gaps is not None:
+            self._fill(heights, strip)
+        return heights[::-1]
+
+    def fill_gaps(self, points: np.ndarray, progress: Progress = SILENT) -> None:
+        """Let cells without a height, in the convex hull, get that of a TIN over the gaps.
+
+        Parameters
+        ----------
+        points : numpy.ndarray of float64, shape (n, 3)
+            Vertices of the TIN besides the cells along the gaps.
+        progress : Progress
+            Receives progress.
+        """
+        vertices = [points]
+        for start, end in self.strips():
+            heights = self.rows(max(start - 1, 0), min(end + 1, self.window.rows))
+            vertices.append(self._along_gaps(heights, max(start - 1, 0)))
+            progress(end / self.window.rows)
+        self._gaps = Surface(Points(*np.concatenate(vertices).T))
+
+    def _along_gaps(self, heights: np.ndarray, first: int) -> np.ndarray:
+        """Return the centres of cells next to one without a height, and their heights (n, 3)."""
+        missing = np.pad(np.isnan(heights), 1)
+        near = np.zeros(heights.shape, dtype=bool)
+        if missing.any():
+            for i in range(3):
+                for k in range(3):
+                    near |= missing[i : i + heights.shape[0], k : k + heights.shape[1]]
+        row, column = np.nonzero(near & ~np.isnan(heights))
+        x = (self.window.column + column + 0.5) * self._cell
+        y = (self.window.row + self.window.rows - first - row - 0.5) * self._cell
+        return np.column_stack((x, y, heights[row, column].astype(np.float64)))
+
+    def _fill(self, heights: np.ndarray, strip: CellWindow) -> None:
+        row, column = np.nonzero(np.isnan(heights))
+        if len(row):
+            x, y = ((at + 0.5) * self._cell for at in (strip.column + column, strip.row + row))
+            lattice = CellLattice((0.0, 0.0), self._cell)
+            heights[row, column] = self._gaps.heights(x, y, cells=lattice)
+
+
+def _overlap(one: CellWindow, other: CellWindow) -> tuple[slice, slice] | None:
+    """Return the cells of one window that are in another, as indices of the one."""
+    south, north = max(one.row, other.row), min(one.row + one.rows, other.row + other.rows)
+    west = max(one.column, other.column)
+    east = min(one.column + one.columns, other.column + other.columns)
+    if south >= north or west >= east:
+        return None
+    return slice(south - one.row, north - one.row), slice(west - one.column, east - one.column)
+
+
+def gathered_strips(
+    mosaic: Mosaic, make: Callable[[np.ndarray], np.ndarray], margin: int, progress: Progress
+) -> Iterator[np.ndarray]:
+    """Yield what is made of the rows of a mosaic, strip by strip from north to south.
+
+    Parameters
+    ----------
+    mosaic : Mosaic
+        The heights.
+    make : callable
+        Takes rows of heights and returns as many rows.
+    margin : int
+        Rows beyond a strip that matter for it.
+    progress : Progress
+        Receives progress.
+    """
+    for start, end in mosaic.strips():
+        first, last = max(start - margin, 0), min(end + margin, mosaic.window.rows)
+        yield make(mosaic.rows(first, last))[start - first : end - first]
+        progress(end / mosaic.window.rows)

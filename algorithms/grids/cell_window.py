@@ -1,0 +1,80 @@
+"""A rectangle of the cells that are anchored at (0, 0)."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+# Share of a cell by which a coordinate on a border may be rounded to the wrong side.
+_ROUNDING = 1e-6
+
+
+class CellWindow(NamedTuple):
+    """Square cells of some side: which of them, counted from (0, 0) to the north and to the east.
+
+    Attributes
+    ----------
+    row, column : int
+        The first of them, in the southwest.
+    rows, columns : int
+        How many.
+    """
+
+    row: int
+    column: int
+    rows: int
+    columns: int
+
+    @classmethod
+    def with_centres_in(cls, box: tuple[float, float, float, float], cell: float) -> CellWindow:
+        """Return the cells whose centres lie in a box; its largest x and y belong to the next."""
+        west, south, east, north = (math.ceil(each / cell - 0.5) for each in box)
+        return cls(south, west, max(north - south, 0), max(east - west, 0))
+
+    @classmethod
+    def around(cls, box: tuple[float, float, float, float], cell: float) -> CellWindow:
+        """Return the cells that cover a box."""
+        west, south = (math.floor(each / cell + _ROUNDING) for each in box[:2])
+        east, north = (math.ceil(each / cell - _ROUNDING) for each in box[2:])
+        return cls(south, west, max(north - south, 1), max(east - west, 1))
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns."""
+        return self.rows, self.columns
+
+    def corner(self, cell: float) -> tuple[float, float]:
+        """Return x and y of the southwestern corner."""
+        return self.column * cell, self.row * cell
+
+    def wider(self, cells: int) -> CellWindow:
+        """Return the window with a margin."""
+        both = 2 * cells
+        return CellWindow(
+            self.row - cells, self.column - cells, self.rows + both, self.columns + both
+        )
+
+    def places(
+        self, x: np.ndarray, y: np.ndarray, corner: tuple[float, float], cell: float
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return row and column in the window of the cell of each place.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray of float64, shape (n,)
+            Metres from the corner.
+        corner : tuple of float
+            Where that is.
+        cell : float
+            Side of a cell in metres.
+
+        Returns
+        -------
+        rows, columns : numpy.ndarray of int64, shape (n,)
+            Below 0, or too large, outside the window.
+        """
+        start_x, start_y = (at - by for at, by in zip(self.corner(cell), corner))
+        rows = np.floor((y - start_y) / cell + _ROUNDING).astype(np.int64)
+        return rows, np.floor((x - start_x) / cell + _ROUNDING).astype(np.int64)

@@ -1,0 +1,331 @@
+"""Heights on the TIN of thinned points, mostly without a triangulation.
+
+Where points lie in most cells of the lattice, the triangle round a query follows from the few
+vertices near it (`enclosing`). What is left is round gaps: only the vertices near these are
+triangulated. The heights are those of the one Delaunay triangulation of all vertices, but where
+four vertices round a query are taken for all that matter (`heights_of_four`).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.points import Points
+from ..core.progress import SILENT, Progress
+from ..core.threads import over_parts
+from .enclosing import NOWHERE, enclosing_heights, heights_of_four
+from .surface import CellLattice, Surface
+from .thinned import TILE, ThinnedPoints, Window
+
+# Cells of the lattice along a side of the raster's cells: the centre of one is a corner of four.
+VERTICES_A_SIDE = 2
+# Widths of the windows in which the triangle is looked for; queries that are looked at together, so
+# that their arrays stay in the processor's cache; and queries a vertex of the tile, beyond which
+# triangulating these takes less time.
+_WINDOWS = ((2, 1 << 14, 6.0), (4, 1 << 14, 5.0), (8, 1 << 12, 2.0), (16, 1 << 10, 0.5))
+_WIDEST = _WINDOWS[-1][0]
+_MARGIN = _WIDEST // 2 + 1
+# Cells of the lattice round queries that are left whose vertices are triangulated. The circle round
+# a triangle over a gap holds no vertex, and reaches hardly a cell into where each has one.
+_RIM = _WIDEST
+
+
+class _Queries(NamedTuple):
+    """Places in a tile at which heights are wanted.
+
+    Attributes
+    ----------
+    x, y : numpy.ndarray of float64, shape (q,)
+        In cells of the lattice from the corner of the tile.
+    column, row : numpy.ndarray of intp, shape (q,)
+        The corner of cells next to each.
+    """
+
+    x: np.ndarray
+    y: np.ndarray
+    column: np.ndarray
+    row: np.ndarray
+
+    def take(self, which: np.ndarray | slice) -> _Queries:
+        """Return some of them."""
+        return _Queries(*(each[which] for each in self))
+
+
+class DenseSurface:
+    """The TIN of the thinned points.
+
+    Parameters
+    ----------
+    points : Points
+        At least one. The point nearest to the centre of each cell of the lattice is a vertex, and
+        so are the corners of the convex hull.
+    cell : float
+        Metres: twice the side of a cell of the lattice.
+    anchor : tuple of float
+        x and y of a corner of cells in metres.
+    """
+
+    def __init__(
+        self, points: Points, cell: float, anchor: tuple[float, float] = (0.0, 0.0)
+    ) -> None:
+        self._points, self._cell = points, cell
+        self._thinned = ThinnedPoints(points, cell / VERTICES_A_SIDE, anchor)
+
+    def raster(
+        self,
+        first: tuple[int, int],
+        shape: tuple[int, int],
+        max_edge: float | None = None,
+        progress: Progress = SILENT,
+    ) -> np.ndarray:
+        """Return the heights at the centres of cells.
+
+        Parameters
+        ----------
+        first : tuple of int
+            Row and column of the first cell, from the anchor.
+        shape : tuple of int
+            Rows and columns.
+        max_edge : float, optional
+            Triangles with a longer edge, in metres, are gaps.
+        progress : Progress
+            Receives progress.
+
+        Returns
+        -------
+        numpy.ndarray of float64, shape (rows, columns)
+            Metres, rows from south to north; NaN outside the convex hull, and in gaps.
+        """
+        heights, sure = np.full(shape, np.nan), np.zeros(shape, dtype=bool)
+        side = TILE // VERTICES_A_SIDE
+        places = [
+            (row, column)
+            for row in range(first[0] // side, (first[0] + shape[0] - 1) // side + 1)
+            for column in range(first[1] // side, (first[1] + shape[1] - 1) // side + 1)
+        ]
+
+        def fill(number: slice) -> None:
+            place = places[number.start]
+            start = [max(place[k] * side - first[k], 0) for k in (0, 1)]
+            end = [min((place[k] + 1) * side - first[k], shape[k]) for k in (0, 1)]
+            cells = slice(start[0], end[0]), slice(start[1], end[1])
+            row, column = (
+                (np.arange(start[k], end[k]) + first[k] - place[k] * side) * VERTICES_A_SIDE + 1
+                for k in (0, 1)
+            )
+            row, column = np.repeat(row, len(column)), np.tile(column, len(row))
+            queries = _Queries(column.astype(float), row.astype(float), column, row)
+            found = self._in_tile(place, queries, True, max_edge)
+            for whole, part in zip((heights, sure), found):
+                whole[cells] = part.reshape(whole[cells].shape)
+
+        over_parts(fill, len(places), 1, progress.part(0.1, 0.7))
+        left = np.flatnonzero(~sure)
+        if len(left):
+            row, column = np.divmod(left, shape[1])
+            x, y = (
+                (each + at + 0.5) * self._cell + start
+                for each, at, start in zip((column, row), first[::-1], self._thinned.anchor)
+            )
+            cells, part = CellLattice(self._thinned.anchor, self._cell), progress.part(0.7, 1.0)
+            heights.ravel()[left] = self._rest(x, y, max_edge, part, cells)
+        progress(1.0)
+        return heights
+
+    def heights(
+        self,
+        x: np.ndarray,
+        y: np.ndarray,
+        max_edge: float | None = None,
+        progress: Progress = SILENT,
+    ) -> np.ndarray:
+        """Return the height at each query.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray of float64, shape (q,)
+            Queries in metres.
+        max_edge, progress
+            As for `raster`.
+
+        Returns
+        -------
+        numpy.ndarray of float64, shape (q,)
+            Metres; NaN outside the convex hull, and in gaps.
+        """
+        heights, sure = np.full(len(x), np.nan), np.zeros(len(x), dtype=bool)
+        groups = _by_tile(self._thinned, x, y)
+
+        def fill(number: slice) -> None:
+            place, which = groups[number.start]
+            at_x, at_y = (
+                self._thinned.cells(each[which], axis) - place[1 - axis] * TILE
+                for axis, each in enumerate((x, y))
+            )
+            corners = (np.rint(each).astype(np.intp) for each in (at_x, at_y))
+            queries = _Queries(at_x, at_y, *corners)
+            heights[which], sure[which] = self._in_tile(place, queries, False, max_edge)
+
+        over_parts(fill, len(groups), 1, progress.part(0.1, 0.7))
+        left = np.flatnonzero(~sure)
+        if len(left):
+            heights[left] = self._rest(x[left], y[left], max_edge, progress.part(0.7, 1.0))
+        progress(1.0)
+        return heights
+
+    def nearest(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Return the height of the vertex nearest to each query."""
+        from scipy.spatial import cKDTree
+
+        which = self._vertices()
+        vertices = self._points.take(which)
+        # Not balanced: that takes longer than it saves.
+        tree = cKDTree(np.column_stack(vertices[:2]), balanced_tree=False, compact_nodes=False)
+        return vertices.z[tree.query(np.column_stack((x, y)))[1]]
+
+    @property
+    def vertices(self) -> np.ndarray:
+        """Which of the points are vertices, in ascending order."""
+        return self._vertices()
+
+    @property
+    def hull(self) -> np.ndarray:
+        """Which of the points are the corners of the convex hull."""
+        return self._thinned.hull()
+
+    def _in_tile(
+        self, place: tuple[int, int], queries: _Queries, are_corners: bool, max_edge: float | None
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return heights of the queries in a tile, and which of them are sure."""
+        window = self._thinned.window(place, _MARGIN)
+        heights = np.full(len(queries.x), np.nan)
+        sure = np.zeros(len(queries.x), dtype=bool)
+        left = np.arange(len(queries.x))
+        longest = np.inf if max_edge is None else max_edge / self._thinned.side
+        near = _Near(window, self._points.z, are_corners, longest)
+        for width, count, most in _WINDOWS:
+            if len(left) > most * len(window.which):
+                break
+            for start in range(0, len(left), count):
+                which = left[start : start + count]
+                heights[which], sure[which] = near(queries.take(which), width)
+            left = left[~sure[left]]
+        return heights, sure
+
+    def _rest(
+        self,
+        x: np.ndarray,
+        y: np.ndarray,
+        max_edge: float | None,
+        progress: Progress,
+        cells: CellLattice | None = None,
+    ) -> np.ndarray:
+        """Return heights of the queries that are left, on a triangulation of the vertices near."""
+        surface = Surface(self._points.take(self._vertices((x, y))))
+        return surface.heights(x, y, max_edge, progress, cells)
+
+    def _vertices(self, near: tuple[np.ndarray, np.ndarray] | None = None) -> np.ndarray:
+        """Return which points are vertices, in ascending order; all, or those near some places."""
+        is_vertex = np.zeros(self._points.count, dtype=bool)
+        is_vertex[self._thinned.hull()] = True
+        marked = None if near is None else _marked(self._thinned, *near)
+        for place, tile in self._thinned.tiles.items():
+            if marked is None:
+                is_vertex[tile.which] = True
+            elif place in marked:
+                is_vertex[tile.which[marked[place][tile.slots]]] = True
+        return np.flatnonzero(is_vertex)
+
+
+class _Near:
+    """Finds heights from the vertices in a window round each query.
+
+    Parameters
+    ----------
+    window : Window
+        The vertices of a tile.
+    z : numpy.ndarray of float64, shape (n,)
+        Heights of all points.
+    are_corners : bool
+        Whether the queries lie on corners of cells, so that each quarter of a window is one of the
+        plane.
+    max_edge : float
+        In cells.
+    """
+
+    def __init__(self, window: Window, z: np.ndarray, are_corners: bool, max_edge: float) -> None:
+        # The number -1 of an empty cell is that of the last vertex.
+        self._x, self._y = (np.append(each, NOWHERE) for each in window[1:3])
+        self._z = np.append(z[window.which], 0.0)
+        self._lattice, self._columns = window.lattice.ravel(), window.lattice.shape[1]
+        self._are_corners, self._max_edge = are_corners, max_edge
+
+    def __call__(self, queries: _Queries, width: int) -> tuple[np.ndarray, np.ndarray]:
+        """Return heights of queries in a window of so many cells, and which of them are sure."""
+        half, across = width // 2, np.arange(width)
+        start = (queries.row - half + _MARGIN) * self._columns + queries.column - half + _MARGIN
+        cells = (across[:, None] * self._columns + across).ravel()
+        found = self._lattice[start + cells[:, None]]
+        x, y = self._x[found] - queries.x, self._y[found] - queries.y
+        if width == 2:
+            in_turn = [0, 1, 3, 2]
+            four = (each[in_turn] for each in (x, y, self._z[found]))
+            return heights_of_four(*four, self._max_edge)
+        quarters = _quarters(width) if self._are_corners else None
+        by = queries.column - queries.x, queries.row - queries.y
+        borders = np.array([half - by[0], half - by[1], half + by[0], half + by[1]])
+        return enclosing_heights(x, y, self._z[found], borders, quarters, self._max_edge)
+
+
+def _quarters(width: int) -> list[np.ndarray]:
+    """Return which cells of a window lie southwest, southeast, northeast and northwest."""
+    numbers, half = np.arange(width * width).reshape(width, width), width // 2
+    low, high = slice(None, half), slice(half, None)
+    return [
+        numbers[rows, columns].ravel()
+        for rows, columns in ((low, low), (low, high), (high, high), (high, low))
+    ]
+
+
+def _by_tile(
+    thinned: ThinnedPoints, x: np.ndarray, y: np.ndarray
+) -> list[tuple[tuple[int, int], np.ndarray]]:
+    """Return the tiles in which queries lie, as row and column, and the queries of each."""
+    row, column = (
+        np.floor(thinned.cells(each, axis)).astype(np.int64) // TILE
+        for axis, each in ((1, y), (0, x))
+    )
+    codes = (row << 32) + column
+    order = np.argsort(codes, kind="stable")
+    starts = np.flatnonzero(np.diff(codes[order], prepend=codes[order[:1]] - 1))
+    groups = np.split(order, starts[1:])
+    return [((int(row[each[0]]), int(column[each[0]])), each) for each in groups if len(each)]
+
+
+def _marked(
+    thinned: ThinnedPoints, x: np.ndarray, y: np.ndarray
+) -> dict[tuple[int, int], np.ndarray]:
+    """Return for each tile which of its cells lie near places; boolean, shape (TILE * TILE,)."""
+    from scipy import ndimage
+
+    marked: dict[tuple[int, int], np.ndarray] = {}
+    for place, which in _by_tile(thinned, x, y):
+        row, column = (
+            np.floor(thinned.cells(each[which], axis)).astype(np.intp) - at * TILE + _RIM
+            for axis, each, at in ((1, y, place[0]), (0, x, place[1]))
+        )
+        near = np.zeros((TILE + 2 * _RIM,) * 2, dtype=np.uint8)
+        near[row, column] = 1
+        near = ndimage.maximum_filter(near, 2 * _RIM + 1, mode="constant")
+        padded = np.zeros((3 * TILE,) * 2, dtype=bool)
+        padded[TILE - _RIM : 2 * TILE + _RIM, TILE - _RIM : 2 * TILE + _RIM] = near
+        for i in (-1, 0, 1):
+            for k in (-1, 0, 1):
+                part = padded[(1 + i) * TILE : (2 + i) * TILE, (1 + k) * TILE : (2 + k) * TILE]
+                if part.any():
+                    other = place[0] + i, place[1] + k
+                    flat = part.ravel()
+                    marked[other] = marked[other] | flat if other in marked else flat.copy()
+    return marked

@@ -1,0 +1,197 @@
+"""Points thinned to one in each cell of a lattice, tile by tile."""
+
+from __future__ import annotations
+
+import itertools
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.points import Points
+from ..core.progress import SILENT
+from ..core.threads import in_threads, over_parts
+from .cells import first_of_each
+from .tin import hull_corners
+
+# Cells along the side of a tile: its lattice stays in the processor's cache.
+TILE = 256
+_POINTS_A_PART = 1 << 17
+# Share of a cell by which a coordinate on a border may be rounded to the wrong side.
+_ROUNDING = 1e-6
+# Distances to the centre of a cell are told apart to this share of its squared side: how they are
+# rounded depends on where the origin is.
+_DECIMALS = 6
+_MOST_SMALL = 1 << 16
+
+
+class Tile(NamedTuple):
+    """The points of a tile.
+
+    Attributes
+    ----------
+    slots : numpy.ndarray of int32, shape (n,)
+        The cell of each point, in the flattened lattice of the tile; ascending.
+    x, y : numpy.ndarray of float64, shape (n,)
+        In cells from the corner of the tile.
+    which : numpy.ndarray of intp, shape (n,)
+        Which of the points that were thinned they are.
+    outer : numpy.ndarray of intp, shape (m,)
+        Which of all points of the tile may be corners of its convex hull.
+    """
+
+    slots: np.ndarray
+    x: np.ndarray
+    y: np.ndarray
+    which: np.ndarray
+    outer: np.ndarray
+
+
+class ThinnedPoints:
+    """The point nearest to the centre of each cell that has any; of equals, the lowest.
+
+    Parameters
+    ----------
+    points : Points
+        At least one.
+    side : float
+        Side of a cell in metres.
+    anchor : tuple of float
+        x and y of a corner of cells, in metres.
+
+    Attributes
+    ----------
+    points, side, anchor
+        As given.
+    tiles : dict of (int, int) to Tile
+        Those with points, by row and column of the tile.
+    """
+
+    def __init__(self, points: Points, side: float, anchor: tuple[float, float]) -> None:
+        self.points, self.side, self.anchor = points, side, anchor
+        numbers, places = self._tile_of_each()
+        small = np.uint16 if len(places) <= _MOST_SMALL else np.int64
+        order = np.argsort(numbers.astype(small), kind="stable")
+        bounds = np.searchsorted(numbers[order], np.arange(len(places) + 1))
+        filled = [k for k in range(len(places)) if bounds[k + 1] > bounds[k]]
+
+        def thin(number: int) -> Tile:
+            return self._tile(order[bounds[number] : bounds[number + 1]], places[number])
+
+        self.tiles = dict(zip((places[k] for k in filled), in_threads(thin, filled)))
+
+    def _tile_of_each(self) -> tuple[np.ndarray, list[tuple[int, int]]]:
+        """Return the number of the tile of each point (n,), and row and column of each tile."""
+        places = np.empty((2, self.points.count), dtype=np.int32)
+
+        def place(part: slice) -> None:
+            for axis, values in enumerate((self.points.y, self.points.x)):
+                places[axis, part] = np.floor(self.cells(values[part], 1 - axis)) // TILE
+
+        over_parts(place, self.points.count, _POINTS_A_PART, SILENT)
+        (first_row, first_column), (last_row, last_column) = places.min(axis=1), places.max(axis=1)
+        columns = int(last_column) - int(first_column) + 1
+        numbers = (places[0].astype(np.int64) - first_row) * columns + (places[1] - first_column)
+        if (int(last_row) - int(first_row) + 1) * columns <= _MOST_SMALL:
+            rows = range(int(first_row), int(last_row) + 1)
+            return numbers, list(
+                itertools.product(rows, range(int(first_column), int(last_column) + 1))
+            )
+        # Tiles far apart: only those that have points get a number.
+        found, numbers = np.unique(numbers, return_inverse=True)
+        rows, remainders = np.divmod(found, columns)
+        return numbers, list(zip((rows + first_row).tolist(), (remainders + first_column).tolist()))
+
+    def cells(self, values: np.ndarray, axis: int) -> np.ndarray:
+        """Return x (`axis` 0) or y (1) in metres as cells from the anchor."""
+        return (values - self.anchor[axis]) / self.side + _ROUNDING
+
+    def _tile(self, which: np.ndarray, place: tuple[int, int]) -> Tile:
+        x = self.cells(self.points.x[which], 0) - place[1] * TILE
+        y = self.cells(self.points.y[which], 1) - place[0] * TILE
+        column, row = x.astype(np.int32), y.astype(np.int32)
+        distance = np.round((x - column - 0.5) ** 2 + (y - row - 0.5) ** 2, _DECIMALS)
+        slots = row * TILE + column
+        first = first_of_each(slots, TILE * TILE, distance, self.points.z[which], x, y)
+        outer = which[~_is_inner(slots)[slots]]
+        return Tile(slots[first], x[first] - _ROUNDING, y[first] - _ROUNDING, which[first], outer)
+
+    @property
+    def count(self) -> int:
+        """Number of points that are left."""
+        return sum(len(each.which) for each in self.tiles.values())
+
+    def hull(self) -> np.ndarray:
+        """Return which of all points are the corners of their convex hull."""
+        outer = np.concatenate([each.outer for each in self.tiles.values()])
+        return outer[hull_corners(self.points.x[outer], self.points.y[outer])]
+
+    def window(self, place: tuple[int, int], margin: int) -> Window:
+        """Return the lattice of a tile with the points of a margin round it.
+
+        Parameters
+        ----------
+        place : tuple of int
+            Row and column of the tile.
+        margin : int
+            Width of the margin in cells, at most that of a tile.
+        """
+        width = TILE + 2 * margin
+        lattice = np.full((width, width), -1, dtype=np.int32)
+        x, y, which, count = [], [], [], 0
+        for row, column in itertools.product((-1, 0, 1), (-1, 0, 1)):
+            tile = self.tiles.get((place[0] + row, place[1] + column))
+            if tile is None:
+                continue
+            at_row, at_column = np.divmod(tile.slots, TILE)
+            at_row += row * TILE + margin
+            at_column += column * TILE + margin
+            inside = np.flatnonzero(
+                (at_row >= 0) & (at_row < width) & (at_column >= 0) & (at_column < width)
+            )
+            lattice[at_row[inside], at_column[inside]] = np.arange(count, count + len(inside))
+            x.append(tile.x[inside] + column * TILE)
+            y.append(tile.y[inside] + row * TILE)
+            which.append(tile.which[inside])
+            count += len(inside)
+        return Window(
+            lattice,
+            *(np.concatenate(each) if each else np.zeros(0) for each in (x, y)),
+            np.concatenate(which) if which else np.zeros(0, dtype=np.intp),
+        )
+
+
+class Window(NamedTuple):
+    """The lattice of a tile and of a margin round it.
+
+    Attributes
+    ----------
+    lattice : numpy.ndarray of int32, shape (rows, columns)
+        The number of the point in each cell; -1 where there is none.
+    x, y : numpy.ndarray of float64, shape (n,)
+        In cells from the corner of the tile.
+    which : numpy.ndarray of intp, shape (n,)
+        Which of the points that were thinned they are.
+    """
+
+    lattice: np.ndarray
+    x: np.ndarray
+    y: np.ndarray
+    which: np.ndarray
+
+
+def _is_inner(slots: np.ndarray) -> np.ndarray:
+    """Return for each cell of a tile whether others lie in all four quarters of the plane round it.
+
+    Points there are no corners of the convex hull.
+    """
+    occupied = np.zeros((TILE, TILE), dtype=bool)
+    occupied.ravel()[slots] = True
+    inner = np.ones((TILE, TILE), dtype=bool)
+    for rows, columns in itertools.product((1, -1), (1, -1)):
+        there = occupied[::rows, ::columns]
+        for axis in (0, 1):
+            there = np.logical_or.accumulate(there, axis=axis)
+        before = np.zeros((TILE, TILE), dtype=bool)
+        before[1:, 1:] = there[:-1, :-1]
+        inner &= before[::rows, ::columns]
+    return inner.ravel()

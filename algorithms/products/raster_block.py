@@ -1,0 +1,205 @@
+"""What a block of a survey adds to the rasters of terrain and surface."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.points import Points
+from ..core.progress import SILENT, Progress
+from ..grids.cell_window import CellWindow
+from ..grids.cells import first_of_each
+from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
+
+# Edges of the triangles that a block makes itself, in metres and in cells: those over wider gaps
+# need points from farther away than a block sees, and are made when all blocks are there.
+_LONGEST_EDGE, _LONGEST_CELLS = 50.0, 20.0
+# Reach of a triangle in longest edges: the circle round it hardly ever reaches farther.
+_EDGES = 2.0
+
+Box = tuple[float, float, float, float]
+
+
+class BlockRasters(NamedTuple):
+    """The rasters of a block.
+
+    Attributes
+    ----------
+    window : CellWindow
+        Its cells.
+    terrain, surface : numpy.ndarray of float32, shape (rows, columns)
+        Metres, rows from south to north, NaN where there is none; of shape (0, 0) if not wanted.
+    terrain_points, surface_points : numpy.ndarray of float64, shape (n, 3)
+        Points of the block that matter for wide gaps: corners of the convex hull, and those in
+        cells without a height.
+    box : numpy.ndarray of float64, shape (4,)
+        Smallest x and y, largest x and y of the points in the block; NaN if it has none.
+    counts : numpy.ndarray of int64, shape (2,)
+        Points of terrain and of surface in the block.
+    """
+
+    window: CellWindow
+    terrain: np.ndarray
+    surface: np.ndarray
+    terrain_points: np.ndarray
+    surface_points: np.ndarray
+    box: np.ndarray
+    counts: np.ndarray
+
+
+@dataclass(frozen=True)
+class RasterStep:
+    """Makes the rasters of a block.
+
+    Attributes
+    ----------
+    cell : float
+        Side of a cell in metres.
+    terrain, surface : bool
+        Which are wanted.
+    max_edge : float or None
+        Triangles with a longer edge, in metres, are gaps; none are, if it is None.
+    """
+
+    cell: float
+    terrain: bool = True
+    surface: bool = False
+    max_edge: float | None = None
+
+    @property
+    def longest_edge(self) -> float:
+        """Longest edge in metres of the triangles that are made of a block."""
+        return self.max_edge or max(_LONGEST_EDGE, _LONGEST_CELLS * self.cell)
+
+    @property
+    def reach(self) -> float:
+        """Metres round a block in which points matter for it."""
+        return _EDGES * self.longest_edge
+
+    def of(
+        self,
+        points: Points,
+        ground: np.ndarray,
+        top: np.ndarray,
+        core: np.ndarray,
+        corner: tuple[float, float],
+        box: Box,
+        progress: Progress = SILENT,
+    ) -> BlockRasters:
+        """Return the rasters of a block.
+
+        Parameters
+        ----------
+        points : Points
+            Those of the block and round it, relative to `corner`.
+        ground, top, core : numpy.ndarray of bool, shape (n,)
+            Which are ground, which belong to the surface, and which lie in the block.
+        corner : tuple of float
+            x and y in the frame of the survey.
+        box : tuple of float
+            The block, in the frame of the survey.
+        progress : Progress
+            Receives progress.
+        """
+        window = CellWindow.with_centres_in(box, self.cell)
+        none = np.zeros((0, 0), dtype=np.float32), np.zeros((0, 3))
+        terrain = surface = none
+        if self.terrain:
+            inside = core[ground]
+            terrain = self._terrain(
+                points.take(ground), inside, window, corner, progress.part(0.0, 0.6)
+            )
+        if self.surface:
+            surface = self._surface(
+                points.take(top), core[top], window, corner, progress.part(0.6, 1.0)
+            )
+        counts = [np.count_nonzero(each & core) for each in (ground, top)]
+        progress(1.0)
+        return BlockRasters(
+            window, terrain[0], surface[0], terrain[1], surface[1],
+            _extent(points, core, corner), np.array(counts),
+        )  # fmt: skip
+
+    def _terrain(
+        self,
+        points: Points,
+        core: np.ndarray,
+        window: CellWindow,
+        corner: tuple[float, float],
+        progress: Progress,
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return heights of the terrain, and the points that matter for wide gaps."""
+        if not points.count or not min(window.shape):
+            return np.full(window.shape, np.nan, dtype=np.float32), _placed(points, corner, core)
+        anchor = tuple(at - by for at, by in zip(window.corner(self.cell), corner))
+        surface = DenseSurface(points, self.cell, anchor)
+        heights = surface.raster((0, 0), window.shape, self.longest_edge, progress)
+        loose = np.zeros(points.count, dtype=bool)
+        if self.max_edge is None:
+            if np.isnan(heights).any():
+                vertices = surface.vertices
+                row, column = window.places(*points.take(vertices)[:2], corner, self.cell)
+                row, column = (
+                    np.clip(each, 0, most - 1) for each, most in zip((row, column), window.shape)
+                )
+                loose[vertices[np.isnan(heights[row, column])]] = True
+            loose[surface.hull] = True
+        return heights.astype(np.float32), _placed(points, corner, loose & core)
+
+    def _surface(
+        self,
+        points: Points,
+        core: np.ndarray,
+        window: CellWindow,
+        corner: tuple[float, float],
+        progress: Progress,
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return the highest point of each cell, between them heights on the TIN of these."""
+        heights = np.full(window.shape, np.nan)
+        if not points.count or not min(window.shape):
+            return heights.astype(np.float32), _placed(points, corner, core)
+        wide = window.wider(math.ceil(self.reach / self.cell))
+        row, column = wide.places(points.x, points.y, corner, self.cell)
+        inside = np.flatnonzero(
+            (row >= 0) & (row < wide.rows) & (column >= 0) & (column < wide.columns)
+        )
+        index = row[inside] * wide.columns + column[inside]
+        keys = -points.z[inside], points.x[inside], points.y[inside]
+        top = inside[first_of_each(index, wide.rows * wide.columns, *keys)]
+        every = np.full(wide.shape, np.nan)
+        every[row[top], column[top]] = points.z[top]
+        margin = window.row - wide.row
+        heights[:] = every[margin : margin + window.rows, margin : margin + window.columns]
+        progress(0.3)
+        empty_row, empty_column = np.nonzero(np.isnan(heights))
+        highest = points.take(top)
+        start_x, start_y = (at - by for at, by in zip(window.corner(self.cell), corner))
+        surface = DenseSurface(highest, VERTICES_A_SIDE * self.cell, (start_x, start_y))
+        if len(empty_row):
+            heights[empty_row, empty_column] = surface.heights(
+                start_x + (empty_column + 0.5) * self.cell,
+                start_y + (empty_row + 0.5) * self.cell,
+                self.longest_edge,
+                progress.part(0.3, 1.0),
+            )
+        loose = np.zeros(points.count, dtype=bool)
+        if self.max_edge is None:
+            loose[top[surface.hull]] = True
+        return heights.astype(np.float32), _placed(points, corner, loose & core)
+
+
+def _placed(points: Points, corner: tuple[float, float], which: np.ndarray) -> np.ndarray:
+    """Return some points in the frame of the survey, shape (n, 3)."""
+    some = points.take(which)
+    return np.column_stack((some.x + corner[0], some.y + corner[1], some.z))
+
+
+def _extent(points: Points, core: np.ndarray, corner: tuple[float, float]) -> np.ndarray:
+    """Return smallest x and y, largest x and y of the points in the block."""
+    if not core.any():
+        return np.full(4, np.nan)
+    x, y = points.x[core], points.y[core]
+    return np.array([x.min(), y.min(), x.max(), y.max()]) + np.tile(corner, 2)

@@ -1,0 +1,57 @@
+"""The libraries that read and write rasters: GDAL (in QGIS) or rasterio (outside)."""
+
+from __future__ import annotations
+
+import importlib.util
+from pathlib import Path
+from typing import Callable
+
+from ..core.errors import BareEarthError
+from ..core.files import shown
+
+
+def library(by_gdal: Callable, by_rasterio: Callable, what: str) -> Callable:
+    """Return the function for the library that is there; GDAL first, for QGIS."""
+    if importlib.util.find_spec("osgeo") is not None:
+        return by_gdal
+    if importlib.util.find_spec("rasterio") is not None:
+        return by_rasterio
+    raise BareEarthError(f"{what} a raster needs rasterio: pip install rasterio.")
+
+
+class GdalErrors:
+    """Collects GDAL's error messages, whichever of its error modes the application chose.
+
+    Parameters
+    ----------
+    gdal : module
+        ``osgeo.gdal``.
+    what : str
+        What is done to a raster: "read" or "write".
+    """
+
+    def __init__(self, gdal, what: str) -> None:
+        self._gdal, self._what, self._texts = gdal, what, []
+
+    def __enter__(self) -> GdalErrors:
+        self._gdal.PushErrorHandler(self._receive)
+        return self
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
+        self._gdal.PopErrorHandler()
+        if isinstance(error, RuntimeError):  # the application made GDAL raise its errors
+            raise BareEarthError(f"Cannot {self._what} the raster: {shown(error)}") from error
+
+    def _receive(self, severity: int, number: int, text: str) -> None:
+        if severity >= self._gdal.CE_Failure:
+            self._texts.append(text)
+
+    def clear(self) -> None:
+        """Forget the errors so far."""
+        self._texts.clear()
+
+    def check(self, path: str | Path) -> None:
+        """Raise the first error, if there was any."""
+        if self._texts:
+            reason = shown(self._texts[0]).rstrip(".")
+            raise BareEarthError(f"Cannot {self._what} {shown(path)}: {reason}.")

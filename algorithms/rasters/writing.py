@@ -1,0 +1,199 @@
+"""Writes rasters as cloud-optimised GeoTIFF: tiled, compressed, with overviews."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Callable, Iterable, NamedTuple
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.files import check_output, replacing, shown
+from ..core.progress import Progress
+from .geotiff import Raster, RasterGrid
+from .libraries import GdalErrors, library
+
+# Cells up to which a raster waits in memory until all of it is there; a file would take longer.
+_MOST_IN_MEMORY = 64_000_000
+_OPTIONS = {
+    "COMPRESS": "DEFLATE", "PREDICTOR": "YES", "BLOCKSIZE": "256", "BIGTIFF": "IF_SAFER",
+    "OVERVIEW_RESAMPLING": "AVERAGE", "NUM_THREADS": "ALL_CPUS",
+}  # fmt: skip
+_WAITING = {"TILED": "YES", "BIGTIFF": "IF_SAFER", "SPARSE_OK": "TRUE"}
+
+
+class Rows(NamedTuple):
+    """The cells of a raster, some rows at a time.
+
+    Attributes
+    ----------
+    shape : tuple of int
+        Rows and columns of all.
+    kind : str
+        "float32" or "uint8".
+    strips : iterable of numpy.ndarray, shape (some rows, columns)
+        From north to south.
+    """
+
+    shape: tuple[int, int]
+    kind: str
+    strips: Iterable[np.ndarray]
+
+
+def write_geotiff(
+    target: Path,
+    values: np.ndarray | Rows,
+    grid: RasterGrid | Raster,
+    nodata: float,
+    progress: Progress,
+) -> None:
+    """Write a single-band, cloud-optimised GeoTIFF.
+
+    Parameters
+    ----------
+    target : Path
+        The file to make.
+    values : numpy.ndarray of float32 or uint8, shape (rows, columns), or Rows
+        The cells from north to south; `nodata` where there is no value.
+    grid : RasterGrid or Raster
+        Where the cells lie.
+    nodata : float
+        The value that stands for none.
+    progress : Progress
+        Warned if the file has to go without its CRS.
+
+    Raises
+    ------
+    BareEarthError
+        If there is no library to write rasters with, or the file cannot be written.
+    """
+    check_output(target)
+    if isinstance(values, np.ndarray):
+        values = Rows(values.shape, values.dtype.name, [values])
+    with replacing(target) as temporary:
+        _writer()(temporary, values, grid, nodata, progress)
+
+
+def check_raster_output(target: Path, sources: tuple[Path, ...] = ()) -> None:
+    """Refuse, before any work is done, a raster that could not be written at the end."""
+    check_output(target, sources)
+    if target.suffix.lower() not in (".tif", ".tiff"):
+        raise BareEarthError(
+            f"Cannot write {target}: rasters are written as GeoTIFF, name it .tif."
+        )
+    _writer()
+
+
+def _writer() -> Callable[..., None]:
+    """Return the function that writes with the library that is there."""
+    return library(_write_with_gdal, _write_with_rasterio, "Writing")
+
+
+def _waiting_file(path: Path, rows: Rows) -> Path | None:
+    """Return the file in which the cells wait, or None if they wait in memory."""
+    is_small = rows.shape[0] * rows.shape[1] <= _MOST_IN_MEMORY
+    return None if is_small else path.with_name(f"{path.name}.cells.tif")
+
+
+def _write_with_gdal(
+    path: Path, rows: Rows, grid: RasterGrid | Raster, nodata: float, progress: Progress
+) -> None:
+    from osgeo import gdal, osr
+
+    kind = gdal.GDT_Float32 if rows.kind == "float32" else gdal.GDT_Byte
+    waiting = _waiting_file(path, rows)
+    driver, options = ("GTiff", _words(_WAITING)) if waiting else ("MEM", [])
+    try:
+        with GdalErrors(gdal, "write") as errors:
+            dataset = gdal.GetDriverByName(driver).Create(
+                str(waiting or ""), rows.shape[1], rows.shape[0], 1, kind, options
+            )
+            errors.check(path)
+            dataset.SetGeoTransform(grid.geotransform)
+            if grid.frame.wkt:
+                reference = osr.SpatialReference()
+                if reference.ImportFromWkt(grid.frame.wkt) == 0:
+                    dataset.SetProjection(reference.ExportToWkt())
+                else:
+                    _warn_without_crs(progress)
+                errors.clear()
+            band, start = dataset.GetRasterBand(1), 0
+            band.SetNoDataValue(nodata)
+            if grid.unit:
+                band.SetUnitType(grid.unit)
+            for strip in rows.strips:
+                band.WriteArray(strip, 0, start)
+                errors.check(path)
+                start += len(strip)
+            dataset.FlushCache()
+            copy = gdal.GetDriverByName("COG").CreateCopy(str(path), dataset, 0, _words(_OPTIONS))
+            errors.check(path)
+            copy.FlushCache()
+            del copy, band, dataset
+            errors.check(path)
+    finally:
+        if waiting:
+            waiting.unlink(missing_ok=True)
+
+
+def _words(options: dict[str, str]) -> list[str]:
+    return [f"{name}={value}" for name, value in options.items()]
+
+
+def _write_with_rasterio(
+    path: Path, rows: Rows, grid: RasterGrid | Raster, nodata: float, progress: Progress
+) -> None:
+    import rasterio
+    import rasterio.shutil
+    from rasterio.errors import RasterioError
+    from rasterio.io import MemoryFile
+    from rasterio.transform import Affine
+    from rasterio.windows import Window
+
+    crs = _crs_of(grid, progress)
+    waiting = _waiting_file(path, rows)
+    profile: dict[str, Any] = dict(
+        driver="GTiff", width=rows.shape[1], height=rows.shape[0], count=1, dtype=rows.kind,
+        nodata=nodata, crs=crs, transform=Affine.from_gdal(*grid.geotransform), **_WAITING,
+    )  # fmt: skip
+    try:
+        # No side-car file: it would stay behind under the temporary name.
+        with rasterio.Env(GDAL_PAM_ENABLED="NO"), MemoryFile() as cells, MemoryFile() as made:
+            name = str(waiting or cells.name)
+            with rasterio.open(name, "w", **profile) as dataset:
+                start = 0
+                for strip in rows.strips:
+                    window = Window(0, start, rows.shape[1], len(strip))
+                    dataset.write(strip, 1, window=window)
+                    start += len(strip)
+                if grid.unit:
+                    dataset.units = (grid.unit,)
+            # In memory first: of a disk that is full at the close rasterio raises no error.
+            rasterio.shutil.copy(name, made.name, driver="COG", **_OPTIONS)
+            with made.open() as dataset:
+                if crs is not None and dataset.crs is None:
+                    _warn_without_crs(progress)
+            path.write_bytes(made.getbuffer())
+    except RasterioError as error:
+        raise BareEarthError(f"Cannot write {shown(path)}: {shown(error)}.") from error
+    finally:
+        if waiting:
+            waiting.unlink(missing_ok=True)
+
+
+def _crs_of(grid: RasterGrid | Raster, progress: Progress) -> Any:
+    """Return the CRS as rasterio has it, or None."""
+    from rasterio.crs import CRS
+    from rasterio.errors import CRSError
+
+    try:
+        return CRS.from_wkt(grid.frame.wkt) if grid.frame.wkt else None
+    except CRSError:
+        _warn_without_crs(progress)
+        return None
+
+
+def _warn_without_crs(progress: Progress) -> None:
+    progress.warning(
+        "The raster is written without a CRS, since that of the cloud is not understood."
+    )
