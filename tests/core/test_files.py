@@ -103,8 +103,12 @@ def test_what_another_run_writes_right_now_is_left_alone(tmp_path):
         for each in (theirs, far):
             (tmp_path / each).write_text("half")
         with replacing(tmp_path / "mine.las") as mine:
+            beside = mine.with_name(f"{mine.name}.index")  # what a library makes beside it
+            beside.write_text("half")
             remove_leftovers(tmp_path)
-            assert {path.name for path in tmp_path.iterdir()} == {theirs, far, mine.name}
+            names = {theirs, far, mine.name, beside.name}
+            assert {path.name for path in tmp_path.iterdir()} == names
+            beside.unlink()
         other.communicate()
     remove_leftovers(tmp_path)
     assert {path.name for path in tmp_path.iterdir()} == {"mine.las", far}
