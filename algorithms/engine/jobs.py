@@ -17,7 +17,6 @@ from ..core.progress import Progress, Unsaid
 from ..core.threads import may_use
 from ..las.changes import Changes
 from ..las.cloud import PointCloud
-from ..las.lasbytes import read_layout
 from ..las.reading import read_cloud, read_parts
 from ..las.writing import layers_kept, write_changed
 from ..survey.collection import Tile
@@ -235,7 +234,7 @@ class TileJob(NamedTuple):
         selection.tell(tally, path, progress)
         kept.check()
         changes, rest = Changes(classification=classes), progress.part(0.4, 1.0)
-        write_changed(path, self.target, changes, rest, part)
+        write_changed(self.tile.file, self.target, changes, rest, part)
         ground = int(np.count_nonzero(classes == selection.to_class))
         summary = TileSummary(self.target.name, len(classes), ground)
         write_record(self.target, self.record, summary._asdict())
@@ -245,10 +244,10 @@ class TileJob(NamedTuple):
         """Yield the points: all at once, to be written without being read again, if they fit."""
         count, length = self.tile.count, self.tile.record_length
         if fits_in_memory(count, share.resources, length):
-            keep = not layers_kept(read_layout(self.tile.path), self.target)
-            yield read_cloud(self.tile.path, progress, keep_records=keep)
+            keep = not layers_kept(self.tile.file, self.target)
+            yield read_cloud(self.tile.file, progress, keep_records=keep)
         else:
-            yield from read_parts(self.tile.path, progress)
+            yield from read_parts(self.tile.file, progress)
 
 
 class _KeptLabels:

@@ -54,7 +54,7 @@ class Vlr:
 
 @dataclass(frozen=True)
 class Evlr:
-    """An extended variable length record; `data` is None where it is large.
+    """An extended variable length record; `data` is None where it is not kept.
 
     Attributes
     ----------
@@ -229,7 +229,7 @@ class LasFile:
         """
         with open_source(self.path) as file:
             before = b"".join((self.header, *(vlr.raw for vlr in self.vlrs), self.padding))
-            if FileState.of(file) != self.state or file.read(len(before)) != before:
+            if not self.state.is_same(FileState.of(file)) or file.read(len(before)) != before:
                 raise changed(self.path)
 
     @cached_property

@@ -22,7 +22,8 @@ from .laszip import Compression
 from .sources import FileState, damaged, open_source
 
 _MOST_EVLRS = 1_000_000
-_LARGEST_KEPT = 1 << 20
+# Records behind the points that are read: a survey may have thousands of files.
+_KEPT, _LARGEST_KEPT = ("LASF_Projection", "LASF_Spec"), 1 << 20
 # In units of the CRS: beyond these, coordinates are no numbers that can be calculated with.
 _SMALLEST_SCALE, _LARGEST_SCALE, _LARGEST_OFFSET = 1e-12, 1e6, 1e12
 
@@ -114,8 +115,9 @@ def _read_evlr(file: BinaryIO, size: int, start: int) -> Evlr | None:
     user, number, length = struct.unpack_from("<16sHQ", head, 2)
     if start + EVLR_HEADER + length > size:
         return None
-    data = file.read(length) if length <= _LARGEST_KEPT else None
     key = (text_of(user), number)
+    is_kept = key[0] in _KEPT and length <= _LARGEST_KEPT
+    data = file.read(length) if is_kept else None
     return Evlr(key, text_of(head[28:60]), start, EVLR_HEADER + length, data)
 
 

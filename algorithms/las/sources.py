@@ -76,6 +76,14 @@ class FileState(NamedTuple):
         now = os.fstat(file.fileno())
         return cls(now.st_size, now.st_mtime_ns, now.st_ino, now.st_dev)
 
+    def is_same(self, other: FileState) -> bool:
+        """Return whether two states are those of one file that nobody wrote to between them.
+
+        Another computer of a cluster has other numbers for the same disk and file.
+        """
+        is_here = self.device == other.device
+        return self[:2] == other[:2] and (self.inode == other.inode or not is_here)
+
 
 def changed(path: Path) -> BareEarthError:
     """Return the error for a file that is not what it was when it was first read."""

@@ -108,8 +108,10 @@ def write_changed(
     """
     target = Path(target)
     check_writable(target)
-    layout = cloud.file if cloud is not None and cloud.file else open_las(source)
+    layout = open_las(source)
     layout.check_unchanged()
+    if cloud is not None and cloud.file is not None:
+        cloud.file.check_unchanged()
     rewriting = Rewriting(layout, changes, None if cloud is None else cloud.records)
     if layout.is_compressed:
         require("lazrs")

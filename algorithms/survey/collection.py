@@ -48,6 +48,8 @@ class Tile:
         Whether it is LAZ, and whether that is COPC.
     crs : Crs
         What is known of the coordinate reference system.
+    file : LasFile
+        All that was read of it.
     """
 
     path: Path
@@ -61,6 +63,7 @@ class Tile:
     is_compressed: bool
     is_copc: bool
     crs: Crs
+    file: LasFile
 
     @property
     def box(self) -> Box:
@@ -261,6 +264,7 @@ def _tile(layout: LasFile, known: dict[Crs, Crs], heard: _Tally) -> Tile:
         is_compressed=layout.is_compressed,
         is_copc=layout.is_copc,
         crs=known.setdefault(crs, crs),
+        file=layout,
     )
 
 

@@ -459,7 +459,7 @@ def test_a_tile_that_kills_its_process_fails_alone(six, out, monkeypatch):
 
 def test_a_job_that_fails_fails_its_tile_only(six, out, monkeypatch):
     def failing(source, *rest):
-        if source.name == "4.laz":
+        if source.path.name == "4.laz":
             raise MemoryError
         return write_changed(source, *rest)
 
@@ -549,6 +549,26 @@ def test_a_second_run_into_the_same_folder_is_refused_and_the_first_goes_on(six,
     assert refused and first.done_count == 6
     again = classify_tiles([six], tmp_path / "out", FAST, output=RESUME)
     assert again.kept_count == 6
+
+
+class Overtaken(jobs_module.TileJob):
+    """Finds another file with as many points in the place of that whose points were labelled."""
+
+    def run(self, share, progress):
+        if self.tile.path.name == "2.laz":
+            las, other = laspy.read(self.tile.path), self.tile.path.with_name("other.laz")
+            las.points = las.points[::-1].copy()
+            las.write(other)
+            other.replace(self.tile.path)
+        return super().run(share, progress)
+
+
+def test_a_tile_that_changed_since_its_points_were_labelled_is_not_written(six, out, monkeypatch):
+    monkeypatch.setattr(tiles_module, "TileJob", Overtaken)
+    done = classify_tiles([six], out, FAST)
+    assert [Path(each).name for each in done.failures] == ["2.laz"]
+    assert "changed while it was worked on" in next(iter(done.failures.values()))
+    assert not (out / "2.laz").exists() and done.done_count == 5
 
 
 def test_the_virtual_point_cloud_of_the_inputs_is_not_overwritten(six, tmp_path):
