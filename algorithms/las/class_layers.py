@@ -23,9 +23,11 @@ import numpy as np
 from .cloud import PointCloud
 from .lasfile import RECORD_LENGTHS, LasFile
 from .laszip import LAYERS, POINT_14, ChunkHead, Compression
-from .records import LazRecordWriter, laszip_vlr, read_records
+from .records import LazRecordWriter, laszip_vlr, named, read_records
 from .sources import damaged, open_source
 
+# What of a point decides how its class is coded.
+_DECISIVE = ("return_number", "number_of_returns", "scanner_channel")
 _FORMAT, _RETURNS, _CHANNEL, _CLASS, _CLASS_LAYER = 6, 14, 15, 16, 2
 # Returns of a pulse that has one, and that has more: as small as can be.
 _ONLY, _FIRST_OF_TWO = 0x11, 0x21
@@ -211,10 +213,10 @@ def _returns(
     if cloud is None or cloud.count != layout.count or cloud.scanner_channel is None:
         most = max(piece.stop - piece.start for piece in pieces)
         for records in read_records(layout, most, columns=(), pieces=pieces):
-            returns, channel = records[:, _RETURNS], records[:, _CHANNEL]
-            yield returns & 0x0F, returns >> 4, channel >> 4 & 0x03
+            points = named(layout, records)
+            yield tuple(np.asarray(points[name]) for name in _DECISIVE)
         return
-    columns = cloud.return_number, cloud.number_of_returns, cloud.scanner_channel
+    columns = [getattr(cloud, name) for name in _DECISIVE]
     for piece in pieces:
         yield tuple(column[piece] for column in columns)
 

@@ -135,10 +135,8 @@ def set_classes(layout: LasFile, records: np.ndarray, classes: np.ndarray) -> No
     classes : numpy.ndarray of uint8, shape (n,)
         Up to 31 in point formats 0 to 5, whose byte has three flags above the class.
     """
-    if layout.point_format >= FIRST_EXTENDED_FORMAT:
-        records[:, 16] = classes
-    else:
-        records[:, 15] = (records[:, 15] & 0xE0) | classes
+    if len(records):
+        named(layout, records)["classification"][:] = classes
 
 
 class Tally:
@@ -152,8 +150,8 @@ class Tally:
         How many first, second, ... returns there were.
     """
 
-    def __init__(self, point_format: int) -> None:
-        self._return_bits = 0x0F if point_format >= FIRST_EXTENDED_FORMAT else 0x07
+    def __init__(self, layout: LasFile) -> None:
+        self._layout = layout
         limits = np.iinfo(np.int64)
         self.lowest = np.full(3, limits.max)
         self.highest = np.full(3, limits.min)
@@ -163,10 +161,11 @@ class Tally:
         """Count points, given as their bytes."""
         if not len(records):
             return
-        xyz = np.ascontiguousarray(records[:, :12]).view("<i4")
-        self.lowest = np.minimum(self.lowest, xyz.min(axis=0))
-        self.highest = np.maximum(self.highest, xyz.max(axis=0))
-        numbers = np.bincount(records[:, 14] & self._return_bits, minlength=16)
+        points = named(self._layout, records)
+        xyz = [points[name] for name in "XYZ"]
+        self.lowest = np.minimum(self.lowest, [each.min() for each in xyz])
+        self.highest = np.maximum(self.highest, [each.max() for each in xyz])
+        numbers = np.bincount(np.asarray(points["return_number"]), minlength=16)
         self.returns += numbers[1:16]
 
 

@@ -31,13 +31,20 @@ from .lasfile import (
     LasFile,
 )
 from .opening import open_las
-from .records import LasRecordWriter, LazRecordWriter, Tally, copy_range, laszip_vlr, set_classes
+from .records import (
+    LasRecordWriter,
+    LazRecordWriter,
+    Tally,
+    copy_range,
+    laszip_vlr,
+    named,
+    set_classes,
+)
 from .sources import open_source
 
 _COPC_SUFFIX = ".copc.laz"
 _EXTERNAL_WAVEFORMS = 0x04
 _EXTENDED_WITH_WAVEFORMS = (9, 10)
-_CHANNEL_BITS = 0x30
 
 
 def check_writable(target: Path) -> None:
@@ -210,11 +217,11 @@ def _write(rewriting: Rewriting, target: Path, progress: Progress) -> None:
     with open(target, "w+b") as file:
         file.write(layout.prefix(tuple(vlrs), compressed))
         writer = LazRecordWriter(file, laszip) if laszip else LasRecordWriter(file)
-        channels, tally = set(), Tally(layout.point_format)
+        channels, tally = set(), Tally(layout)
         for records, classes, done in rewriting.points():
             set_classes(layout, records, classes)
             if laszip is not None and layout.point_format in _EXTENDED_WITH_WAVEFORMS:
-                channels |= set(np.unique(records[:, 15] & _CHANNEL_BITS).tolist())
+                channels |= set(np.unique(named(layout, records)["scanner_channel"]).tolist())
                 _check_channels(layout, channels)
             writer.write(records)
             if rewriting.leaves_out:
