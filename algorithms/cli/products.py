@@ -88,9 +88,10 @@ def _add_terrain(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> N
 
 
 def _terrain(options: argparse.Namespace) -> int:
-    from ..engine.products import TerrainFiles, write_terrain_models
+    from ..engine.products import write_terrain_models
+    from ..engine.rasters import RasterFiles
 
-    files = TerrainFiles(options.dtm, options.dsm, options.chm, options.hillshade)
+    files = RasterFiles(options.dtm, options.dsm, options.chm, options.hillshade)
     with Terminal(options.verbose) as progress:
         summary = write_terrain_models(options.input, files, *chosen(options), progress)
     text = f"{summary.columns:,} x {summary.rows:,} cells of {summary.ground_count:,} ground points"

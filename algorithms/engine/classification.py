@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import check_distinct, check_output, replacing
+from ..core.files import check_output
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
 from ..core.threads import may_use
@@ -19,8 +19,7 @@ from ..las.cloud import PointCloud, survey_frame
 from ..las.lasbytes import read_layout
 from ..las.reading import read_cloud
 from ..las.writing import check_writable, is_copc, layers_kept, write_changed
-from ..products.terrain_model import TerrainModel, write_terrain_model
-from ..rasters.writing import check_raster_output
+from ..products.terrain_model import TerrainModel
 from ..survey.area import Area
 from ..survey.scope import Scope
 from ..survey.selection import Selection
@@ -28,6 +27,7 @@ from .cloudstore import CloudStore, Part
 from .ground import blocks_of, label_ground
 from .memory import Resources
 from .output import Output
+from .rasters import RasterFiles, RasterRequest, rasters_of_cloud, write_rasters
 from .streaming import Outcome, classify_parts, fits_in_memory
 
 # Bytes of a point, as the file has it, up to which all of it is kept: reading it again for what
@@ -125,7 +125,7 @@ def _in_memory(
     store = CloudStore([part], survey_frame(cloud.crs), blocks, progress.part(0.1, 0.2))
     part = progress.part(0.2, 0.95)
     label_ground(store, parameters, blocks, selection.special, resources, part)
-    outcome = Outcome(cloud, np.empty(cloud.count, dtype=np.uint8), cloud.frame)
+    outcome = Outcome(cloud, np.empty(cloud.count, dtype=np.uint8))
     for where, some in cloud.parts():
         outcome.add(where.start, some, store.labels[0][where], inside[where], selection)
         progress(0.95 + 0.05 * where.stop / cloud.count)
@@ -170,25 +170,19 @@ def classify_file(
         If the user asked to stop; no output is left behind.
     """
     check_output(target, (source,))
-    check_distinct((target, dtm, hillshade))
     check_writable(target)
-    for raster in filter(None, (dtm, hillshade)):
-        check_raster_output(raster, (source, target))
+    request = RasterRequest(RasterFiles(dtm=dtm, hillshade=hillshade), terrain)
+    request.files.check((source, target))
     resources = resources.now()
     scope = Scope(selection, area, method_of(parameters).reach(parameters))
-    model = terrain if dtm or hillshade else None
     opened = read_layout(source)
     with may_use(resources.thread_count):
-        outcome = _outcome(source, target, parameters, scope, resources, model, output, progress)
+        outcome = _outcome(source, target, parameters, scope, resources, request, output, progress)
     with contextlib.ExitStack() as outputs:
         # All outputs or none: the rasters get their names after the cloud is written.
-        rasters = [
-            raster and outputs.enter_context(replacing(raster)) for raster in (dtm, hillshade)
-        ]
-        if any(rasters):
-            write_terrain_model(
-                outcome.ground, outcome.frame, terrain, *rasters, progress.part(0.7, 0.85)
-            )
+        if outcome.rasters is not None:
+            frame = survey_frame(outcome.cloud.crs)
+            write_rasters(outcome.rasters, frame, request, outputs, progress.part(0.75, 0.85))
         classes = outcome.classification
         changes = Changes(classification=classes)
         if output.changes_points:
@@ -213,7 +207,7 @@ def _outcome(
     parameters: ParameterSet,
     scope: Scope,
     resources: Resources,
-    terrain: TerrainModel | None,
+    request: RasterRequest,
     output: Output,
     progress: Progress,
 ) -> Outcome:
@@ -225,15 +219,20 @@ def _outcome(
         keep = length <= _LONGEST_KEPT and fits_in_memory(count, resources, length)
         keep = keep and not is_copied
         cloud = read_cloud(source, progress.part(0.0, 0.2), keep_records=keep)
-        part = progress.part(0.2, 0.7)
+        part = progress.part(0.2, 0.65)
         outcome, *_ = _in_memory(cloud, parameters, scope, resources, part)
-        if terrain is not None:
-            ground = outcome.classification == scope.selection.to_class
-            outcome.ground = cloud.points(ground)
+        if request.files.wanted:
+            ground, part = (
+                outcome.classification == scope.selection.to_class,
+                progress.part(0.65, 0.75),
+            )
+            outcome.rasters = rasters_of_cloud(
+                cloud, ground, ground, None, request, resources, part
+            )
         return outcome
     _check_parts_do(target, output, is_copied, count, progress)
-    part = progress.part(0.0, 0.7)
-    return classify_parts(source, target, parameters, scope, resources, terrain, part)
+    part = progress.part(0.0, 0.75)
+    return classify_parts(source, target, parameters, scope, resources, request, part)
 
 
 def _check_parts_do(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import collections
-from typing import Callable, NamedTuple
+from typing import Any, Callable, Iterator, NamedTuple
 
 import numpy as np
 
@@ -74,18 +74,37 @@ def label_ground(
     method = method_of(parameters)
     if store.has_known and not method.takes_known_ground:
         progress.info(f"{method.label} does not start from known ground: it is only kept.")
-    todo = list(blocks.over(store))
-    counts = [_count(blocks, each, store) for each in todo]
-    at_once = _at_once(len(todo), max(counts), blocks, resources)
     job_of = _job_maker(store, blocks, _Filter(method, parameters, special))
-    jobs = [job_of(each, len(todo) == 1) for each in todo]
-    workers = max(1, resources.thread_count // at_once)
     notes = {}
-    for number, result in run_jobs(jobs, counts, at_once, workers, progress):
+    for number, result in over_blocks(store, blocks, job_of, resources, progress):
         store.put(result.positions, result.labels)
         if result.notes.count:
             notes[number] = result.notes
     _tell(progress, [notes[number] for number in sorted(notes)])
+
+
+def over_blocks(
+    store: Store,
+    blocks: Blocks,
+    job_of: Callable[[Block, bool], Callable[[Progress], Any]],
+    resources: Resources,
+    progress: Progress,
+) -> Iterator[tuple[int, Any]]:
+    """Yield what a job makes of each block, with the number of the block, as they end.
+
+    Parameters
+    ----------
+    store, blocks, resources, progress
+        As for `label_ground`.
+    job_of : callable
+        Takes a block, and whether it is the only one, and returns its job.
+    """
+    todo = list(blocks.over(store))
+    counts = [_count(blocks, each, store) for each in todo]
+    at_once = _at_once(len(todo), max(counts), blocks, resources)
+    workers = max(1, resources.thread_count // at_once)
+    jobs = [job_of(each, len(todo) == 1) for each in todo]
+    yield from run_jobs(jobs, counts, at_once, workers, progress)
 
 
 def _count(blocks: Blocks, block: Block, store: Store) -> int:

@@ -9,6 +9,7 @@ import numpy as np
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
+from ..grids.morphology import within_square
 from ..grids.surface import CellLattice, Surface
 
 # Cells that are put together at a time.
@@ -92,13 +93,9 @@ class Mosaic:
 
     def _along_gaps(self, heights: np.ndarray, first: int) -> np.ndarray:
         """Return the centres of cells next to one without a height, and their heights (n, 3)."""
-        missing = np.pad(np.isnan(heights), 1)
-        near = np.zeros(heights.shape, dtype=bool)
-        if missing.any():
-            for i in range(3):
-                for k in range(3):
-                    near |= missing[i : i + heights.shape[0], k : k + heights.shape[1]]
-        row, column = np.nonzero(near & ~np.isnan(heights))
+        missing = np.isnan(heights)
+        near = within_square(np.maximum, missing, 1)
+        row, column = np.nonzero(near & ~missing)
         x = (self.window.column + column + 0.5) * self._cell
         y = (self.window.row + self.window.rows - first - row - 0.5) * self._cell
         return np.column_stack((x, y, heights[row, column].astype(np.float64)))

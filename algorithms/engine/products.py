@@ -12,22 +12,23 @@ from pathlib import Path
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import check_output, replacing
+from ..core.files import check_output
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
+from ..core.threads import may_use
 from ..crs.system import unit_name
 from ..grids.model_key_points import ModelKeyPoints, model_key_points
 from ..las.changes import Changes
-from ..las.cloud import PointCloud
+from ..las.cloud import PointCloud, survey_frame
 from ..las.reading import read_cloud
 from ..las.records import check_class
 from ..las.writing import check_writable, write_changed
-from ..products.surface_model import SurfaceModel, canopy_height, surface_heights
-from ..products.terrain_model import TerrainModel, interpolate, write_heights, write_hillshade
-from ..rasters.geotiff import RasterGrid
-from ..rasters.writing import check_raster_output
+from ..products.surface_model import SurfaceModel
+from ..products.terrain_model import TerrainModel
 from ..survey.selection import NOISE
+from .memory import Resources
 from .output import HEIGHT_DIMENSION, height_dimension, heights_of
+from .rasters import RasterFiles, RasterRequest, RasterSize, rasters_of_cloud, write_rasters
 
 _INTEGERS = np.iinfo(np.int32)
 
@@ -155,24 +156,6 @@ class KeyPointSummary:
     class_counts: dict[int, int] = field(default_factory=dict)
 
 
-@dataclass(frozen=True)
-class TerrainSummary:
-    """What rasters were written.
-
-    Attributes
-    ----------
-    ground_count, surface_count : int
-        Points that the terrain model and the surface model were made of.
-    columns, rows : int
-        Size of the rasters.
-    """
-
-    ground_count: int
-    surface_count: int
-    columns: int
-    rows: int
-
-
 def write_height_above_ground(
     source: Path,
     target: Path,
@@ -290,38 +273,22 @@ def write_key_points(
     )
 
 
-@dataclass(frozen=True)
-class TerrainFiles:
-    """The rasters to make, GeoTIFF; None for those that are not wanted.
-
-    Attributes
-    ----------
-    dtm, dsm, chm, hillshade : Path or None
-        Terrain, surface (the top of all that stands on the terrain), canopy height (the difference
-        of the two), and hillshade of the terrain.
-    """
-
-    dtm: Path | None = None
-    dsm: Path | None = None
-    chm: Path | None = None
-    hillshade: Path | None = None
-
-
 def write_terrain_models(
     source: Path,
-    files: TerrainFiles,
+    files: RasterFiles,
     ground: GroundClasses = GroundClasses(),
     model: TerrainModel = TerrainModel(),
     surface: SurfaceModel = SurfaceModel(),
     progress: Progress = SILENT,
-) -> TerrainSummary:
+    resources: Resources = Resources(),
+) -> RasterSize:
     """Write rasters of the terrain and of what stands on it; all of them or none.
 
     Parameters
     ----------
     source : Path
         A classified .las, .laz or .copc.laz file.
-    files : TerrainFiles
+    files : RasterFiles
         What to write.
     ground : GroundClasses
         Which points are ground.
@@ -329,6 +296,8 @@ def write_terrain_models(
         Cell size, light, gaps, and which points make the surface.
     progress : Progress
         Receives progress and messages.
+    resources : Resources
+        Threads and memory.
 
     Raises
     ------
@@ -338,53 +307,41 @@ def write_terrain_models(
     Cancelled
         If the user asked to stop; no output is left behind.
     """
-    wanted = [each for each in (files.dtm, files.dsm, files.chm, files.hillshade) if each]
-    if not wanted:
+    if not files.wanted:
         raise BareEarthError("Name at least one raster to make.")
-    if len({each.resolve() for each in wanted}) < len(wanted):
-        raise BareEarthError("Two of the rasters have the same name. Choose different names.")
-    for each in wanted:
-        check_raster_output(each, (source,))
+    files.check((source,))
+    request = RasterRequest(files, model, surface)
     cloud = read_cloud(source, progress.part(0.0, 0.2))
+    marks = marked(cloud, request, ground)
+    with may_use(resources.thread_count):
+        made = rasters_of_cloud(cloud, *marks, request, resources.now(), progress.part(0.2, 0.8))
+    with contextlib.ExitStack() as outputs:
+        return write_rasters(
+            made, survey_frame(cloud.crs), request, outputs, progress.part(0.8, 1.0)
+        )
+
+
+def marked(
+    cloud: PointCloud, request: RasterRequest, ground: GroundClasses
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return which points rasters cover, which are ground, and which belong to the surface.
+
+    Raises
+    ------
+    BareEarthError
+        If there are none, or the CRS is geographic.
+    """
     cloud.require_projected()
     shown = ~np.isin(cloud.classification, NOISE) & ~cloud.withheld
-    needs_terrain, needs_surface = files.dtm or files.chm or files.hillshade, files.dsm or files.chm
-    is_ground = ground.of(cloud) if needs_terrain else np.zeros(cloud.count, dtype=bool)
+    is_ground = np.zeros(cloud.count, dtype=bool)
+    if request.needs_terrain:
+        is_ground = ground.of(cloud)
     shown |= is_ground
-    top = shown & bool(needs_surface)
-    if surface.surface_returns == "first":
+    top = shown & request.needs_surface
+    if request.surface.surface_returns == "first":
         top &= cloud.return_number <= 1
-    # One grid for all, whichever of them are wanted, so that they can be subtracted.
-    grid = RasterGrid.over(cloud.points(shown), cloud.frame, model.dtm_cell_size)
-    terrain = heights = None
-    if needs_terrain:
-        terrain = interpolate(
-            cloud.points(is_ground), grid, progress.part(0.2, 0.55), surface.max_edge
+    if request.needs_surface and not top.any():
+        raise BareEarthError(
+            f"{cloud.path} has no first returns to make a surface of. Take all returns instead."
         )
-    if needs_surface:
-        if not top.any():
-            raise BareEarthError(
-                f"{source} has no first returns to make a surface of. Take all returns instead."
-            )
-        heights = surface_heights(
-            cloud.points(top), grid, progress.part(0.55, 0.9), surface.max_edge
-        )
-    with contextlib.ExitStack() as outputs:
-        rasters = {"dtm": terrain, "dsm": heights}
-        if files.chm:
-            rasters["chm"] = canopy_height(heights, terrain)
-        for name, values in rasters.items():
-            if getattr(files, name):
-                temporary = outputs.enter_context(replacing(getattr(files, name)))
-                write_heights(temporary, values, grid, progress)
-        progress(0.95)
-        if files.hillshade:
-            temporary = outputs.enter_context(replacing(files.hillshade))
-            write_hillshade(temporary, terrain, grid, model, progress)
-        progress(1.0)
-    return TerrainSummary(
-        ground_count=int(np.count_nonzero(is_ground)),
-        surface_count=int(np.count_nonzero(top)),
-        columns=grid.columns,
-        rows=grid.rows,
-    )
+    return shown, is_ground, top

@@ -2,33 +2,30 @@
 
 from __future__ import annotations
 
+import contextlib
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Iterator
 
 import numpy as np
 
-from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet
-from ..core.points import Frame, Points
 from ..core.progress import SILENT, Progress, Unsaid
 from ..las.cloud import PointCloud
 from ..las.reading import read_parts
-from ..products.terrain_model import TerrainModel, vertices_of
+from ..products.raster_block import BlockRasters
 from ..survey.scope import Scope
 from ..survey.selection import Selection, count_classes
 from .blocks import BRIDGE, GROUND, LOW
 from .ground import blocks_of, label_ground
 from .memory import GIGABYTE, Resources
+from .rasters import RasterRequest, rasters_of_store
 from .spill import Spill
 
 # Bytes that a cloud in memory takes a point, besides what a filter takes for those it sees.
 _BYTES_A_POINT_KEPT, _BYTES_A_POINT_SEEN, _MOST_SEEN = 40, 110, 12_000_000
-# What a run may take whatever the memory that it is given, and how much of it the blocks.
-_LEAST_MEMORY, _MOST_FOR_BLOCKS = 2 * GIGABYTE, GIGABYTE
-# Bytes that a terrain model takes for each vertex of its TIN.
-_BYTES_A_VERTEX = 700
-# Ground points that are gathered, at least, before they are thinned together.
-_STEP = 1 << 20
+# How much of the memory the blocks may take.
+_MOST_FOR_BLOCKS = GIGABYTE
 
 
 @dataclass
@@ -49,20 +46,17 @@ class Outcome:
         Points in the area that are labelled as low outliers.
     area_deck_count : int
         Points in the area that are labelled as decks of bridges.
-    ground : Points or None
-        The points of the class of the ground that a terrain model needs, if it is wanted.
-    frame : Frame
-        That of the survey.
+    rasters : list of BlockRasters or None
+        The rasters of the blocks, if any are wanted.
     """
 
     cloud: PointCloud
     classification: np.ndarray
-    frame: Frame
     class_counts: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
     area_ground_count: int = 0
     area_low_count: int = 0
     area_deck_count: int = 0
-    ground: Points | None = None
+    rasters: list[BlockRasters] | None = None
 
     def add(
         self,
@@ -125,7 +119,7 @@ def classify_parts(
     parameters: ParameterSet,
     scope: Scope,
     resources: Resources = Resources(),
-    terrain: TerrainModel | None = None,
+    request: RasterRequest = RasterRequest(),
     progress: Progress = SILENT,
 ) -> Outcome:
     """Classify a file part by part, its points on disk until their block is filtered.
@@ -140,8 +134,8 @@ def classify_parts(
         Which points are to be classified, and which take part.
     resources : Resources
         Threads and memory.
-    terrain : TerrainModel, optional
-        The terrain model that is to be made afterwards.
+    request : RasterRequest
+        Which rasters are wanted.
     progress : Progress
         Receives progress and messages.
 
@@ -153,84 +147,49 @@ def classify_parts(
     Raises
     ------
     BareEarthError
-        If the file cannot be read, the disk is full, no point is left to classify, or the terrain
-        model would be too large.
+        If the file cannot be read, the disk is full, or no point is left to classify.
     Cancelled
         If the user asked to stop.
     """
     selection = scope.selection
     blocks = blocks_of(parameters)
-    with Spill(target, blocks.leaf_side) as spill:
+    fewer = _for_blocks(resources)
+    with Spill(target, blocks.leaf_side) as spill, _ground_spill(target, request) as ground:
         for part in read_parts(source, progress.part(0.0, 0.3)):
             inside, selected = scope.choose(part)
             known = selection.known_ground(part, selected)
             spill.append(part, selected, known, inside)
         scope.tell(progress)
-        frame = spill.finish(scope.lowest)
-        if terrain is not None:
-            _check_terrain(spill, terrain, resources)
-        fewer, special = _for_blocks(resources), selection.special
-        label_ground(spill, parameters, blocks, special, fewer, progress.part(0.3, 0.8))
-        classification = np.empty(scope.tally.points, dtype=np.uint8)
-        outcome = Outcome(spill.cloud, classification, frame)
-        thinned = None if terrain is None else _Thinned(terrain, frame)
+        spill.finish(scope.lowest)
+        label_ground(spill, parameters, blocks, selection.special, fewer, progress.part(0.3, 0.75))
+        outcome = Outcome(spill.cloud, np.empty(scope.tally.points, dtype=np.uint8))
         start = taken = 0
-        for part in read_parts(source, Unsaid(progress.part(0.8, 1.0))):
+        for part in read_parts(source, Unsaid(progress.part(0.75, 0.9))):
             inside, selected = scope.choose_again(part)
             labels = spill.labels_of(part, selected, taken)
             is_ground = outcome.add(start, part, labels, inside, selection)
-            if thinned is not None:
-                thinned.add(part, is_ground)
+            if ground is not None:
+                ground.append(part, is_ground, is_ground, np.zeros(part.count, dtype=bool))
             start += part.count
             taken += int(np.count_nonzero(selected))
         scope.tell_of_special(outcome.area_low_count, outcome.area_deck_count, progress)
-    if thinned is not None:
-        outcome.ground = thinned.points()
+        if ground is not None:
+            ground.finish(scope.lowest)
+            outcome.rasters = rasters_of_store(ground, request, fewer, progress.part(0.9, 1.0))
     return outcome
+
+
+@contextlib.contextmanager
+def _ground_spill(target: Path, request: RasterRequest) -> Iterator[Spill | None]:
+    """Give room on disk for the ground points, if rasters are to be made of them."""
+    if not request.files.wanted:
+        yield None
+        return
+    with Spill(target, request.blocks.leaf_side) as spill:
+        yield spill
 
 
 def _for_blocks(resources: Resources) -> Resources:
     """Return the resources with no more memory than is good for the blocks of one run."""
     memory = min(resources.bytes, _MOST_FOR_BLOCKS) / GIGABYTE
     return Resources(threads=resources.threads, memory=max(memory, 0.001))
-
-
-def _check_terrain(spill: Spill, terrain: TerrainModel, resources: Resources) -> None:
-    """Refuse a terrain model that would not fit into memory, before the long work begins."""
-    side = spill.leaves.side
-    cells_a_leaf = (side / terrain.dtm_cell_size) ** 2
-    vertices = np.minimum(spill.leaves.counts, 4.0 * cells_a_leaf).sum()
-    needed = _BYTES_A_VERTEX * vertices
-    if needed > max(resources.bytes, _LEAST_MEMORY):
-        raise BareEarthError(
-            f"The terrain model of {spill.count:,} points would take about"
-            f" {needed / GIGABYTE:.0f} GB of memory. Give more memory, a larger cell size or an"
-            " extent, or classify without a terrain model."
-        )
-
-
-class _Thinned:
-    """The ground points that a terrain model needs, gathered part by part."""
-
-    def __init__(self, terrain: TerrainModel, frame: Frame) -> None:
-        # As a raster has it: rounded to and from the unit of the CRS.
-        self._cell = terrain.dtm_cell_size / frame.horizontal_unit * frame.horizontal_unit
-        self._frame, self._kept, self._new = frame, Points(*[np.zeros(0)] * 3), []
-
-    def add(self, part: PointCloud, is_ground: np.ndarray) -> None:
-        """Add the ground points of a part."""
-        points = part.points(is_ground, self._frame)
-        if points.count:
-            self._new.append(points.take(vertices_of(points, self._cell)))
-        # Not each time: all that is kept is thinned anew.
-        if sum(each.count for each in self._new) > max(self._kept.count, _STEP):
-            self.points()
-
-    def points(self) -> Points:
-        """Return what is left of all points so far, in the order of the file."""
-        both = [self._kept, *self._new]
-        points = Points(*map(np.concatenate, zip(*both)))
-        if points.count:
-            points = points.take(vertices_of(points, self._cell))
-        self._kept, self._new = points, []
-        return points

@@ -16,6 +16,7 @@ from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import over_parts
 from .enclosing import NOWHERE, enclosing_heights, heights_of_four
+from .morphology import within_square
 from .surface import CellLattice, Surface
 from .thinned import TILE, ThinnedPoints, Window
 
@@ -308,8 +309,6 @@ def _marked(
     thinned: ThinnedPoints, x: np.ndarray, y: np.ndarray
 ) -> dict[tuple[int, int], np.ndarray]:
     """Return for each tile which of its cells lie near places; boolean, shape (TILE * TILE,)."""
-    from scipy import ndimage
-
     marked: dict[tuple[int, int], np.ndarray] = {}
     for place, which in _by_tile(thinned, x, y):
         row, column = (
@@ -318,7 +317,7 @@ def _marked(
         )
         near = np.zeros((TILE + 2 * _RIM,) * 2, dtype=np.uint8)
         near[row, column] = 1
-        near = ndimage.maximum_filter(near, 2 * _RIM + 1, mode="constant")
+        near = within_square(np.maximum, near, _RIM)
         padded = np.zeros((3 * TILE,) * 2, dtype=bool)
         padded[TILE - _RIM : 2 * TILE + _RIM, TILE - _RIM : 2 * TILE + _RIM] = near
         for i in (-1, 0, 1):

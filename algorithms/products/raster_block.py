@@ -13,6 +13,7 @@ from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
 from ..grids.cells import first_of_each
 from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
+from ..grids.morphology import within_square
 
 # Edges of the triangles that a block makes itself, in metres and in cells: those over wider gaps
 # need points from farther away than a block sees, and are made when all blocks are there.
@@ -104,7 +105,7 @@ class RasterStep:
         progress : Progress
             Receives progress.
         """
-        window = CellWindow.with_centres_in(box, self.cell)
+        window = CellWindow.with_centres_in(_within(box, points, corner, self.cell), self.cell)
         none = np.zeros((0, 0), dtype=np.float32), np.zeros((0, 3))
         terrain = surface = none
         if self.terrain:
@@ -145,7 +146,8 @@ class RasterStep:
                 row, column = (
                     np.clip(each, 0, most - 1) for each, most in zip((row, column), window.shape)
                 )
-                loose[vertices[np.isnan(heights[row, column])]] = True
+                near_gap = within_square(np.maximum, np.isnan(heights), 1)
+                loose[vertices[near_gap[row, column]]] = True
             loose[surface.hull] = True
         return heights.astype(np.float32), _placed(points, corner, loose & core)
 
@@ -189,6 +191,19 @@ class RasterStep:
         if self.max_edge is None:
             loose[top[surface.hull]] = True
         return heights.astype(np.float32), _placed(points, corner, loose & core)
+
+
+def _within(box: Box, points: Points, corner: tuple[float, float], margin: float) -> Box:
+    """Return the part of a box in which points lie, or nothing."""
+    if not points.count:
+        return (*box[:2], *box[:2])
+    low, high = (
+        [getattr(each, which)() + at for each, at in zip(points[:2], corner)]
+        for which in ("min", "max")
+    )
+    west, south = (max(a, b - margin) for a, b in zip(box[:2], low))
+    east, north = (min(a, b + margin) for a, b in zip(box[2:], high))
+    return west, south, max(east, west), max(north, south)
 
 
 def _placed(points: Points, corner: tuple[float, float], which: np.ndarray) -> np.ndarray:

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
 from ..core.parameters import ParameterSet, parameter
-from ..core.points import Frame, Points
+from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
-from ..grids.hillshade import hillshade
 from ..grids.tin import hull_corners
-from ..rasters.geotiff import NODATA, RasterGrid
-from ..rasters.writing import write_geotiff
+from ..rasters.geotiff import RasterGrid
 
 
 @dataclass(frozen=True)
@@ -77,64 +74,6 @@ def interpolate(
     """
     surface = DenseSurface(points, grid.cell_metres, grid.corner)
     return surface.raster((0, 0), (grid.rows, grid.columns), max_edge, progress)[::-1]
-
-
-def write_terrain_model(
-    ground: Points,
-    frame: Frame,
-    model: TerrainModel,
-    dtm: Path | None,
-    hillshade_file: Path | None,
-    progress: Progress = SILENT,
-) -> None:
-    """Write the terrain model of ground points, its hillshade, or both, as GeoTIFF.
-
-    Parameters
-    ----------
-    ground : Points
-        The ground points.
-    frame : Frame
-        Where they lie in the CRS; the terrain model's heights are in its vertical unit.
-    model : TerrainModel
-        Cell size and light.
-    dtm, hillshade_file : Path or None
-        The files to make.
-    progress : Progress
-        Receives progress and messages.
-
-    Raises
-    ------
-    BareEarthError
-        If there is no ground, or a file cannot be written.
-    """
-    grid = RasterGrid.over(ground, frame, model.dtm_cell_size)
-    heights = interpolate(ground, grid, progress.part(0.0, 0.8))
-    if dtm is not None:
-        write_heights(dtm, heights, grid, progress)
-    progress(0.9)
-    if hillshade_file is not None:
-        write_hillshade(hillshade_file, heights, grid, model, progress)
-    progress(1.0)
-
-
-def write_heights(
-    target: Path, heights: np.ndarray, grid: RasterGrid, progress: Progress = SILENT
-) -> None:
-    """Write heights (rows, columns) in metres as a GeoTIFF in the vertical unit of the CRS."""
-    values = np.where(np.isnan(heights), NODATA, heights / grid.frame.vertical_unit)
-    write_geotiff(target, values.astype(np.float32), grid, NODATA, progress)
-
-
-def write_hillshade(
-    target: Path,
-    heights: np.ndarray,
-    grid: RasterGrid,
-    model: TerrainModel,
-    progress: Progress = SILENT,
-) -> None:
-    """Write the hillshade of heights (rows, columns) in metres as a GeoTIFF."""
-    light = model.hillshade_azimuth, model.hillshade_altitude
-    write_geotiff(target, hillshade(heights, grid.cell_metres, *light), grid, 0, progress)
 
 
 def vertices_of(points: Points, cell_size: float) -> np.ndarray:

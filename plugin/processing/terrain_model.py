@@ -7,7 +7,8 @@ from pathlib import Path
 from qgis.core import QgsProcessingParameterRasterDestination as Raster
 
 from ...algorithms.core.errors import BareEarthError
-from ...algorithms.engine.products import GroundClasses, TerrainFiles, write_terrain_models
+from ...algorithms.engine.products import GroundClasses, write_terrain_models
+from ...algorithms.engine.rasters import RasterFiles
 from ...algorithms.products.surface_model import SurfaceModel
 from ...algorithms.products.terrain_model import TerrainModel
 from .base import command_line
@@ -58,7 +59,7 @@ class TerrainModelAlgorithm(ProductAlgorithm):
             raise BareEarthError("Choose at least one raster to make.")
         options = {name.lower(): path for name, path in paths.items()}
         progress.command(command_line("terrain", [str(self.source)], chosen, options))
-        files = TerrainFiles(*(Path(path) if path else None for path in paths.values()))
+        files = RasterFiles(*(Path(path) if path else None for path in paths.values()))
         summary = write_terrain_models(self.source, files, *chosen, progress)
         progress.info(f"The rasters have {summary.columns:,} x {summary.rows:,} cells.")
         for name in ("DTM", "DSM"):

@@ -117,16 +117,6 @@ def test_real_points_give_the_same_bytes_in_memory_and_on_disk(name, tmp_path):
     assert results[0] == results[1]
 
 
-def test_the_ground_is_thinned_part_by_part_as_at_once(small, tmp_path, monkeypatch):
-    monkeypatch.setattr(streaming, "_STEP", 500)
-    source = write(tmp_path / "in.las", 9000, shape=(40.0, 30.0))
-    results = [
-        run(source, tmp_path / str(each.memory), GridMinimum(), each, rasters=("dtm",))
-        for each in (MUCH, LITTLE)
-    ]
-    assert results[0] == results[1]
-
-
 def test_ground_points_only_in_memory_and_on_disk(small, tmp_path):
     source, only = write(tmp_path / "in.las"), Output(ground_only=True)
     results = [
@@ -154,17 +144,12 @@ def test_a_stray_point_far_away_stops_nothing(parameters, resources, tmp_path):
 # Limits
 
 
-def test_copc_and_too_large_a_model_are_refused_before_the_work(tmp_path, monkeypatch):
+def test_a_copc_file_and_heights_are_refused_before_the_work(tmp_path):
     source = write(tmp_path / "in.las", 4000)
     with pytest.raises(BareEarthError, match=r"making a COPC file needs\. Name the output \.laz"):
         classify_file(source, tmp_path / "a.copc.laz", SlopeFilter(), resources=LITTLE)
     with pytest.raises(BareEarthError, match=r"measuring heights above ground needs\. Leave out"):
         run(source, tmp_path / "b", SlopeFilter(), LITTLE, output=Output(height_above_ground=True))
-    monkeypatch.setattr(streaming, "_BYTES_A_VERTEX", 1 << 20)
-    monkeypatch.setattr(streaming, "label_ground", None)
-    with pytest.raises(BareEarthError, match="would take about 2 GB of memory"):
-        run(source, tmp_path / "out", SlopeFilter(), LITTLE, rasters=("dtm",))
-    assert os.listdir(tmp_path / "out") == []
 
 
 def test_a_copc_file_stays_one_though_it_does_not_fit(tmp_path):

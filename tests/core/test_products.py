@@ -9,16 +9,16 @@ import pytest
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.core.progress import Progress
-from bare_earth.algorithms.engine import products
+from bare_earth.algorithms.engine import rasters
 from bare_earth.algorithms.engine.products import (
     GroundClasses,
     HeightOutput,
     KeyPointMark,
-    TerrainFiles,
     write_height_above_ground,
     write_key_points,
     write_terrain_models,
 )
+from bare_earth.algorithms.engine.rasters import RasterFiles
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.products.surface_model import SurfaceModel, canopy_height
@@ -182,7 +182,7 @@ def test_no_ground_is_told(tmp_path):
         write_key_points(tmp_path / "in.las", tmp_path / "out.las", ground=ground)
     with pytest.raises(BareEarthError, match="Classify its ground first"):
         write_terrain_models(
-            tmp_path / "in.las", TerrainFiles(dtm=tmp_path / "a.tif"), ground=ground
+            tmp_path / "in.las", RasterFiles(dtm=tmp_path / "a.tif"), ground=ground
         )
     assert [each.name for each in tmp_path.iterdir()] == ["in.las"]
 
@@ -258,7 +258,7 @@ rasterio = pytest.importorskip("rasterio")
 
 def all_files(folder):
     folder.mkdir(exist_ok=True)
-    return TerrainFiles(*(folder / f"{each}.tif" for each in ("dtm", "dsm", "chm", "shade")))
+    return RasterFiles(*(folder / f"{each}.tif" for each in ("dtm", "dsm", "chm", "shade")))
 
 
 def read(path):
@@ -303,7 +303,7 @@ def test_each_raster_alone_is_the_same(tmp_path, name):
     files = all_files(tmp_path / "out")
     write_terrain_models(tmp_path / "in.las", files)
     alone = tmp_path / "alone.tif"
-    write_terrain_models(tmp_path / "in.las", TerrainFiles(**{name: alone}))
+    write_terrain_models(tmp_path / "in.las", RasterFiles(**{name: alone}))
     one, other = read(alone), read(getattr(files, name))
     assert np.array_equal(one[0], other[0], equal_nan=True) and one[1] == other[1]
 
@@ -329,7 +329,7 @@ def test_the_surface_of_first_or_of_all_returns(tmp_path):
     las.number_of_returns[:] = 2
     las.return_number[np.asarray(las.classification) == 6] = 2
     las.write(str(tmp_path / "in.las"))
-    files = TerrainFiles(dsm=tmp_path / "dsm.tif")
+    files = RasterFiles(dsm=tmp_path / "dsm.tif")
     write_terrain_models(tmp_path / "in.las", files)
     assert np.nanmax(read(files.dsm)[0]) < 110
     write_terrain_models(tmp_path / "in.las", files, surface=SurfaceModel(surface_returns="all"))
@@ -355,7 +355,7 @@ def test_all_rasters_or_none(tmp_path, monkeypatch):
     def fail(*_):
         raise BareEarthError("the disk is full")
 
-    monkeypatch.setattr(products, "write_hillshade", fail)
+    monkeypatch.setattr(rasters, "hillshade", fail)
     files = all_files(tmp_path / "out")
     with pytest.raises(BareEarthError, match="the disk is full"):
         write_terrain_models(tmp_path / "in.las", files)
@@ -366,14 +366,14 @@ def test_all_rasters_or_none(tmp_path, monkeypatch):
     "files, text",
     [
         ({}, "at least one raster"),
-        ({"dtm": "a.tif", "dsm": "a.tif"}, "the same name"),
+        ({"dtm": "a.tif", "dsm": "a.tif"}, "the same file"),
         ({"chm": "a.png"}, "name it .tif"),
         ({"dsm": "none/a.tif"}, "does not exist"),
     ],
 )
 def test_rasters_that_cannot_be_made(tmp_path, files, text):
     scene(tmp_path / "in.las")
-    files = TerrainFiles(**{name: tmp_path / path for name, path in files.items()})
+    files = RasterFiles(**{name: tmp_path / path for name, path in files.items()})
     with pytest.raises(BareEarthError, match=text):
         write_terrain_models(tmp_path / "in.las", files)
 

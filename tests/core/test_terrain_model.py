@@ -3,14 +3,9 @@
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Frame, Points
 from bare_earth.algorithms.grids.tin import Tin
-from bare_earth.algorithms.products.terrain_model import (
-    TerrainModel,
-    interpolate,
-    write_terrain_model,
-)
+from bare_earth.algorithms.products.terrain_model import interpolate
 from bare_earth.algorithms.rasters.geotiff import RasterGrid
 
 FRAME = Frame((1000.0, 2000.0))
@@ -39,10 +34,3 @@ def test_every_cell_in_the_hull_of_the_points_has_a_height_though_they_are_thinn
     x, y = np.meshgrid(grid.x, grid.y)
     inside = Tin(*points).locate(x.ravel(), y.ravel()) >= 0
     assert np.array_equal(np.isfinite(heights).ravel(), inside)
-
-
-def test_without_ground_there_is_a_sentence_and_no_file(tmp_path):
-    nothing = Points(*np.empty((3, 0)))
-    with pytest.raises(BareEarthError, match="no ground point"):
-        write_terrain_model(nothing, FRAME, TerrainModel(), tmp_path / "dtm.tif", None)
-    assert not list(tmp_path.iterdir())

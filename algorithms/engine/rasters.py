@@ -1,0 +1,319 @@
+"""Rasters of a survey: of each block what `RasterStep` makes of it, put together and written."""
+
+from __future__ import annotations
+
+import contextlib
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from typing import Callable, Iterator, Sequence
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.files import check_distinct, replacing
+from ..core.points import Frame
+from ..core.progress import SILENT, Progress
+from ..grids.cell_window import CellWindow
+from ..grids.hillshade import hillshade
+from ..las.cloud import PointCloud, survey_frame
+from ..products.raster_block import BlockRasters, RasterStep
+from ..products.surface_model import SurfaceModel, canopy_height
+from ..products.terrain_model import TerrainModel
+from ..rasters.geotiff import NODATA, RasterGrid
+from ..rasters.writing import Rows, check_raster_output, write_geotiff
+from .blocks import Block, Blocks, Store
+from .cloudstore import CloudStore, Part
+from .ground import over_blocks
+from .memory import Resources
+from .mosaic import Mosaic, Piece, gathered_strips
+
+_MOST_CELLS = 4_000_000_000
+# A raster of more cells must have blocks with points over this share of it: else it is large
+# because of a few points with stray coordinates.
+_MANY_CELLS, _LEAST_COVERED = 10_000_000, 0.01
+
+
+@dataclass(frozen=True)
+class RasterFiles:
+    """The rasters to make, GeoTIFF; None for those that are not wanted.
+
+    Attributes
+    ----------
+    dtm, dsm, chm, hillshade : Path or None
+        Terrain, surface (the top of all that stands on the terrain), canopy height (the difference
+        of the two), and hillshade of the terrain.
+    """
+
+    dtm: Path | None = None
+    dsm: Path | None = None
+    chm: Path | None = None
+    hillshade: Path | None = None
+
+    @property
+    def wanted(self) -> dict[str, Path]:
+        """Those that are wanted, by their names."""
+        return {name: Path(path) for name, path in vars(self).items() if path}
+
+    def check(self, others: tuple[Path, ...]) -> None:
+        """Refuse rasters that could not be written, or would replace another file of the run.
+
+        Raises
+        ------
+        BareEarthError
+            If a name does not do.
+        """
+        paths = list(self.wanted.values())
+        check_distinct(paths)
+        for each in paths:
+            check_raster_output(each, others)
+
+
+@dataclass(frozen=True)
+class RasterRequest:
+    """Which rasters are to be made, and how.
+
+    Attributes
+    ----------
+    files : RasterFiles
+        Which, and where they go.
+    model : TerrainModel
+        Cell size and light.
+    surface : SurfaceModel
+        Which points make the surface, and which gaps stay open.
+    """
+
+    files: RasterFiles = field(default_factory=RasterFiles)
+    model: TerrainModel = field(default_factory=TerrainModel)
+    surface: SurfaceModel = field(default_factory=SurfaceModel)
+
+    @property
+    def needs_terrain(self) -> bool:
+        """Whether heights of the terrain are needed."""
+        return bool(self.files.dtm or self.files.chm or self.files.hillshade)
+
+    @property
+    def needs_surface(self) -> bool:
+        """Whether heights of the surface are needed."""
+        return bool(self.files.dsm or self.files.chm)
+
+    @property
+    def step(self) -> RasterStep:
+        """What is done with a block."""
+        return RasterStep(
+            self.model.dtm_cell_size,
+            self.needs_terrain,
+            self.needs_surface,
+            self.surface.max_edge,
+        )
+
+    @property
+    def blocks(self) -> Blocks:
+        """The blocks in which the rasters are made."""
+        return Blocks.of(self.step.reach)
+
+
+@dataclass(frozen=True)
+class RasterSize:
+    """What was made.
+
+    Attributes
+    ----------
+    ground_count, surface_count : int
+        Points that terrain and surface were made of.
+    columns, rows : int
+        Size of the rasters.
+    """
+
+    ground_count: int
+    surface_count: int
+    columns: int
+    rows: int
+
+
+def rasters_of_cloud(
+    cloud: PointCloud,
+    shown: np.ndarray,
+    ground: np.ndarray,
+    top: np.ndarray | None,
+    request: RasterRequest,
+    resources: Resources = Resources(),
+    progress: Progress = SILENT,
+) -> list[BlockRasters]:
+    """Return the rasters of the blocks of a cloud in memory.
+
+    Parameters
+    ----------
+    cloud : PointCloud
+        The points.
+    shown, ground, top : numpy.ndarray of bool, shape (n,)
+        Which points the rasters are to cover, which of them are ground, and which belong to the
+        surface.
+    request : RasterRequest
+        What is wanted.
+    resources : Resources
+        Threads and memory.
+    progress : Progress
+        Receives progress.
+    """
+    top = np.zeros(cloud.count, dtype=bool) if top is None else top
+    blocks = request.blocks
+    part = Part(cloud, shown, ground, top)
+    store = CloudStore([part], survey_frame(cloud.crs), blocks, progress.part(0.0, 0.1))
+    return rasters_of_store(store, request, resources, progress.part(0.1, 1.0))
+
+
+def rasters_of_store(
+    store: Store,
+    request: RasterRequest,
+    resources: Resources = Resources(),
+    progress: Progress = SILENT,
+) -> list[BlockRasters]:
+    """Return the rasters of the blocks of a store, in which ground is known and the top wanted."""
+    blocks, step = request.blocks, request.step
+    made = {}
+    if len(store.leaves.counts):
+        job_of = partial(_job_of, store, blocks, step)
+        for number, result in over_blocks(store, blocks, job_of, resources, progress):
+            made[number] = result
+    return [made[number] for number in sorted(made)]
+
+
+def _job_of(
+    store: Store, blocks: Blocks, step: RasterStep, block: Block, is_only: bool
+) -> Callable[[Progress], BlockRasters]:
+    def job(progress: Progress) -> BlockRasters:
+        contents, corner = blocks.contents(block, store), blocks.corner(block)
+        core = np.ones(contents.points.count, dtype=bool)
+        if not is_only:
+            core = block.holds(contents.points, corner)
+        marks = contents.known, contents.wanted, core
+        return step.of(contents.points, *marks, corner, block.box, progress)
+
+    return job
+
+
+def write_rasters(
+    made: Sequence[BlockRasters],
+    frame: Frame,
+    request: RasterRequest,
+    outputs: contextlib.ExitStack,
+    progress: Progress = SILENT,
+) -> RasterSize:
+    """Write the rasters of a survey; they get their names when `outputs` is closed.
+
+    Parameters
+    ----------
+    made : sequence of BlockRasters
+        Those of its blocks.
+    frame : Frame
+        That of the survey, with its origin at (0, 0) of the CRS.
+    request : RasterRequest
+        What is wanted.
+    outputs : contextlib.ExitStack
+        Takes in the files.
+    progress : Progress
+        Receives progress and messages.
+
+    Raises
+    ------
+    BareEarthError
+        If there is no point to make the rasters of, or one of them cannot be written.
+    """
+    cell, files = request.model.dtm_cell_size, request.files.wanted
+    window = _window_of(made, cell)
+    grid = _grid_of(window, cell, frame)
+    mosaics = {}
+    for name, needed in (("terrain", request.needs_terrain), ("surface", request.needs_surface)):
+        if needed:
+            pieces = [Piece(each.window, partial(getattr, each, name)) for each in made]
+            mosaics[name] = Mosaic(pieces, window, cell)
+            if request.surface.max_edge is None:
+                points = [getattr(each, f"{name}_points") for each in made]
+                mosaics[name].fill_gaps(np.concatenate(points), progress.part(0.0, 0.3))
+    for number, (name, path) in enumerate(files.items()):
+        part = progress.part(0.3 + 0.7 * number / len(files), 0.3 + 0.7 * (number + 1) / len(files))
+        kind, nodata, strips = _STRIPS[name](mosaics, request, grid, part)
+        temporary = outputs.enter_context(replacing(path))
+        write_geotiff(temporary, Rows(window.shape, kind, strips), grid, nodata, progress)
+    counts = np.sum([each.counts for each in made], axis=0)
+    return RasterSize(int(counts[0]), int(counts[1]), window.columns, window.rows)
+
+
+def _window_of(made: Sequence[BlockRasters], cell: float) -> CellWindow:
+    """Return the cells that cover all points."""
+    boxes = np.array([each.box for each in made if not np.isnan(each.box).any()]).reshape(-1, 4)
+    if not len(boxes):
+        raise BareEarthError(
+            "There is no ground point to make a terrain model of. Check the selection of points"
+            " and the parameters."
+        )
+    low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
+    window = CellWindow.around((*low, *high), cell)
+    cells = window.rows * window.columns
+    covered = np.prod(boxes[:, 2:] - boxes[:, :2] + cell, axis=1).sum() / (cells * cell**2)
+    if cells > _MOST_CELLS or (cells > _MANY_CELLS and covered < _LEAST_COVERED):
+        raise BareEarthError(
+            f"The raster would have {window.columns:,} x {window.rows:,} cells of {cell:g} m."
+            " Choose a larger cell size, or remove points with stray coordinates."
+        )
+    return window
+
+
+def _grid_of(window: CellWindow, cell: float, frame: Frame) -> RasterGrid:
+    size = cell / frame.horizontal_unit
+    north = (window.row + window.rows) * size
+    return RasterGrid(window.column * size, north, size, window.columns, window.rows, frame)
+
+
+_Strips = tuple[str, float, Iterator[np.ndarray]]
+
+
+def _heights(
+    name: str,
+    mosaics: dict[str, Mosaic],
+    request: RasterRequest,
+    grid: RasterGrid,
+    progress: Progress,
+) -> _Strips:
+    def make(heights: np.ndarray) -> np.ndarray:
+        return _in_unit(heights, grid)
+
+    return "float32", NODATA, gathered_strips(mosaics[name], make, 0, progress)
+
+
+def _canopy(
+    mosaics: dict[str, Mosaic], request: RasterRequest, grid: RasterGrid, progress: Progress
+) -> _Strips:
+    def strips() -> Iterator[np.ndarray]:
+        for start, end in mosaics["surface"].strips():
+            surface, terrain = (mosaics[each].rows(start, end) for each in ("surface", "terrain"))
+            yield _in_unit(canopy_height(surface, terrain), grid)
+            progress(end / grid.rows)
+
+    return "float32", NODATA, strips()
+
+
+def _shade(
+    mosaics: dict[str, Mosaic], request: RasterRequest, grid: RasterGrid, progress: Progress
+) -> _Strips:
+    light = request.model.hillshade_azimuth, request.model.hillshade_altitude
+
+    def make(heights: np.ndarray) -> np.ndarray:
+        return hillshade(heights, grid.cell_metres, *light)
+
+    return "uint8", 0, gathered_strips(mosaics["terrain"], make, 1, progress)
+
+
+def _in_unit(heights: np.ndarray, grid: RasterGrid) -> np.ndarray:
+    """Return heights in the vertical unit of the CRS, as the file has them."""
+    values = heights.astype(np.float64) / grid.frame.vertical_unit
+    return np.where(np.isnan(values), NODATA, values).astype(np.float32)
+
+
+_STRIPS = {
+    "dtm": partial(_heights, "terrain"),
+    "dsm": partial(_heights, "surface"),
+    "chm": _canopy,
+    "hillshade": _shade,
+}

@@ -1,0 +1,138 @@
+"""The rasters of a survey are those of one triangulation, however it is cut into blocks."""
+
+import contextlib
+
+import numpy as np
+import pytest
+
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.crs.system import Crs
+from bare_earth.algorithms.engine import blocks as blocks_module
+from bare_earth.algorithms.engine.rasters import (
+    RasterFiles,
+    RasterRequest,
+    rasters_of_cloud,
+    write_rasters,
+)
+from bare_earth.algorithms.grids.tin import Tin
+from bare_earth.algorithms.las.cloud import PointCloud, survey_frame
+from bare_earth.algorithms.products.surface_model import SurfaceModel
+from bare_earth.algorithms.products.terrain_model import TerrainModel, vertices_of
+
+rasterio = pytest.importorskip("rasterio")
+
+SIZE = 900.0
+
+
+def _cloud(x, y, z):
+    x, y, z = (np.rint(each * 100).astype(np.int32) for each in (x, y, z))
+    count = len(x)
+    ones = np.ones(count, dtype=np.uint8)
+    return PointCloud(
+        "a.las", x, y, z, (0.01,) * 3, (0.0,) * 3, ones * 2, ones, ones,
+        np.zeros(count, dtype=bool), 6, Crs(),
+    )  # fmt: skip
+
+
+def _hills(count, seed=1, keep=None):
+    x, y = np.random.default_rng(seed).uniform(-SIZE / 2, SIZE / 2, (2, count))
+    if keep is not None:
+        x, y = x[keep(x, y)], y[keep(x, y)]
+    return _cloud(x, y, 100.0 + 8.0 * np.sin(x / 60.0) + 0.05 * y)
+
+
+def _made(cloud, folder, max_edge=None, files=("dtm",), cell=2.5, shown=True):
+    files = RasterFiles(**{name: folder / f"{name}.tif" for name in files})
+    request = RasterRequest(files, TerrainModel(cell), SurfaceModel(max_edge=max_edge))
+    every = np.full(cloud.count, shown)
+    made = rasters_of_cloud(cloud, every, every, every, request)
+    with contextlib.ExitStack() as outputs:
+        write_rasters(made, survey_frame(cloud.crs), request, outputs)
+    with rasterio.open(next(iter(files.wanted.values()))) as raster:
+        values = raster.read(1, masked=True).filled(np.nan)
+        rows, columns = np.mgrid[: raster.height, : raster.width]
+        x, y = (np.array(each) for each in raster.xy(rows.ravel(), columns.ravel()))
+    return values, x.reshape(values.shape), y.reshape(values.shape), len(made)
+
+
+def _of_tin(cloud, x, y, cell=2.5):
+    points = cloud.points(slice(None), survey_frame(cloud.crs))
+    points = points.take(vertices_of(points, cell))
+    return Tin(*points).interpolate(x.ravel(), y.ravel()).reshape(x.shape)
+
+
+@pytest.fixture
+def small_blocks(monkeypatch):
+    monkeypatch.setattr(blocks_module, "_SIDE", 100.0)
+
+
+def _is_lake(x, y, margin=0.0):
+    # Along the hills, so that both shores are as high.
+    return np.hypot(x / (120.0 + margin), y / (300.0 + margin)) < 1.0
+
+
+CLOUDS = {
+    "dense": _hills(200_000),
+    "uneven": _hills(30_000, keep=lambda x, y: np.random.default_rng(2).random(len(x)) > y / SIZE),
+    "lake": _hills(100_000, keep=lambda x, y: ~_is_lake(x, y)),
+    "sparse": _hills(200),
+}
+
+
+@pytest.mark.parametrize("name", CLOUDS)
+def test_a_terrain_model_in_blocks_is_that_of_one_tin(small_blocks, tmp_path, name):
+    cloud = CLOUDS[name]
+    found, x, y, count = _made(cloud, tmp_path)
+    assert count >= 9
+    expected = _of_tin(cloud, x, y)
+    assert np.array_equal(np.isnan(found), np.isnan(expected))
+    wrong = np.abs(found - expected)
+    assert np.nanquantile(wrong, 0.5) < 0.001
+    # Over gaps wider than 50 m, cells along them stand for the points.
+    assert np.nanquantile(wrong, 0.99) < {"lake": 0.15, "sparse": 0.4}.get(name, 0.05)
+    assert np.nanmax(wrong) < 1.0
+
+
+def test_gaps_wider_than_the_longest_edge_stay_open(small_blocks, tmp_path):
+    found, x, y, _ = _made(CLOUDS["lake"], tmp_path, max_edge=30.0)
+    assert np.isnan(found[_is_lake(x, y, -20.0)]).all()
+    inside = ~_is_lake(x, y, 10.0) & (np.abs(x) < 440.0) & (np.abs(y) < 440.0)
+    assert np.isfinite(found[inside]).all()
+
+
+@pytest.mark.parametrize("max_edge", [None, 20.0])
+def test_blocks_of_any_size_give_the_same_rasters(tmp_path, monkeypatch, max_edge):
+    files = ("dtm", "dsm", "chm", "hillshade")
+    rasters = []
+    for side in (2000.0, 100.0):
+        monkeypatch.setattr(blocks_module, "_SIDE", side)
+        folder = tmp_path / str(side)
+        folder.mkdir()
+        _made(CLOUDS["dense"], folder, max_edge, files)
+        for name in files:
+            with rasterio.open(folder / f"{name}.tif") as raster:
+                rasters.append(raster.read(1))
+    for one, other in zip(rasters[:4], rasters[4:]):
+        assert one.shape == other.shape
+        most = 1 if one.dtype == np.uint8 else 0.001
+        assert np.mean(np.abs(one.astype(float) - other) > most) < 1e-4
+
+
+def test_the_file_is_cloud_optimised(tmp_path):
+    _made(CLOUDS["dense"], tmp_path, cell=1.0)
+    with rasterio.open(tmp_path / "dtm.tif") as raster:
+        assert raster.overviews(1) == [2, 4]
+        assert raster.profile["tiled"] and raster.profile["compress"] == "deflate"
+        assert raster.tags(ns="IMAGE_STRUCTURE")["LAYOUT"] == "COG"
+
+
+def test_without_ground_there_is_a_sentence_and_no_file(tmp_path):
+    with pytest.raises(BareEarthError, match="no ground point"):
+        _made(CLOUDS["sparse"], tmp_path, shown=False)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_few_stray_points_do_not_make_a_huge_raster(tmp_path):
+    far = np.array([0.0, 1e7, 1e7]), np.array([0.0, 1e7, 1.0]), np.zeros(3)
+    with pytest.raises(BareEarthError, match="stray coordinates"):
+        _made(_cloud(*far), tmp_path, cell=1.0)
