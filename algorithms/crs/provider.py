@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib.util
-from typing import Any
+from typing import Any, Iterator
 
 import numpy as np
 
@@ -65,7 +66,8 @@ class _Gdal:
 
         reference = osr.SpatialReference()
         try:
-            failed = reference.ImportFromEPSG(code)
+            with _quiet():
+                failed = reference.ImportFromEPSG(code)
         except RuntimeError:  # where the application made GDAL raise its errors
             return None
         return None if failed else reference.ExportToWkt()
@@ -76,15 +78,28 @@ class _Gdal:
 
         source, target = osr.SpatialReference(), osr.SpatialReference()
         try:
-            if source.ImportFromWkt(wkt) or target.ImportFromEPSG(4326):
-                return None
-            for each in (source, target):
-                each.SetAxisMappingStrategy(osr.OAMS_TRADITIONAL_GIS_ORDER)
-            transformation = osr.CoordinateTransformation(source, target)
-            return np.array(transformation.TransformPoints(places.tolist()))[:, :2]
+            with _quiet():
+                if source.ImportFromWkt(wkt) or target.ImportFromEPSG(4326):
+                    return None
+                for each in (source, target):
+                    each.SetAxisMappingStrategy(osr.OAMS_TRADITIONAL_GIS_ORDER)
+                transformation = osr.CoordinateTransformation(source, target)
+                return np.array(transformation.TransformPoints(places.tolist()))[:, :2]
         except (RuntimeError, TypeError, IndexError):
             # Where GDAL raises its errors, or makes a transformation that is none.
             return None
+
+
+@contextlib.contextmanager
+def _quiet() -> Iterator[None]:
+    """Keep GDAL from printing its errors, which are told in another way."""
+    from osgeo import gdal
+
+    gdal.PushErrorHandler("CPLQuietErrorHandler")
+    try:
+        yield
+    finally:
+        gdal.PopErrorHandler()
 
 
 class _Pyproj:

@@ -1,7 +1,8 @@
 """Writing a cloud anew: the file as it was, with other classes, heights or extra bytes.
 
-laspy is not used here: it writes headers and records anew, and what it does not know gets lost. The
-bytes of the input are copied instead, and only those changed that have to.
+laspy says where the fields of a point are, but does not write here: it makes headers and records
+anew, and what it does not know gets lost. The bytes of the input are copied instead, and only those
+changed that have to.
 """
 
 from __future__ import annotations

@@ -12,10 +12,15 @@ import laspy
 import lazrs
 import numpy as np
 import pytest
+import surveys
 
 from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.crs.provider import to_wgs84
 from bare_earth.algorithms.crs.system import crs_of_wkt
+from bare_earth.algorithms.engine.classification import classify_file
+from bare_earth.algorithms.engine.memory import Resources
+from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 from bare_earth.algorithms.las.changes import Changes
 from bare_earth.algorithms.las.extrabytes import ExtraDimension
 from bare_earth.algorithms.las.opening import open_las
@@ -29,10 +34,12 @@ from benchmarks.data import FOLDER
 DAMAGED = FOLDER / "damaged"
 # Little memory and time: what takes more is an abort or a hang.
 LIMITED = """
-import resource, sys
+import contextlib, sys
 from pathlib import Path
 import numpy as np
-resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
+with contextlib.suppress(ImportError, ValueError):  # Windows has no such limits, macOS not this one
+    import resource
+    resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.las.reading import inspect
 from bare_earth.algorithms.las.writing import write_classified
@@ -241,6 +248,26 @@ def test_an_input_that_changes_while_it_is_written_is_refused(las):
     with pytest.raises(BareEarthError, match="has changed"):
         write_classified(source, target, np.zeros(60, np.uint8), Meanwhile())
     assert list(las.folder.iterdir()) == [source]
+
+
+@pytest.mark.parametrize("memory", [4.0, 0.001])
+@pytest.mark.parametrize("suffix", [".las", ".laz"])
+def test_an_input_that_changes_while_it_is_classified_is_refused(tmp_path, suffix, memory):
+    source = surveys.write(tmp_path / f"in{suffix}", surveys.strip(20_000))
+
+    class Meanwhile(Progress):
+        done = False
+
+        def report(self, fraction):
+            if fraction > 0.5 and not self.done:
+                self.done = True
+                replace_by_another(source, "renamed")
+
+    heard, resources = Meanwhile(), Resources(threads=1, memory=memory)
+    method, target = SlopeFilter(preset="whitebox"), tmp_path / "out.laz"
+    with pytest.raises(BareEarthError, match=r"in\.la[sz] has changed .* Run it again"):
+        classify_file(source, target, method, resources=resources, progress=heard)
+    assert heard.done and list(tmp_path.iterdir()) == [source]
 
 
 def test_parts_and_all_points_know_their_file(las):
