@@ -25,6 +25,8 @@ WAVEFORM_PACKETS = ("LASF_Spec", 65535)
 
 # Bytes of a record of each point format, before extra bytes.
 RECORD_LENGTHS = (20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67)
+# From this point format on, more classes and returns fit into a point.
+FIRST_EXTENDED_FORMAT = 6
 # Integers of points have 32 bits; a few more, since extents are rounded.
 _MOST_STEPS = (1 << 31) + 16
 

@@ -10,6 +10,7 @@ from ..core.errors import BareEarthError
 from . import header as fields
 from .lasfile import (
     EVLR_HEADER,
+    FIRST_EXTENDED_FORMAT,
     RECORD_LENGTHS,
     VLR_HEADER,
     WAVEFORM_PACKETS,
@@ -158,6 +159,8 @@ def _check_compressed(layout: LasFile) -> None:
             f"{layout.path} is compressed in a way that cannot be read here (LASzip compressor"
             f" {compression.kind}). Write it anew with LASzip."
         )
+    if (compression.layers > 0) != (layout.point_format >= FIRST_EXTENDED_FORMAT):
+        raise damaged(layout.path)
     with open_source(layout.path) as file:
         file.seek(layout.points_start)
         place = file.read(8)

@@ -16,9 +16,9 @@ from .backends import require
 from .cloud import PointCloud
 from .crs_records import read_crs
 from .extrabytes import dimension_names
-from .lasfile import LasFile
+from .lasfile import FIRST_EXTENDED_FORMAT, LasFile
 from .opening import open_las
-from .records import FIRST_EXTENDED_FORMAT, MOST_KEPT, NEEDED, named, read_records
+from .records import MOST_KEPT, NEEDED, named, read_records
 
 if TYPE_CHECKING:
     import laspy

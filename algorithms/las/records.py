@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.progress import paced
-from .lasfile import LASZIP, LasFile, Vlr, new_vlr
+from .lasfile import FIRST_EXTENDED_FORMAT, LASZIP, LasFile, Vlr, new_vlr
 from .laszip import with_chunk_size, with_wave_packets_of_1
 from .sources import changed, damage_told, damaged, open_source
 
@@ -22,7 +22,6 @@ NEEDED = ("Z", "CLASSIFICATION", "FLAGS")
 # Most points at a time: where they go through a buffer, and where all of them are in memory.
 _MOST, MOST_KEPT = 1_000_000, 8_000_000
 _BLOCK = 1 << 24
-FIRST_EXTENDED_FORMAT = 6
 _LARGEST_LEGACY_CLASS = 31
 
 

@@ -158,6 +158,11 @@ def test_a_compression_that_is_none(make):
         assert "damaged or cut off" in line or "compressed in a way" in line
 
 
+def test_a_compression_of_another_point_format(make):
+    old, new = make(point_format=1, extra=2), make(point_format=6)  # 30 bytes a point, both
+    refused(damage(old, "B", (104, 0x80 | 6)), damage(new, "B", (104, 0x80 | 1)))
+
+
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), -float("inf"), 1e300, 1e13])
 @pytest.mark.parametrize("place", [*range(131, 155, 8), *range(155, 179, 8)])
 def test_scales_and_offsets_with_which_nothing_can_be_calculated(las, place, value):
