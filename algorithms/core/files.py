@@ -22,7 +22,7 @@ _TEMPORARY = re.compile(r"\.(\w+)-(\d+)-(\d+)\.part\.")
 _LONGEST_NAME = 255
 # Whether a process of another computer is gone cannot be seen, but whether it still writes.
 _FORGOTTEN_SECONDS = 86_400.0
-# What this process writes right now.
+# The marks of what this process writes right now.
 _held: set[str] = set()
 
 # What a system says of a file that another process has locked.
@@ -138,7 +138,7 @@ def _remove(temporary: Path) -> None:
     """Remove a temporary file, if it is still there, and hold it no longer."""
     with contextlib.suppress(OSError):
         temporary.unlink()
-    _held.discard(temporary.name)
+    _held.discard(_TEMPORARY.match(temporary.name)[0])
 
 
 def _mode_of(target: Path) -> int | None:
@@ -158,15 +158,15 @@ def _make_temporary(target: Path, mode: int | None = None) -> Path:
         marks = f".{_computer()}-{os.getpid()}-{next(_numbers)}.part."
         temporary = target.with_name(marks + _cut(target.name, len(marks)))
         # Before it is there: another thread must not take it for one that was left.
-        _held.add(temporary.name)
+        _held.add(marks)
         try:
             flags = os.O_CREAT | os.O_EXCL | os.O_WRONLY
             os.close(os.open(temporary, flags, 0o666 if mode is None else mode | 0o600))
         except FileExistsError:
-            _held.discard(temporary.name)
+            _held.discard(marks)
             continue
         except OSError:
-            _held.discard(temporary.name)
+            _held.discard(marks)
             raise
         return temporary
 
@@ -252,17 +252,18 @@ def remove_leftovers(folder: Path, processes: Container[int] | None = None) -> N
     for entry, marks in found:
         if marks and (processes is None or int(marks[2]) in processes):
             with contextlib.suppress(OSError):
-                if _is_left(entry, marks[1], int(marks[2])):
+                if _is_left(entry, marks):
                     os.unlink(entry.path)
 
 
-def _is_left(entry: os.DirEntry, computer: str, process: int) -> bool:
+def _is_left(entry: os.DirEntry, marks: re.Match) -> bool:
     """Return whether nobody writes a temporary file any more."""
+    computer, process = marks[1], int(marks[2])
     if computer != _computer():
         age = time.time() - entry.stat(follow_symlinks=False).st_mtime
         return age > _FORGOTTEN_SECONDS
     if process == os.getpid():
-        return entry.name not in _held
+        return marks[0] not in _held
     return not _is_running(process)
 
 
@@ -285,7 +286,11 @@ def _is_running(process: int) -> bool:
         return False
     except PermissionError:
         return True
-    return True
+    try:
+        state = Path(f"/proc/{process}/stat").read_bytes().rpartition(b")")[2].split()[:1]
+    except OSError:  # not every system has it
+        return True
+    return state not in ([b"Z"], [b"X"])  # one that ended, but nobody asked how
 
 
 def describe_write_error(target: Path, error: OSError | ValueError) -> BareEarthError:

@@ -8,9 +8,10 @@ of ``LASF_Projection``.
 
 from __future__ import annotations
 
-import math
 import struct
 from typing import NamedTuple
+
+from .wkt import is_unit
 
 _MODEL, _CITATION, _GEOGRAPHIC_CODE, _GEOGRAPHIC_CITATION = 1024, 1026, 2048, 2049
 _PROJECTED_CODE, _PROJECTED_CITATION, _LINEAR_UNIT, _LINEAR_UNIT_SIZE = 3072, 3073, 3076, 3077
@@ -122,4 +123,4 @@ def _code(keys: dict[int, int | float | str], key: int) -> int | None:
 
 
 def _size(value: object) -> float | None:
-    return value if isinstance(value, float) and math.isfinite(value) and value > 0 else None
+    return value if isinstance(value, float) and is_unit(value) else None

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import importlib.util
 import math
 from dataclasses import dataclass, replace
 
 from ..core.progress import SILENT, Progress
 from .geokeys import GeoKeys
+from .provider import wkt_of_epsg
 from .wkt import WktFacts, read_wkt
 
 _SURVEY_FOOT = 1200 / 3937
@@ -94,21 +94,6 @@ def crs_of_geokeys(keys: GeoKeys, progress: Progress = SILENT) -> Crs:
     return _crs_of(text, facts, progress)
 
 
-def wkt_of_epsg(code: int) -> str | None:
-    """Return the well-known text (WKT 1) of an EPSG code by GDAL, pyproj or rasterio.
-
-    None if there is none of these libraries, or the code is unknown to it.
-    """
-    for package, reader in (
-        ("osgeo", _by_gdal),
-        ("pyproj", _by_pyproj),
-        ("rasterio", _by_rasterio),
-    ):
-        if importlib.util.find_spec(package) is not None:
-            return reader(code)
-    return None
-
-
 def compound_wkt(crs: Crs) -> str | None:
     """Return the well-known text of a CRS, with the unit of its heights in it.
 
@@ -187,34 +172,3 @@ def _crs_of(text: str | None, facts: WktFacts, progress: Progress) -> Crs:
                 f" {unit_name(horizontal)}."
             )
     return replace(crs, horizontal_unit=horizontal, vertical_unit=vertical)
-
-
-def _by_gdal(code: int) -> str | None:
-    from osgeo import osr
-
-    reference = osr.SpatialReference()
-    try:
-        failed = reference.ImportFromEPSG(code)
-    except RuntimeError:  # where the application made GDAL raise its errors
-        return None
-    return None if failed else reference.ExportToWkt()
-
-
-def _by_pyproj(code: int) -> str | None:
-    from pyproj import CRS
-    from pyproj.exceptions import CRSError
-
-    try:
-        return CRS.from_epsg(code).to_wkt("WKT1_GDAL")
-    except CRSError:
-        return None
-
-
-def _by_rasterio(code: int) -> str | None:
-    from rasterio.crs import CRS
-    from rasterio.errors import CRSError
-
-    try:
-        return CRS.from_epsg(code).to_wkt()
-    except CRSError:
-        return None

@@ -6,7 +6,6 @@ that a classification needs.
 
 from __future__ import annotations
 
-import math
 import re
 from typing import NamedTuple, Sequence
 
@@ -20,6 +19,11 @@ _GEOGRAPHIC = {"GEOGCS", "GEOGCRS", "GEOGRAPHICCRS", "GEODCRS", "GEODETICCRS", "
 _VERTICAL = {"VERT_CS", "VERTCS", "VERTCRS", "VERTICALCRS"}
 _UNITS = {"UNIT", "LENGTHUNIT"}
 _UPWARDS = {"up", "down"}
+# Metres in one unit; what lies outside is no unit of length that points can be measured in.
+_SMALLEST_UNIT, _LARGEST_UNIT = 1e-6, 1e6
+# Brackets in brackets: a CRS of a file has some eight.
+_DEEPEST = 50
+_CODE = re.compile(r"[0-9]{1,9}")
 
 
 class Node(NamedTuple):
@@ -91,7 +95,10 @@ def read_wkt(text: str) -> WktFacts | None:
 
 
 def _parse(text: str) -> list[str | Node]:
-    """Return the nodes of the text; brackets that are never closed end with the text."""
+    """Return the nodes of the text; brackets that are never closed end with the text.
+
+    None at all if they are deeper in each other than those of any CRS.
+    """
     top: list[str | Node] = []
     open_lists = [top]
     for quoted, keyword, bare, closing in _TOKEN.findall(text):
@@ -99,6 +106,8 @@ def _parse(text: str) -> list[str | Node]:
             node = Node(keyword.upper(), [])
             open_lists[-1].append(node)
             open_lists.append(node.values)
+            if len(open_lists) > _DEEPEST:
+                return []
         elif closing:
             if len(open_lists) > 1:
                 open_lists.pop()
@@ -145,12 +154,23 @@ def _number(text: str) -> float | None:
         number = float(text)
     except ValueError:
         return None
-    return number if math.isfinite(number) and number > 0 else None
+    return number if is_unit(number) else None
+
+
+def is_unit(metres: float) -> bool:
+    """Return whether a unit may have so many metres.
+
+    Examples
+    --------
+    >>> is_unit(0.3048), is_unit(1e308), is_unit(float("nan"))
+    (True, False, False)
+    """
+    return _SMALLEST_UNIT <= metres <= _LARGEST_UNIT
 
 
 def _epsg_of(node: Node) -> int | None:
     for authority in node.children({"AUTHORITY", "ID"}):
         values = [value for value in authority.values if isinstance(value, str)]
-        if len(values) >= 2 and values[0].upper() == "EPSG" and values[1].isdigit():
+        if len(values) >= 2 and values[0].upper() == "EPSG" and _CODE.fullmatch(values[1]):
             return int(values[1])
     return None

@@ -175,6 +175,7 @@ def classify_file(
     request.files.check((source, target))
     resources = resources.now()
     scope = Scope(selection, area, method_of(parameters).reach(parameters))
+    opened = read_layout(source)
     with may_use(resources.thread_count):
         outcome = _outcome(source, target, parameters, scope, resources, request, output, progress)
     with contextlib.ExitStack() as outputs:
@@ -187,7 +188,7 @@ def classify_file(
         if output.changes_points:
             ground = classes == selection.to_class
             changes = output.changes(outcome.cloud, classes, ground, progress.part(0.85, 0.9))
-        write_changed(source, target, changes, progress.part(0.9, 1.0), outcome.cloud)
+        write_changed(opened, target, changes, progress.part(0.9, 1.0), outcome.cloud)
     counts = outcome.class_counts
     written = [selection.to_class] if output.ground_only else np.flatnonzero(counts)
     return Summary(

@@ -5,6 +5,7 @@ They run in a thread, in another process or on another computer that sees the sa
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Iterator, NamedTuple
@@ -17,7 +18,6 @@ from ..core.progress import Progress, Unsaid
 from ..core.threads import may_use
 from ..las.changes import Changes
 from ..las.cloud import PointCloud
-from ..las.lasbytes import read_layout
 from ..las.reading import read_cloud, read_parts
 from ..las.writing import layers_kept, write_changed
 from ..survey.collection import Tile
@@ -168,13 +168,18 @@ class LabelJob(BlockJob):
     ) -> None:
         """Keep the labels of a block: for each file those of its points there, in its order."""
         kept = {
-            part.cloud.path.name: values[there == block]
+            _key(part.cloud.path): values[there == block]
             for part, there, values in zip(parts, codes, labels)
         }
         if failure:
             kept[_FAILURE] = np.array(failure)
         with replacing(file) as temporary:
             np.savez(temporary, **kept)
+
+
+def _key(path: Path) -> str:
+    """Return a name for the labels of a file; its own may be none that can be written."""
+    return os.fsencode(path.name).hex()
 
 
 class TileSummary(NamedTuple):
@@ -244,7 +249,7 @@ class TileJob(NamedTuple):
         selection.tell(tally, path, progress)
         kept.check()
         changes, rest = Changes(classification=classes), progress.part(0.4, 1.0)
-        write_changed(path, self.target, changes, rest, part)
+        write_changed(self.tile.file, self.target, changes, rest, part)
         ground = int(np.count_nonzero(classes == selection.to_class))
         summary = TileSummary(self.target.name, len(classes), ground)
         write_record(self.target, self.record, summary._asdict())
@@ -254,10 +259,10 @@ class TileJob(NamedTuple):
         """Yield the points: all at once, to be written without being read again, if they fit."""
         count, length = self.tile.count, self.tile.record_length
         if fits_in_memory(count, share.resources, length):
-            keep = not layers_kept(read_layout(self.tile.path), self.target)
-            yield read_cloud(self.tile.path, progress, keep_records=keep)
+            keep = not layers_kept(self.tile.file, self.target)
+            yield read_cloud(self.tile.file, progress, keep_records=keep)
         else:
-            yield from read_parts(self.tile.path, progress)
+            yield from read_parts(self.tile.file, progress)
 
 
 class _KeptLabels:
@@ -275,8 +280,8 @@ class _KeptLabels:
         self._left: dict[int, np.ndarray] = {}
         for place, file in zip(job.places, job.files):
             with np.load(file, allow_pickle=False) as kept:
-                if self._path.name in kept:
-                    self._left[code(place)] = kept[self._path.name]
+                if _key(self._path) in kept:
+                    self._left[code(place)] = kept[_key(self._path)]
                     self._failure = self._failure or str(kept.get(_FAILURE, ""))
 
     def of(self, part: PointCloud) -> np.ndarray:

@@ -208,7 +208,7 @@ def write_height_above_ground(
         changes = Changes(z=_integers(cloud, heights))
     else:
         changes = Changes(extra=height_dimension(cloud, heights))
-    write_changed(source, target, changes, progress.part(0.8, 1.0))
+    write_changed(cloud.file, target, changes, progress.part(0.8, 1.0))
     return HeightSummary(
         point_count=cloud.count,
         ground_count=int(np.count_nonzero(is_ground)),
@@ -279,7 +279,7 @@ def write_key_points(
         flags = np.where(is_ground, 0, -1).astype(np.int8)
         flags[keys] = 1
         changes = Changes(key_points=flags)
-    write_changed(source, target, changes, progress.part(0.85, 1.0))
+    write_changed(cloud.file, target, changes, progress.part(0.85, 1.0))
     counts = np.unique(classes, return_counts=True)
     return KeyPointSummary(
         point_count=cloud.count,

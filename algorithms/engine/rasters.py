@@ -11,7 +11,7 @@ from typing import Callable, Iterator, NamedTuple, Sequence
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import replacing
+from ..core.files import check_distinct, replacing
 from ..core.points import Frame
 from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
@@ -65,8 +65,7 @@ class RasterFiles:
             If a name does not do.
         """
         paths = list(self.wanted.values())
-        if len({each.resolve() for each in paths}) < len(paths):
-            raise BareEarthError("Two of the rasters have the same name. Choose different names.")
+        check_distinct(paths)
         for each in paths:
             check_raster_output(each, others)
 

@@ -9,7 +9,13 @@ from pathlib import Path
 from typing import Any, Iterable, NamedTuple
 
 from ..core.errors import BareEarthError
-from ..core.files import alone_in, check_output, describe_write_error, remove_leftovers
+from ..core.files import (
+    alone_in,
+    check_output,
+    describe_write_error,
+    is_same_file,
+    remove_leftovers,
+)
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress, Unsaid
 from ..las.records import check_class
@@ -124,6 +130,11 @@ def classify_tiles(
     """
     folder, sources = Path(folder), [Path(each) for each in sources]
     vpc = folder / VPC_NAME if vpc is None else Path(vpc)
+    for source in sources:
+        if is_same_file(source, vpc):
+            raise BareEarthError(
+                f"Input and output are the same file, {source}. Choose another output."
+            )
     collection = open_collection(sources, files.recursive, progress.part(0.0, 0.02))
     _check(collection, folder, vpc, sources if files.recursive else [])
     targets = _targets(collection, folder, output.format)

@@ -10,12 +10,9 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.progress import paced
 from .extrabytes import ExtraDimension, place_dimension
-from .lasbytes import LasLayout, with_count, with_z_range
-from .records import FIRST_EXTENDED_FORMAT, MOST_KEPT, check_class, read_records
-
-_Z = slice(8, 12)
-# The key-point flag: in the byte of the class up to point format 5, in that of the flags from 6 on.
-_LEGACY_KEY_POINT, _KEY_POINT, _FLAGS = 0x40, 0x02, 15
+from .header_changes import with_count, with_z_range
+from .lasfile import LasFile
+from .records import MOST_KEPT, check_class, named, read_records
 
 
 @dataclass(frozen=True)
@@ -54,7 +51,7 @@ class Rewriting:
 
     Parameters
     ----------
-    source : LasLayout
+    source : LasFile
         The file as it is.
     changes : Changes
         What changes in its points.
@@ -63,7 +60,7 @@ class Rewriting:
 
     Attributes
     ----------
-    source, target : LasLayout
+    source, target : LasFile
         The file as it is, and its header and records as they are to be.
 
     Raises
@@ -73,7 +70,7 @@ class Rewriting:
     """
 
     def __init__(
-        self, source: LasLayout, changes: Changes, records: np.ndarray | None = None
+        self, source: LasFile, changes: Changes, records: np.ndarray | None = None
     ) -> None:
         read = (source.count, source.record_length) if records is None else records.shape
         if read != (source.count, source.record_length) or any(
@@ -144,9 +141,7 @@ class Rewriting:
         """Return the classes that records, which begin with the point `start`, are to have."""
         if self._changes.classification is not None:
             return self._changes.classification[start : start + len(records)]
-        if self.source.point_format < FIRST_EXTENDED_FORMAT:
-            return records[:, 15] & 0x1F
-        return records[:, 16]
+        return np.asarray(named(self.target, records)["classification"])
 
     def apply(self, records: np.ndarray, start: int) -> np.ndarray:
         """Return records as they are to be, but for their classes.
@@ -167,17 +162,14 @@ class Rewriting:
             longer = np.empty((len(records), self.target.record_length), dtype=np.uint8)
             longer[:, : records.shape[1]] = records
             records = longer
+        points = named(self.target, records)
         if self._changes.z is not None:
-            _put(records, _Z.start, np.dtype("<i4"), self._changes.z[part])
+            points["Z"] = self._changes.z[part]
         if self._place is not None:
-            _put(records, self._place.start, self._place.kind, self._changes.extra.values[part])
+            end = self._place.start + self._place.kind.itemsize
+            column = records[:, self._place.start : end].view(self._place.kind)
+            column[:, 0] = self._changes.extra.values[part]
         if self._changes.key_points is not None:
-            legacy = self.source.point_format < FIRST_EXTENDED_FORMAT
-            bit, flags = _LEGACY_KEY_POINT if legacy else _KEY_POINT, self._changes.key_points[part]
-            records[flags == 0, _FLAGS] &= 0xFF ^ bit
-            records[flags == 1, _FLAGS] |= bit
+            flags = self._changes.key_points[part]
+            points["key_point"] = np.where(flags < 0, points["key_point"], flags)
         return records
-
-
-def _put(records: np.ndarray, start: int, kind: np.dtype, values: np.ndarray) -> None:
-    records[:, start : start + kind.itemsize].view(kind)[:, 0] = values

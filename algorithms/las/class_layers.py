@@ -21,15 +21,13 @@ from typing import BinaryIO, Iterable, Iterator, NamedTuple, Sequence
 import numpy as np
 
 from .cloud import PointCloud
-from .lasbytes import LASZIP, RECORD_LENGTHS, LasLayout
-from .records import LazRecordWriter, laszip_vlr, read_records
-from .sources import damage_told, damaged, open_source
+from .lasfile import RECORD_LENGTHS, LasFile
+from .laszip import LAYERS, POINT_14, ChunkHead, Compression
+from .records import LazRecordWriter, laszip_vlr, named, read_records
+from .sources import damaged, open_source
 
-# What the record of the compression says: its kind, and of what a point is put together.
-_LAYERED_CHUNKS, _POINT, _EXTRA_BYTES = 3, 10, 14
-_KIND, _ITEM_COUNT, _ITEMS = "<H", 32, 34
-# Layers of a point, its colours, those with near infrared, and its wave packet.
-_LAYERS = {_POINT: 9, 11: 1, 12: 2, 13: 1}
+# What of a point decides how its class is coded.
+_DECISIVE = ("return_number", "number_of_returns", "scanner_channel")
 _FORMAT, _RETURNS, _CHANNEL, _CLASS, _CLASS_LAYER = 6, 14, 15, 16, 2
 # Returns of a pulse that has one, and that has more: as small as can be.
 _ONLY, _FIRST_OF_TWO = 0x11, 0x21
@@ -54,33 +52,13 @@ class Chunk(NamedTuple):
     size: int
 
 
-class _Head(NamedTuple):
-    """What a chunk begins with: a whole point, how many there are, and the length of each layer.
-
-    Attributes
-    ----------
-    record_length : int
-        Bytes of a point.
-    layers : int
-        How many layers there are.
-    """
-
-    record_length: int
-    layers: int
-
-    @property
-    def size(self) -> int:
-        """Bytes before the first layer."""
-        return self.record_length + 4 + 4 * self.layers
+class _Head(ChunkHead):
+    """The head of a chunk, and where the layer of its classes is."""
 
     @property
     def class_length(self) -> int:
         """Where the length of the layer of the classes stands."""
         return self.record_length + 4 + 4 * _CLASS_LAYER
-
-    def numbers(self, data: bytes | memoryview, start: int = 0) -> tuple[int, ...]:
-        """Return the number of points, and the lengths of the layers, of the chunk at `start`."""
-        return struct.unpack_from(f"<{1 + self.layers}I", data, start + self.record_length)
 
     def class_layer(self, data: bytes | memoryview, start: int = 0) -> slice:
         """Return where the layer of the classes stands of the chunk at `start`."""
@@ -89,7 +67,7 @@ class _Head(NamedTuple):
         return slice(place, place + lengths[_CLASS_LAYER])
 
 
-def class_layers(layout: LasLayout) -> ClassLayers | None:
+def class_layers(layout: LasFile) -> ClassLayers | None:
     """Return the layers of the classes of a file; None if it has none that can be replaced.
 
     Raises
@@ -97,8 +75,7 @@ def class_layers(layout: LasLayout) -> ClassLayers | None:
     BareEarthError
         If it cannot be read.
     """
-    record = layout.vlr(LASZIP) if layout.is_compressed else None
-    layers = 0 if record is None else _layers_of(record.data)
+    layers = Compression.of(layout.laszip).layers if layout.is_compressed else 0
     if not layers:
         return None
     head = _Head(layout.record_length, layers)
@@ -106,34 +83,11 @@ def class_layers(layout: LasLayout) -> ClassLayers | None:
     return None if chunks is None else ClassLayers(layout, chunks, head)
 
 
-def _layers_of(record: bytes) -> int:
-    """Return how many layers the compressed points have; 0 if it is not known."""
-    if len(record) < _ITEMS or struct.unpack_from(_KIND, record)[0] != _LAYERED_CHUNKS:
-        return 0
-    (count,) = struct.unpack_from("<H", record, _ITEM_COUNT)
-    if len(record) < _ITEMS + 6 * count:
-        return 0
-    items = [struct.unpack_from("<HH", record, _ITEMS + 6 * number) for number in range(count)]
-    kinds = [kind for kind, _ in items]
-    if kinds[:1] != [_POINT] or not set(kinds) <= {*_LAYERS, _EXTRA_BYTES}:
-        return 0
-    return sum(size if kind == _EXTRA_BYTES else _LAYERS[kind] for kind, size in items)
-
-
-def _chunks(layout: LasLayout, head: _Head) -> list[Chunk] | None:
+def _chunks(layout: LasFile, head: _Head) -> list[Chunk] | None:
     """Return the chunks of a file; None if they are not made as they should be."""
-    import lazrs
-
-    chunks, start = [], 0
+    chunks, start, place = [], 0, layout.points_start + 8
     with open_source(layout.path) as file:
-        file.seek(layout.points_start)
-        with damage_told(layout.path):
-            sizes = [
-                size
-                for _, size in lazrs.read_chunk_table(file, lazrs.LazVlr(layout.vlr(LASZIP).data))
-            ]
-        place = layout.points_start + 8
-        for size in sizes:
+        for _, size in layout.chunk_table:
             file.seek(place)
             data = file.read(head.size)
             if len(data) != head.size:
@@ -151,7 +105,7 @@ class ClassLayers:
 
     Parameters
     ----------
-    layout : LasLayout
+    layout : LasFile
         The file.
     chunks : list of Chunk
         All of its chunks, in order.
@@ -166,7 +120,7 @@ class ClassLayers:
         Where each that was written begins in the output, and its bytes there, by its `place`.
     """
 
-    def __init__(self, layout: LasLayout, chunks: list[Chunk], head: _Head) -> None:
+    def __init__(self, layout: LasFile, chunks: list[Chunk], head: _Head) -> None:
         self._layout, self.chunks, self._head = layout, chunks, head
         self.moved: dict[int, tuple[int, int]] = {}
 
@@ -217,7 +171,7 @@ class ClassLayers:
                 yield group[-1].end / layout.count
         end = file.tell()
         sizes = [(each.end - each.start, self.moved[each.place][1]) for each in self.chunks]
-        lazrs.write_chunk_table(file, sizes, lazrs.LazVlr(layout.vlr(LASZIP).data))
+        lazrs.write_chunk_table(file, sizes, lazrs.LazVlr(layout.laszip))
         file.seek(table)
         file.write(struct.pack("<q", end))
         file.seek(0, io.SEEK_END)
@@ -247,7 +201,7 @@ class ClassLayers:
 
 
 def _returns(
-    layout: LasLayout, groups: Iterable[Sequence[Chunk]], cloud: PointCloud | None
+    layout: LasFile, groups: Iterable[Sequence[Chunk]], cloud: PointCloud | None
 ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
     """Yield, for each group of chunks, what of the points decides how classes are coded.
 
@@ -259,10 +213,10 @@ def _returns(
     if cloud is None or cloud.count != layout.count or cloud.scanner_channel is None:
         most = max(piece.stop - piece.start for piece in pieces)
         for records in read_records(layout, most, columns=(), pieces=pieces):
-            returns, channel = records[:, _RETURNS], records[:, _CHANNEL]
-            yield returns & 0x0F, returns >> 4, channel >> 4 & 0x03
+            points = named(layout, records)
+            yield tuple(np.asarray(points[name]) for name in _DECISIVE)
         return
-    columns = cloud.return_number, cloud.number_of_returns, cloud.scanner_channel
+    columns = [getattr(cloud, name) for name in _DECISIVE]
     for piece in pieces:
         yield tuple(column[piece] for column in columns)
 
@@ -275,7 +229,7 @@ def _new_layers(
     chunks: Sequence[slice],
 ) -> Iterator[bytes]:
     """Yield the layer of the classes for each chunk of some points."""
-    head = _Head(RECORD_LENGTHS[_FORMAT], _LAYERS[_POINT])
+    head = _Head(RECORD_LENGTHS[_FORMAT], LAYERS[POINT_14])
     points = np.zeros((len(classes), head.record_length), dtype=np.uint8)
     is_only = (return_number == 1) & (number_of_returns <= 1)
     points[:, _RETURNS] = np.where(is_only, _ONLY, _FIRST_OF_TWO)

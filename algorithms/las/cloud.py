@@ -15,6 +15,7 @@ from ..core.points import Frame, Points
 from ..core.progress import SILENT
 from ..core.threads import in_threads, over_parts, parts_of
 from ..crs.system import Crs
+from .lasfile import LasFile
 
 _POINTS_A_PART = 1 << 15
 # Points of the parts of a cloud.
@@ -53,6 +54,8 @@ class PointCloud:
         The scanner channel of each point, where the point format has it (6 to 10) and it was read.
     records : numpy.ndarray of uint8, shape (n, record length), optional
         The points as the file has them, where they were kept to be written again.
+    file : LasFile, optional
+        The file as it was when the points were read.
     """
 
     path: Path
@@ -69,6 +72,7 @@ class PointCloud:
     crs: Crs
     scanner_channel: np.ndarray | None = None
     records: np.ndarray | None = None
+    file: LasFile | None = None
 
     @property
     def count(self) -> int:

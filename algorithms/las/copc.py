@@ -20,18 +20,19 @@ import numpy as np
 
 from ..core.progress import SILENT, Progress
 from ..crs.system import compound_wkt
+from . import header as fields
 from .changes import Rewriting
 from .crs_records import GEOKEY_RECORDS, WKT_RECORD, read_crs, wkt_text
-from .lasbytes import (
+from .lasfile import (
     COPC_EXTENTS,
     COPC_HIERARCHY,
     COPC_INFO,
-    HEADER_SIZES,
+    LARGEST_VLR,
     LASZIP,
     RECORD_LENGTHS,
     WAVEFORM_PACKETS,
     Evlr,
-    LasLayout,
+    LasFile,
     Vlr,
     new_vlr,
 )
@@ -133,7 +134,7 @@ def write_copc(rewriting: Rewriting, target: Path, progress: Progress = SILENT) 
     octree = build_octree(records, layout.scale, layout.offset, progress.part(0.3, 0.4))
     vlrs, evlrs = _vlrs(layout, point_format, progress), _evlrs(layout)
     with open(target, "w+b") as file:
-        start = HEADER_SIZES[4] + sum(len(vlr.raw) for vlr in vlrs)
+        start = fields.HEADER_SIZES[4] + sum(len(vlr.raw) for vlr in vlrs)
         file.write(bytes(start))
         entries = _write_nodes(file, vlrs[1], records, octree, progress.part(0.4, 1.0))
         end = file.seek(0, 2)
@@ -144,9 +145,11 @@ def write_copc(rewriting: Rewriting, target: Path, progress: Progress = SILENT) 
         statistics = _statistics(layout, records)
         vlrs[0] = _info(octree, statistics.gps_time, end, len(entries) * 32)
         header = _header(layout, point_format, records.shape, statistics)
-        struct.pack_into("<II", header, 96, start, len(vlrs))
+        fields.POINTS_START.put(header, start)
+        fields.VLR_COUNT.put(header, len(vlrs))
         # One record more behind the points, for the hierarchy.
-        struct.pack_into("<QI", header, 235, end, len(evlrs) + 1)
+        fields.EVLR_START.put(header, end)
+        fields.EVLR_COUNT.put(header, len(evlrs) + 1)
         file.seek(0)
         file.write(header)
         file.write(b"".join(vlr.raw for vlr in vlrs))
@@ -391,25 +394,30 @@ def _info(octree: Octree, gps_time: tuple[float, float], evlr_start: int, size: 
 
 
 def _header(
-    layout: LasLayout, point_format: int, shape: tuple[int, int], statistics: _Statistics
+    layout: LasFile, point_format: int, shape: tuple[int, int], statistics: _Statistics
 ) -> bytearray:
     """Return a header of LAS 1.4 that says what that of the input said, but not what lies where."""
-    header = bytearray(HEADER_SIZES[4])
-    header[:179] = layout.header[:179]
+    header = bytearray(fields.HEADER_SIZES[4])
+    until = fields.EXTENT.start
+    header[:until] = layout.header[:until]
     encoding = layout.global_encoding if layout.minor_version >= 2 else 0
     encoding = (encoding & (_GPS_TIME_TYPE | _SYNTHETIC_RETURNS)) | _WKT
-    struct.pack_into("<H", header, 6, encoding)
-    header[24:26] = bytes((1, 4))
-    struct.pack_into("<H", header, 94, HEADER_SIZES[4])
+    fields.GLOBAL_ENCODING.put(header, encoding)
+    fields.VERSION.put(header, 1, 4)
+    fields.HEADER_SIZE.put(header, len(header))
     # The old fields for numbers of points, of 32 bits, stay empty since the formats from 6 on.
-    struct.pack_into("<BH24x", header, 104, point_format | 0x80, shape[1])
+    fields.LEGACY_COUNT.put(header, 0)
+    fields.LEGACY_RETURNS.put(header, *[0] * 5)
+    fields.POINT_FORMAT.put(header, point_format | 0x80)
+    fields.RECORD_LENGTH.put(header, shape[1])
     corners = np.column_stack((statistics.maximum, statistics.minimum)).ravel()
-    struct.pack_into("<6d", header, 179, *corners)
-    struct.pack_into("<Q15Q", header, 247, shape[0], *statistics.returns.tolist())
+    fields.EXTENT.put(header, *corners)
+    fields.COUNT.put(header, shape[0])
+    fields.RETURNS.put(header, *statistics.returns.tolist())
     return header
 
 
-def _statistics(layout: LasLayout, records: np.ndarray) -> _Statistics:
+def _statistics(layout: LasFile, records: np.ndarray) -> _Statistics:
     coordinates = [_integers(records, axis) for axis in range(3)]
     returns = np.bincount(records[:, 14] & 0x0F, minlength=16)[1:16]
     times = _column(records, 22, "<f8")
@@ -420,7 +428,7 @@ def _statistics(layout: LasLayout, records: np.ndarray) -> _Statistics:
     return _Statistics(*_extent(coordinates, layout.scale, layout.offset), returns, known)
 
 
-def _vlrs(layout: LasLayout, point_format: int, progress: Progress) -> list[Vlr]:
+def _vlrs(layout: LasFile, point_format: int, progress: Progress) -> list[Vlr]:
     """Return the records before the points; the first is the info record, to be filled in."""
     kept = [vlr for vlr in layout.vlrs if _is_kept(vlr)]
     wkt = _wkt(layout, progress)
@@ -431,7 +439,7 @@ def _vlrs(layout: LasLayout, point_format: int, progress: Progress) -> list[Vlr]
     return [new_vlr(COPC_INFO, bytes(160), ""), laszip, *kept]
 
 
-def _evlrs(layout: LasLayout) -> list[Evlr]:
+def _evlrs(layout: LasFile) -> list[Evlr]:
     return [evlr for evlr in layout.evlrs if _is_kept(evlr)]
 
 
@@ -443,7 +451,7 @@ def _is_kept(record: Vlr | Evlr) -> bool:
     return record.key not in (LASZIP, COPC_INFO, COPC_HIERARCHY, COPC_EXTENTS, WAVEFORM_PACKETS)
 
 
-def _wkt(layout: LasLayout, progress: Progress) -> Vlr | None:
+def _wkt(layout: LasFile, progress: Progress) -> Vlr | None:
     """Return the record of the CRS as well-known text, the only way that COPC has for it."""
     crs = read_crs(layout)
     text = compound_wkt(crs)
@@ -454,6 +462,12 @@ def _wkt(layout: LasLayout, progress: Progress) -> Vlr | None:
                 " in GeoTIFF keys, which not every program will read."
             )
         return None
+    if len(text.encode()) >= LARGEST_VLR:
+        progress.warning(
+            "The well-known text of the CRS is too long for a record of COPC: its records stay as"
+            " they are, which not every program will read."
+        )
+        return None
     for vlr in layout.vlrs:
         if vlr.key == WKT_RECORD and wkt_text(vlr.data) == text:
             return vlr
@@ -462,7 +476,7 @@ def _wkt(layout: LasLayout, progress: Progress) -> Vlr | None:
     return new_vlr(WKT_RECORD, text.encode() + b"\0", "OGC WKT Coordinate System")
 
 
-def _tell_of_format(layout: LasLayout, point_format: int, progress: Progress) -> None:
+def _tell_of_format(layout: LasFile, point_format: int, progress: Progress) -> None:
     if layout.point_format in _WITH_WAVEFORMS:
         progress.warning(
             f"COPC cannot hold the waveforms of point format {layout.point_format}: they are left"
@@ -472,5 +486,5 @@ def _tell_of_format(layout: LasLayout, point_format: int, progress: Progress) ->
         progress.info(
             f"Point format {layout.point_format} becomes {point_format}, as COPC wants it."
         )
-    if len(layout.header) > HEADER_SIZES[layout.minor_version]:
+    if len(layout.header) > fields.HEADER_SIZES[layout.minor_version]:
         progress.warning("COPC cannot hold the bytes that were added to the header: left out.")

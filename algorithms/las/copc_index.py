@@ -14,7 +14,7 @@ import numpy as np
 
 from .class_layers import Chunk
 from .copc_nodes import OctreeError, read_hierarchy, read_pages
-from .lasbytes import COPC_EXTENTS, COPC_INFO, VLR_HEADER, LasLayout
+from .lasfile import COPC_EXTENTS, COPC_INFO, VLR_HEADER, LasFile
 
 # Where the info record says where the first page of the hierarchy begins.
 _ROOT = 40
@@ -25,7 +25,7 @@ class CopcIndex:
 
     Parameters
     ----------
-    layout : LasLayout
+    layout : LasFile
         A COPC file.
 
     Raises
@@ -34,7 +34,7 @@ class CopcIndex:
         If the index is damaged, or would no longer be true.
     """
 
-    def __init__(self, layout: LasLayout) -> None:
+    def __init__(self, layout: LasFile) -> None:
         self._layout, self._pages = layout, read_pages(read_hierarchy(layout))
         if layout.vlr(COPC_EXTENTS) is not None:
             raise OctreeError(f"The index of {layout.path} says which classes there are.")
@@ -67,7 +67,7 @@ class CopcIndex:
                 if entry["count"] > 0:
                     entry["start"], entry["size"] = moved[int(entry["start"])]
                 elif entry["count"] < 0:
-                    entry["start"] += shift
+                    entry["start"] = int(entry["start"]) + shift  # unsigned: shift may be negative
             file.seek(start + shift)
             file.write(entries.tobytes())
         place = len(self._layout.header)

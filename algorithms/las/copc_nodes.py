@@ -10,6 +10,7 @@ COPC specification 1.0, https://copc.io
 
 from __future__ import annotations
 
+import itertools
 import struct
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, BinaryIO, Callable, Iterator
@@ -19,8 +20,9 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.points import Box
 from .copc import HIERARCHY_ENTRY
-from .lasbytes import COPC_INFO, LASZIP, LasLayout
-from .records import NEEDED, selection_of
+from .lasfile import COPC_INFO, LasFile
+from .laszip import ChunkHead, Compression
+from .records import NEEDED, named, selection_of
 from .sources import damage_told, damaged, open_source
 
 if TYPE_CHECKING:
@@ -52,7 +54,7 @@ class Hierarchy:
         Start and size of the first page.
     """
 
-    layout: LasLayout
+    layout: LasFile
     corner: tuple[float, float]
     side: float
     root: tuple[int, int]
@@ -82,7 +84,7 @@ class Hierarchy:
         return np.array([west - more, south - more, west + sides + more, south + sides + more])
 
 
-def read_hierarchy(layout: LasLayout) -> Hierarchy:
+def read_hierarchy(layout: LasFile) -> Hierarchy:
     """Read where the octree of a COPC file lies.
 
     Raises
@@ -164,9 +166,7 @@ def read_pages(hierarchy: Hierarchy) -> dict[int, np.ndarray]:
     return pages
 
 
-def read_nodes(
-    hierarchy: Hierarchy, nodes: np.ndarray, reader: laspy.LasReader
-) -> Iterator[laspy.PackedPointRecord]:
+def read_nodes(hierarchy: Hierarchy, nodes: np.ndarray) -> Iterator[laspy.PackedPointRecord]:
     """Yield the points of nodes, about a million at once.
 
     Parameters
@@ -175,8 +175,6 @@ def read_nodes(
         The octree.
     nodes : numpy.ndarray of HIERARCHY_ENTRY
         From `find_nodes`.
-    reader : laspy.LasReader
-        The opened file; knows the point format.
 
     Raises
     ------
@@ -185,14 +183,12 @@ def read_nodes(
     BareEarthError
         If the points are damaged.
     """
-    import laspy
-
     layout = hierarchy.layout
     with open_source(layout.path) as file:
         for batch in _batches(nodes):
             with damage_told(layout.path):
                 records = _decompress(layout, file, batch)
-                chunk = laspy.PackedPointRecord.from_buffer(records, reader.header.point_format)
+                chunk = named(layout, records)
             _check_places(hierarchy, batch, chunk)
             yield chunk
 
@@ -218,7 +214,7 @@ def _pages(
             yield page[0], entries, which
 
 
-def _read_page(layout: LasLayout, file: BinaryIO, start: int, size: int) -> np.ndarray:
+def _read_page(layout: LasFile, file: BinaryIO, start: int, size: int) -> np.ndarray:
     """Return the entries of a page of the hierarchy, all of which make sense."""
     length = HIERARCHY_ENTRY.itemsize
     if size < length or size % length or start + size > layout.size:
@@ -231,7 +227,7 @@ def _read_page(layout: LasLayout, file: BinaryIO, start: int, size: int) -> np.n
     depth, places = entries["key"][:, 0], entries["key"][:, 1:]
     makes_sense = (depth >= 0) & (depth <= _DEEPEST) & (entries["count"] >= -1)
     makes_sense &= (places >= 0).all(axis=1)
-    makes_sense &= (places < np.exp2(depth)[:, None]).all(axis=1)
+    makes_sense &= (places < np.exp2(np.clip(depth, 0, _DEEPEST))[:, None]).all(axis=1)
     filled = entries["count"] != 0
     end = entries["start"] + np.maximum(entries["size"], 0).astype(np.uint64)
     in_file = (entries["size"] > 0) & (entries["start"] < layout.size) & (end <= layout.size)
@@ -253,7 +249,7 @@ def _batches(nodes: np.ndarray) -> Iterator[np.ndarray]:
     return (run for run in np.split(nodes, np.flatnonzero(np.diff(numbers)) + 1) if len(run))
 
 
-def _decompress(layout: LasLayout, file: BinaryIO, nodes: np.ndarray) -> np.ndarray:
+def _decompress(layout: LasFile, file: BinaryIO, nodes: np.ndarray) -> np.ndarray:
     import lazrs
 
     compressed = bytearray()
@@ -262,13 +258,17 @@ def _decompress(layout: LasLayout, file: BinaryIO, nodes: np.ndarray) -> np.ndar
         compressed += file.read(int(node["size"]))
     if len(compressed) != int(nodes["size"].sum(dtype=np.int64)):
         raise damaged(layout.path)
-    counts = nodes["count"].tolist()
+    counts, sizes = nodes["count"].tolist(), nodes["size"].tolist()
+    head = ChunkHead(layout.record_length, Compression.of(layout.laszip).layers)
+    starts = itertools.accumulate(sizes, initial=0)
+    if not all(head.fits(compressed, size, start) for size, start in zip(sizes, starts)):
+        raise damaged(layout.path)
     records = np.zeros(sum(counts) * layout.record_length, dtype=np.uint8)
     lazrs.decompress_points_with_chunk_table(
         compressed,
-        layout.vlr(LASZIP).data,
+        layout.laszip,
         records,
-        list(zip(counts, nodes["size"].tolist())),
+        list(zip(counts, sizes)),
         selection_of(NEEDED),
     )
     return records
@@ -287,9 +287,9 @@ def _check_places(hierarchy: Hierarchy, nodes: np.ndarray, chunk: laspy.PackedPo
             raise _octree_error(layout, "points lie outside of their nodes")
 
 
-def _uncounted(layout: LasLayout) -> OctreeError:
+def _uncounted(layout: LasFile) -> OctreeError:
     return _octree_error(layout, "its numbers of points do not add up to that of the file")
 
 
-def _octree_error(layout: LasLayout, what: str) -> OctreeError:
+def _octree_error(layout: LasFile, what: str) -> OctreeError:
     return OctreeError(f"The octree of {layout.path} is damaged: {what}.")

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import functools
+
 from ..core.progress import SILENT, Progress
 from ..crs.geokeys import read_geokeys
+from ..crs.provider import library
 from ..crs.system import Crs, crs_of_geokeys, crs_of_wkt
-from .lasbytes import LasLayout
+from .lasfile import LasFile
 
 WKT_RECORD = ("LASF_Projection", 2112)
 # The directory of the keys, their numbers and their texts.
@@ -13,43 +16,66 @@ GEOKEY_RECORDS = tuple(("LASF_Projection", number) for number in (34735, 34736, 
 _WKT_BIT = 0x10
 
 
-def read_crs(layout: LasLayout, progress: Progress = SILENT) -> Crs:
+def read_crs(file: LasFile, progress: Progress = SILENT) -> Crs:
     """Return the CRS that the records of a file state.
 
     Well-known text and GeoTIFF keys may both be there: the global encoding of the header says which
-    one holds, and the other is read where that one is not there or not understood.
+    one holds, and the other is read where that one is not there or not understood. The files of a
+    survey state the same as a rule, which is then read once.
 
     Parameters
     ----------
-    layout : LasLayout
+    file : LasFile
         The file.
     progress : Progress
         Told which units are assumed where none is stated.
     """
-    readers = [_from_geokeys, _from_wkt]
-    if layout.global_encoding & _WKT_BIT:
-        readers.reverse()
-    for reader in readers:
-        crs = reader(layout, progress)
+    records = (file.vlr(key) for key in (WKT_RECORD, *GEOKEY_RECORDS))
+    content = tuple(record.data or b"" if record else b"" for record in records)
+    crs, messages = _stated(content, bool(file.global_encoding & _WKT_BIT), library())
+    for tell, text in messages:
+        getattr(progress, tell)(text)
+    if crs is None:
+        progress.warning(
+            f"{file.path.name} does not say its CRS: its coordinates are taken as metres."
+        )
+    return crs or Crs()
+
+
+@functools.lru_cache(maxsize=64)
+def _stated(
+    content: tuple[bytes, ...], is_wkt: bool, library: object
+) -> tuple[Crs | None, tuple[tuple[str, str], ...]]:
+    """Return the CRS that records state, and what there is to tell of it.
+
+    It depends on the library that knows EPSG codes, too.
+    """
+    text, keys = wkt_text(content[0]), read_geokeys(*content[1:])
+    readers = [
+        lambda notes: None if keys is None else crs_of_geokeys(keys, notes),
+        lambda notes: crs_of_wkt(text, notes),
+    ]
+    for reader in reversed(readers) if is_wkt else readers:
+        notes = _Notes()
+        crs = reader(notes)
         if crs is not None:
-            return crs
-    progress.warning(
-        f"{layout.path.name} does not say its CRS: its coordinates are taken as metres."
-    )
-    return Crs()
+            return crs, tuple(notes.messages)
+    return None, ()
+
+
+class _Notes(Progress):
+    """Keeps what it is told."""
+
+    def __init__(self) -> None:
+        self.messages: list[tuple[str, str]] = []
+
+    def info(self, text: str) -> None:
+        self.messages.append(("info", text))
+
+    def warning(self, text: str) -> None:
+        self.messages.append(("warning", text))
 
 
 def wkt_text(data: bytes) -> str:
     """Return the well-known text in the bytes of its record."""
     return data.split(b"\0")[0].decode("utf-8", "replace").strip()
-
-
-def _from_wkt(layout: LasLayout, progress: Progress) -> Crs | None:
-    record = layout.vlr(WKT_RECORD)
-    return crs_of_wkt(wkt_text(record.data), progress) if record and record.data else None
-
-
-def _from_geokeys(layout: LasLayout, progress: Progress) -> Crs | None:
-    records = [layout.vlr(key) for key in GEOKEY_RECORDS]
-    keys = read_geokeys(*(record.data or b"" if record else b"" for record in records))
-    return None if keys is None else crs_of_geokeys(keys, progress)

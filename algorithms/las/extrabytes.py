@@ -12,7 +12,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..core.errors import BareEarthError
-from .lasbytes import RECORD_LENGTHS, LasLayout, Vlr, new_vlr, with_record_length
+from .header_changes import with_record_length
+from .lasfile import LARGEST_VLR, RECORD_LENGTHS, LasFile, Vlr, new_vlr
 
 EXTRA_BYTES = ("LASF_Spec", 4)
 _DESCRIPTOR = 192
@@ -22,7 +23,7 @@ _KINDS = {9: "<f4", 10: "<f8"}
 _FLOAT = 9
 _HAS_MINIMUM, _HAS_MAXIMUM, _HAS_SCALE, _HAS_OFFSET = 0x02, 0x04, 0x08, 0x10
 _LARGEST_RECORD = 65535
-_MOST_UNDOCUMENTED = 255
+_UNDOCUMENTED, _MOST_UNDOCUMENTED = "undocumented", 255
 
 
 @dataclass(frozen=True)
@@ -50,19 +51,19 @@ class Place:
     kind: np.dtype
 
 
-def place_dimension(layout: LasLayout, dimension: ExtraDimension) -> tuple[LasLayout, Place]:
+def place_dimension(layout: LasFile, dimension: ExtraDimension) -> tuple[LasFile, Place]:
     """Find room for a dimension in the records of a file.
 
     Parameters
     ----------
-    layout : LasLayout
+    layout : LasFile
         The file as it is.
     dimension : ExtraDimension
         What to add; a dimension of that name is replaced.
 
     Returns
     -------
-    layout : LasLayout
+    layout : LasFile
         The file to be: with longer records, unless the dimension is there already, and with a
         record that describes it.
     place : Place
@@ -85,7 +86,7 @@ def place_dimension(layout: LasLayout, dimension: ExtraDimension) -> tuple[LasLa
     # What no descriptor speaks of comes before the new dimension, so it needs one now.
     while start < layout.record_length:
         size = min(layout.record_length - start, _MOST_UNDOCUMENTED)
-        descriptors.append(struct.pack("<2xBB32s156x", 0, size, b"undocumented"))
+        descriptors.append(struct.pack("<2xBB32s156x", 0, size, _UNDOCUMENTED.encode()))
         start += size
     descriptors.append(_descriptor(dimension, _FLOAT))
     kind = np.dtype(_KINDS[_FLOAT])
@@ -93,7 +94,7 @@ def place_dimension(layout: LasLayout, dimension: ExtraDimension) -> tuple[LasLa
     return _with_record(layout, descriptors), Place(start, kind)
 
 
-def extra_dimensions(layout: LasLayout) -> list[tuple[str, str, int]]:
+def extra_dimensions(layout: LasFile) -> list[tuple[str, str, int]]:
     """Return name, type and bytes of each dimension in extra bytes, in the terms of PDAL.
 
     The type is "unsigned", "signed" or "floating". Pairs and triples, which are deprecated, and
@@ -118,7 +119,18 @@ def extra_dimensions(layout: LasLayout) -> list[tuple[str, str, int]]:
     return found
 
 
-def _descriptors(layout: LasLayout) -> list[bytes]:
+def dimension_names(layout: LasFile) -> list[str]:
+    """Return the names of the dimensions in extra bytes, of which some may not be described."""
+    try:
+        descriptors = _descriptors(layout)
+    except BareEarthError:
+        descriptors = []
+    names = [_text(each[4:36]) for each in descriptors if _size(each)]
+    is_all = sum(map(_size, descriptors)) == layout.extra_bytes
+    return names if is_all else [*names, _UNDOCUMENTED]
+
+
+def _descriptors(layout: LasFile) -> list[bytes]:
     """Return the descriptors that a file has.
 
     Raises
@@ -148,7 +160,7 @@ def _size(descriptor: bytes) -> int:
     return _SIZES[(kind - 1) % 10 + 1] * ((kind - 1) // 10 + 1)
 
 
-def _checked_kind(layout: LasLayout, name: str, descriptor: bytes) -> np.dtype:
+def _checked_kind(layout: LasFile, name: str, descriptor: bytes) -> np.dtype:
     kind, options = descriptor[2], descriptor[3]
     if kind not in _KINDS or options & (_HAS_SCALE | _HAS_OFFSET):
         raise BareEarthError(
@@ -171,10 +183,10 @@ def _descriptor(dimension: ExtraDimension, kind: int) -> bytes:
     )
 
 
-def _with_record(layout: LasLayout, descriptors: list[bytes]) -> LasLayout:
+def _with_record(layout: LasFile, descriptors: list[bytes]) -> LasFile:
     """Return the layout with the descriptors in a VLR, where they were or behind the others."""
     data = b"".join(descriptors)
-    if len(data) > _LARGEST_RECORD:
+    if len(data) > LARGEST_VLR:
         raise BareEarthError(f"{layout.path} has too many extra dimensions to add one.")
     vlrs = list(layout.vlrs)
     keys = [vlr.key for vlr in vlrs]

@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
-import contextlib
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Iterator
 
 import numpy as np
 
+from ..core.errors import printable
 from ..core.progress import SILENT, Progress
 from ..core.threads import over_parts, parts_of
 from ..crs.system import Crs, unit_name
 from .backends import require
 from .cloud import PointCloud
 from .crs_records import read_crs
-from .lasbytes import LasLayout, read_layout
-from .records import FIRST_EXTENDED_FORMAT, MOST_KEPT, NEEDED, read_records
-from .sources import damage_told
+from .extrabytes import dimension_names
+from .lasfile import FIRST_EXTENDED_FORMAT, LasFile
+from .opening import open_las
+from .records import MOST_KEPT, NEEDED, named, read_records
 
 if TYPE_CHECKING:
     import laspy
@@ -34,13 +35,15 @@ _SMALL = {
 _COORDINATES = ("x", "y", "z")
 
 
-def read_cloud(path: Path, progress: Progress = SILENT, keep_records: bool = False) -> PointCloud:
+def read_cloud(
+    path: Path | LasFile, progress: Progress = SILENT, keep_records: bool = False
+) -> PointCloud:
     """Read the points of a LAS, LAZ or COPC file.
 
     Parameters
     ----------
-    path : Path
-        The file.
+    path : Path or LasFile
+        The file, or what `open_las` read of it.
     progress : Progress
         Receives progress, and what is odd about the CRS.
     keep_records : bool
@@ -58,28 +61,27 @@ def read_cloud(path: Path, progress: Progress = SILENT, keep_records: bool = Fal
     Cancelled
         If the user asked to stop.
     """
-    layout = read_layout(Path(path))
-    require(*_packages(layout))
+    layout = open_las(path)
+    require_packages(layout)
     crs, start = read_crs(layout, progress), 0
-    with _opened(layout) as reader:
-        if keep_records:
-            records = np.empty((layout.count, layout.record_length), dtype=np.uint8)
-            # x, y and z stay where they are among the records: a copy would be half as much again.
-            named = _named(reader, records)
-            coordinates = {name: named[name.upper()] for name in _COORDINATES}
-            cloud = _empty_cloud(layout, layout.count, crs, records=records, **coordinates)
-            pieces = read_records(layout, MOST_KEPT, records)
-        else:
-            cloud = _empty_cloud(layout, layout.count, crs)
-            pieces = read_records(layout, columns=NEEDED)
-        for piece in pieces:
-            _fill(cloud, slice(start, start + len(piece)), _named(reader, piece))
-            start += len(piece)
-            progress(start / layout.count)
+    if keep_records:
+        records = np.empty((layout.count, layout.record_length), dtype=np.uint8)
+        # x, y and z stay where they are among the records: a copy would be half as much again.
+        points = named(layout, records)
+        coordinates = {name: points[name.upper()] for name in _COORDINATES}
+        cloud = _empty_cloud(layout, layout.count, crs, records=records, **coordinates)
+        pieces = read_records(layout, MOST_KEPT, records)
+    else:
+        cloud = _empty_cloud(layout, layout.count, crs)
+        pieces = read_records(layout, columns=NEEDED)
+    for piece in pieces:
+        _fill(cloud, slice(start, start + len(piece)), named(layout, piece))
+        start += len(piece)
+        progress(start / layout.count)
     return cloud
 
 
-def read_parts(path: Path, progress: Progress = SILENT) -> Iterator[PointCloud]:
+def read_parts(path: Path | LasFile, progress: Progress = SILENT) -> Iterator[PointCloud]:
     """Read a file part by part, so that it need not fit into memory.
 
     Parameters
@@ -99,16 +101,15 @@ def read_parts(path: Path, progress: Progress = SILENT) -> Iterator[PointCloud]:
     Cancelled
         If the user asked to stop.
     """
-    layout = read_layout(Path(path))
-    require(*_packages(layout))
+    layout = open_las(path)
+    require_packages(layout)
     crs, start = read_crs(layout, progress), 0
-    with _opened(layout) as reader:
-        for chunk in _chunks(layout, reader):
-            part = _empty_cloud(layout, len(chunk), crs)
-            _fill(part, slice(None), chunk)
-            yield part
-            start += len(chunk)
-            progress(start / layout.count)
+    for chunk in read_chunks(layout):
+        part = _empty_cloud(layout, len(chunk), crs)
+        _fill(part, slice(None), chunk)
+        yield part
+        start += len(chunk)
+        progress(start / layout.count)
 
 
 @dataclass(frozen=True)
@@ -180,10 +181,11 @@ class Description:
             "software": self.software,
         }
         lines = [f"{title:<10} {text}".rstrip() for title, text in rows.items()]
-        return lines + [f"{'record':<10} {record}" for record in self.records]
+        lines += [f"{'record':<10} {record}" for record in self.records]
+        return list(map(printable, lines))
 
 
-def inspect(path: Path, progress: Progress = SILENT) -> Description:
+def inspect(path: Path | LasFile, progress: Progress = SILENT) -> Description:
     """Describe a file, after reading all of its points.
 
     Raises
@@ -191,10 +193,8 @@ def inspect(path: Path, progress: Progress = SILENT) -> Description:
     BareEarthError
         If the file cannot be read, with what to do about it.
     """
-    layout = read_layout(Path(path))
-    cloud = read_cloud(path, progress)
-    with _opened(layout) as reader:
-        extra = list(reader.header.point_format.extra_dimension_names)
+    layout = open_las(path)
+    cloud = read_cloud(layout, progress)
     integers = (cloud.x, cloud.y, cloud.z)
     corners = [
         tuple(
@@ -223,7 +223,7 @@ def inspect(path: Path, progress: Progress = SILENT) -> Description:
         classes=_histogram(cloud.classification),
         returns=_histogram(cloud.return_number),
         withheld=int(np.count_nonzero(cloud.withheld)),
-        extra_dimensions=extra,
+        extra_dimensions=dimension_names(layout),
         records=[
             f"{each.key[0]} {each.key[1]} {each.description}".rstrip()
             for each in (*layout.vlrs, *layout.evlrs)
@@ -233,35 +233,19 @@ def inspect(path: Path, progress: Progress = SILENT) -> Description:
     )
 
 
-def _packages(layout: LasLayout) -> tuple[str, ...]:
-    return ("laspy", "lazrs") if layout.is_compressed else ("laspy",)
+def require_packages(layout: LasFile) -> None:
+    """Refuse to go on where a package that reads the file is missing."""
+    require(*(("laspy", "lazrs") if layout.is_compressed else ("laspy",)))
 
 
-@contextlib.contextmanager
-def _opened(layout: LasLayout) -> Iterator[laspy.LasReader]:
-    import laspy
-
-    with damage_told(layout.path):
-        reader = laspy.open(layout.path, encoding_errors="replace", read_evlrs=False)
-    with reader:
-        yield reader
-
-
-def _chunks(layout: LasLayout, reader: laspy.LasReader) -> Iterator[laspy.PackedPointRecord]:
+def read_chunks(layout: LasFile) -> Iterator[laspy.PackedPointRecord]:
     """Yield all points, as many at a time in each run; the next ones reuse their memory."""
     pieces = parts_of(layout.count, _CHUNK)
     for records in read_records(layout, _CHUNK, columns=NEEDED, pieces=pieces):
-        yield _named(reader, records)
+        yield named(layout, records)
 
 
-def _named(reader: laspy.LasReader, records: np.ndarray) -> laspy.PackedPointRecord:
-    """Return points, given as their bytes, by the names of their columns."""
-    from laspy import PackedPointRecord
-
-    return PackedPointRecord.from_buffer(records, reader.header.point_format)
-
-
-def _empty_cloud(layout: LasLayout, count: int, crs: Crs, **kept: np.ndarray) -> PointCloud:
+def _empty_cloud(layout: LasFile, count: int, crs: Crs, **kept: np.ndarray) -> PointCloud:
     """Return room for points, but for the columns that there are."""
     kinds = {**{name: np.int32 for name in _COORDINATES}, **_SMALL}
     if layout.point_format < FIRST_EXTENDED_FORMAT:
@@ -273,6 +257,7 @@ def _empty_cloud(layout: LasLayout, count: int, crs: Crs, **kept: np.ndarray) ->
         offset=layout.offset,
         point_format=layout.point_format,
         crs=crs,
+        file=layout,
         **empty,
         **kept,
     )

@@ -8,10 +8,12 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.progress import paced
-from .lasbytes import LASZIP, LasLayout, Vlr, new_vlr
-from .sources import damage_told, damaged, open_source
+from .lasfile import FIRST_EXTENDED_FORMAT, LASZIP, LasFile, Vlr, new_vlr
+from .laszip import with_chunk_size, with_wave_packets_of_1
+from .sources import changed, damage_told, damaged, open_source
 
 if TYPE_CHECKING:
+    import laspy
     import lazrs
 
 # What a `PointCloud` has of points that are compressed by columns (formats 6 to 10), besides x, y,
@@ -20,7 +22,6 @@ NEEDED = ("Z", "CLASSIFICATION", "FLAGS")
 # Most points at a time: where they go through a buffer, and where all of them are in memory.
 _MOST, MOST_KEPT = 1_000_000, 8_000_000
 _BLOCK = 1 << 24
-FIRST_EXTENDED_FORMAT = 6
 _LARGEST_LEGACY_CLASS = 31
 
 
@@ -61,7 +62,7 @@ def selection_of(columns: Sequence[str]) -> lazrs.DecompressionSelection:
 
 
 def read_records(
-    layout: LasLayout,
+    layout: LasFile,
     most: int = _MOST,
     into: np.ndarray | None = None,
     columns: Sequence[str] | None = None,
@@ -71,7 +72,7 @@ def read_records(
 
     Parameters
     ----------
-    layout : LasLayout
+    layout : LasFile
         The file.
     most : int
         Most points to read at a time; fewer where that takes long.
@@ -110,22 +111,31 @@ def read_records(
             yield records
 
 
-def set_classes(layout: LasLayout, records: np.ndarray, classes: np.ndarray) -> None:
+def named(layout: LasFile, records: np.ndarray) -> laspy.PackedPointRecord:
+    """Return points, given as their bytes, by the names that laspy has for their columns."""
+    import laspy
+
+    point_type = laspy.PointFormat(layout.point_format)
+    if layout.extra_bytes:
+        kind = f"{layout.extra_bytes}u1"
+        point_type.add_extra_dimension(laspy.ExtraBytesParams("extra_bytes", kind))
+    return laspy.PackedPointRecord.from_buffer(records, point_type)
+
+
+def set_classes(layout: LasFile, records: np.ndarray, classes: np.ndarray) -> None:
     """Write classes into the bytes of points; flags in the same byte stay.
 
     Parameters
     ----------
-    layout : LasLayout
+    layout : LasFile
         The file whose point format the records have.
     records : numpy.ndarray of uint8, shape (n, record length)
         Changed in place.
     classes : numpy.ndarray of uint8, shape (n,)
         Up to 31 in point formats 0 to 5, whose byte has three flags above the class.
     """
-    if layout.point_format >= FIRST_EXTENDED_FORMAT:
-        records[:, 16] = classes
-    else:
-        records[:, 15] = (records[:, 15] & 0xE0) | classes
+    if len(records):
+        named(layout, records)["classification"][:] = classes
 
 
 class Tally:
@@ -139,8 +149,8 @@ class Tally:
         How many first, second, ... returns there were.
     """
 
-    def __init__(self, point_format: int) -> None:
-        self._return_bits = 0x0F if point_format >= FIRST_EXTENDED_FORMAT else 0x07
+    def __init__(self, layout: LasFile) -> None:
+        self._layout = layout
         limits = np.iinfo(np.int64)
         self.lowest = np.full(3, limits.max)
         self.highest = np.full(3, limits.min)
@@ -150,10 +160,11 @@ class Tally:
         """Count points, given as their bytes."""
         if not len(records):
             return
-        xyz = np.ascontiguousarray(records[:, :12]).view("<i4")
-        self.lowest = np.minimum(self.lowest, xyz.min(axis=0))
-        self.highest = np.maximum(self.highest, xyz.max(axis=0))
-        numbers = np.bincount(records[:, 14] & self._return_bits, minlength=16)
+        points = named(self._layout, records)
+        xyz = [points[name] for name in "XYZ"]
+        self.lowest = np.minimum(self.lowest, [each.min() for each in xyz])
+        self.highest = np.maximum(self.highest, [each.max() for each in xyz])
+        numbers = np.bincount(np.asarray(points["return_number"]), minlength=16)
         self.returns += numbers[1:16]
 
 
@@ -262,7 +273,8 @@ def laszip_vlr(point_format: int, extra_bytes: int, variable_chunks: bool = Fals
             f"This version of lazrs cannot compress point format {point_format}. Install a newer"
             " one, or name the output .las."
         ) from error
-    return new_vlr(LASZIP, bytes(vlr.record_data()), "by lazrs")
+    record = with_wave_packets_of_1(bytes(vlr.record_data()))
+    return new_vlr(LASZIP, record, "by lazrs")
 
 
 def copy_range(source: BinaryIO, target: BinaryIO, start: int, end: int) -> None:
@@ -277,15 +289,18 @@ def copy_range(source: BinaryIO, target: BinaryIO, start: int, end: int) -> None
     while start < end:
         block = source.read(min(_BLOCK, end - start))
         if not block:
-            raise BareEarthError(f"{source.name} has changed while it was classified.")
+            raise changed(source.name)
         target.write(block)
         start += len(block)
 
 
-def _decompressor(layout: LasLayout, file: BinaryIO, columns: Sequence[str] | None):
+def _decompressor(layout: LasFile, file: BinaryIO, columns: Sequence[str] | None):
     import lazrs
 
-    record = layout.vlr(LASZIP)
+    record, points = layout.laszip, layout.chunk_table[0][0]
+    if points > layout.count:
+        # Room for a whole chunk is made, however few points there are.
+        record = with_chunk_size(record, layout.count)
     selection = None if columns is None else selection_of(columns)
     with damage_told(layout.path):
-        return lazrs.ParLasZipDecompressor(file, record.data, selection)
+        return lazrs.ParLasZipDecompressor(file, record, selection)

@@ -3,10 +3,26 @@
 from __future__ import annotations
 
 import contextlib
+import os
+import stat
 from pathlib import Path
-from typing import BinaryIO, Iterator
+from typing import BinaryIO, Iterator, NamedTuple
 
 from ..core.errors import BareEarthError
+
+
+def read_text(path: Path) -> str:
+    """Return what stands in a text file in UTF-8.
+
+    Raises
+    ------
+    BareEarthError
+        If it cannot be read.
+    UnicodeDecodeError
+        If it is no such text.
+    """
+    with open_source(path) as file:
+        return file.read().decode("utf-8-sig")
 
 
 def open_source(path: Path) -> BinaryIO:
@@ -15,11 +31,14 @@ def open_source(path: Path) -> BinaryIO:
     Raises
     ------
     BareEarthError
-        If it is missing, a folder, or may not be read.
+        If it is missing, a folder, no ordinary file, or may not be read.
     """
-    if path.is_dir():
-        raise BareEarthError(f"{path} is a folder. Give a .las or .laz file.")
     try:
+        kind = os.stat(path).st_mode
+        if stat.S_ISDIR(kind):
+            raise BareEarthError(f"{path} is a folder. Give a file.")
+        if not stat.S_ISREG(kind):  # to open a pipe would wait for somebody to write to it
+            raise BareEarthError(f"{path} is no file, but a pipe or a device. Give a file.")
         return open(path, "rb")
     except FileNotFoundError:
         raise BareEarthError(f"{path} does not exist. Check the path.") from None
@@ -29,6 +48,46 @@ def open_source(path: Path) -> BinaryIO:
         ) from None
     except OSError as error:
         raise BareEarthError(f"Cannot read {path}: {error.strerror or error}.") from error
+    except ValueError as error:  # a null character in the name
+        raise BareEarthError(f"Cannot read {path}: {error}.") from error
+
+
+class FileState(NamedTuple):
+    """By what it is seen that a file is still the same.
+
+    Attributes
+    ----------
+    size : int
+        Its bytes.
+    modified : int
+        When it was written to, in nanoseconds.
+    inode, device : int
+        Which file it is on which disk: another one may have taken its name.
+    """
+
+    size: int
+    modified: int
+    inode: int
+    device: int
+
+    @classmethod
+    def of(cls, file: BinaryIO) -> FileState:
+        """Return the state of an open file."""
+        now = os.fstat(file.fileno())
+        return cls(now.st_size, now.st_mtime_ns, now.st_ino, now.st_dev)
+
+    def is_same(self, other: FileState) -> bool:
+        """Return whether two states are those of one file that nobody wrote to between them.
+
+        Another computer of a cluster has other numbers for the same disk and file.
+        """
+        is_here = self.device == other.device
+        return self[:2] == other[:2] and (self.inode == other.inode or not is_here)
+
+
+def changed(path: Path) -> BareEarthError:
+    """Return the error for a file that is not what it was when it was first read."""
+    return BareEarthError(f"{path} has changed while it was worked on. Run it again.")
 
 
 def damaged(path: Path) -> BareEarthError:

@@ -1,7 +1,8 @@
 """Writing a cloud anew: the file as it was, with other classes, heights or extra bytes.
 
-laspy is not used here: it writes headers and records anew, and what it does not know gets lost. The
-bytes of the input are copied instead, and only those changed that have to.
+laspy says where the fields of a point are, but does not write here: it makes headers and records
+anew, and what it does not know gets lost. The bytes of the input are copied instead, and only those
+changed that have to.
 """
 
 from __future__ import annotations
@@ -22,22 +23,29 @@ from .cloud import PointCloud
 from .copc import write_copc
 from .copc_index import CopcIndex
 from .copc_nodes import OctreeError
-from .lasbytes import (
+from .header import EVLR_COUNT
+from .header_changes import with_statistics
+from .lasfile import (
     COPC_HIERARCHY,
     COPC_INFO,
-    EVLR_COUNT,
     LASZIP,
-    LasLayout,
-    read_layout,
-    with_statistics,
+    LasFile,
 )
-from .records import LasRecordWriter, LazRecordWriter, Tally, copy_range, laszip_vlr, set_classes
+from .opening import open_las
+from .records import (
+    LasRecordWriter,
+    LazRecordWriter,
+    Tally,
+    copy_range,
+    laszip_vlr,
+    named,
+    set_classes,
+)
 from .sources import open_source
 
 _COPC_SUFFIX = ".copc.laz"
 _EXTERNAL_WAVEFORMS = 0x04
 _EXTENDED_WITH_WAVEFORMS = (9, 10)
-_CHANNEL_BITS = 0x30
 
 
 def check_writable(target: Path) -> None:
@@ -56,7 +64,7 @@ def check_writable(target: Path) -> None:
 
 
 def write_classified(
-    source: Path, target: Path, classification: np.ndarray, progress: Progress = SILENT
+    source: Path | LasFile, target: Path, classification: np.ndarray, progress: Progress = SILENT
 ) -> None:
     """Write `source` anew with other classes.
 
@@ -71,7 +79,7 @@ def write_classified(
 
 
 def write_changed(
-    source: Path,
+    source: Path | LasFile,
     target: Path,
     changes: Changes,
     progress: Progress = SILENT,
@@ -86,8 +94,11 @@ def write_changed(
 
     Parameters
     ----------
-    source, target : Path
-        The input, and the output: .las, .laz or .copc.laz.
+    source : Path or LasFile
+        The input. If it is what `open_las` read of it before its points were read, or `cloud` is
+        given, a file that changed since is refused.
+    target : Path
+        The output: .las, .laz or .copc.laz.
     changes : Changes
         What changes.
     progress : Progress
@@ -103,9 +114,12 @@ def write_changed(
     Cancelled
         If the user asked to stop; nothing is left behind.
     """
-    source, target = Path(source), Path(target)
+    target = Path(target)
     check_writable(target)
-    layout = read_layout(source)
+    layout = open_las(source)
+    layout.check_unchanged()
+    if cloud is not None and cloud.file is not None:
+        cloud.file.check_unchanged()
     rewriting = Rewriting(layout, changes, None if cloud is None else cloud.records)
     if layout.is_compressed:
         require("lazrs")
@@ -117,6 +131,7 @@ def write_changed(
             write_copc(rewriting, temporary, progress)
         else:
             _write(rewriting, temporary, progress)
+        layout.check_unchanged()
     if not is_copc(target):
         _tell_of_waveforms(layout, target, progress)
 
@@ -141,7 +156,7 @@ class Kept(NamedTuple):
     index: CopcIndex | None
 
 
-def layers_kept(source: LasLayout, target: Path) -> Kept | None:
+def layers_kept(source: LasFile, target: Path) -> Kept | None:
     """Return what has to be known to write nothing of the points anew but their classes.
 
     Returns
@@ -181,7 +196,7 @@ def _replace_classes(
             kept.index.write(file, kept.layers.moved, shift)
 
 
-def _tell_of_index(layout: LasLayout, progress: Progress) -> None:
+def _tell_of_index(layout: LasFile, progress: Progress) -> None:
     if layout.is_copc:
         progress.info(
             "The points stay in the order of the COPC file, but its index is left out: choose an"
@@ -203,11 +218,11 @@ def _write(rewriting: Rewriting, target: Path, progress: Progress) -> None:
     with open(target, "w+b") as file:
         file.write(layout.prefix(tuple(vlrs), compressed))
         writer = LazRecordWriter(file, laszip) if laszip else LasRecordWriter(file)
-        channels, tally = set(), Tally(layout.point_format)
+        channels, tally = set(), Tally(layout)
         for records, classes, done in rewriting.points():
             set_classes(layout, records, classes)
             if laszip is not None and layout.point_format in _EXTENDED_WITH_WAVEFORMS:
-                channels |= set(np.unique(records[:, 15] & _CHANNEL_BITS).tolist())
+                channels |= set(np.unique(named(layout, records)["scanner_channel"]).tolist())
                 _check_channels(layout, channels)
             writer.write(records)
             if rewriting.leaves_out:
@@ -224,7 +239,7 @@ def _write(rewriting: Rewriting, target: Path, progress: Progress) -> None:
         _copy_tail(rewriting, file, COPC_HIERARCHY)
 
 
-def _check_channels(layout: LasLayout, channels: set[int]) -> None:
+def _check_channels(layout: LasFile, channels: set[int]) -> None:
     """Refuse what lazrs compresses wrongly.
 
     It mixes up the waveform packets of points of several scanner channels (seen with 0.6.0 and
@@ -250,11 +265,11 @@ def _copy_tail(rewriting: Rewriting, file: BinaryIO, *dropped: tuple[str, int]) 
         file.seek(place)
         file.write(struct.pack("<Q", pointer))
     if len(tail) > 1:
-        file.seek(EVLR_COUNT)
+        file.seek(EVLR_COUNT.start)
         file.write(struct.pack("<I", len(layout.evlrs) - len(tail) + 1))
 
 
-def _tell_of_waveforms(layout: LasLayout, target: Path, progress: Progress) -> None:
+def _tell_of_waveforms(layout: LasFile, target: Path, progress: Progress) -> None:
     if layout.global_encoding & _EXTERNAL_WAVEFORMS:
         progress.warning(
             f"The waveforms are in a file beside the input: copy"

@@ -14,6 +14,7 @@ from ..core.errors import BareEarthError
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
+from ..las.sources import read_text
 
 # Sorted at once: not so many that memory grows, nor so few that the loop over edges counts.
 _POINTS_A_STEP = 1 << 21
@@ -131,9 +132,7 @@ def read_boundary(path: Path) -> tuple[Polygon, ...]:
             " other formats."
         )
     try:
-        text = path.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise BareEarthError(f"Cannot read {path}: {error.strerror or error}.") from error
+        text = read_text(path)
     except UnicodeDecodeError:
         raise BareEarthError(f"{path} is not a text file. Give GeoJSON or WKT.") from None
     try:

@@ -16,7 +16,9 @@ from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..crs.system import Crs, unit_name
 from ..las.crs_records import read_crs
-from ..las.lasbytes import LasLayout, read_layout
+from ..las.lasfile import LasFile
+from ..las.opening import open_las
+from ..las.sources import read_text
 from .vpc import SUFFIX as VPC_SUFFIX
 from .vpc import read_vpc
 
@@ -46,6 +48,8 @@ class Tile:
         Whether it is LAZ, and whether that is COPC.
     crs : Crs
         What is known of the coordinate reference system.
+    file : LasFile
+        All that was read of it.
     """
 
     path: Path
@@ -59,6 +63,7 @@ class Tile:
     is_compressed: bool
     is_copc: bool
     crs: Crs
+    file: LasFile
 
     @property
     def box(self) -> Box:
@@ -160,7 +165,7 @@ def open_collection(
     heard, tiles, broken, known = _Tally(), [], [], {}
     for number, path in enumerate(paths, start=1):
         try:
-            tiles.append(_tile(read_layout(path), known, heard))
+            tiles.append(_tile(open_las(path), known, heard))
         except BareEarthError as error:
             broken.append(BrokenTile(path, str(error)))
         progress(number / len(paths))
@@ -234,16 +239,14 @@ def is_cloud(path: Path) -> bool:
 def _listed(source: Path) -> list[Path]:
     """Return the paths in a text file; empty lines and those that begin with # are none."""
     try:
-        lines = source.read_text(encoding="utf-8-sig").splitlines()
-    except OSError as error:
-        raise BareEarthError(f"Cannot read {source}: {error.strerror or error}.") from error
+        lines = read_text(source).splitlines()
     except UnicodeDecodeError:
         raise BareEarthError(f"{source} is not a text file in UTF-8. Save it as one.") from None
     names = [line.strip().strip('"') for line in lines]
     return [source.parent / name for name in names if name and not name.startswith("#")]
 
 
-def _tile(layout: LasLayout, known: dict[Crs, Crs], heard: _Tally) -> Tile:
+def _tile(layout: LasFile, known: dict[Crs, Crs], heard: _Tally) -> Tile:
     """Return what a header says; `known` keeps one text of each CRS for all files."""
     _check_extent(layout)
     crs = read_crs(layout)
@@ -262,14 +265,14 @@ def _tile(layout: LasLayout, known: dict[Crs, Crs], heard: _Tally) -> Tile:
         is_compressed=layout.is_compressed,
         is_copc=layout.is_copc,
         crs=known.setdefault(crs, crs),
+        file=layout,
     )
 
 
-def _check_extent(layout: LasLayout) -> None:
+def _check_extent(layout: LasFile) -> None:
     """Refuse a header that leaves open where the points lie."""
     lowest, highest = layout.minimum[:2], layout.maximum[:2]
-    is_one = all(map(math.isfinite, (*lowest, *highest)))
-    is_one &= lowest[0] <= highest[0] and lowest[1] <= highest[1]
+    is_one = layout.states_extent and lowest[0] <= highest[0] and lowest[1] <= highest[1]
     if not is_one or (lowest == highest and layout.count > 1):
         raise BareEarthError(
             f"The header of {layout.path} does not state the extent of its points. Write the file"

@@ -12,10 +12,8 @@ from __future__ import annotations
 
 import datetime
 import json
-import math
 import os
 import re
-import struct
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Iterable, NamedTuple
@@ -28,18 +26,20 @@ from ..core.errors import BareEarthError
 from ..core.files import check_output, replacing
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
+from ..crs.provider import to_wgs84
 from ..crs.system import compound_wkt
-from ..crs.wgs84 import to_wgs84
 from ..las.crs_records import read_crs
 from ..las.extrabytes import extra_dimensions
-from ..las.lasbytes import LasLayout, read_layout
+from ..las.header import CREATION
+from ..las.lasfile import LasFile
+from ..las.opening import open_las
+from ..las.sources import read_text
 
 SUFFIX = ".vpc"
 _EXTENSIONS = [
     "https://stac-extensions.github.io/pointcloud/v1.0.0/schema.json",
     "https://stac-extensions.github.io/projection/v1.1.0/schema.json",
 ]
-_CREATION_DAY = 90
 # "s3://", "https://"; one letter would be a drive of Windows.
 _REMOTE = re.compile(r"[a-z][a-z0-9+.-]+://|/vsi", re.IGNORECASE)
 
@@ -112,16 +112,17 @@ def read_vpc(path: Path) -> list[VpcEntry]:
     """
     path = Path(path)
     try:
-        content = json.loads(path.read_text(encoding="utf-8-sig"))
-    except OSError as error:
-        raise BareEarthError(f"Cannot read {path}: {error.strerror or error}.") from error
+        content = json.loads(read_text(path))
     except (ValueError, RecursionError) as error:
         raise _not_one(path, "it is not JSON") from error
     if not isinstance(content, dict) or content.get("type") != "FeatureCollection":
         raise _not_one(path, "it is not a feature collection")
     try:
         entries = [_entry(path.parent, each) for each in content["features"]]
-    except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
+    except (
+        KeyError, TypeError, ValueError, AttributeError, IndexError, OverflowError, OSError,
+        StopIteration,
+    ) as error:  # fmt: skip
         raise _not_one(path, "one of its features names no file") from error
     if not entries:
         raise BareEarthError(f"{path} lists no files. Build it anew.")
@@ -158,7 +159,7 @@ def write_vpc(path: Path, files: Iterable[Path], progress: Progress = SILENT) ->
     check_output(path, tuple(files))
     features, unplaced = [], 0
     for number, file in enumerate(files, start=1):
-        feature = _feature(path, read_layout(file))
+        feature = _feature(path, open_las(file))
         unplaced += not feature["properties"]["proj:wkt2"]
         features.append(feature)
         progress(number / len(files))
@@ -203,7 +204,7 @@ def _href(assets: dict[str, dict[str, Any]]) -> str:
     asset = assets.get("data")
     if asset is None:
         asset = next(each for each in assets.values() if "overview" not in each.get("roles", ()))
-    if not isinstance(asset["href"], str):
+    if not isinstance(asset["href"], str) or "\0" in asset["href"]:
         raise TypeError
     return asset["href"]
 
@@ -224,10 +225,10 @@ def _path_of(href: str, folder: Path) -> Path:
     return path
 
 
-def _feature(target: Path, layout: LasLayout) -> dict[str, Any]:
+def _feature(target: Path, layout: LasFile) -> dict[str, Any]:
     """Return the STAC item of a file."""
     extent = [*layout.minimum, *layout.maximum]
-    if not all(map(math.isfinite, extent)):
+    if not layout.states_extent:
         raise BareEarthError(
             f"The header of {layout.path} does not state the extent of its points. Write the file"
             " anew with a program that corrects it."
@@ -268,9 +269,9 @@ def _polygon(ring: np.ndarray) -> dict[str, Any]:
     return {"type": "Polygon", "coordinates": [ring.tolist()]}
 
 
-def _creation(layout: LasLayout) -> str:
+def _creation(layout: LasFile) -> str:
     """Return the day on which the file was made; 1970 where that is none, as pdal_wrench does."""
-    day, year = struct.unpack_from("<HH", layout.header, _CREATION_DAY)
+    day, year = CREATION.get(layout.header)
     year = year if 1 <= year <= 9999 else 1970
     made = datetime.date(year, 1, 1)
     if 1 <= day <= datetime.date(year, 12, 31).timetuple().tm_yday:
@@ -278,7 +279,7 @@ def _creation(layout: LasLayout) -> str:
     return f"{made.isoformat()}T00:00:00Z"
 
 
-def _dimensions(layout: LasLayout) -> list[Dimension]:
+def _dimensions(layout: LasFile) -> list[Dimension]:
     number = layout.point_format
     found = [*_LOCATION, *_ALWAYS, _ANGLE]
     if number not in (0, 2):

@@ -9,12 +9,12 @@ import numpy as np
 
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
-from ..las.backends import require
 from ..las.cloud import PointCloud
 from ..las.copc_nodes import OctreeError, find_nodes, read_hierarchy, read_nodes
 from ..las.crs_records import read_crs
-from ..las.lasbytes import LasLayout, read_layout
-from ..las.reading import _chunks, _opened, _packages
+from ..las.lasfile import LasFile
+from ..las.opening import open_las
+from ..las.reading import read_chunks, require_packages
 from .area import Area
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ Columns = dict[str, np.ndarray]
 
 
 def read_window(
-    path: Path, box: Box, progress: Progress = SILENT, trust_header: bool = False
+    path: Path | LasFile, box: Box, progress: Progress = SILENT, trust_header: bool = False
 ) -> PointCloud:
     """Read the points of a LAS, LAZ or COPC file that lie in a rectangle.
 
@@ -42,8 +42,8 @@ def read_window(
 
     Parameters
     ----------
-    path : Path
-        The file.
+    path : Path or LasFile
+        The file, or what `open_las` read of it.
     box : tuple of float
         Smallest x and y, largest x and y in units of the CRS; the border belongs to it.
     progress : Progress
@@ -65,8 +65,8 @@ def read_window(
         If the user asked to stop.
     """
     area = Area(box=tuple(map(float, box)))
-    layout = read_layout(Path(path))
-    require(*_packages(layout))
+    layout = open_las(path)
+    require_packages(layout)
     if layout.is_copc:
         try:
             return _cloud(layout, _in_nodes(layout, area, progress), progress)
@@ -77,25 +77,23 @@ def read_window(
     return _cloud(layout, _in_chunks(layout, area, progress), progress)
 
 
-def _in_nodes(layout: LasLayout, area: Area, progress: Progress) -> Iterator[Columns]:
+def _in_nodes(layout: LasFile, area: Area, progress: Progress) -> Iterator[Columns]:
     hierarchy = read_hierarchy(layout)
     nodes = find_nodes(hierarchy, area.bounds)
     done, total = 0, int(nodes["count"].sum(dtype=np.int64))
-    with _opened(layout) as reader:
-        for chunk in read_nodes(hierarchy, nodes, reader):
-            yield _inside(layout, area, chunk)
-            done += len(chunk)
-            progress(done / total)
+    for chunk in read_nodes(hierarchy, nodes):
+        yield _inside(layout, area, chunk)
+        done += len(chunk)
+        progress(done / total)
 
 
-def _in_chunks(layout: LasLayout, area: Area, progress: Progress) -> Iterator[Columns]:
+def _in_chunks(layout: LasFile, area: Area, progress: Progress) -> Iterator[Columns]:
     done, is_outside = 0, False
-    with _opened(layout) as reader:
-        for chunk in _chunks(layout, reader):
-            yield _inside(layout, area, chunk)
-            is_outside |= _leaves_header(layout, chunk)
-            done += len(chunk)
-            progress(done / layout.count)
+    for chunk in read_chunks(layout):
+        yield _inside(layout, area, chunk)
+        is_outside |= _leaves_header(layout, chunk)
+        done += len(chunk)
+        progress(done / layout.count)
     if is_outside:
         progress.warning(
             f"The header of {layout.path.name} states a smaller extent than its points have: other"
@@ -103,7 +101,7 @@ def _in_chunks(layout: LasLayout, area: Area, progress: Progress) -> Iterator[Co
         )
 
 
-def _inside(layout: LasLayout, area: Area, chunk: laspy.PackedPointRecord) -> Columns:
+def _inside(layout: LasFile, area: Area, chunk: laspy.PackedPointRecord) -> Columns:
     """Return the columns of the points of a chunk that lie in the area."""
     x, y = (
         np.asarray(chunk[name]) * layout.scale[axis] + layout.offset[axis]
@@ -116,7 +114,7 @@ def _inside(layout: LasLayout, area: Area, chunk: laspy.PackedPointRecord) -> Co
     }
 
 
-def _leaves_header(layout: LasLayout, chunk: laspy.PackedPointRecord) -> bool:
+def _leaves_header(layout: LasFile, chunk: laspy.PackedPointRecord) -> bool:
     """Return whether a point lies outside of the extent that the header states."""
     for axis, name in enumerate("XY"):
         integers = np.asarray(chunk[name])
@@ -128,7 +126,7 @@ def _leaves_header(layout: LasLayout, chunk: laspy.PackedPointRecord) -> bool:
     return False
 
 
-def _touches(layout: LasLayout, box: Box) -> bool:
+def _touches(layout: LasFile, box: Box) -> bool:
     """Return whether the extent in the header touches a box; one that is none touches all."""
     (west, south, _), (east, north, _) = layout.minimum, layout.maximum
     if not (west <= east and south <= north):
@@ -142,7 +140,7 @@ def _touches(layout: LasLayout, box: Box) -> bool:
     )
 
 
-def _cloud(layout: LasLayout, parts: Iterator[Columns], progress: Progress) -> PointCloud:
+def _cloud(layout: LasFile, parts: Iterator[Columns], progress: Progress) -> PointCloud:
     kept = {name: [np.empty(0, dtype=kind)] for name, (_, kind) in _COLUMNS.items()}
     for part in parts:
         for name, values in part.items():
@@ -155,5 +153,6 @@ def _cloud(layout: LasLayout, parts: Iterator[Columns], progress: Progress) -> P
         offset=layout.offset,
         point_format=layout.point_format,
         crs=read_crs(layout, progress),
+        file=layout,
         **columns,
     )

@@ -26,7 +26,7 @@ from qgis.PyQt.QtCore import QUrl
 
 from ...algorithms.core.errors import BareEarthError
 from ...algorithms.las.crs_records import read_crs
-from ...algorithms.las.lasbytes import read_layout
+from ...algorithms.las.opening import open_las
 from ...algorithms.survey.area import Area, Polygon
 from .. import compat
 
@@ -209,7 +209,7 @@ def _is_empty(value: Any) -> bool:
 
 def _crs_of(cloud: Path) -> QgsCoordinateReferenceSystem:
     """Return the CRS that a file states; invalid, so that nothing is transformed, if none."""
-    crs = read_crs(read_layout(cloud))
+    crs = read_crs(open_las(cloud))
     if crs.epsg:
         return QgsCoordinateReferenceSystem.fromEpsgId(crs.epsg)
     return QgsCoordinateReferenceSystem.fromWkt(crs.wkt or "")

@@ -12,7 +12,8 @@ from bare_earth.algorithms.las import class_layers as module
 from bare_earth.algorithms.las import writing
 from bare_earth.algorithms.las.changes import Changes
 from bare_earth.algorithms.las.class_layers import class_layers
-from bare_earth.algorithms.las.lasbytes import LASZIP, read_layout
+from bare_earth.algorithms.las.lasfile import LASZIP
+from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.las.writing import write_changed, write_classified
 
@@ -29,7 +30,7 @@ def classes_of(count, seed=5):
 
 def chunks_of(path):
     """Return the first point and the layers of each chunk of a file."""
-    layout = read_layout(path)
+    layout = open_las(path)
     with open(path, "rb") as file:
         file.seek(layout.points_start)
         table = lazrs.read_chunk_table(file, lazrs.LazVlr(layout.vlr(LASZIP).data))
@@ -122,35 +123,31 @@ def test_nothing_but_the_returns_is_decompressed_and_not_even_they_if_they_are_k
 
 @pytest.mark.parametrize("point_format", range(6))
 def test_older_point_formats_have_no_layers(las, point_format):
-    assert (
-        class_layers(read_layout(las.make("in.laz", version=3, point_format=point_format))) is None
-    )
-    assert (
-        class_layers(read_layout(las.make("in.las", version=3, point_format=point_format))) is None
-    )
+    assert class_layers(open_las(las.make("in.laz", version=3, point_format=point_format))) is None
+    assert class_layers(open_las(las.make("in.las", version=3, point_format=point_format))) is None
 
 
 def test_chunks_that_are_made_otherwise_are_compressed_anew(las, monkeypatch):
     """Where lengths do not add up, the decompressor has to say what is in the file."""
     source = las.make("in.laz", version=4, point_format=6, count=2000)
-    data, start = bytearray(source.read_bytes()), read_layout(source).points_start
+    data, start = bytearray(source.read_bytes()), open_las(source).points_start
     # One more byte of the last layer than there are: the decompressor does not mind.
     place = start + 8 + 30 + 4 + 4 * 8
     (length,) = struct.unpack_from("<I", data, place)
     struct.pack_into("<I", data, place, length - 1)
     source.write_bytes(data)
-    assert class_layers(read_layout(source)) is None
+    assert class_layers(open_las(source)) is None
 
 
 def test_a_file_of_a_writer_that_could_not_go_back_is_read(las):
     """The place of the chunk table stands in the last eight bytes then."""
     records = las.records(6, COUNT)
     source = las.make("in.laz", version=4, point_format=6, records=records)
-    data, start = bytearray(source.read_bytes()), read_layout(source).points_start
+    data, start = bytearray(source.read_bytes()), open_las(source).points_start
     place = bytes(data[start : start + 8])
     data[start : start + 8] = b"\xff" * 8
     source.write_bytes(data + place)
-    assert class_layers(read_layout(source)) is not None
+    assert class_layers(open_las(source)) is not None
     records[:, 16] = classes_of(COUNT)
     target = las.folder / "out.laz"
     write_classified(source, target, classes_of(COUNT))
@@ -160,7 +157,7 @@ def test_a_file_of_a_writer_that_could_not_go_back_is_read(las):
 
 def test_a_cut_off_file_is_told_and_leaves_nothing(las):
     source = las.make("in.laz", version=4, point_format=6, records=las.records(6, COUNT))
-    layers = class_layers(read_layout(source))
+    layers = class_layers(open_las(source))
     data = source.read_bytes()
     source.write_bytes(data[: len(data) // 2])
     cloud_free = layers.write(io.BytesIO(), classes_of(COUNT))

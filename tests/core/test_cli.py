@@ -75,6 +75,16 @@ class FakeTerminal:
 # How it ends
 
 
+def test_what_steers_a_terminal_is_shown_as_text(las, tmp_path, capsys):
+    source = las.make("a\x1b[31m\nb.las")
+    assert run("info", source) == 0
+    assert run("classify", tmp_path / "\udcff\x07.las", tmp_path / "out.las") == 1
+    heard = capsys.readouterr()
+    assert "\x1b" not in heard.out + heard.err and "\x07" not in heard.err
+    assert "a\\x1b[31m\\nb.las" in heard.out
+    assert heard.err.splitlines()[-1].endswith("\\xff\\x07.las does not exist. Check the path.")
+
+
 def test_done_is_0_and_quiet_where_no_terminal_listens(file, out, capsys):
     assert run("classify", file, out) == 0
     assert set(np.unique(classes_of(out))) == {1, 2}
@@ -104,6 +114,7 @@ def test_a_terminal_gets_a_bar_and_messages(file, out, capsys, monkeypatch):
         (["classify", "missing.las", "out.las"], "missing.las"),
         (["classify", "{in}", "{in}"], "same file"),
         (["classify", "{in}", "out.txt"], "out.txt"),
+        (["classify", "{in}", "o.las", "--dtm", "a.tif", "--hillshade", "a.tif"], "same file"),
         (["classify", "{in}", "nowhere/out.las"], "does not exist"),
         (["classify", "{in}", "out.las", "--from-classes", "6"], "has the classes 1."),
         (["classify", "{in}", "out.las", "--extent", "0", "0", "9", "9"], "lies in the area"),

@@ -4,6 +4,7 @@ import os
 import pickle
 import subprocess
 import sys
+import time
 
 import pytest
 
@@ -82,6 +83,18 @@ def test_what_killed_runs_left_is_removed_before_any_work(tmp_path, gone):
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.skipif(not os.path.exists("/proc/self/stat"), reason="asks Linux")
+def test_a_process_that_ended_holds_nothing_even_if_nobody_asked_how_it_ended(tmp_path):
+    with subprocess.Popen([sys.executable, "-c", ""], stdout=-1) as other:
+        other.stdout.read()  # to its end, but it is waited for only behind this block
+        end = time.monotonic() + 30
+        while files._is_running(other.pid) and time.monotonic() < end:
+            time.sleep(0.01)
+        (tmp_path / left_by(other.pid)).write_text("half")
+        remove_leftovers(tmp_path)
+        assert not list(tmp_path.iterdir())
+
+
 def test_what_another_run_writes_right_now_is_left_alone(tmp_path):
     code = "import sys; print(flush=True); sys.stdin.read()"
     with subprocess.Popen([sys.executable, "-c", code], stdin=-1, stdout=-1) as other:
@@ -90,8 +103,12 @@ def test_what_another_run_writes_right_now_is_left_alone(tmp_path):
         for each in (theirs, far):
             (tmp_path / each).write_text("half")
         with replacing(tmp_path / "mine.las") as mine:
+            beside = mine.with_name(f"{mine.name}.index")  # what a library makes beside it
+            beside.write_text("half")
             remove_leftovers(tmp_path)
-            assert {path.name for path in tmp_path.iterdir()} == {theirs, far, mine.name}
+            names = {theirs, far, mine.name, beside.name}
+            assert {path.name for path in tmp_path.iterdir()} == names
+            beside.unlink()
         other.communicate()
     remove_leftovers(tmp_path)
     assert {path.name for path in tmp_path.iterdir()} == {"mine.las", far}

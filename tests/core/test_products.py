@@ -366,7 +366,7 @@ def test_all_rasters_or_none(tmp_path, monkeypatch):
     "files, text",
     [
         ({}, "at least one raster"),
-        ({"dtm": "a.tif", "dsm": "a.tif"}, "the same name"),
+        ({"dtm": "a.tif", "dsm": "a.tif"}, "the same file"),
         ({"chm": "a.png"}, "name it .tif"),
         ({"dsm": "none/a.tif"}, "does not exist"),
     ],

@@ -1,6 +1,7 @@
 import dataclasses
 
 import laspy
+import lazrs
 import numpy as np
 import pytest
 
@@ -40,9 +41,10 @@ def test_each_column_is_what_the_bytes_say(las, version, point_format, name):
 @pytest.mark.parametrize("name", ["in.las", "in.laz"])
 @pytest.mark.parametrize("point_format", range(11))
 def test_with_its_records_a_cloud_is_the_same(las, point_format, name):
-    if name == "in.laz" and point_format in (4, 5, 9, 10):
-        pytest.skip("not every lazrs compresses waveforms")
-    path = las.make(name, version=4, point_format=point_format, extra=3)
+    try:
+        path = las.make(name, version=4, point_format=point_format, extra=3)
+    except lazrs.LazrsError:
+        pytest.skip("this lazrs compresses no waveforms")
     cloud, kept = read_cloud(path), read_cloud(path, keep_records=True)
     for field in dataclasses.fields(cloud):
         if field.name != "records":

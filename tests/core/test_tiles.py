@@ -38,7 +38,7 @@ from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.survey.collection import open_collection
 from bare_earth.algorithms.survey.selection import Selection
-from bare_earth.algorithms.survey.vpc import read_vpc
+from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
 BLOCKS = Blocks(80.0, 30.0, most_points=2500)
@@ -459,7 +459,7 @@ def test_a_tile_that_kills_its_process_fails_alone(six, out, monkeypatch):
 
 def test_a_job_that_fails_fails_its_tile_only(six, out, monkeypatch):
     def failing(source, *rest):
-        if source.name == "4.laz":
+        if source.path.name == "4.laz":
             raise MemoryError
         return write_changed(source, *rest)
 
@@ -549,6 +549,45 @@ def test_a_second_run_into_the_same_folder_is_refused_and_the_first_goes_on(six,
     assert refused and first.done_count == 6
     again = classify_tiles([six], tmp_path / "out", FAST, output=RESUME)
     assert again.kept_count == 6
+
+
+class Overtaken(jobs_module.TileJob):
+    """Finds another file with as many points in the place of that whose points were labelled."""
+
+    def run(self, share, progress):
+        if self.tile.path.name == "2.laz":
+            las, other = laspy.read(self.tile.path), self.tile.path.with_name("other.laz")
+            las.points = las.points[::-1].copy()
+            las.write(other)
+            other.replace(self.tile.path)
+        return super().run(share, progress)
+
+
+def test_a_tile_that_changed_since_its_points_were_labelled_is_not_written(six, out, monkeypatch):
+    monkeypatch.setattr(tiles_module, "TileJob", Overtaken)
+    done = classify_tiles([six], out, FAST)
+    assert [Path(each).name for each in done.failures] == ["2.laz"]
+    assert "changed while it was worked on" in next(iter(done.failures.values()))
+    assert not (out / "2.laz").exists() and done.done_count == 5
+
+
+def test_the_virtual_point_cloud_of_the_inputs_is_not_overwritten(six, tmp_path):
+    listed = tmp_path / "in.vpc"
+    write_vpc(listed, sorted(six.iterdir()))
+    before = listed.read_bytes()
+    with pytest.raises(BareEarthError, match=r"same file, .*in\.vpc"):
+        classify_tiles([listed], tmp_path / "out", FAST, vpc=tmp_path / "." / "in.vpc")
+    assert listed.read_bytes() == before and not (tmp_path / "out").exists()
+
+
+@pytest.mark.skipif(sys.platform in ("win32", "darwin"), reason="names are Unicode there")
+def test_a_name_that_is_not_utf_8_harms_nobody(six, tmp_path):
+    files = sorted(six.iterdir())
+    files[2].rename(six / "t\udcff\n.laz")
+    done = classify_tiles([six], tmp_path / "out", FAST)
+    assert done.done_count == 6 and not done.failures
+    assert (tmp_path / "out" / "t\udcff\n.laz").exists()
+    assert {each.path.name for each in read_vpc(Path(done.vpc))} == set(os.listdir(six))
 
 
 def test_methods_in_short_have_the_presets_of_all():

@@ -8,7 +8,8 @@ from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.las import copc, copc_nodes, reading, writing
 from bare_earth.algorithms.las.copc import HIERARCHY_ENTRY
 from bare_earth.algorithms.las.copc_nodes import read_hierarchy
-from bare_earth.algorithms.las.lasbytes import COPC_INFO, VLR_HEADER, read_layout
+from bare_earth.algorithms.las.lasfile import COPC_INFO, VLR_HEADER
+from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.las.writing import write_classified
 from bare_earth.algorithms.survey.window import read_window
@@ -223,13 +224,22 @@ def test_other_classes_leave_the_octree_as_it_is(las, octree, nested, monkeypatc
     for box in boxes_in_octree():
         assert_is_part(read_window(target, box, heard), cloud, box)
     assert not any("octree" in each for each in heard.warnings)
-    pages = [copc_nodes.read_pages(read_hierarchy(read_layout(path))) for path in (octree, target)]
+    pages = [copc_nodes.read_pages(read_hierarchy(open_las(path))) for path in (octree, target)]
     assert len(pages[0]) == len(pages[1]) == count
     for one, other in zip(*(np.concatenate(list(each.values())) for each in pages)):
         assert one["count"] == other["count"] and (one["key"] == other["key"]).all()
     classes[:] = cloud.classification
     write_classified(target, las.folder / "again.copc.laz", classes)
     assert (las.folder / "again.copc.laz").read_bytes() == target.read_bytes()
+    # One class takes fewer bytes: all that stands behind moves towards the start of the file.
+    less = las.folder / "less.copc.laz"
+    write_classified(target, less, np.full(POINTS, 2, np.uint8))
+    assert less.stat().st_size < octree.stat().st_size
+    before.records[:, 16] = 2
+    np.testing.assert_array_equal(las.split(less).records, before.records)
+    for box in boxes_in_octree():
+        assert_is_part(read_window(less, box, heard), read_cloud(less), box)
+    assert not any("octree" in each for each in heard.warnings)
 
 
 def test_an_octree_that_is_damaged_is_made_anew(las, octree):
@@ -246,7 +256,7 @@ def test_an_octree_that_is_damaged_is_made_anew(las, octree):
 
 def nest_pages(path):
     """Move each branch of depth 1 to a page of its own at the end of the file."""
-    layout = read_layout(path)
+    layout = open_las(path)
     info = layout.vlr(COPC_INFO).data
     start, size = struct.unpack_from("<2Q", info, 40)
     data = bytearray(path.read_bytes())
@@ -268,7 +278,7 @@ def nest_pages(path):
 
 
 def change_entries(path, change):
-    layout = read_layout(path)
+    layout = open_las(path)
     start, size = struct.unpack_from("<2Q", layout.vlr(COPC_INFO).data, 40)
     data = bytearray(path.read_bytes())
     entries = np.frombuffer(bytes(data[start : start + size]), HIERARCHY_ENTRY).copy()
@@ -330,7 +340,7 @@ def test_a_wrong_cube_is_told_and_loses_no_point(las, octree, field):
 
 def test_damaged_nodes_are_an_error(octree):
     data = bytearray(octree.read_bytes())
-    start = read_layout(octree).points_start
+    start = open_las(octree).points_start
     data[start + 60 : start + 20_000] = bytes(20_000 - 60)
     octree.write_bytes(data)
     with pytest.raises(BareEarthError, match="damaged"):

@@ -1,0 +1,61 @@
+"""Where the fields of the header of a LAS file are.
+
+References
+----------
+ASPRS LAS specifications 1.0 to 1.4, table "Public Header Block": a version adds fields at the end
+of that before it, and changes none.
+"""
+
+from __future__ import annotations
+
+import struct
+from typing import Any, NamedTuple
+
+
+class Field(NamedTuple):
+    """A field of the header.
+
+    Attributes
+    ----------
+    start : int
+        Its first byte.
+    layout : str
+        Its values, as `struct` names them.
+    """
+
+    start: int
+    layout: str
+
+    def get(self, header: bytes | bytearray) -> Any:
+        """Return the value in a header; a tuple if there are several."""
+        values = struct.unpack_from(f"<{self.layout}", header, self.start)
+        return values if len(values) > 1 else values[0]
+
+    def put(self, header: bytearray, *values: float | bytes) -> None:
+        """Write the values into a header."""
+        struct.pack_into(f"<{self.layout}", header, self.start, *values)
+
+    @property
+    def place(self) -> slice:
+        """Where its bytes are."""
+        return slice(self.start, self.start + struct.calcsize(f"<{self.layout}"))
+
+
+GLOBAL_ENCODING = Field(6, "H")
+VERSION = Field(24, "2B")
+SYSTEM, SOFTWARE = Field(26, "32s"), Field(58, "32s")
+# The day of the year, and the year.
+CREATION = Field(90, "2H")
+HEADER_SIZE, POINTS_START, VLR_COUNT = Field(94, "H"), Field(96, "I"), Field(100, "I")
+POINT_FORMAT, RECORD_LENGTH = Field(104, "B"), Field(105, "H")
+LEGACY_COUNT, LEGACY_RETURNS = Field(107, "I"), Field(111, "5I")
+SCALE, OFFSET = Field(131, "3d"), Field(155, "3d")
+# Largest and smallest x, largest and smallest y, largest and smallest z.
+EXTENT, Z_EXTENT = Field(179, "6d"), Field(211, "2d")
+# Since LAS 1.3, and since LAS 1.4.
+WAVEFORM_START = Field(227, "Q")
+EVLR_START, EVLR_COUNT, COUNT, RETURNS = (
+    Field(235, "Q"), Field(243, "I"), Field(247, "Q"), Field(255, "15Q"),
+)  # fmt: skip
+# Bytes of a header of LAS 1.0 to 1.4.
+HEADER_SIZES = {0: 227, 1: 227, 2: 227, 3: 235, 4: 375}

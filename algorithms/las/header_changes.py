@@ -1,0 +1,63 @@
+"""A file with another header: what has to be different there when its points are."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Sequence
+
+from . import header as fields
+from .lasfile import LasFile
+
+_LEGACY_RETURN_COUNT, _LAST_LEGACY_FORMAT = 5, 5
+
+
+def with_record_length(layout: LasFile, length: int) -> LasFile:
+    """Return the layout with another number of bytes for each point."""
+    header = bytearray(layout.header)
+    fields.RECORD_LENGTH.put(header, length)
+    return replace(layout, header=bytes(header))
+
+
+def with_z_range(layout: LasFile, lowest: int, highest: int) -> LasFile:
+    """Return the layout with another extent of the heights, which are given as integers."""
+    header, scale, offset = bytearray(layout.header), layout.scale[2], layout.offset[2]
+    extent = highest * scale + offset, lowest * scale + offset
+    fields.Z_EXTENT.put(header, *extent)
+    return replace(layout, header=bytes(header))
+
+
+def with_count(layout: LasFile, count: int) -> LasFile:
+    """Return the layout with another number of points; see `with_statistics` for the rest."""
+    header = bytearray(layout.header)
+    legacy = layout.minor_version < 4 or layout.point_format <= _LAST_LEGACY_FORMAT
+    fields.LEGACY_COUNT.put(header, count if legacy and count < 1 << 32 else 0)
+    if layout.minor_version >= 4:
+        fields.COUNT.put(header, count)
+    return replace(layout, header=bytes(header))
+
+
+def with_statistics(
+    layout: LasFile, lowest: Sequence[int], highest: Sequence[int], returns: Sequence[int]
+) -> LasFile:
+    """Return the layout with another extent, and other numbers of points of each return.
+
+    Parameters
+    ----------
+    lowest, highest : sequence of int
+        Smallest and largest x, y and z as integers.
+    returns : sequence of int
+        How many first, second, ... returns there are; fifteen numbers.
+    """
+    header = bytearray(layout.header)
+    extent = [
+        end[axis] * layout.scale[axis] + layout.offset[axis]
+        for axis in range(3)
+        for end in (highest, lowest)
+    ]
+    fields.EXTENT.put(header, *extent)
+    legacy = layout.minor_version < 4 or layout.point_format <= _LAST_LEGACY_FORMAT
+    old = [each if legacy and each < 1 << 32 else 0 for each in returns[:_LEGACY_RETURN_COUNT]]
+    fields.LEGACY_RETURNS.put(header, *old)
+    if layout.minor_version >= 4:
+        fields.RETURNS.put(header, *returns)
+    return replace(layout, header=bytes(header))

@@ -1,0 +1,319 @@
+"""A LAS, LAZ or COPC file, opened once: what lies around its points.
+
+laspy reads the same, but what it does not know gets lost when it writes a header: here every byte
+of the headers and records is kept.
+"""
+
+from __future__ import annotations
+
+import math
+import struct
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from . import header as fields
+from .laszip import ChunkHead, Compression
+from .sources import FileState, changed, damage_told, damaged, open_source
+
+VLR_HEADER, EVLR_HEADER, LARGEST_VLR = 54, 60, 65535
+LASZIP = ("laszip encoded", 22204)
+COPC_INFO = ("copc", 1)
+COPC_HIERARCHY = ("copc", 1000)
+COPC_EXTENTS = ("copc", 10000)
+WAVEFORM_PACKETS = ("LASF_Spec", 65535)
+
+# Bytes of a record of each point format, before extra bytes.
+RECORD_LENGTHS = (20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67)
+# From this point format on, more classes and returns fit into a point.
+FIRST_EXTENDED_FORMAT = 6
+# Integers of points have 32 bits; a few more, since extents are rounded.
+_MOST_STEPS = (1 << 31) + 16
+
+
+@dataclass(frozen=True)
+class Vlr:
+    """A variable length record; `raw` are all its bytes, header included."""
+
+    raw: bytes
+
+    @property
+    def key(self) -> tuple[str, int]:
+        """User id and record id, which together say what the record is."""
+        user, number = struct.unpack_from("<16sH", self.raw, 2)
+        return text_of(user), number
+
+    @property
+    def description(self) -> str:
+        """What the writer of the record says of it."""
+        return text_of(self.raw[22:54])
+
+    @property
+    def data(self) -> bytes:
+        """The bytes after the record's header."""
+        return self.raw[VLR_HEADER:]
+
+
+@dataclass(frozen=True)
+class Evlr:
+    """An extended variable length record; `data` is None where it is not kept.
+
+    Attributes
+    ----------
+    key : tuple of (str, int)
+        User id and record id.
+    start, length : int
+        Where the record begins in the file, and its bytes, header included.
+    """
+
+    key: tuple[str, int]
+    description: str
+    start: int
+    length: int
+    data: bytes | None
+
+
+@dataclass(frozen=True)
+class LasFile:
+    """A LAS, LAZ or COPC file: its header, its records and where its points are.
+
+    Attributes
+    ----------
+    path : Path
+        The file.
+    size : int
+        Its bytes.
+    header : bytes
+        The header, with the bytes that users may have added to it.
+    vlrs : tuple of Vlr
+        The records after it.
+    padding : bytes
+        What lies between the last VLR and the points.
+    evlrs : tuple of Evlr
+        The records after the points (LAS 1.4).
+    waveform_record : int
+        Where the waveform packets lie inside this file (LAS 1.3 and 1.4); 0 if they do not.
+    state : FileState
+        By what it is seen that the file changed since.
+    """
+
+    path: Path
+    size: int
+    header: bytes
+    vlrs: tuple[Vlr, ...]
+    padding: bytes
+    evlrs: tuple[Evlr, ...]
+    waveform_record: int
+    state: FileState
+
+    @property
+    def minor_version(self) -> int:
+        """The y of LAS 1.y."""
+        return fields.VERSION.get(self.header)[1]
+
+    @property
+    def global_encoding(self) -> int:
+        """Bit 0 GPS time type, 1 and 2 waveforms inside or outside, 4 CRS as WKT."""
+        return fields.GLOBAL_ENCODING.get(self.header)
+
+    @property
+    def system_identifier(self) -> str:
+        """Hardware or operation that made the points."""
+        return text_of(fields.SYSTEM.get(self.header))
+
+    @property
+    def software(self) -> str:
+        """Software that wrote the file."""
+        return text_of(fields.SOFTWARE.get(self.header))
+
+    @property
+    def point_format(self) -> int:
+        """Point data record format, 0 to 10, without the bits by which LAZ marks compression."""
+        return fields.POINT_FORMAT.get(self.header) & 0x3F
+
+    @property
+    def is_compressed(self) -> bool:
+        """Whether the points are LAZ."""
+        return bool(fields.POINT_FORMAT.get(self.header) & 0xC0)
+
+    @property
+    def is_copc(self) -> bool:
+        """Whether the points are in the octree order of COPC."""
+        return any(vlr.key == COPC_INFO for vlr in self.vlrs)
+
+    @property
+    def record_length(self) -> int:
+        """Bytes of one point, extra bytes included."""
+        return fields.RECORD_LENGTH.get(self.header)
+
+    @property
+    def extra_bytes(self) -> int:
+        """Bytes of one point that its format does not define."""
+        return self.record_length - RECORD_LENGTHS[self.point_format]
+
+    @property
+    def count(self) -> int:
+        """Number of points."""
+        count = fields.COUNT.get(self.header) if self.minor_version >= 4 else 0
+        return count or fields.LEGACY_COUNT.get(self.header)
+
+    @property
+    def scale(self) -> tuple[float, float, float]:
+        """By what the integers of x, y and z are multiplied."""
+        return fields.SCALE.get(self.header)
+
+    @property
+    def offset(self) -> tuple[float, float, float]:
+        """What is then added to them."""
+        return fields.OFFSET.get(self.header)
+
+    @property
+    def minimum(self) -> tuple[float, float, float]:
+        """Smallest x, y and z in units of the CRS, as the header has them: it may be wrong."""
+        return fields.EXTENT.get(self.header)[1::2]
+
+    @property
+    def maximum(self) -> tuple[float, float, float]:
+        """Largest x, y and z in units of the CRS, as the header has them: it may be wrong."""
+        return fields.EXTENT.get(self.header)[0::2]
+
+    @property
+    def states_extent(self) -> bool:
+        """Whether the extent in the header is one that the integers of points can have.
+
+        Heights only have to be numbers.
+        """
+        corners = self.minimum, self.maximum
+        return all(math.isfinite(corner[2]) for corner in corners) and all(
+            abs(corner[axis] - self.offset[axis]) <= _MOST_STEPS * self.scale[axis]
+            for corner in corners
+            for axis in (0, 1)
+        )
+
+    @property
+    def points_start(self) -> int:
+        """Where the points begin."""
+        return fields.POINTS_START.get(self.header)
+
+    @property
+    def points_end(self) -> int:
+        """Where the points end, if they are not compressed."""
+        return self.points_start + self.count * self.record_length
+
+    @cached_property
+    def tail_start(self) -> int:
+        """Where the first byte after the points lies that is to be kept.
+
+        LAS: whatever follows the points. LAZ: the first of the EVLRs and the waveform packets, for
+        the length of the chunk table before them is not known.
+        """
+        if not self.is_compressed:
+            return self.points_end
+        starts = [evlr.start for evlr in self.evlrs[:1]]
+        return min([*starts, self.waveform_record or self.size, self.size])
+
+    @property
+    def laszip(self) -> bytes | None:
+        """What the record before the points says of their compression; None if there is none."""
+        return next((vlr.data for vlr in self.vlrs if vlr.key == LASZIP), None)
+
+    def vlr(self, *key: tuple[str, int]) -> Vlr | Evlr | None:
+        """Return the first VLR or EVLR that has one of the keys."""
+        return next((each for each in (*self.vlrs, *self.evlrs) if each.key in key), None)
+
+    def check_unchanged(self) -> None:
+        """Refuse a file that is another one than when it was opened.
+
+        Raises
+        ------
+        BareEarthError
+            If its size, time, place on the disk, or what lies before its points differs.
+        """
+        with open_source(self.path) as file:
+            before = b"".join((self.header, *(vlr.raw for vlr in self.vlrs), self.padding))
+            if not self.state.is_same(FileState.of(file)) or file.read(len(before)) != before:
+                raise changed(self.path)
+
+    @cached_property
+    def chunk_table(self) -> list[tuple[int, int]]:
+        """Points and bytes of each chunk of a compressed file, as its chunk table says.
+
+        Raises
+        ------
+        BareEarthError
+            If the file cannot have such chunks.
+        """
+        import lazrs
+
+        with open_source(self.path) as file, damage_told(self.path):
+            file.seek(self.points_start)
+            table = lazrs.read_chunk_table(file, lazrs.LazVlr(self.laszip))
+            compression, place = Compression.of(self.laszip), self.points_start + 8
+            if not compression.table_fits(table, self.count, self._room):
+                raise damaged(self.path)
+            head = ChunkHead(self.record_length, compression.layers)
+            for _, size in table if head.layers else ():
+                file.seek(place)
+                if size and not head.fits(file.read(head.size), size):
+                    raise damaged(self.path)
+                place += size
+        return table
+
+    @property
+    def _room(self) -> int:
+        """Most bytes that compressed points can have."""
+        return self.size - self.points_start - 8
+
+    def prefix(self, vlrs: tuple[Vlr, ...], compressed: bool) -> bytearray:
+        """Return header, the given VLRs and padding, with what follows from them mended."""
+        records = b"".join(vlr.raw for vlr in vlrs)
+        prefix = bytearray(self.header + records + self.padding)
+        fields.POINTS_START.put(prefix, len(prefix))
+        fields.VLR_COUNT.put(prefix, len(vlrs))
+        fields.POINT_FORMAT.put(prefix, self.point_format | (0x80 if compressed else 0))
+        return prefix
+
+    def kept_tail(self, *dropped: tuple[str, int]) -> list[tuple[int, int]]:
+        """Return the ranges of bytes after the points, without the EVLRs that have such a key."""
+        ranges, start = [], self.tail_start
+        for evlr in self.evlrs:
+            if evlr.key in dropped and evlr.start >= start:
+                ranges.append((start, evlr.start))
+                start = evlr.start + evlr.length
+        return [*ranges, (start, self.size)]
+
+    def pointers(self, tail: list[tuple[int, int]], new_start: int) -> dict[int, int]:
+        """Return what the header is to say of what follows the points, now that it has moved.
+
+        Parameters
+        ----------
+        tail : list of tuple of int
+            Ranges that are kept, as from `kept_tail`.
+        new_start : int
+            Where the first of them begins now.
+
+        Returns
+        -------
+        dict of int to int
+            The pointer to write at each place of the header. One that did not lead behind the
+            points (some writers leave stale ones) is not among them.
+        """
+        known = [fields.WAVEFORM_START, fields.EVLR_START][: max(self.minor_version - 2, 0)]
+        found = {field.start: field.get(self.header) for field in known}
+        return {
+            place: new_start + sum(min(max(at - start, 0), end - start) for start, end in tail)
+            for place, at in found.items()
+            if self.tail_start <= at <= self.size
+        }
+
+
+def new_vlr(key: tuple[str, int], data: bytes, description: str) -> Vlr:
+    """Return a variable length record."""
+    user, number = key
+    head = struct.pack("<H16sHH32s", 0, user.encode(), number, len(data), description.encode())
+    return Vlr(head + data)
+
+
+def text_of(field: bytes) -> str:
+    """Return the text in a field of fixed length."""
+    return field.split(b"\0")[0].decode("utf-8", "replace").strip()

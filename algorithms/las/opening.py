@@ -1,0 +1,176 @@
+"""Opening a LAS, LAZ or COPC file: its header and records are read and checked, not its points."""
+
+from __future__ import annotations
+
+import struct
+from pathlib import Path
+from typing import BinaryIO
+
+from ..core.errors import BareEarthError
+from . import header as fields
+from .lasfile import (
+    EVLR_HEADER,
+    FIRST_EXTENDED_FORMAT,
+    RECORD_LENGTHS,
+    VLR_HEADER,
+    WAVEFORM_PACKETS,
+    Evlr,
+    LasFile,
+    Vlr,
+    text_of,
+)
+from .laszip import Compression
+from .sources import FileState, damaged, open_source
+
+_MOST_EVLRS = 1_000_000
+# Records behind the points that are read: a survey may have thousands of files.
+_KEPT, _LARGEST_KEPT = ("LASF_Projection", "LASF_Spec"), 1 << 20
+# In units of the CRS: beyond these, coordinates are no numbers that can be calculated with.
+_SMALLEST_SCALE, _LARGEST_SCALE, _LARGEST_OFFSET = 1e-12, 1e6, 1e12
+
+
+def open_las(path: Path | LasFile) -> LasFile:
+    """Read what lies around the points of a file; what was read already is given back.
+
+    Raises
+    ------
+    BareEarthError
+        If it cannot be opened, is not LAS or LAZ, is cut off, or has no points.
+    """
+    if isinstance(path, LasFile):
+        return path
+    path = Path(path)
+    with open_source(path) as file:
+        state = FileState.of(file)
+        size = state.size
+        header = _read_header(path, file, size)
+        points_start, vlr_count = fields.POINTS_START.get(header), fields.VLR_COUNT.get(header)
+        vlrs, padding = _split_vlrs(file.read(points_start - len(header)), vlr_count)
+        evlrs, waveforms = _read_evlrs(file, size, header)
+    layout = LasFile(path, size, header, vlrs, padding, evlrs, waveforms, state)
+    _check_points(layout)
+    return layout
+
+
+def _read_header(path: Path, file: BinaryIO, size: int) -> bytes:
+    start = file.read(375)
+    if start[:4] != b"LASF":
+        raise BareEarthError(
+            f"{path} is not a LAS or LAZ file. Give a .las, .laz or .copc.laz file."
+        )
+    if len(start) < fields.HEADER_SIZES[0]:
+        raise damaged(path)
+    major, minor = fields.VERSION.get(start)
+    if major != 1 or minor not in fields.HEADER_SIZES:
+        raise BareEarthError(
+            f"{path} is LAS {major}.{minor}; LAS 1.0 to 1.4 can be read. Convert it first."
+        )
+    header_size, points_start = (fields.HEADER_SIZE.get(start), fields.POINTS_START.get(start))
+    if not fields.HEADER_SIZES[minor] <= header_size <= points_start or points_start > size:
+        raise damaged(path)
+    file.seek(0)
+    return file.read(header_size)
+
+
+def _split_vlrs(block: bytes, count: int) -> tuple[tuple[Vlr, ...], bytes]:
+    """Split what lies between header and points into VLRs and padding.
+
+    A record that does not fit, or more records announced than there are, end the list: points can
+    be read all the same.
+    """
+    vlrs, start = [], 0
+    while len(vlrs) < count and start + VLR_HEADER <= len(block):
+        end = start + VLR_HEADER + struct.unpack_from("<H", block, start + 20)[0]
+        if end > len(block):
+            break
+        vlrs.append(Vlr(block[start:end]))
+        start = end
+    return tuple(vlrs), block[start:]
+
+
+def _read_evlrs(file: BinaryIO, size: int, header: bytes) -> tuple[tuple[Evlr, ...], int]:
+    _, minor = fields.VERSION.get(header)
+    evlrs, waveforms = [], 0
+    if minor >= 4:
+        start, count = fields.EVLR_START.get(header), fields.EVLR_COUNT.get(header)
+        while len(evlrs) < min(count, _MOST_EVLRS):
+            evlr = _read_evlr(file, size, start)
+            if evlr is None:
+                break
+            evlrs.append(evlr)
+            start += evlr.length
+    if minor >= 3:
+        # Some writers leave a stale pointer: only what is such a record at that place counts.
+        start = fields.WAVEFORM_START.get(header)
+        evlr = _read_evlr(file, size, start) if start else None
+        if evlr is not None and evlr.key == WAVEFORM_PACKETS:
+            waveforms = start
+    return tuple(evlrs), waveforms
+
+
+def _read_evlr(file: BinaryIO, size: int, start: int) -> Evlr | None:
+    if start + EVLR_HEADER > size:
+        return None
+    file.seek(start)
+    head = file.read(EVLR_HEADER)
+    user, number, length = struct.unpack_from("<16sHQ", head, 2)
+    if start + EVLR_HEADER + length > size:
+        return None
+    key = (text_of(user), number)
+    is_kept = key[0] in _KEPT and length <= _LARGEST_KEPT
+    data = file.read(length) if is_kept else None
+    return Evlr(key, text_of(head[28:60]), start, EVLR_HEADER + length, data)
+
+
+def _check_points(layout: LasFile) -> None:
+    """Refuse what no points can be read of, or what would ask native code for the impossible."""
+    path = layout.path
+    if layout.point_format >= len(RECORD_LENGTHS):
+        raise BareEarthError(
+            f"{path} has point format {layout.point_format}; 0 to 10 can be read. Convert it first."
+        )
+    is_sound = all(_SMALLEST_SCALE <= each <= _LARGEST_SCALE for each in layout.scale)
+    is_sound &= all(abs(each) <= _LARGEST_OFFSET for each in layout.offset)
+    if layout.extra_bytes < 0 or not is_sound:
+        raise BareEarthError(f"The header of {path} is damaged. Copy or download it again.")
+    if layout.count == 0:
+        raise BareEarthError(f"{path} holds no points. Give a file that has some.")
+    if layout.is_compressed:
+        _check_compressed(layout)
+    elif layout.points_end > layout.size:
+        raise damaged(path)
+
+
+def _check_compressed(layout: LasFile) -> None:
+    """Check what tells a damaged LAZ file before any of it is decompressed.
+
+    The first eight bytes of the points say where the chunk table lies, behind the points; writers
+    that could not go back leave -1 there, and say it in the last eight bytes of the file.
+    """
+    if layout.laszip is None:
+        raise BareEarthError(
+            f"{layout.path} has compressed points but no word on how. Copy or download it again."
+        )
+    compression = Compression.of(layout.laszip)
+    if compression is None or compression.record_length != layout.record_length:
+        raise damaged(layout.path)
+    if not compression.is_known:
+        raise BareEarthError(
+            f"{layout.path} is compressed in a way that cannot be read here (LASzip compressor"
+            f" {compression.kind}). Write it anew with LASzip."
+        )
+    if (compression.layers > 0) != (layout.point_format >= FIRST_EXTENDED_FORMAT):
+        raise damaged(layout.path)
+    with open_source(layout.path) as file:
+        file.seek(layout.points_start)
+        place = file.read(8)
+        if place == b"\xff" * 8:
+            file.seek(-8, 2)
+            place = file.read(8)
+        table = struct.unpack("<q", place)[0] if len(place) == 8 else 0
+        if not layout.points_start + 8 <= table <= layout.size - 8:
+            raise damaged(layout.path)
+        file.seek(table)
+        _, chunks = struct.unpack("<II", file.read(8))
+    if not compression.chunk_count_fits(chunks, layout.count, table - layout.points_start - 8):
+        raise damaged(layout.path)
