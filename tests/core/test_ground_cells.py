@@ -49,6 +49,18 @@ def test_a_plateau_goes_as_a_whole_where_a_window_cuts_off_part_of_it():
     assert with_plateau[~roof].mean() > 0.99
 
 
+def test_a_spur_is_ground_and_a_hall_on_a_gentle_slope_is_not():
+    rows, columns = np.indices((160, 160)) - 80.0
+    spur = 0.7 * (columns - 0.5 * np.abs(rows))
+    assert _ground(spur, window=75.0, gentle_area=1e9)[20:-20, 20:-20].mean() > 0.99
+    cut = _ground(spur, window=75.0, gentle_area=1e9, hall_per_slope=0.0)
+    assert cut[20:-20, 20:-20].mean() < 0.9
+    heights = 0.08 * columns
+    hall = (np.abs(rows) < 35) & (np.abs(columns) < 35)
+    heights[hall] = 8.0
+    assert not _ground(heights, window=75.0)[hall].any()
+
+
 def test_known_objects_and_empty_cells_are_never_ground():
     heights = np.zeros((40, 40))
     heights[3, 4] = np.nan

@@ -34,6 +34,9 @@ class Allowance:
         Radius in metres of windows up to which all of this holds; larger ones are for halls.
     hall_height : float
         Larger windows cut off only what is higher by so many metres.
+    hall_per_slope : float
+        What each metre of their radius adds on a slope of 45 degrees, in metres: where the
+        contours of a steep slope bend, a wide window cuts off the slope.
     rise_counts : bool
         Whether a border that rises to the ground counts as a gentle one: the tread of a terrace.
     border_area : float
@@ -56,6 +59,7 @@ class Allowance:
     wide_area: float = 2000.0
     usual_window: float = 24.0
     hall_height: float = 2.5
+    hall_per_slope: float = 0.1
     border_area: float = 800.0
     rise_counts: bool = True
     follows_slopes: bool = True

@@ -157,7 +157,9 @@ def _standing_out(
         if metres <= allowance.usual_window:
             slope[lost > allowance.largest] = np.inf
         else:
-            slope = np.where(lost > allowance.hall_height, np.inf, -np.inf)
+            slope = lost - np.float32(allowance.hall_height)
+            slope /= np.float32(max(allowance.hall_per_slope * metres, 1e-6))
+            slope[slope <= 0.0] = -np.inf
         limit.ravel()[which] = np.maximum(limit.ravel()[which], slope)
         progress(done / len(radii))
     return first, limit
