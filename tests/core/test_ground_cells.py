@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from bare_earth.algorithms.filters.shared.ground_cells import Allowance, ground_cells
+from bare_earth.algorithms.filters.shared.allowance import Allowance
+from bare_earth.algorithms.filters.shared.ground_cells import ground_cells
 
 
 def _ground(heights, objects=None, window=20.0, **allowance):
@@ -25,6 +26,39 @@ def test_a_platform_with_walls_on_three_sides_and_a_ramp_on_the_fourth_is_ground
     heights = np.where((rows >= 50) & (np.abs(columns - 60) < 15), ramp, 0.0)
     assert _ground(heights).all()
     assert not _ground(heights, gentle_share=1.1).all()
+
+
+def test_the_uppermost_terraces_in_a_corner_of_the_survey_are_ground():
+    rows, columns = np.indices((120, 120))
+    heights = 6.0 * (rows + columns < 70) + 6.0 * (rows + columns < 45)
+    assert _ground(heights, window=60.0).all()
+    assert not _ground(heights, window=60.0, border_area=1e9).all()
+
+
+def test_a_plateau_goes_as_a_whole_where_a_window_cuts_off_part_of_it():
+    heights = np.tile(0.08 * np.arange(160.0), (160, 1))
+    roof = np.zeros(heights.shape, dtype=bool)
+    roof[40:120, 40:120] = True
+    heights[roof] = 0.08 * 120 + 1.5
+    none = np.zeros(heights.shape, dtype=bool)
+    with_plateau, without = (
+        ground_cells(heights, 1.0, none, 75.0, plateaus=each) for each in (roof, None)
+    )
+    assert without[roof].any()
+    assert not with_plateau[roof].any()
+    assert with_plateau[~roof].mean() > 0.99
+
+
+def test_a_spur_is_ground_and_a_hall_on_a_gentle_slope_is_not():
+    rows, columns = np.indices((160, 160)) - 80.0
+    spur = 0.7 * (columns - 0.5 * np.abs(rows))
+    assert _ground(spur, window=75.0, gentle_area=1e9)[20:-20, 20:-20].mean() > 0.99
+    cut = _ground(spur, window=75.0, gentle_area=1e9, hall_per_slope=0.0)
+    assert cut[20:-20, 20:-20].mean() < 0.9
+    heights = 0.08 * columns
+    hall = (np.abs(rows) < 35) & (np.abs(columns) < 35)
+    heights[hall] = 8.0
+    assert not _ground(heights, window=75.0)[hall].any()
 
 
 def test_known_objects_and_empty_cells_are_never_ground():

@@ -23,41 +23,59 @@ def test_a_roof_inside_its_walls_is_an_object_and_nothing_else_is(slope):
     roof = np.zeros(heights.shape, dtype=bool)
     roof[20:32, 25:45] = True
     heights[roof] = heights[roof].mean() + 8.0
-    assert np.array_equal(raised_objects(heights, 1.0, (5.0, 4.5, 2.0), 40.0), roof)
+    assert np.array_equal(raised_objects(heights, 1.0, (5.0, 4.5, 2.0), 40.0).raised, roof)
 
 
 def test_a_house_with_a_tower_goes_as_a_whole():
     heights = plain()
     heights[20:32, 25:45] += 6.0
     heights[24:28, 30:34] += 9.0
-    objects = raised_objects(heights, 1.0, (5.0, 2.0), 40.0)
+    objects = raised_objects(heights, 1.0, (5.0, 2.0), 40.0).raised
     assert objects.sum() == 12 * 20
 
 
 def test_a_hill_without_a_rim_is_kept():
     east, north = np.meshgrid(np.arange(60) - 30.0, np.arange(60) - 30.0)
     heights = plain() + 15.0 * np.exp(-(east**2 + north**2) / 200.0)
-    assert not raised_objects(heights, 1.0, (5.0, 2.0), 60.0).any()
+    assert not raised_objects(heights, 1.0, (5.0, 2.0), 60.0).raised.any()
 
 
 def test_a_terrace_is_kept_because_it_drops_on_one_side_only():
     heights = plain()
     heights[:, 30:] += 6.0
-    assert not raised_objects(heights, 1.0, (5.0, 2.0), 60.0).any()
+    assert not raised_objects(heights, 1.0, (5.0, 2.0), 60.0).raised.any()
 
 
 def test_what_is_wider_than_the_largest_size_is_terrain():
     heights = plain()
     heights[15:45, 15:45] += 8.0
-    assert raised_objects(heights, 1.0, (5.0,), 40.0).sum() == 900
-    assert not raised_objects(heights, 1.0, (5.0,), 20.0).any()
+    assert raised_objects(heights, 1.0, (5.0,), 40.0).raised.sum() == 900
+    assert not raised_objects(heights, 1.0, (5.0,), 20.0).raised.any()
+
+
+def test_a_stack_with_points_on_its_face_is_terrain_and_a_tower_is_an_object():
+    east, north = np.meshgrid(np.arange(60) - 30.0, np.arange(60) - 30.0)
+    out = np.hypot(east, north)
+    stack = plain() + 20.0 * np.clip((14.0 - out) / 4.0, 0.0, 1.0)
+    tower = plain() + 20.0 * (out < 12.0)
+    assert not raised_objects(stack, 1.0, (5.0, 2.0), 60.0).raised.any()
+    assert raised_objects(stack, 1.0, (5.0, 2.0), 60.0, classic=True).raised.any()
+    assert np.array_equal(raised_objects(tower, 1.0, (5.0, 2.0), 60.0).raised, out < 12.0)
+
+
+def test_what_is_low_for_its_width_is_a_plateau():
+    heights = plain()
+    heights[15:45, 15:45] += 3.0
+    objects = raised_objects(heights, 1.0, (5.0, 2.0), 40.0)
+    assert not objects.raised.any()
+    assert objects.plateaus.sum() == 900
 
 
 def test_what_lies_beyond_the_survey_is_no_drop():
     heights = plain()
     heights[20:40, :10] += 8.0
     heights[:, :2] = np.nan
-    objects = raised_objects(heights, 1.0, (5.0,), 40.0)
+    objects = raised_objects(heights, 1.0, (5.0,), 40.0).raised
     assert np.array_equal(np.argwhere(objects).min(axis=0), (20, 2))
     assert objects.sum() == 20 * 8
 
@@ -68,7 +86,7 @@ def test_gaps_in_the_grid_do_not_break_a_rim():
     roof[20:32, 25:45] = True
     heights[roof] += 8.0
     heights[np.random.default_rng(4).random(heights.shape) < 0.2] = np.nan
-    objects = raised_objects(heights, 1.0, (5.0, 2.0), 40.0)
+    objects = raised_objects(heights, 1.0, (5.0, 2.0), 40.0).raised
     known = np.isfinite(heights)
     assert not objects[~roof & known].any()
     assert objects[roof & known].mean() > 0.95
@@ -118,7 +136,7 @@ def test_cells_finer_than_a_metre_find_the_same_object():
     heights = plain(120)
     heights[40:64, 50:90] += 8.0
     heights[39, 50:90] += 4.0  # hits half-way up a wall
-    objects = raised_objects(heights, 0.5, (5.0, 2.0), 40.0)
+    objects = raised_objects(heights, 0.5, (5.0, 2.0), 40.0).raised
     assert objects[40:64, 50:90].all()
     assert objects.sum() <= 25 * 40
 
@@ -167,4 +185,4 @@ def test_the_trend_of_a_place_does_not_depend_on_where_the_grid_begins():
 
 @pytest.mark.parametrize("shape", [(1, 1), (1, 7), (7, 1), (2, 2)])
 def test_the_smallest_grids_have_no_objects(shape):
-    assert not raised_objects(np.zeros(shape), 1.0, (5.0,), 40.0).any()
+    assert not raised_objects(np.zeros(shape), 1.0, (5.0,), 40.0).raised.any()

@@ -27,7 +27,7 @@ from ..shared.ground_cells import ground_cells
 from ..shared.ground_limits import Tolerance
 from ..shared.near_ground import Candidates, near_ground
 from ..shared.near_surface import near_surface
-from ..shared.objects import CLASSIC_WHOLE_SHARE, WHOLE_SHARE, Relief, covered, raised_objects
+from ..shared.objects import Objects, Relief, covered, raised_objects
 from ..shared.outliers import low_outliers, supported
 from .cell_blocks import CellBlocks
 
@@ -298,11 +298,14 @@ class _Grids(NamedTuple):
         Lowest heights without noise, and those of the ground; NaN where there is none.
     tall : numpy.ndarray of bool
         What the passes of the height thresholds find.
+    plateaus : numpy.ndarray of bool
+        What is as well bounded, but low for its width.
     """
 
     heights: np.ndarray
     ground: np.ndarray
     tall: np.ndarray
+    plateaus: np.ndarray
 
 
 def _by_rims(cells: Cells, z: np.ndarray, parameters: GridMinimum, progress: Progress) -> _Grids:
@@ -317,10 +320,10 @@ def _by_rims(cells: Cells, z: np.ndarray, parameters: GridMinimum, progress: Pro
         heights[low_outliers(heights, cells.size, slope, cells.first)] = np.nan
     tell_of_outliers(count, heights, progress)
     progress(0.2)
-    tall = _tall_objects(heights, blocks, parameters, progress.part(0.2, 0.6))
+    tall, plateaus = _tall_objects(heights, blocks, parameters, progress.part(0.2, 0.6))
     ground = np.where(tall, np.nan, heights)
     ground = _without_low_objects(ground, heights, cells, parameters, progress.part(0.6, 1.0))
-    return _Grids(heights, ground, tall)
+    return _Grids(heights, ground, tall, plateaus)
 
 
 def _candidates(
@@ -340,6 +343,7 @@ def _candidates(
         progress=progress,
         first=cells.first,
         suspects=np.isnan(grids.ground),
+        plateaus=grids.plateaus,
     )
     known = np.isfinite(heights)
     if cells.size <= _FINE_CELL:
@@ -429,14 +433,9 @@ def _noise(heights: np.ndarray, cells: Cells, blocks: CellBlocks, classic: bool)
     return noise | (below & blocks.repeated(pits, heights.shape))
 
 
-def _whole_share(parameters: GridMinimum) -> float:
-    """Return which share of the whole border of an object must be a drop."""
-    return CLASSIC_WHOLE_SHARE if parameters.preset == CLASSIC else WHOLE_SHARE
-
-
 def _tall_objects(
     heights: np.ndarray, blocks: CellBlocks, parameters: GridMinimum, progress: Progress
-) -> np.ndarray:
+) -> Objects:
     """Return the cells of what the passes of the height thresholds find.
 
     They look at the lowest points of blocks, so that the gaps of a tree's crown and points
@@ -445,13 +444,14 @@ def _tall_objects(
     lowest = blocks.lowest(heights)
     thresholds, size = parameters.height_thresholds, blocks.size
     largest, first = parameters.max_object_size, blocks.first_block
-    share = _whole_share(parameters)
-    objects = raised_objects(lowest, size, thresholds, largest, progress, first, share)
+    classic = parameters.preset == CLASSIC
+    objects, plateaus = raised_objects(lowest, size, thresholds, largest, progress, first, classic)
     surface = inpaint(np.where(objects, np.nan, lowest), _RELAXATIONS, first)
     rise = size * np.minimum(steepness(surface, size), _STEEPEST)
     highest = surface + min(thresholds) + rise
     above = heights > blocks.interpolated(highest, heights.shape)
-    return above | blocks.repeated(objects, heights.shape)
+    objects, plateaus = (blocks.repeated(each, heights.shape) for each in (objects, plateaus))
+    return Objects(above | objects, plateaus)
 
 
 def _without_low_objects(
@@ -470,7 +470,7 @@ def _without_low_objects(
     for done in range(_FINAL_PASSES):
         relief = Relief(ground, cells.size, inside, cells.first)
         regions, rims = relief.regions_and_rims(parameters.final_height, _RIM_ROUGHNESS)
-        raised = regions.raised(parameters.max_object_size, _whole_share(parameters))
+        raised = regions.raised(parameters.max_object_size, parameters.preset == CLASSIC)
         ground[raised | rims] = np.nan
         progress((done + 1) / (_FINAL_PASSES + 1))
     kept = relief.regrown(np.isfinite(ground), heights, parameters.final_height)

@@ -7,7 +7,7 @@ import numpy as np
 from ...core.points import Points
 from ...core.progress import Progress
 from ...grids.cells import Cells, spacing
-from .objects import CLASSIC_WHOLE_SHARE, WHOLE_SHARE, raised_objects
+from .objects import Objects, raised_objects
 from .outliers import low_outliers
 
 _OUTLIER_SLOPE = 5.0
@@ -64,11 +64,10 @@ class LowestPoints:
         cells = Cells.over(self._points, self.spacing)
         return cells, self._without_outliers(cells.minimum(self._points.z), cells)
 
-    def objects(self, max_size: float, progress: Progress) -> np.ndarray:
-        """Return which of `cells` belong to tall objects bounded by drops all round."""
+    def objects(self, max_size: float, progress: Progress) -> Objects:
+        """Return which of `cells` belong to objects or plateaus, with drops all round."""
         wide, heights = self._wide()
-        share = CLASSIC_WHOLE_SHARE if self._classic else WHOLE_SHARE
         found = raised_objects(
-            heights, wide.size, _OBJECT_HEIGHTS, max_size, progress, wide.first, share
+            heights, wide.size, _OBJECT_HEIGHTS, max_size, progress, wide.first, self._classic
         )
-        return wide.resampled(found, self.cells)
+        return Objects(*(wide.resampled(each, self.cells) for each in found))

@@ -32,13 +32,33 @@ _PIT_SHARE = 0.9
 # Share of an object's border that must be a drop: as far as it is known, and of the whole with
 # what lies beyond the survey.
 _OBJECT_SHARE = 0.65
-WHOLE_SHARE, CLASSIC_WHOLE_SHARE = 0.5, 0.4
+_WHOLE_SHARE, _CLASSIC_WHOLE_SHARE = 0.5, 0.4
 # Mean height of the drop over the width of the region: what is lower and wider is terrain.
 _LEAST_STEEPNESS = 0.15
+# What is as wide (m) and has such a share of its drops on the face of a cliff is terrain: points
+# lie on the face, so that none of five steps across it makes up more than a share of their sum,
+# and none leads back by more than some metres. At the wall of a building one does.
+_FACE_WIDTH, _FACE_SHARE = 10.0, 0.4
+_LARGEST_STEP, _STEP_BACK = 0.7, 0.3
 # Rounds in which what others hid is looked at again.
 _ROUNDS = 3
 # Relaxations of the surface across gaps; what bounds objects is their rim, not the filling.
 _RELAXATIONS = 2
+
+
+class Objects(NamedTuple):
+    """What stands out all round, grids of shape (rows, columns).
+
+    Attributes
+    ----------
+    raised : numpy.ndarray of bool
+        Cells of objects.
+    plateaus : numpy.ndarray of bool
+        Cells of what is too low for its width to be one for that alone: a roof, or a mound.
+    """
+
+    raised: np.ndarray
+    plateaus: np.ndarray
 
 
 def raised_objects(
@@ -48,9 +68,9 @@ def raised_objects(
     max_size: float,
     progress: Progress = SILENT,
     first: First = (0, 0),
-    whole_share: float = WHOLE_SHARE,
-) -> np.ndarray:
-    """Return which cells of a minimum grid belong to objects that stand out all round.
+    classic: bool = False,
+) -> Objects:
+    """Find what stands out all round in a minimum grid.
 
     Parameters
     ----------
@@ -67,23 +87,25 @@ def raised_objects(
         Receives progress.
     first : tuple of int
         Row and column of the first cell in the grid of the CRS.
-    whole_share : float
-        See `Regions.raised`.
+    classic : bool
+        See `Regions.raised`. Plateaus are not looked for then.
 
     Returns
     -------
-    numpy.ndarray of bool, shape (rows, columns)
+    Objects
     """
     inside = covered(np.isfinite(heights))
     rest = heights.copy()
-    objects = np.zeros(heights.shape, dtype=bool)
+    objects, plateaus = np.zeros((2, *heights.shape), dtype=bool)
     for done, threshold in enumerate(thresholds):
         regions = Relief(rest, size, inside, first).regions(threshold)
-        found = regions.raised(max_size, whole_share)
+        found = regions.raised(max_size, classic)
+        if not classic:
+            plateaus |= regions.plateaus(max_size)
         rest[found] = np.nan
         objects |= found
         progress((done + 1) / len(thresholds))
-    return objects
+    return Objects(objects, plateaus & ~objects)
 
 
 def covered(known: np.ndarray, reach: int = 4) -> np.ndarray:
@@ -130,6 +152,7 @@ class Relief:
         # A frame without height ends each row, so that neighbours are an offset apart.
         self._inside = np.pad(inside, self._step)
         self._heights = np.pad(surface, self._step, constant_values=np.nan).ravel()
+        self._known = np.pad(np.isfinite(heights), self._step).ravel()
 
     def regions(self, threshold: float) -> Regions:
         """Return the regions between the rims of a threshold.
@@ -350,12 +373,25 @@ class Relief:
                 joined[which] = regions[neighbour[which]]
         regions[cells] = joined
 
+    def _on_face(self, cells: np.ndarray, offset: int) -> np.ndarray:
+        """Return which steps from cells to neighbours are part of a face with points on it."""
+        last = self._heights.size - 1
+        across = [np.clip(cells + k * offset, 0, last) for k in range(-2, 4)]
+        # What fills a cell without a point makes a slope of any wall.
+        z = np.stack([np.where(self._known[at], self._heights[at], np.nan) for at in across])
+        rises = np.diff(z, axis=0)
+        one_way = (rises.min(axis=0) > -_STEP_BACK) | (rises.max(axis=0) < _STEP_BACK)
+        return one_way & (np.abs(rises).max(axis=0) <= _LARGEST_STEP * np.abs(z[-1] - z[0]))
+
     def _border(self, regions: np.ndarray, count: int, steps: list[_Steps]) -> _Border:
         parts = []
         for each in steps:
             cells = np.flatnonzero(regions[: -each.offset] != regions[each.offset :])
-            rise = self._rise(cells, each)
-            parts.append((regions[cells], regions[cells + each.offset], each.sign[cells], rise))
+            rise, sign = self._rise(cells, each), each.sign[cells]
+            on_face = np.zeros(len(cells), dtype=bool)
+            stepped = np.flatnonzero(sign)
+            on_face[stepped] = self._on_face(cells[stepped], each.offset)
+            parts.append((regions[cells], regions[cells + each.offset], sign, rise, on_face))
         return _Border(count, *(np.concatenate(each) for each in zip(*parts)))
 
 
@@ -376,22 +412,35 @@ class Regions:
         area = np.bincount(number.ravel(), minlength=border.count)
         self.width = _shorter_side(area, border.length() / step) * size
 
-    def raised(self, max_size: float, whole_share: float = WHOLE_SHARE) -> np.ndarray:
-        """Return the cells of the regions whose border is mostly a drop.
+    def raised(self, max_size: float, classic: bool = False) -> np.ndarray:
+        """Return the cells of the regions whose border is mostly a drop, but no cliff.
+
+        Of the whole border, what lies beyond the survey included, half must be a drop: the topmost
+        tread of a terrace has one drop, and the border of the survey.
 
         Parameters
         ----------
         max_size : float
             Largest width in metres.
-        whole_share : float
-            Share of the whole border that must be a drop, what lies beyond the survey included:
-            the topmost tread of a terrace has one drop, and the border of the survey.
+        classic : bool
+            True for the rules of other programs' presets: less than half suffices, and cliffs are
+            no different.
 
         Returns
         -------
         numpy.ndarray of bool, shape (rows, columns)
         """
-        return self._bounded(max_size, 1, _OBJECT_SHARE, whole_share, _LEAST_STEEPNESS)
+        share = _CLASSIC_WHOLE_SHARE if classic else _WHOLE_SHARE
+        fits = np.ones(len(self.width), dtype=bool) if classic else self._is_no_cliff()
+        return self._bounded(max_size, 1, _OBJECT_SHARE, share, _LEAST_STEEPNESS, fits)
+
+    def plateaus(self, max_size: float) -> np.ndarray:
+        """Return the cells of the same regions and of those that are too low for their width."""
+        return self._bounded(max_size, 1, _OBJECT_SHARE, _WHOLE_SHARE, 0.0, self._is_no_cliff())
+
+    def _is_no_cliff(self) -> np.ndarray:
+        """Return which regions are narrow, or have no faces round them."""
+        return (self.width < _FACE_WIDTH) | (self._border.share_of_faces() < _FACE_SHARE)
 
     def sunken(self, max_size: float) -> np.ndarray:
         """Return the cells of the regions whose border is a rise nearly all round: of pits.
@@ -405,7 +454,8 @@ class Regions:
         -------
         numpy.ndarray of bool, shape (rows, columns)
         """
-        return self._bounded(max_size, -1, _PIT_SHARE, _PIT_SHARE, 0.0)
+        fits = np.ones(len(self.width), dtype=bool)
+        return self._bounded(max_size, -1, _PIT_SHARE, _PIT_SHARE, 0.0, fits)
 
     def _bounded(
         self,
@@ -414,13 +464,14 @@ class Regions:
         share: float,
         least_share: float,
         least_steepness: float,
+        fits: np.ndarray,
     ) -> np.ndarray:
         """Return the cells of regions bounded by drops (1) or rises (-1).
 
         What one round finds is the unknown to the next, which sees what it hid: a roof below a
         tower, a pit within a pit.
         """
-        fits = self.width <= max_size
+        fits = fits & (self.width <= max_size)
         fits[0] = False
         found = np.zeros(len(fits), dtype=bool)
         for _ in range(_ROUNDS):
@@ -465,6 +516,8 @@ class _Border(NamedTuple):
         As in `_Steps`, from the first to the second.
     rise : numpy.ndarray of float32, shape (pairs,)
         Height of the second above the first in metres, beyond the trend.
+    on_face : numpy.ndarray of bool, shape (pairs,)
+        Whether the step between them is part of the face of a cliff.
     """
 
     count: int
@@ -472,12 +525,19 @@ class _Border(NamedTuple):
     second: np.ndarray
     sign: np.ndarray
     rise: np.ndarray
+    on_face: np.ndarray
 
     def length(self) -> np.ndarray:
         """Return the length of each region's border in cells, if neighbours are one apart."""
         all_ = np.ones(len(self.sign), dtype=bool)
         # Each cell of a straight border has three neighbours beyond it.
         return self._total(all_, all_) / 3.0
+
+    def share_of_faces(self) -> np.ndarray:
+        """Return the share of each region's drops that are part of the face of a cliff."""
+        down, up = self.sign == -1, self.sign == 1
+        on_face = self._total(down & self.on_face, up & self.on_face)
+        return on_face / np.maximum(self._total(down, up), 1)
 
     def drops(
         self, removed: np.ndarray, sign: int = 1

@@ -330,9 +330,15 @@ def _on_many_scales(points: Points, parameters: SlopeFilter, progress: Progress)
     tell_of_outliers(len(survey.lowest), heights, progress)
     steep = _objects(heights, cells, parameters, progress.part(0.3, 0.5))
     widest = parameters.max_building_size
-    tall = survey.objects(widest, progress.part(0.5, 0.6))
+    tall, plateaus = survey.objects(widest, progress.part(0.5, 0.6))
     ground = ground_cells(
-        heights, cells.size, tall, widest / 2.0, first=cells.first, suspects=steep
+        heights,
+        cells.size,
+        tall,
+        widest / 2.0,
+        first=cells.first,
+        suspects=steep,
+        plateaus=plateaus,
     )
     if not ground.any():
         raise BareEarthError(

@@ -21,9 +21,9 @@ from ...core.points import Points
 from ...core.progress import SILENT, Progress
 from ...grids.cells import Cells, spacing
 from ...grids.model_key_points import ModelKeyPoints, model_key_points
+from ..shared.allowance import CLASSIC as CLASSIC_ALLOWANCE
 from ..shared.breaks import checked_seeds
 from ..shared.doubts import tell_of_outliers
-from ..shared.ground_cells import CLASSIC as CLASSIC_ALLOWANCE
 from ..shared.ground_limits import NOISE_SPACING, Tolerance, ground_limits, plain_limits
 from ..shared.lowest_points import LowestPoints
 from ..shared.near_surface import near_surface

@@ -10,7 +10,8 @@ import numpy as np
 from ...core.points import Points
 from ...core.progress import SILENT, Progress
 from ...core.threads import in_threads
-from ..shared.ground_cells import CLASSIC, Allowance, ground_cells
+from ..shared.allowance import CLASSIC, Allowance
+from ..shared.ground_cells import ground_cells
 from ..shared.lowest_points import LowestPoints
 
 # What a point is on a grid: not the lowest of its cell, one of an object or a low outlier, one
@@ -104,10 +105,17 @@ def _judged(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return which lowest points are ground, and which are neither objects nor low outliers."""
     cells, heights = survey.cells, survey.heights
-    objects = survey.objects(max_size, progress.part(0.0, 0.4))
+    objects, plateaus = survey.objects(max_size, progress.part(0.0, 0.4))
     part = progress.part(0.4, 1.0)
     ground = ground_cells(
-        heights, cells.size, objects, max_size / 2.0, allowance, part, cells.first
+        heights,
+        cells.size,
+        objects,
+        max_size / 2.0,
+        allowance,
+        part,
+        cells.first,
+        plateaus=plateaus,
     )
     is_open = np.isfinite(heights) & ~objects
     return ground.ravel()[survey.cell], is_open.ravel()[survey.cell]

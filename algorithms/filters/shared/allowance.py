@@ -1,0 +1,76 @@
+"""How high something may stand out of its surroundings and still be terrain."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Allowance:
+    """How high something may stand out of an opening's window and still be terrain.
+
+    Attributes
+    ----------
+    base : float
+        Height in metres, whatever the window.
+    per_radius : float
+        What each metre of the window's radius adds, in metres.
+    per_slope : float
+        What each metre of the radius adds on a slope of 45 degrees (in proportion on others).
+    largest : float
+        No allowance is larger, in metres.
+    gentle_step : float
+        A step between cells that is not an edge, in metres, on top of the terrain's own rise.
+    gentle_share : float
+        Share of the border of a region that must be gentle for it to be terrain.
+    gentle_area : float
+        Smallest region, in square metres, that may be terrain for that reason.
+    wide_share, wide_area : float
+        The share that suffices for regions of so many square metres or more: a plateau that a
+        ramp joins with the ground. No building is as wide.
+    usual_window : float
+        Radius in metres of windows up to which all of this holds; larger ones are for halls.
+    hall_height : float
+        Larger windows cut off only what is higher by so many metres.
+    hall_per_slope : float
+        What each metre of their radius adds on a slope of 45 degrees, in metres: where the
+        contours of a steep slope bend, a wide window cuts off the slope.
+    rise_counts : bool
+        Whether a border that rises to the ground counts as a gentle one: the tread of a terrace.
+    border_area : float
+        A region of so many square metres or more is terrain as well where most of its border is
+        that of the survey: too little is known of it, and no building is as large there.
+    follows_slopes : bool
+        Whether a step between cells is no edge where those before or after it are as high: a
+        steep slope, or a cliff, of which points lie on the face; or where the terrain at large
+        rises as much.
+    """
+
+    base: float = 0.15
+    per_radius: float = 0.04
+    per_slope: float = 0.2
+    largest: float = 1.5
+    gentle_step: float = 0.3
+    gentle_share: float = 0.35
+    gentle_area: float = 20.0
+    wide_share: float = 0.08
+    wide_area: float = 2000.0
+    usual_window: float = 24.0
+    hall_height: float = 2.5
+    hall_per_slope: float = 0.1
+    border_area: float = 800.0
+    rise_counts: bool = True
+    follows_slopes: bool = True
+
+
+# As it was before large windows and slopes were told apart: for presets of other programs.
+CLASSIC = Allowance(
+    gentle_share=0.5,
+    wide_share=0.5,
+    usual_window=1e9,
+    border_area=np.inf,
+    rise_counts=False,
+    follows_slopes=False,
+)

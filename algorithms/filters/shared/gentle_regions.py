@@ -1,0 +1,243 @@
+"""Regions of a height grid that pass into the ground without an edge.
+
+What an opening cuts off is terrain after all where it passes gently into the ground round it: a
+dike, a terrace, a plateau with a ramp.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...grids.trend import Trend
+from .allowance import Allowance
+from .objects import covered
+
+# How often regions join the ground that others have joined before.
+_JOINING_PASSES = 4
+# Steps are alike if the least is at least this share of the largest.
+_ALIKE = 0.4
+# Metres over which the surface is smoothed to tell a step from the terrain's own rise.
+_TREND_SMOOTHING = 2.0
+# Share of a large region's border above which that of the survey tells too little to be judged by:
+# less than half, as the sides of cells make a slanted edge longer than it is.
+_OPEN_SHARE = 0.45
+
+
+def gentle_regions(
+    filled: np.ndarray,
+    known: np.ndarray,
+    raised: np.ndarray,
+    surface: np.ndarray,
+    trend: Trend | None,
+    size: float,
+    allowance: Allowance,
+) -> np.ndarray:
+    """Return the raised cells whose region passes into the ground without an edge.
+
+    A region is what hangs together without a step. Its border is gentle where it touches the
+    ground without a step, and sharp where it drops to anything.
+
+    Parameters
+    ----------
+    filled : numpy.ndarray of float, shape (rows, columns)
+        Heights in metres without NaN.
+    known : numpy.ndarray of bool, shape (rows, columns)
+        Cells with a point.
+    raised : numpy.ndarray of bool, shape (rows, columns)
+        Cells that are judged.
+    surface : numpy.ndarray of float, shape (rows, columns)
+        Heights of the ground in metres, gaps filled.
+    trend : Trend or None
+        That of the heights: where much is raised, the surface tells nothing of the slope.
+    size : float
+        Side of a cell in metres.
+    allowance : Allowance
+        What is an edge, and how much of the border must be gentle.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (rows, columns)
+    """
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    smooth = smoothed(surface, size, _TREND_SMOOTHING)
+    sides = [_steps(filled, known, raised, smooth, trend, axis, size, allowance) for axis in (0, 1)]
+    one, other, sign = (np.concatenate(each) for each in zip(*sides))
+    up = raised.ravel()
+    cells = np.flatnonzero(up)
+    region = np.full(up.size, -1, dtype=np.int64)
+    region[cells] = np.arange(len(cells))
+    inside = (sign == 0) & up[one] & up[other]
+    pairs = (region[one[inside]], region[other[inside]])
+    graph = coo_matrix((np.ones(len(pairs[0]), dtype=bool), pairs), shape=(len(cells),) * 2)
+    count, region[cells] = connected_components(graph, directed=False)
+    area = np.bincount(region[cells], minlength=count) * size**2
+    borders = [
+        _border(region, up, from_, to, (sign == 0, drop, rise))
+        for from_, to, drop, rise in (
+            (one, other, sign == -1, sign == 1),
+            (other, one, sign == 1, sign == -1),
+        )
+    ]
+    open_ = np.bincount(region[cells], _unsurveyed(known).ravel()[cells], count)
+    is_terrain = _joined(borders, area, open_, allowance)
+    result = np.zeros(up.size, dtype=bool)
+    result[cells] = is_terrain[region[cells]]
+    return result.reshape(raised.shape)
+
+
+def _unsurveyed(known: np.ndarray) -> np.ndarray:
+    """Return how many of the four cells round each lie beyond the survey."""
+    beyond = np.pad(~covered(known), 1, constant_values=True).astype(np.int8)
+    rows = beyond[:-2, 1:-1] + beyond[2:, 1:-1]
+    return rows + beyond[1:-1, :-2] + beyond[1:-1, 2:]
+
+
+# Regions of the cells on either side of some pairs of cells; -1 for what is not raised.
+_Pairs = tuple[np.ndarray, np.ndarray]
+
+
+def _border(
+    region: np.ndarray, up: np.ndarray, from_: np.ndarray, to: np.ndarray, kinds: tuple
+) -> list[_Pairs]:
+    """Return, for each kind of step, the pairs of regions that it leads from and to."""
+    differ = up[from_] & (region[from_] != region[to])
+    return [(region[from_[differ & each]], region[to[differ & each]]) for each in kinds]
+
+
+def _joined(
+    borders: list[list[_Pairs]], area: np.ndarray, open_: np.ndarray, allowance: Allowance
+) -> np.ndarray:
+    """Return which regions pass into the ground, or into others that do.
+
+    Parameters
+    ----------
+    borders : list of list of pairs
+        Level pairs, drops and rises of each region, for both directions.
+    area : numpy.ndarray of float, shape (regions,)
+        Square metres.
+    open_ : numpy.ndarray of float, shape (regions,)
+        Sides of cells at the border of the survey.
+    allowance : Allowance
+        Which share of the border must be gentle.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (regions,)
+    """
+    count = len(area)
+    sharp = sum(np.bincount(drop[0], minlength=count) for _, drop, _ in borders)
+    joined = np.zeros(count, dtype=bool)
+    for _ in range(_JOINING_PASSES):
+        ground = np.append(joined, True)  # the last one is what is not raised
+        level, rising = np.zeros((2, count))
+        for flat, _, rise in borders:
+            level += np.bincount(flat[0][ground[flat[1]]], minlength=count)
+            rising += np.bincount(rise[0][ground[rise[1]]], minlength=count)
+        gentle = level + rising if allowance.rise_counts else level
+        bounded = gentle + sharp
+        new = gentle >= allowance.gentle_share * bounded
+        # A ramp is level with the ground: the side of a roof rises to the next one.
+        new |= (level >= allowance.wide_share * bounded) & (area >= allowance.wide_area)
+        new &= gentle > 0
+        new |= (open_ > _OPEN_SHARE * (bounded + open_)) & (area >= allowance.border_area)
+        new &= area >= allowance.gentle_area
+        if not (new & ~joined).any():
+            break
+        joined |= new
+    return joined
+
+
+def _steps(
+    filled: np.ndarray,
+    known: np.ndarray,
+    raised: np.ndarray,
+    smooth: np.ndarray,
+    trend: Trend | None,
+    axis: int,
+    size: float,
+    allowance: Allowance,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Compare neighbouring cells along an axis, of which one at least is raised.
+
+    Returns
+    -------
+    one, other : numpy.ndarray of intp
+        The pairs, as indices into the flattened grid.
+    sign : numpy.ndarray of int8
+        1 where the other is higher by a step, -1 where it is lower, else 0.
+    """
+    ahead = tuple(slice(1, None) if each == axis else slice(None) for each in (0, 1))
+    behind = tuple(slice(None, -1) if each == axis else slice(None) for each in (0, 1))
+    matters = np.zeros(filled.shape, dtype=bool)
+    np.logical_or(raised[ahead], raised[behind], out=matters[behind])
+    one = np.flatnonzero(matters)
+    other = one + (filled.shape[1] if axis == 0 else 1)
+    rise = filled.ravel()[other] - filled.ravel()[one]
+    usual = slope_at(smooth, axis, one, size) * size
+    allowed = allowance.gentle_step + np.abs(usual)
+    rise -= usual
+    sign = (rise > allowed).astype(np.int8) - (rise < -allowed).astype(np.int8)
+    if trend is not None:
+        stepped = np.flatnonzero(sign)
+        rises = trend.at(*np.divmod(one[stepped], filled.shape[1]))
+        rise = (rise + usual)[stepped] - (rises.east if axis else rises.north)
+        sign[stepped[np.abs(rise) <= allowance.gentle_step + rises.steepest]] = 0
+    if allowance.follows_slopes:
+        stepped = np.flatnonzero(sign)
+        sign[stepped[_on_slope(filled, known, one[stepped], axis)]] = 0
+    return one, other, sign
+
+
+def _on_slope(filled: np.ndarray, known: np.ndarray, one: np.ndarray, axis: int) -> np.ndarray:
+    """Return which steps from cells to the next ones are part of a slope: two more are alike.
+
+    Cells without a point do not count: what fills them makes a slope of any wall.
+    """
+    flat = np.where(known, filled, np.nan).ravel()
+    offset = filled.shape[1] if axis == 0 else 1
+    place, count = np.divmod(one, filled.shape[1])[axis], filled.shape[axis]
+    at = [flat[one + offset * (np.clip(place + k, 0, count - 1) - place)] for k in range(-2, 4)]
+    rises = [after - before for before, after in zip(at, at[1:])]  # the third is that of the step
+    on = np.zeros(len(one), dtype=bool)
+    for first in range(3):
+        three = np.stack(rises[first : first + 3])
+        same = (three > 0).all(axis=0) | (three < 0).all(axis=0)
+        three = np.abs(three)
+        on |= same & (three.min(axis=0) >= _ALIKE * three.max(axis=0))
+    return on
+
+
+def smoothed(surface: np.ndarray, size: float, smoothing: float) -> np.ndarray:
+    """Return a surface smoothed over so many metres."""
+    from scipy import ndimage
+
+    return ndimage.gaussian_filter(surface, smoothing / size, mode="nearest")
+
+
+def slope_at(surface: np.ndarray, axis: int, cells: np.ndarray, size: float) -> np.ndarray:
+    """Return the slope of a surface along an axis, rise over run, at some cells.
+
+    Parameters
+    ----------
+    surface : numpy.ndarray of float, shape (rows, columns)
+        Heights in metres without NaN.
+    axis : int
+        0 towards north, 1 towards east.
+    cells : numpy.ndarray of intp
+        Indices into the flattened grid.
+    size : float
+        Side of a cell in metres.
+
+    Returns
+    -------
+    numpy.ndarray of float64, shape (cells,)
+        Central differences, one-sided at the border.
+    """
+    place = np.divmod(cells, surface.shape[1])[axis]
+    ahead, back = place < surface.shape[axis] - 1, place > 0
+    offset = surface.shape[1] if axis == 0 else 1
+    flat = surface.ravel()
+    rise = flat[cells + offset * ahead] - flat[cells - offset * back]
+    return rise / (np.maximum(ahead.astype(np.int8) + back, 1) * size)
