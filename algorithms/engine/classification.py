@@ -16,7 +16,7 @@ from ..core.threads import may_use
 from ..filters import method_of
 from ..las.changes import Changes
 from ..las.cloud import PointCloud, survey_frame
-from ..las.lasbytes import read_layout
+from ..las.opening import open_las
 from ..las.reading import read_cloud
 from ..las.writing import check_writable, is_copc, layers_kept, write_changed
 from ..products.terrain_model import TerrainModel
@@ -175,7 +175,7 @@ def classify_file(
     request.files.check((source, target))
     resources = resources.now()
     scope = Scope(selection, area, method_of(parameters).reach(parameters))
-    opened = read_layout(source)
+    opened = open_las(source)
     with may_use(resources.thread_count):
         outcome = _outcome(source, target, parameters, scope, resources, request, output, progress)
     with contextlib.ExitStack() as outputs:
@@ -212,7 +212,7 @@ def _outcome(
     progress: Progress,
 ) -> Outcome:
     """Classify the points of a file, in memory if they fit."""
-    layout = read_layout(Path(source))
+    layout = open_las(Path(source))
     count, length = layout.count, layout.record_length
     is_copied = not output.changes_points and layers_kept(layout, Path(target)) is not None
     if fits_in_memory(count, resources):

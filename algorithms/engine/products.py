@@ -22,7 +22,7 @@ from ..crs.system import Crs, unit_name
 from ..grids.model_key_points import ModelKeyPoints, model_key_points
 from ..las.changes import Changes
 from ..las.cloud import PointCloud, survey_frame
-from ..las.lasbytes import read_layout
+from ..las.opening import open_las
 from ..las.reading import read_cloud, read_parts
 from ..las.records import check_class
 from ..las.writing import check_writable, write_changed
@@ -339,7 +339,7 @@ def write_terrain_models(
         return _of_survey(sources, request, ground, workers or Threads(resources), progress)
     resources = resources.now()
     with may_use(resources.thread_count):
-        if fits_in_memory(read_layout(sources[0]).count, resources):
+        if fits_in_memory(open_las(sources[0]).count, resources):
             cloud = read_cloud(sources[0], progress.part(0.0, 0.2))
             marks, crs = _marks(cloud, request, ground), cloud.crs
             part = progress.part(0.2, 0.8)
