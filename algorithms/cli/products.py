@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Sequence
 
-from .command import DONE, Command
+from .command import DONE, FAILED, Command
 from .options import add_input, add_json, add_output, add_parameters, chosen
 from .terminal import Terminal, tell
 
@@ -30,24 +30,44 @@ def _remove_objects(options: argparse.Namespace) -> int:
 
 
 def _add_height(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
+    from ..engine.memory import Resources
     from ..engine.products import GroundClasses, HeightOutput
 
-    add_input(parser)
-    add_output(parser)
+    parser.add_argument(
+        "input", metavar="INPUT", type=Path, nargs="+",
+        help="a classified file, or files, folders, virtual point clouds (.vpc), or lists of files"
+        " (.txt)",
+    )  # fmt: skip
+    parser.add_argument(
+        "output", metavar="OUTPUT", type=Path, help="a file; of many inputs a folder"
+    )
     add_json(parser)
-    add_parameters(parser, GroundClasses, HeightOutput)
+    add_parameters(parser, GroundClasses, HeightOutput, Resources)
 
 
 def _height(options: argparse.Namespace) -> int:
+    from ..engine.height_jobs import write_heights_of_survey
     from ..engine.products import write_height_above_ground
+    from ..engine.workers import Processes
+    from ..survey.collection import is_cloud
 
+    ground, output, resources = chosen(options)
     with Terminal(options.verbose) as progress:
-        summary = write_height_above_ground(
-            options.input, options.output, *chosen(options), progress
-        )
-    text = f"heights above ground are {summary.minimum:.2f} to {summary.maximum:.2f} {summary.unit}"
+        first, *others = options.input
+        if others or first.is_dir() or not is_cloud(first):
+            summary = write_heights_of_survey(
+                options.input, options.output, ground.ground_classes, output.output_as == "z",
+                progress, Processes(resources),
+            )  # fmt: skip
+            text = f"heights of {summary.done_count:,} of {summary.tile_count:,} files are written"
+        else:
+            summary = write_height_above_ground(
+                first, options.output, ground, output, resources, progress
+            )
+            extremes = f"{summary.minimum:.2f} to {summary.maximum:.2f} {summary.unit}"
+            text = f"heights above ground are {extremes}"
     tell(options, summary, f"{options.output}: {text}")
-    return DONE
+    return FAILED if getattr(summary, "failures", None) else DONE
 
 
 def _add_key_points(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
@@ -120,8 +140,8 @@ COMMANDS = (
     Command(
         "height",
         "add the height above ground of every point",
-        "Writes a classified file anew with the height of every point above the TIN of"
-        " its ground points, in the vertical unit of the CRS.",
+        "Writes a classified file, or many as one survey, anew with the height of every point"
+        " above the TIN of the ground points, in the vertical unit of the CRS.",
         _add_height,
         _height,
     ),

@@ -187,7 +187,8 @@ def classify_file(
         changes = Changes(classification=classes)
         if output.changes_points:
             ground = classes == selection.to_class
-            changes = output.changes(outcome.cloud, classes, ground, progress.part(0.85, 0.9))
+            marks, part = (classes, ground), progress.part(0.85, 0.9)
+            changes = output.changes(outcome.cloud, *marks, resources, part)
         write_changed(opened, target, changes, progress.part(0.9, 1.0), outcome.cloud)
     counts = outcome.class_counts
     written = [selection.to_class] if output.ground_only else np.flatnonzero(counts)

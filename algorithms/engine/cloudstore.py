@@ -51,20 +51,28 @@ class CloudStore:
         How it will be cut.
     progress : Progress
         Receives progress.
+    kind : type
+        Of what is kept of each point.
 
     Attributes
     ----------
-    labels : list of numpy.ndarray of uint8, shape (n,)
-        For each file `GROUND`, `LOW` (far below it), `BRIDGE` or 0 for each point.
+    labels : list of numpy.ndarray, shape (n,)
+        For each file what was put for each point, 0 if nothing was: mostly `GROUND`, `LOW` (far
+        below it) or `BRIDGE`.
     leaves, has_known
         As `Store` says.
     """
 
     def __init__(
-        self, parts: Sequence[Part], frame: Frame, blocks: Blocks, progress: Progress = SILENT
+        self,
+        parts: Sequence[Part],
+        frame: Frame,
+        blocks: Blocks,
+        progress: Progress = SILENT,
+        kind: type = np.uint8,
     ) -> None:
         self._parts, self._frame = [_as_needed(part) for part in parts], frame
-        self.labels = [np.zeros(part.cloud.count, dtype=np.uint8) for part in self._parts]
+        self.labels = [np.zeros(part.cloud.count, dtype=kind) for part in self._parts]
         self.has_known = any(part.known is not None for part in self._parts)
         counts = [part.cloud.count for part in self._parts]
         self._starts = np.concatenate(([0], np.cumsum(counts)))

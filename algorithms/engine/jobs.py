@@ -123,38 +123,44 @@ class BlockJob:
                 yield cloud
 
 
-class LabelJob(BlockJob):
-    """Labels the points of some blocks."""
+class PointJob(BlockJob):
+    """Finds something of each point of some blocks, and keeps it by files and blocks."""
 
     def run(self, share: Share, progress: Progress) -> None:
         """Do it."""
-        survey = self.survey
         parts, codes = self._read(progress.part(0.0, 0.3))
-        labels, failure = [np.zeros(part.cloud.count, np.uint8) for part in parts], ""
+        values, failure = [np.zeros(part.cloud.count, self.kind()) for part in parts], ""
         if any(part.wanted.any() and part.selected.any() for part in parts):
-            store = CloudStore(parts, survey.frame, survey.blocks, progress.part(0.3, 0.35))
-            rest = progress.part(0.35, 0.95)
+            survey, part = self.survey, progress.part(0.3, 0.35)
+            store = CloudStore(parts, survey.frame, survey.blocks, part, self.kind())
             try:
-                label_ground(
-                    store, survey.parameters, survey.blocks, survey.selection.special,
-                    share.resources, rest,
-                )  # fmt: skip
-                labels = store.labels
+                self.work(store, share.resources, progress.part(0.35, 0.95))
+                values = store.labels
             except BareEarthError as error:
                 failure = str(error)
         for place, file in zip(self.places, self.files):
-            self._write(file, code(place), parts, codes, labels, failure)
+            self._write(file, code(place), parts, codes, values, failure)
         progress(1.0)
+
+    def kind(self) -> type:
+        """Return the type of what is found."""
+        raise NotImplementedError
+
+    def marks(self, cloud: PointCloud) -> tuple[np.ndarray, np.ndarray]:
+        """Return which points of a file take part, and which are known ground."""
+        raise NotImplementedError
+
+    def work(self, store: CloudStore, resources: Resources, progress: Progress) -> None:
+        """Put what is found into the store."""
+        raise NotImplementedError
 
     def _read(self, progress: Progress) -> tuple[list[Part], list[np.ndarray]]:
         """Return the points that the blocks need, and the block of each."""
-        selection, parts, codes = self.survey.selection, [], []
+        parts, codes = [], []
         here = np.array([code(place) for place in self.places])
         for cloud in self.clouds(progress):
-            selected = selection.choose(cloud, Tally())
-            known = selection.known_ground(cloud, selected)
             codes.append(self.survey.codes(cloud))
-            parts.append(Part(cloud, selected, known, np.isin(codes[-1], here)))
+            parts.append(Part(cloud, *self.marks(cloud), np.isin(codes[-1], here)))
         return parts, codes
 
     def _write(
@@ -163,18 +169,38 @@ class LabelJob(BlockJob):
         block: int,
         parts: list[Part],
         codes: list[np.ndarray],
-        labels: list[np.ndarray],
+        values: list[np.ndarray],
         failure: str,
     ) -> None:
-        """Keep the labels of a block: for each file those of its points there, in its order."""
+        """Keep what was found in a block: for each file that of its points there, in its order."""
         kept = {
-            _key(part.cloud.path): values[there == block]
-            for part, there, values in zip(parts, codes, labels)
+            _key(part.cloud.path): some[there == block]
+            for part, there, some in zip(parts, codes, values)
         }
         if failure:
             kept[_FAILURE] = np.array(failure)
         with replacing(file) as temporary:
             np.savez(temporary, **kept)
+
+
+class LabelJob(PointJob):
+    """Labels the points of some blocks."""
+
+    def kind(self) -> type:
+        """Return the type of labels."""
+        return np.uint8
+
+    def marks(self, cloud: PointCloud) -> tuple[np.ndarray, np.ndarray]:
+        """Return which points are selected, and which of them are surely ground."""
+        selection = self.survey.selection
+        selected = selection.choose(cloud, Tally())
+        return selected, selection.known_ground(cloud, selected)
+
+    def work(self, store: CloudStore, resources: Resources, progress: Progress) -> None:
+        """Label the points."""
+        survey = self.survey
+        special = survey.selection.special
+        label_ground(store, survey.parameters, survey.blocks, special, resources, progress)
 
 
 def _key(path: Path) -> str:
@@ -204,8 +230,9 @@ class TileSummary(NamedTuple):
         return f"{self.name}: {self.point_count:,} points, {share:.1%} ground"
 
 
-class TileJob(NamedTuple):
-    """Writes a tile with the labels of its blocks.
+@dataclass(frozen=True)
+class TileJob:
+    """Writes a tile with what was found in its blocks.
 
     Attributes
     ----------
@@ -218,7 +245,7 @@ class TileJob(NamedTuple):
     places : tuple of Place
         The blocks that may hold its points.
     files : tuple of Path
-        Where the labels of each are.
+        Where what was found in each is.
     record : Record
         Says from what the output is made; written after it.
     """
@@ -230,32 +257,11 @@ class TileJob(NamedTuple):
     files: tuple[Path, ...]
     record: Record
 
-    def run(self, share: Share, progress: Progress) -> TileSummary:
-        """Do it."""
-        selection, path, tally = self.survey.selection, self.tile.path, Tally()
-        kept = _KeptLabels(self)
-        classes, start = np.zeros(self.tile.count, dtype=np.uint8), 0
-        for part in self._parts(share, Unsaid(progress.part(0.0, 0.4))):
-            if not start:
-                selection.check(part)
-            selection.choose(part, tally)
-            labels = kept.of(part)
-            end = start + part.count
-            if end > len(classes):
-                raise kept.changed()
-            low, decks = labels == LOW, labels == BRIDGE
-            classes[start:end] = selection.classes(part, labels == GROUND, low, decks=decks)
-            start = end
-        selection.tell(tally, path, progress)
-        kept.check()
-        changes, rest = Changes(classification=classes), progress.part(0.4, 1.0)
-        write_changed(self.tile.file, self.target, changes, rest, part)
-        ground = int(np.count_nonzero(classes == selection.to_class))
-        summary = TileSummary(self.target.name, len(classes), ground)
-        write_record(self.target, self.record, summary._asdict())
-        return summary
+    def run(self, share: Share, progress: Progress) -> Any:
+        """Do it; return what became of it."""
+        raise NotImplementedError
 
-    def _parts(self, share: Share, progress: Progress) -> Iterator[PointCloud]:
+    def parts(self, share: Share, progress: Progress) -> Iterator[PointCloud]:
         """Yield the points: all at once, to be written without being read again, if they fit."""
         count, length = self.tile.count, self.tile.record_length
         if fits_in_memory(count, share.resources, length):
@@ -265,34 +271,75 @@ class TileJob(NamedTuple):
             yield from read_parts(self.tile.file, progress)
 
 
-class _KeptLabels:
-    """The labels of the points of a tile, as the blocks have them.
+class ClassJob(TileJob):
+    """Writes a tile with the classes that follow from the labels of its points."""
+
+    def run(self, share: Share, progress: Progress) -> TileSummary:
+        """Do it."""
+        selection, path, tally = self.survey.selection, self.tile.path, Tally()
+        kept, any_ground = KeptValues(self, np.uint8), False
+        classes = np.zeros(self.tile.count, dtype=np.uint8)
+        for part in self.parts(share, Unsaid(progress.part(0.0, 0.4))):
+            if not kept.start:
+                selection.check(part)
+            selection.choose(part, tally)
+            where, labels = kept.of(part)
+            low, decks = labels == LOW, labels == BRIDGE
+            any_ground |= bool((labels == GROUND).any())
+            classes[where] = selection.classes(part, labels == GROUND, low, decks=decks)
+        selection.tell(tally, path, progress)
+        kept.check()
+        if not any_ground:
+            raise BareEarthError(kept.failure or f"No ground was found in {path}.")
+        changes, rest = Changes(classification=classes), progress.part(0.4, 1.0)
+        write_changed(self.tile.file, self.target, changes, rest, part)
+        ground = int(np.count_nonzero(classes == selection.to_class))
+        summary = TileSummary(self.target.name, len(classes), ground)
+        write_record(self.target, self.record, summary._asdict())
+        return summary
+
+
+class KeptValues:
+    """What was found of the points of a tile, as the blocks have it.
 
     Parameters
     ----------
     job : TileJob
         The tile.
+    kind : type
+        Of the values.
+
+    Attributes
+    ----------
+    start : int
+        How many points were asked for so far.
+    failure : str
+        Why nothing was found in a block; empty if it was.
     """
 
-    def __init__(self, job: TileJob) -> None:
-        self._survey, self._path = job.survey, job.tile.path
-        self._failure, self._any_ground = "", False
+    def __init__(self, job: TileJob, kind: type) -> None:
+        self._survey, self._path, self._count = job.survey, job.tile.path, job.tile.count
+        self._kind, self.start, self.failure = kind, 0, ""
         self._left: dict[int, np.ndarray] = {}
         for place, file in zip(job.places, job.files):
             with np.load(file, allow_pickle=False) as kept:
                 if _key(self._path) in kept:
                     self._left[code(place)] = kept[_key(self._path)]
-                    self._failure = self._failure or str(kept.get(_FAILURE, ""))
+                    self.failure = self.failure or str(kept.get(_FAILURE, ""))
 
-    def of(self, part: PointCloud) -> np.ndarray:
-        """Return the labels of the next points, in file order.
+    def of(self, part: PointCloud) -> tuple[slice, np.ndarray]:
+        """Return where the next points stand in the file, and what was found of them.
 
         Raises
         ------
         BareEarthError
             If there are points where the header says that there are none.
         """
-        codes, labels = self._survey.codes(part), np.zeros(part.count, dtype=np.uint8)
+        where = slice(self.start, self.start + part.count)
+        self.start = where.stop
+        if where.stop > self._count:
+            raise self._changed()
+        codes, values = self._survey.codes(part), np.zeros(part.count, dtype=self._kind)
         for each in np.unique(codes):
             here, left = np.flatnonzero(codes == each), self._left.get(int(each))
             if left is None:
@@ -301,19 +348,16 @@ class _KeptLabels:
                     " Write the file anew with a program that corrects it."
                 )
             if len(left) < len(here):
-                raise self.changed()
-            labels[here], self._left[int(each)] = left[: len(here)], left[len(here) :]
-        self._any_ground |= bool((labels == GROUND).any())
-        return labels
+                raise self._changed()
+            values[here], self._left[int(each)] = left[: len(here)], left[len(here) :]
+        return where, values
 
     def check(self) -> None:
-        """Refuse a tile of whose labels some are left, or none is ground."""
+        """Refuse a tile of whose values some are left."""
         if any(map(len, self._left.values())):
-            raise self.changed()
-        if not self._any_ground:
-            raise BareEarthError(self._failure or f"No ground was found in {self._path}.")
+            raise self._changed()
 
-    def changed(self) -> BareEarthError:
+    def _changed(self) -> BareEarthError:
         """Return the error for a file that is not what it was."""
         return BareEarthError(f"{self._path} changed while it was worked on. Classify it again.")
 

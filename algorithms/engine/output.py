@@ -13,9 +13,11 @@ from ..crs.system import unit_name
 from ..las.changes import Changes
 from ..las.cloud import PointCloud
 from ..las.extrabytes import ExtraDimension
-from ..products.height_above_ground import height_above_ground
+from .heights import heights_of
+from .memory import Resources
 
 HEIGHT_DIMENSION = "HeightAboveGround"
+_INTEGERS = np.iinfo(np.int32)
 
 
 @dataclass(frozen=True)
@@ -45,6 +47,7 @@ class Output(ParameterSet):
         cloud: PointCloud,
         classification: np.ndarray,
         ground: np.ndarray,
+        resources: Resources = Resources(),
         progress: Progress = SILENT,
     ) -> Changes:
         """Return what is to become other in a cloud.
@@ -57,6 +60,8 @@ class Output(ParameterSet):
             Their new classes.
         ground : numpy.ndarray of bool, shape (n,)
             Which of them are ground.
+        resources : Resources
+            Threads and memory.
         progress : Progress
             Receives progress and messages.
 
@@ -75,7 +80,7 @@ class Output(ParameterSet):
         if self.height_above_ground:
             # Withheld points are no ground for heights, as in those of a classified file.
             known = ground & ~cloud.withheld
-            extra = height_dimension(cloud, heights_of(cloud, known, progress))
+            extra = height_dimension(cloud, heights_of(cloud, known, resources, progress))
         if self.ground_only:
             kept = ground
             count = np.count_nonzero(~ground)
@@ -83,39 +88,29 @@ class Output(ParameterSet):
         return Changes(classification=classification, extra=extra, kept=kept)
 
 
-def heights_of(cloud: PointCloud, ground: np.ndarray, progress: Progress = SILENT) -> np.ndarray:
-    """Return how high each point of a cloud stands above its ground.
-
-    Parameters
-    ----------
-    cloud : PointCloud
-        The points.
-    ground : numpy.ndarray of bool, shape (n,)
-        Which of them are ground.
-    progress : Progress
-        Receives progress.
-
-    Returns
-    -------
-    numpy.ndarray of float64, shape (n,)
-        In the vertical unit of the CRS.
-
-    Raises
-    ------
-    BareEarthError
-        If no point is ground, or the CRS is geographic.
-    """
-    if not ground.any():
-        raise BareEarthError(
-            f"All ground points of {cloud.path} are withheld, so that no height above ground can be"
-            " measured."
-        )
-    heights = height_above_ground(cloud.points(slice(None)), ground, progress)
-    # Without the noise of rounding: ground points have 0, not -0.
-    return np.round(heights / cloud.crs.vertical_unit, 6) + 0.0
-
-
 def height_dimension(cloud: PointCloud, heights: np.ndarray) -> ExtraDimension:
     """Return heights above ground as the dimension that keeps them."""
     unit = unit_name(cloud.crs.vertical_unit)
     return ExtraDimension(HEIGHT_DIMENSION, f"Above ground, {unit}", heights.astype(np.float32))
+
+
+def z_of(cloud: PointCloud, heights: np.ndarray) -> np.ndarray:
+    """Return heights as integers of the file's scale and offset.
+
+    Raises
+    ------
+    BareEarthError
+        If they do not fit, or some are not known.
+    """
+    if np.isnan(heights).any():
+        raise BareEarthError(
+            f"Some points of {cloud.path} are kilometres from any ground, so that they have no"
+            " height above ground. Write the heights as an extra dimension."
+        )
+    values = np.rint((heights - cloud.offset[2]) / cloud.scale[2])
+    if values.min() < _INTEGERS.min or values.max() > _INTEGERS.max:
+        raise BareEarthError(
+            f"Heights above ground do not fit the scale {cloud.scale[2]:g} and offset"
+            f" {cloud.offset[2]:g} of z in {cloud.path}. Write them as an extra dimension."
+        )
+    return values.astype(np.int32)

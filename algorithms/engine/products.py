@@ -30,8 +30,9 @@ from ..products.raster_block import BlockRasters
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import TerrainModel
 from ..survey.collection import is_cloud, open_collection
+from .heights import heights_of
 from .memory import Resources
-from .output import HEIGHT_DIMENSION, height_dimension, heights_of
+from .output import HEIGHT_DIMENSION, height_dimension, z_of
 from .raster_jobs import make_rasters
 from .rasters import (
     RasterFiles,
@@ -45,8 +46,6 @@ from .rasters import (
 from .spill import Spill
 from .streaming import fits_in_memory
 from .workers import Threads, Workers
-
-_INTEGERS = np.iinfo(np.int32)
 
 
 @dataclass(frozen=True)
@@ -177,6 +176,7 @@ def write_height_above_ground(
     target: Path,
     ground: GroundClasses = GroundClasses(),
     output: HeightOutput = HeightOutput(),
+    resources: Resources = Resources(),
     progress: Progress = SILENT,
 ) -> HeightSummary:
     """Write a point cloud anew with the height of every point above the ground.
@@ -189,6 +189,8 @@ def write_height_above_ground(
         Which points are ground.
     output : HeightOutput
         Whether the heights are an extra dimension or replace z; both in the vertical unit.
+    resources : Resources
+        Threads and memory.
     progress : Progress
         Receives progress and messages.
 
@@ -203,30 +205,19 @@ def write_height_above_ground(
     check_writable(target)
     cloud = read_cloud(source, progress.part(0.0, 0.15))
     is_ground = ground.of(cloud)
-    heights = heights_of(cloud, is_ground, progress.part(0.15, 0.8))
+    heights = heights_of(cloud, is_ground, resources.now(), progress.part(0.15, 0.8))
     if output.output_as == "z":
-        changes = Changes(z=_integers(cloud, heights))
+        changes = Changes(z=z_of(cloud, heights))
     else:
         changes = Changes(extra=height_dimension(cloud, heights))
     write_changed(cloud.file, target, changes, progress.part(0.8, 1.0))
     return HeightSummary(
         point_count=cloud.count,
         ground_count=int(np.count_nonzero(is_ground)),
-        minimum=float(heights.min()),
-        maximum=float(heights.max()),
+        minimum=float(np.nanmin(heights)),
+        maximum=float(np.nanmax(heights)),
         unit=unit_name(cloud.crs.vertical_unit),
     )
-
-
-def _integers(cloud: PointCloud, heights: np.ndarray) -> np.ndarray:
-    """Return heights as integers of the file's scale and offset."""
-    values = np.rint((heights - cloud.offset[2]) / cloud.scale[2])
-    if values.min() < _INTEGERS.min or values.max() > _INTEGERS.max:
-        raise BareEarthError(
-            f"Heights above ground do not fit the scale {cloud.scale[2]:g} and offset"
-            f" {cloud.offset[2]:g} of z in {cloud.path}. Write them as an extra dimension."
-        )
-    return values.astype(np.int32)
 
 
 def write_key_points(

@@ -26,7 +26,7 @@ from ..survey.vpc import SUFFIX as VPC_SUFFIX
 from ..survey.vpc import write_vpc
 from .blocks import Blocks
 from .ground import blocks_of
-from .jobs import LabelJob, TileJob, TileSummary
+from .jobs import ClassJob, LabelJob, TileSummary
 from .options import TileInput, TileOutput
 from .raster_jobs import make_rasters
 from .rasters import RasterFiles, RasterPoints, RasterRequest
@@ -338,7 +338,7 @@ class _Plan:
             )
         return kept
 
-    def jobs(self, folder: Path, workers: Workers) -> tuple[list[LabelJob], list[TileJob]]:
+    def jobs(self, folder: Path, workers: Workers) -> tuple[list[LabelJob], list[ClassJob]]:
         """Return the jobs for all that is to be done, and let the workers begin."""
         survey, collection = self._survey, self._collection
         places = sorted({place for needs in self._todo for place in needs.places})
@@ -348,7 +348,7 @@ class _Plan:
             for each in places
         }
         tiles = [
-            TileJob(
+            ClassJob(
                 survey,
                 needs.tile,
                 self._targets[needs.tile.path],

@@ -15,7 +15,10 @@ _SPACINGS, _LEAST, _MOST = 2.0, 0.1, 0.5
 
 
 def height_above_ground(
-    points: Points, ground: np.ndarray, progress: Progress = SILENT
+    points: Points,
+    ground: np.ndarray,
+    progress: Progress = SILENT,
+    wanted: np.ndarray | None = None,
 ) -> np.ndarray:
     """Return how high each point stands above the ground below it.
 
@@ -27,6 +30,8 @@ def height_above_ground(
         Which of them are ground; at least one is.
     progress : Progress
         Receives progress.
+    wanted : numpy.ndarray of bool, shape (n,), optional
+        Which heights are wanted; the others are 0. All are, if it is not given.
 
     Returns
     -------
@@ -45,11 +50,12 @@ def height_above_ground(
     terrain, heights = points.take(ground), np.zeros(points.count)
     apart = min(_SPACINGS * spacing(terrain, _LEAST / _SPACINGS), _MOST)
     surface = DenseSurface(terrain, VERTICES_A_SIDE * apart)
-    others = points.take(np.flatnonzero(~ground))
+    which = ~ground if wanted is None else ~ground & wanted
+    others = points.take(which)
     below = surface.heights(others.x, others.y, progress=progress.part(0.1, 0.95))
     outside = np.flatnonzero(np.isnan(below))
     if len(outside):
         below[outside] = surface.nearest(others.x[outside], others.y[outside])
-    heights[~ground] = others.z - below
+    heights[which] = others.z - below
     progress(1.0)
     return heights

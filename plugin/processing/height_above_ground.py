@@ -44,7 +44,7 @@ class HeightAboveGroundAlgorithm(ProductAlgorithm):
         chosen = self.chosen(parameters, context)
         output = self.cloud_output(parameters, context, progress)
         progress.command(command_line("height", [str(self.source), output], chosen, {}))
-        summary = write_height_above_ground(self.source, Path(output), *chosen, progress)
+        summary = write_height_above_ground(self.source, Path(output), *chosen, progress=progress)
         progress.info(
             f"Heights above ground are {summary.minimum:.2f} to {summary.maximum:.2f}"
             f" {summary.unit}."

@@ -1,10 +1,13 @@
 """Heights above ground, key points and terrain models, from files whose truth is known."""
 
 import json
+import os
 
 import laspy
 import numpy as np
 import pytest
+from surveys import cut, strip
+from surveys import write as write_strip
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
@@ -429,3 +432,33 @@ def test_the_commands(tmp_path, capsys):
     assert "at least one raster" in capsys.readouterr().err
     assert main(["key-points", str(source), out[2], "--tolerance-above", "-1"]) == 2
     assert "Tolerance above must be at least" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("as_z", [False, True])
+def test_heights_of_many_files_are_those_of_one(tmp_path, as_z):
+    points = strip(30_000, 600.0, 300.0)
+    ground = np.where(points[:, 2] % 10, 2, 1)
+    write_strip(tmp_path / "one.laz", points, classes=ground)
+    cut(tmp_path / "many", points, 8)
+    for path in (tmp_path / "many").iterdir():
+        las = laspy.read(path)
+        las.classification[:] = np.where(np.round(np.asarray(las.z) * 100) % 10, 2, 1)
+        las.write(str(path))
+    words = ["--output-as", "z"] if as_z else []
+    assert main(["height", str(tmp_path / "one.laz"), str(tmp_path / "h.laz"), *words]) == 0
+    assert main(["height", str(tmp_path / "many"), str(tmp_path / "out"), *words]) == 0
+    names = sorted(os.listdir(tmp_path / "out"))
+    assert names == [*(f"{n}.laz" for n in range(8)), "heights.vpc"]
+
+    def heights(paths):
+        rows = []
+        for path in paths:
+            las = laspy.read(path)
+            rows.append(np.column_stack((las.x, las.y, las.z if as_z else las.HeightAboveGround)))
+        rows = np.round(np.concatenate(rows), 4)
+        return rows[np.lexsort(rows.T)]
+
+    many = heights(sorted((tmp_path / "out").glob("*.laz")))
+    one = heights([tmp_path / "h.laz"])
+    assert np.allclose(one, many, atol=0.011 if as_z else 1e-4)
+    assert np.ptp(one[:, 2]) > 5.0

@@ -450,7 +450,7 @@ def test_a_process_that_dies_loses_nothing(many, out):
 
 @pytest.mark.skipif(os.name == "nt", reason="it kills by signals")
 def test_a_tile_that_kills_its_process_fails_alone(six, out, monkeypatch):
-    monkeypatch.setattr(tiles_module, "TileJob", DeadlyJob)
+    monkeypatch.setattr(tiles_module, "ClassJob", DeadlyJob)
     summary = classify_tiles([six], out, FAST, workers=Processes(Resources(threads=2)))
     assert list(summary.failures) == [str(six / "3.laz")]
     assert "ended unexpectedly" in summary.failures[str(six / "3.laz")]
@@ -551,7 +551,7 @@ def test_a_second_run_into_the_same_folder_is_refused_and_the_first_goes_on(six,
     assert again.kept_count == 6
 
 
-class Overtaken(jobs_module.TileJob):
+class Overtaken(jobs_module.ClassJob):
     """Finds another file with as many points in the place of that whose points were labelled."""
 
     def run(self, share, progress):
@@ -564,7 +564,7 @@ class Overtaken(jobs_module.TileJob):
 
 
 def test_a_tile_that_changed_since_its_points_were_labelled_is_not_written(six, out, monkeypatch):
-    monkeypatch.setattr(tiles_module, "TileJob", Overtaken)
+    monkeypatch.setattr(tiles_module, "ClassJob", Overtaken)
     done = classify_tiles([six], out, FAST)
     assert [Path(each).name for each in done.failures] == ["2.laz"]
     assert "changed while it was worked on" in next(iter(done.failures.values()))
