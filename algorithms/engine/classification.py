@@ -25,6 +25,7 @@ from ..survey.scope import Scope
 from ..survey.selection import Selection
 from .cloudstore import CloudStore, Part
 from .ground import blocks_of, label_ground
+from .heights import heights_of
 from .memory import Resources
 from .output import Output
 from .rasters import RasterFiles, RasterRequest, rasters_of_cloud, write_rasters
@@ -186,9 +187,12 @@ def classify_file(
         classes = outcome.classification
         changes = Changes(classification=classes)
         if output.changes_points:
-            ground = classes == selection.to_class
-            marks, part = (classes, ground), progress.part(0.85, 0.9)
-            changes = output.changes(outcome.cloud, *marks, resources, part)
+            ground, heights = classes == selection.to_class, outcome.heights
+            if output.height_above_ground and heights is None:
+                # Withheld points are no ground for heights, as in those of a classified file.
+                known, part = ground & ~outcome.cloud.withheld, progress.part(0.85, 0.9)
+                heights = heights_of(outcome.cloud, known, resources, part)
+            changes = output.changes(outcome.cloud, classes, ground, heights, progress)
         write_changed(opened, target, changes, progress.part(0.9, 1.0), outcome.cloud)
     counts = outcome.class_counts
     written = [selection.to_class] if output.ground_only else np.flatnonzero(counts)
@@ -227,22 +231,18 @@ def _outcome(
             marks, part = (ground, ground, np.zeros_like(ground)), progress.part(0.65, 0.75)
             outcome.rasters = rasters_of_cloud(cloud, marks, request, resources, part)
         return outcome
-    _check_parts_do(target, output, is_copied, count, progress)
+    _check_parts_do(target, is_copied, count, progress)
     part = progress.part(0.0, 0.75)
-    return classify_parts(source, target, parameters, scope, resources, request, part)
+    heights = output.height_above_ground
+    return classify_parts(source, target, parameters, scope, resources, request, heights, part)
 
 
-def _check_parts_do(
-    target: Path, output: Output, is_copied: bool, count: int, progress: Progress
-) -> None:
+def _check_parts_do(target: Path, is_copied: bool, count: int, progress: Progress) -> None:
     """Refuse an output that needs all points in memory where they do not fit; tell of the way."""
-    makes_index = is_copc(target) and not is_copied
-    needs = "making a COPC file" if makes_index else "measuring heights above ground"
-    if makes_index or output.height_above_ground:
-        remedy = "Name the output .laz" if makes_index else "Leave out the heights"
+    if is_copc(target) and not is_copied:
         raise BareEarthError(
-            f"The {count:,} points do not fit into the memory that may be used, which {needs}"
-            f" needs. {remedy}, or give more memory."
+            f"The {count:,} points do not fit into the memory that may be used, which making a COPC"
+            " file needs. Name the output .laz, or give more memory."
         )
     progress.info(
         f"The {count:,} points do not fit into the memory that may be used: they are read twice,"

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import tempfile
 from functools import partial
-from typing import Callable, NamedTuple
+from pathlib import Path
+from typing import Callable, Iterable, NamedTuple
 
 import numpy as np
 
@@ -15,10 +17,12 @@ from .blocks import Block, Blocks, Store
 from .cloudstore import CloudStore, Part
 from .ground import over_blocks
 from .memory import Resources
+from .spill import Spill
 
 # Metres round a block in which ground points matter for its heights.
 _REACH = 100.0
 HEIGHT_BLOCKS = Blocks.of(_REACH)
+_NO_GROUND = "All ground points of {} are withheld, so that no height above ground can be measured."
 
 
 class _Heights(NamedTuple):
@@ -58,10 +62,7 @@ def heights_of(
         If no point is ground, or the CRS is geographic.
     """
     if not ground.any():
-        raise BareEarthError(
-            f"All ground points of {cloud.path} are withheld, so that no height above ground can be"
-            " measured."
-        )
+        raise BareEarthError(_NO_GROUND.format(cloud.path))
     part = Part(cloud, np.ones(cloud.count, dtype=bool), ground)
     frame, first = survey_frame(cloud.crs), progress.part(0.0, 0.1)
     store = CloudStore([part], frame, HEIGHT_BLOCKS, first, np.float64)
@@ -73,6 +74,68 @@ def in_unit(heights: np.ndarray, cloud: PointCloud) -> np.ndarray:
     """Return heights in metres in the vertical unit of a cloud, without the noise of rounding."""
     # Ground points have 0, not -0.
     return np.round(heights / cloud.crs.vertical_unit, 6) + 0.0
+
+
+class DiskHeights:
+    """The heights of the points of a file, on disk until they are written.
+
+    Parameters
+    ----------
+    target : Path
+        The output, in whose folder the temporary files are.
+    """
+
+    def __init__(self, target: Path) -> None:
+        self._target = target
+        self._spill = Spill(target, HEIGHT_BLOCKS.leaf_side, np.float64)
+
+    def __enter__(self) -> DiskHeights:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self._spill.__exit__(*exception)
+
+    def append(self, part: PointCloud, ground: np.ndarray) -> None:
+        """Add the next points of the file, and say which of them are ground."""
+        every = np.ones(part.count, dtype=bool)
+        self._spill.append(part, every, ground, every)
+
+    def measured(
+        self,
+        lowest: tuple[int, int],
+        parts: Iterable[PointCloud],
+        kind: type,
+        resources: Resources,
+        progress: Progress,
+    ) -> np.ndarray:
+        """Measure the heights; return them in the order of the file, in its vertical unit.
+
+        Parameters
+        ----------
+        lowest : tuple of int
+            The smallest x and y of the file, as integers.
+        parts : iterable of PointCloud
+            The points once more, as they were appended.
+        kind : type
+            Of the numbers that are returned.
+        resources : Resources
+            Threads and memory.
+        progress : Progress
+            Receives progress.
+        """
+        if not self._spill.has_known:
+            raise BareEarthError(_NO_GROUND.format(self._spill.cloud.path))
+        self._spill.finish(lowest)
+        measure_heights(self._spill, resources, progress)
+        with tempfile.TemporaryFile(dir=self._target.parent) as file:
+            heights = np.memmap(file, kind, "w+", shape=(self._spill.count,))
+        start = 0
+        for part in parts:
+            every = np.ones(part.count, dtype=bool)
+            found = self._spill.labels_of(part, every, start)
+            heights[start : start + part.count] = in_unit(found, part)
+            start += part.count
+        return heights
 
 
 def measure_heights(

@@ -13,8 +13,6 @@ from ..crs.system import unit_name
 from ..las.changes import Changes
 from ..las.cloud import PointCloud
 from ..las.extrabytes import ExtraDimension
-from .heights import heights_of
-from .memory import Resources
 
 HEIGHT_DIMENSION = "HeightAboveGround"
 _INTEGERS = np.iinfo(np.int32)
@@ -47,7 +45,7 @@ class Output(ParameterSet):
         cloud: PointCloud,
         classification: np.ndarray,
         ground: np.ndarray,
-        resources: Resources = Resources(),
+        heights: np.ndarray | None = None,
         progress: Progress = SILENT,
     ) -> Changes:
         """Return what is to become other in a cloud.
@@ -60,10 +58,10 @@ class Output(ParameterSet):
             Their new classes.
         ground : numpy.ndarray of bool, shape (n,)
             Which of them are ground.
-        resources : Resources
-            Threads and memory.
+        heights : numpy.ndarray of float, shape (n,), optional
+            Their heights above ground, if they are wanted.
         progress : Progress
-            Receives progress and messages.
+            Receives messages.
 
         Raises
         ------
@@ -77,10 +75,8 @@ class Output(ParameterSet):
                 " ground alone, and no height above it. Check the parameters and the selection of"
                 " points."
             )
-        if self.height_above_ground:
-            # Withheld points are no ground for heights, as in those of a classified file.
-            known = ground & ~cloud.withheld
-            extra = height_dimension(cloud, heights_of(cloud, known, resources, progress))
+        if heights is not None:
+            extra = height_dimension(cloud, heights)
         if self.ground_only:
             kept = ground
             count = np.count_nonzero(~ground)
@@ -91,7 +87,9 @@ class Output(ParameterSet):
 def height_dimension(cloud: PointCloud, heights: np.ndarray) -> ExtraDimension:
     """Return heights above ground as the dimension that keeps them."""
     unit = unit_name(cloud.crs.vertical_unit)
-    return ExtraDimension(HEIGHT_DIMENSION, f"Above ground, {unit}", heights.astype(np.float32))
+    return ExtraDimension(
+        HEIGHT_DIMENSION, f"Above ground, {unit}", heights.astype(np.float32, copy=False)
+    )
 
 
 def z_of(cloud: PointCloud, heights: np.ndarray) -> np.ndarray:

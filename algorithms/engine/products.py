@@ -22,7 +22,7 @@ from ..crs.system import Crs, unit_name
 from ..grids.model_key_points import ModelKeyPoints, model_key_points
 from ..las.changes import Changes
 from ..las.cloud import PointCloud, survey_frame
-from ..las.opening import open_las
+from ..las.opening import LasFile, open_las
 from ..las.reading import read_cloud, read_parts
 from ..las.records import check_class
 from ..las.writing import check_writable, write_changed
@@ -30,7 +30,7 @@ from ..products.raster_block import BlockRasters
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import TerrainModel
 from ..survey.collection import is_cloud, open_collection
-from .heights import heights_of
+from .heights import DiskHeights, heights_of
 from .memory import Resources
 from .output import HEIGHT_DIMENSION, height_dimension, z_of
 from .raster_jobs import make_rasters
@@ -203,21 +203,59 @@ def write_height_above_ground(
     """
     check_output(target, (source,))
     check_writable(target)
-    cloud = read_cloud(source, progress.part(0.0, 0.15))
-    is_ground = ground.of(cloud)
-    heights = heights_of(cloud, is_ground, resources.now(), progress.part(0.15, 0.8))
+    las, resources = open_las(source), resources.now()
+    if fits_in_memory(las.count, resources):
+        cloud = read_cloud(las, progress.part(0.0, 0.15))
+        is_ground = ground.of(cloud)
+        heights = heights_of(cloud, is_ground, resources, progress.part(0.15, 0.8))
+        ground_count = int(np.count_nonzero(is_ground))
+    else:
+        cloud, heights, ground_count = _heights_from_disk(las, target, ground, resources, progress)
     if output.output_as == "z":
         changes = Changes(z=z_of(cloud, heights))
     else:
         changes = Changes(extra=height_dimension(cloud, heights))
     write_changed(cloud.file, target, changes, progress.part(0.8, 1.0))
     return HeightSummary(
-        point_count=cloud.count,
-        ground_count=int(np.count_nonzero(is_ground)),
+        point_count=len(heights),
+        ground_count=ground_count,
         minimum=float(np.nanmin(heights)),
         maximum=float(np.nanmax(heights)),
         unit=unit_name(cloud.crs.vertical_unit),
     )
+
+
+def _heights_from_disk(
+    las: LasFile,
+    target: Path,
+    ground: GroundClasses,
+    resources: Resources,
+    progress: Progress,
+) -> tuple[PointCloud, np.ndarray, int]:
+    """Measure the heights of a file that does not fit into memory.
+
+    Returns
+    -------
+    cloud : PointCloud
+        Some of its points.
+    heights : numpy.ndarray of float64, shape (n,)
+        In its vertical unit.
+    ground_count : int
+        Points of the ground.
+    """
+    points, lowest, ground_count = RasterPoints(ground.ground_classes), [], 0
+    with DiskHeights(target) as heights:
+        for part in read_parts(las, progress.part(0.0, 0.3)):
+            part.require_projected()
+            is_ground = points.ground_of(part)
+            ground_count += int(np.count_nonzero(is_ground))
+            heights.append(part, is_ground)
+            lowest.append(part.lowest)
+        if not ground_count:
+            ground.of(part)
+        first = tuple(int(each) for each in np.min(lowest, axis=0))
+        parts, rest = read_parts(las, SILENT), progress.part(0.3, 0.8)
+        return part, heights.measured(first, parts, np.float64, resources, rest), ground_count
 
 
 def write_key_points(

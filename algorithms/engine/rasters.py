@@ -146,6 +146,10 @@ class RasterPoints(NamedTuple):
     ground_classes: tuple[int, ...]
     covers_ground: bool = False
 
+    def ground_of(self, cloud: PointCloud) -> np.ndarray:
+        """Return which points are ground; boolean, shape (n,)."""
+        return np.isin(cloud.classification, self.ground_classes) & ~cloud.withheld
+
     def of(self, cloud: PointCloud, request: RasterRequest) -> tuple[np.ndarray, ...]:
         """Return which points are covered, are ground, and belong to the surface.
 
@@ -155,7 +159,7 @@ class RasterPoints(NamedTuple):
         """
         ground = np.zeros(cloud.count, dtype=bool)
         if request.needs_terrain:
-            ground = np.isin(cloud.classification, self.ground_classes) & ~cloud.withheld
+            ground = self.ground_of(cloud)
         if self.covers_ground:
             return ground, ground, np.zeros(cloud.count, dtype=bool)
         shown = ground | (~np.isin(cloud.classification, NOISE) & ~cloud.withheld)

@@ -38,6 +38,8 @@ class Spill:
         The output, in whose folder the files are.
     leaf_side : float
         Metres; the points are sorted by squares of this side, part by part.
+    kind : type
+        Of what is kept of each point.
 
     Attributes
     ----------
@@ -49,7 +51,8 @@ class Spill:
         As `Store` says; `leaves` after `finish` only.
     """
 
-    def __init__(self, target: Path, leaf_side: float) -> None:
+    def __init__(self, target: Path, leaf_side: float, kind: type = np.uint8) -> None:
+        self._kind = np.dtype(kind)
         self.count, self.has_known, self.leaves = 0, False, None
         self._target, self._side = Path(target), leaf_side
         self._lock, self._files = threading.Lock(), contextlib.ExitStack()
@@ -135,7 +138,7 @@ class Spill:
         self.leaves = Leaves(x, y, self._side + 2.0 * _MARGIN, totals)
         with self._told():
             self._records.flush()
-            self._labels.truncate(self.count)
+            self._labels.truncate(self.count * self._kind.itemsize)
         return dataclasses.replace(cloud, **corner).frame
 
     def read(
@@ -168,15 +171,16 @@ class Spill:
         cuts = np.flatnonzero(np.diff(positions) > _GAP) + 1
         for where, values in zip(np.split(positions, cuts), np.split(labels, cuts)):
             first, last = int(where[0]), int(where[-1]) + 1
-            held = np.frombuffer(self._labels_at(first, last), dtype=np.uint8).copy()
+            held = self._labels_at(first, last).copy()
             held[where - first] = values
             with self._told():
-                self._labels.seek(first)
+                self._labels.seek(first * self._kind.itemsize)
                 self._labels.write(held.tobytes())
 
-    def _labels_at(self, first: int, last: int) -> bytes:
-        self._labels.seek(first)
-        return self._labels.read(last - first)
+    def _labels_at(self, first: int, last: int) -> np.ndarray:
+        self._labels.seek(first * self._kind.itemsize)
+        data = self._labels.read((last - first) * self._kind.itemsize)
+        return np.frombuffer(data, dtype=self._kind)
 
     def labels_of(self, part: PointCloud, selected: np.ndarray, start: int) -> np.ndarray:
         """Return the labels of the points of a part, as it was appended.
@@ -190,13 +194,12 @@ class Spill:
 
         Returns
         -------
-        numpy.ndarray of uint8, shape (n,)
+        numpy.ndarray, shape (n,)
             0 for those that are not selected.
         """
         order = self._sorted(part, selected).order
-        labels = np.zeros(part.count, dtype=np.uint8)
-        held = self._labels_at(start, start + len(order))
-        labels[np.flatnonzero(selected)[order]] = np.frombuffer(held, dtype=np.uint8)
+        labels = np.zeros(part.count, dtype=self._kind)
+        labels[np.flatnonzero(selected)[order]] = self._labels_at(start, start + len(order))
         return labels
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Iterator
 
 import numpy as np
 
@@ -18,6 +17,7 @@ from ..survey.scope import Scope
 from ..survey.selection import Selection, count_classes
 from .blocks import BRIDGE, GROUND, LOW
 from .ground import blocks_of, label_ground
+from .heights import DiskHeights
 from .memory import GIGABYTE, Resources
 from .rasters import RasterRequest, rasters_of_store
 from .spill import Spill
@@ -48,6 +48,8 @@ class Outcome:
         Points in the area that are labelled as decks of bridges.
     rasters : list of BlockRasters or None
         The rasters of the blocks, if any are wanted.
+    heights : numpy.ndarray of float32, shape (n,), or None
+        Heights above ground, in the vertical unit of the CRS, where they are measured already.
     """
 
     cloud: PointCloud
@@ -57,6 +59,7 @@ class Outcome:
     area_low_count: int = 0
     area_deck_count: int = 0
     rasters: list[BlockRasters] | None = None
+    heights: np.ndarray | None = None
 
     def add(
         self,
@@ -120,6 +123,7 @@ def classify_parts(
     scope: Scope,
     resources: Resources = Resources(),
     request: RasterRequest = RasterRequest(),
+    with_heights: bool = False,
     progress: Progress = SILENT,
 ) -> Outcome:
     """Classify a file part by part, its points on disk until their block is filtered.
@@ -136,6 +140,8 @@ def classify_parts(
         Threads and memory.
     request : RasterRequest
         Which rasters are wanted.
+    with_heights : bool
+        Whether heights above ground are wanted.
     progress : Progress
         Receives progress and messages.
 
@@ -154,40 +160,40 @@ def classify_parts(
     selection = scope.selection
     blocks = blocks_of(parameters)
     fewer = _for_blocks(resources)
-    with Spill(target, blocks.leaf_side) as spill, _ground_spill(target, request) as ground:
+    with contextlib.ExitStack() as files:
+        spill = files.enter_context(Spill(target, blocks.leaf_side))
         for part in read_parts(source, progress.part(0.0, 0.3)):
             inside, selected = scope.choose(part)
             known = selection.known_ground(part, selected)
             spill.append(part, selected, known, inside)
         scope.tell(progress)
         spill.finish(scope.lowest)
-        label_ground(spill, parameters, blocks, selection.special, fewer, progress.part(0.3, 0.75))
+        label_ground(spill, parameters, blocks, selection.special, fewer, progress.part(0.3, 0.7))
+        ground = heights = None
+        if request.files.wanted:
+            ground = files.enter_context(Spill(target, request.blocks.leaf_side))
+        if with_heights:
+            heights = files.enter_context(DiskHeights(target))
         outcome = Outcome(spill.cloud, np.empty(scope.tally.points, dtype=np.uint8))
         start = taken = 0
-        for part in read_parts(source, Unsaid(progress.part(0.75, 0.9))):
+        for part in read_parts(source, Unsaid(progress.part(0.7, 0.85))):
             inside, selected = scope.choose_again(part)
             labels = spill.labels_of(part, selected, taken)
-            is_ground = outcome.add(start, part, labels, inside, selection)
+            is_ground = outcome.add(start, part, labels, inside, selection) & ~part.withheld
             if ground is not None:
-                is_ground &= ~part.withheld
                 ground.append(part, is_ground, is_ground, np.zeros(part.count, dtype=bool))
+            if heights is not None:
+                heights.append(part, is_ground)
             start += part.count
             taken += int(np.count_nonzero(selected))
         scope.tell_of_special(outcome.area_low_count, outcome.area_deck_count, progress)
         if ground is not None:
             ground.finish(scope.lowest)
-            outcome.rasters = rasters_of_store(ground, request, fewer, progress.part(0.9, 1.0))
+            outcome.rasters = rasters_of_store(ground, request, fewer, progress.part(0.85, 0.9))
+        if heights is not None:
+            parts, rest = read_parts(source, Unsaid(SILENT)), progress.part(0.9, 1.0)
+            outcome.heights = heights.measured(scope.lowest, parts, np.float32, fewer, rest)
     return outcome
-
-
-@contextlib.contextmanager
-def _ground_spill(target: Path, request: RasterRequest) -> Iterator[Spill | None]:
-    """Give room on disk for the ground points, if rasters are to be made of them."""
-    if not request.files.wanted:
-        yield None
-        return
-    with Spill(target, request.blocks.leaf_side) as spill:
-        yield spill
 
 
 def _for_blocks(resources: Resources) -> Resources:

@@ -17,6 +17,7 @@ from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.classification import classify_file
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.output import Output
+from bare_earth.algorithms.engine.products import HeightOutput, write_height_above_ground
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
@@ -127,6 +128,21 @@ def test_ground_points_only_in_memory_and_on_disk(small, tmp_path):
     assert results[0][0].class_counts == {2: results[0][0].ground_count}
 
 
+def test_heights_above_ground_in_memory_and_on_disk(small, tmp_path):
+    source, heights = write(tmp_path / "in.las", 6000), Output(height_above_ground=True)
+    results = [
+        run(source, tmp_path / str(each.memory), GridMinimum(), each, output=heights)
+        for each in (MUCH, LITTLE)
+    ]
+    assert results[0] == results[1]
+    classified = next((tmp_path / str(MUCH.memory)).glob("*.la[sz]"))
+    for form in ("z", "dimension"):
+        for name, each in (("much.las", MUCH), ("little.las", LITTLE)):
+            how = HeightOutput(output_as=form)
+            write_height_above_ground(classified, tmp_path / name, output=how, resources=each)
+        assert (tmp_path / "much.las").read_bytes() == (tmp_path / "little.las").read_bytes()
+
+
 # Stray points
 
 
@@ -144,12 +160,10 @@ def test_a_stray_point_far_away_stops_nothing(parameters, resources, tmp_path):
 # Limits
 
 
-def test_a_copc_file_and_heights_are_refused_before_the_work(tmp_path):
+def test_making_a_copc_file_is_refused_before_the_work(tmp_path):
     source = write(tmp_path / "in.las", 4000)
     with pytest.raises(BareEarthError, match=r"making a COPC file needs\. Name the output \.laz"):
         classify_file(source, tmp_path / "a.copc.laz", SlopeFilter(), resources=LITTLE)
-    with pytest.raises(BareEarthError, match=r"measuring heights above ground needs\. Leave out"):
-        run(source, tmp_path / "b", SlopeFilter(), LITTLE, output=Output(height_above_ground=True))
 
 
 def test_a_copc_file_stays_one_though_it_does_not_fit(tmp_path):
