@@ -106,6 +106,7 @@ def _add_terrain(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> N
         ("dsm", "surface model, the top of all that stands on the terrain"),
         ("chm", "canopy height, the surface above the terrain"),
         ("hillshade", "hillshade of the terrain model"),
+        ("confidence", "probability, 0 to 1, that the terrain model is right"),
     ):
         parser.add_argument(f"--{name}", metavar="FILE", type=Path, help=f"the {what} (.tif)")
     add_json(parser)
@@ -117,7 +118,9 @@ def _terrain(options: argparse.Namespace) -> int:
     from ..engine.rasters import RasterFiles
     from ..engine.workers import Processes
 
-    files = RasterFiles(options.dtm, options.dsm, options.chm, options.hillshade)
+    files = RasterFiles(
+        options.dtm, options.dsm, options.chm, options.hillshade, options.confidence
+    )
     *policy, resources = chosen(options)
     with Terminal(options.verbose) as progress:
         summary = write_terrain_models(

@@ -24,7 +24,7 @@ from .run import Run
 from .survey import Place, Survey, frame_of, grouped, memory_of, places_of, points_in
 from .workers import Workers
 
-_LARGE = ("terrain", "surface")
+_LARGE = ("terrain", "surface", "confidence")
 
 
 @dataclass(frozen=True)

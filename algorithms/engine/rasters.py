@@ -41,15 +41,16 @@ class RasterFiles:
 
     Attributes
     ----------
-    dtm, dsm, chm, hillshade : Path or None
+    dtm, dsm, chm, hillshade, confidence : Path or None
         Terrain, surface (the top of all that stands on the terrain), canopy height (the difference
-        of the two), and hillshade of the terrain.
+        of the two), hillshade of the terrain, and how sure the terrain is.
     """
 
     dtm: Path | None = None
     dsm: Path | None = None
     chm: Path | None = None
     hillshade: Path | None = None
+    confidence: Path | None = None
 
     @property
     def wanted(self) -> dict[str, Path]:
@@ -91,7 +92,8 @@ class RasterRequest:
     @property
     def needs_terrain(self) -> bool:
         """Whether heights of the terrain are needed."""
-        return bool(self.files.dtm or self.files.chm or self.files.hillshade)
+        files = self.files
+        return bool(files.dtm or files.chm or files.hillshade or files.confidence)
 
     @property
     def needs_surface(self) -> bool:
@@ -105,6 +107,7 @@ class RasterRequest:
             self.model.dtm_cell_size,
             self.needs_terrain,
             self.needs_surface,
+            bool(self.files.confidence),
             self.surface.max_edge,
         )
 
@@ -261,11 +264,11 @@ def write_rasters(
     window = _window_of(made, cell)
     grid = _grid_of(window, cell, frame)
     mosaics = {}
-    for name, needed in (("terrain", request.needs_terrain), ("surface", request.needs_surface)):
-        if needed:
+    for name in ("terrain", "surface", "confidence"):
+        if getattr(request.step, name):
             pieces = [Piece(each.window, partial(getattr, each, name)) for each in made]
             mosaics[name] = Mosaic(pieces, window, cell)
-            if request.surface.max_edge is None:
+            if name != "confidence" and request.surface.max_edge is None:
                 points = [getattr(each, f"{name}_points") for each in made]
                 mosaics[name].fill_gaps(np.concatenate(points), progress.part(0.0, 0.3))
     for number, (name, path) in enumerate(files.items()):
@@ -342,6 +345,15 @@ def _shade(
     return "uint8", 0, gathered_strips(mosaics["terrain"], make, 1, progress)
 
 
+def _confidence(
+    mosaics: dict[str, Mosaic], request: RasterRequest, grid: RasterGrid, progress: Progress
+) -> _Strips:
+    def make(values: np.ndarray) -> np.ndarray:
+        return np.where(np.isnan(values), np.float32(NODATA), values)
+
+    return "float32", NODATA, gathered_strips(mosaics["confidence"], make, 0, progress)
+
+
 def _in_unit(heights: np.ndarray, grid: RasterGrid) -> np.ndarray:
     """Return heights in the vertical unit of the CRS, as the file has them."""
     values = heights.astype(np.float64) / grid.frame.vertical_unit
@@ -353,4 +365,5 @@ _STRIPS = {
     "dsm": partial(_heights, "surface"),
     "chm": _canopy,
     "hillshade": _shade,
+    "confidence": _confidence,
 }

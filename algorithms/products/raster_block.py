@@ -10,6 +10,7 @@ import numpy as np
 
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
+from ..filters.shared.confidence import confidence
 from ..grids.cell_window import CellWindow
 from ..grids.cells import first_of_each
 from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
@@ -33,6 +34,8 @@ class BlockRasters(NamedTuple):
         Its cells.
     terrain, surface : numpy.ndarray of float32, shape (rows, columns)
         Metres, rows from south to north, NaN where there is none; of shape (0, 0) if not wanted.
+    confidence : numpy.ndarray of float32, shape (rows, columns)
+        Probability from 0 to 1 that the terrain is right; else as the others.
     terrain_points, surface_points : numpy.ndarray of float64, shape (n, 3)
         Points of the block that matter for wide gaps: corners of the convex hull, and those in
         cells without a height.
@@ -45,6 +48,7 @@ class BlockRasters(NamedTuple):
     window: CellWindow
     terrain: np.ndarray
     surface: np.ndarray
+    confidence: np.ndarray
     terrain_points: np.ndarray
     surface_points: np.ndarray
     box: np.ndarray
@@ -59,7 +63,7 @@ class RasterStep:
     ----------
     cell : float
         Side of a cell in metres.
-    terrain, surface : bool
+    terrain, surface, confidence : bool
         Which are wanted.
     max_edge : float or None
         Triangles with a longer edge, in metres, are gaps; none are, if it is None.
@@ -68,6 +72,7 @@ class RasterStep:
     cell: float
     terrain: bool = True
     surface: bool = False
+    confidence: bool = False
     max_edge: float | None = None
 
     @property
@@ -117,10 +122,13 @@ class RasterStep:
             surface = self._surface(
                 points.take(top), core[top], window, corner, progress.part(0.6, 1.0)
             )
+        sure = none[0]
+        if self.confidence:
+            sure = self._confidence(points, ground, window, corner)
         counts = [np.count_nonzero(each & core) for each in (ground, top)]
         progress(1.0)
         return BlockRasters(
-            window, terrain[0], surface[0], terrain[1], surface[1],
+            window, terrain[0], surface[0], sure, terrain[1], surface[1],
             _extent(points, core, corner), np.array(counts),
         )  # fmt: skip
 
@@ -191,6 +199,31 @@ class RasterStep:
         if self.max_edge is None:
             loose[top[surface.hull]] = True
         return heights.astype(np.float32), _placed(points, corner, loose & core)
+
+    def _confidence(
+        self,
+        points: Points,
+        ground: np.ndarray,
+        window: CellWindow,
+        corner: tuple[float, float],
+    ) -> np.ndarray:
+        """Return the confidence of the cell of 1 m in which the centre of each cell lies."""
+        values = np.full(window.shape, np.nan, dtype=np.float32)
+        if not points.count or not min(window.shape):
+            return values
+        cells, known = confidence(points, ground)
+        x, y = (
+            ((first + np.arange(count) + 0.5) * self.cell - at) / cells.size
+            for first, count, at in zip(window[1::-1], window[:1:-1], corner)
+        )
+        row = np.floor(y).astype(np.int64) - cells.first_row
+        column = np.floor(x).astype(np.int64) - cells.first_column
+        rows, columns = (
+            np.flatnonzero((at >= 0) & (at < count))
+            for at, count in ((row, cells.rows), (column, cells.columns))
+        )
+        values[np.ix_(rows, columns)] = known[np.ix_(row[rows], column[columns])]
+        return values
 
 
 def _within(box: Box, points: Points, corner: tuple[float, float], margin: float) -> Box:

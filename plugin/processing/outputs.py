@@ -34,6 +34,7 @@ _RASTERS = {
     "DSM": "Surface model (DSM)",
     "CHM": "Canopy height (CHM)",
     "HILLSHADE": "Hillshade",
+    "CONFIDENCE": "Confidence of the terrain model",
 }
 
 

@@ -133,7 +133,8 @@ def test_blocks_of_any_size_give_the_same_rasters(tmp_path, monkeypatch, max_edg
 
 def _of_files(sources, folder, resources=MUCH, **options):
     folder.mkdir()
-    files = RasterFiles(*(folder / f"{name}.tif" for name in ("dtm", "dsm", "chm", "shade")))
+    names = "dtm", "dsm", "chm", "shade", "sure"
+    files = RasterFiles(*(folder / f"{name}.tif" for name in names))
     write_terrain_models(sources, files, resources=resources, **options)
     return [_values(path) for path in files.wanted.values()]
 
@@ -165,7 +166,8 @@ def test_many_files_give_the_rasters_of_one_cell_by_cell(survey, small_blocks, t
     one = _of_files(survey / "one.laz", tmp_path / "one")
     many = _of_files([survey / "many"], tmp_path / "many", workers=Threads(MUCH))
     assert _same(one, many)
-    assert sorted(os.listdir(tmp_path / "many")) == ["chm.tif", "dsm.tif", "dtm.tif", "shade.tif"]
+    names = [each.removesuffix(".tif") for each in sorted(os.listdir(tmp_path / "many"))]
+    assert names == ["chm", "dsm", "dtm", "shade", "sure"]
 
 
 def test_processes_give_the_rasters_of_threads(survey, tmp_path):
@@ -207,6 +209,13 @@ def test_a_cancel_leaves_nothing(survey, tmp_path, fraction):
     with pytest.raises(Cancelled):
         _of_files([survey / "many"], tmp_path / "out", progress=Stopped())
     assert os.listdir(tmp_path / "out") == []
+
+
+def test_confidence_is_low_across_gaps_and_high_where_ground_is_dense(tmp_path):
+    found, x, y, _ = _made(CLOUDS["lake"], tmp_path, files=("confidence",), cell=1.0)
+    within, beyond = _is_lake(x, y, -30.0), ~_is_lake(x, y, 30.0) & (np.abs(x) < 400)
+    assert np.nanmedian(found[within]) < 0.7 * np.nanmedian(found[beyond])
+    assert np.nanmin(found) >= 0.0 and np.nanmax(found) <= 1.0
 
 
 def test_the_file_is_cloud_optimised(tmp_path):

@@ -73,7 +73,7 @@ PARAMETERS = {
         "DTM_CELL_SIZE", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
         "SURFACE_RETURNS", "MAX_EDGE",
         "THREADS", "MEMORY",
-        "DTM", "DSM", "CHM", "HILLSHADE",
+        "DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE",
     ],
     "bareearth:assess": [
         "CLASSIFIED", "REFERENCE", "GROUND_CLASSES", "IGNORED_CLASSES", "MAP_CELL_SIZE",
@@ -111,6 +111,7 @@ OUTPUTS = {
         "DSM",
         "CHM",
         "HILLSHADE",
+        "CONFIDENCE",
         "GROUND_COUNT",
         "SURFACE_COUNT",
     ],
