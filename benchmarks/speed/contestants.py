@@ -8,7 +8,7 @@ import shlex
 import shutil
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Callable
 
@@ -43,6 +43,10 @@ class Contestant:
         What is to know of it.
     missing : str
         What it lacks here; empty if it can run.
+    writes_points : bool
+        Whether it writes all points, not a raster alone.
+    needs_classes : bool
+        Whether it takes what our first method has classified.
     """
 
     name: str
@@ -51,6 +55,8 @@ class Contestant:
     is_peer: bool = False
     note: str = ""
     missing: str = ""
+    writes_points: bool = True
+    needs_classes: bool = False
 
 
 def contestants(qgis: str = "") -> list[Contestant]:
@@ -84,6 +90,58 @@ def contestants(qgis: str = "") -> list[Contestant]:
             for name, radius in (("whitebox", "2"), ("whitebox-wide", "18"))
         ),
         *_beside_qgis(beside),
+        *_products(),
+    ]  # fmt: skip
+
+
+def _products() -> list[Contestant]:
+    """Return what is made besides, or of a file that has classes already."""
+    label = METHODS[OURS[0]].label
+
+    def classify(*options: str) -> Callable[[Path, Path], list[str]]:
+        start = [sys.executable, "-m", "bare_earth.algorithms", "classify"]
+        return lambda source, target: [
+            *start, str(source), str(target), "--dtm", str(target.with_suffix(".dtm.tif")),
+            *(each.format(target) for each in options),
+        ]  # fmt: skip
+
+    def terrain(source: Path, target: Path) -> list[str]:
+        rasters = (("--dtm", "dtm"), ("--dsm", "dsm"), ("--chm", "chm"))
+        words = [(name, str(target.with_suffix(f".{each}.tif"))) for name, each in rasters]
+        start = [sys.executable, "-m", "bare_earth.algorithms", "terrain", str(source)]
+        return [*start, *(each for pair in words for each in pair)]
+
+    def command(name: str) -> Callable[[Path, Path], list[str]]:
+        start = [sys.executable, "-m", "bare_earth.algorithms", name]
+        return lambda source, target: [*start, str(source), str(target)]
+
+    whitebox = "whitebox_workflows", "whitebox-workflows==1.3.5"
+    return [
+        Contestant("dtm", f"{label} and DTM, 1 m", classify()),
+        Contestant("dtm-half", f"{label} and DTM, 0.5 m", classify("--dtm-cell-size", "0.5")),
+        Contestant(
+            "all", f"{label}, DTM, hillshade and heights",
+            classify("--hillshade", "{}.shade.tif", "--height-above-ground"),
+        ),
+        *(
+            replace(each, needs_classes=True)
+            for each in (
+                Contestant("terrain", "DTM, DSM and canopy height", terrain, writes_points=False),
+                Contestant("height", "Heights above ground", command("height")),
+                Contestant("key-points", "Model key points", command("key-points")),
+                replace(
+                    _peer(
+                        "whitebox-tin", "Whitebox, TIN raster of 1 m", *whitebox,
+                        "lidar_tin_gridding", script="whitebox_tin",
+                    ),
+                    writes_points=False,
+                ),
+                _peer(
+                    "whitebox-height", "Whitebox, heights above ground", *whitebox,
+                    "height_above_ground", script="whitebox_height",
+                ),
+            )
+        ),
     ]  # fmt: skip
 
 

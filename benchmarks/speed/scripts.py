@@ -52,7 +52,31 @@ def whitebox(source: str, target: str, radius: str = "2") -> None:
     environment.write_lidar(result, target)
 
 
-SCRIPTS = {each.__name__: each for each in (floor, cloth, morphological, whitebox)}
+def whitebox_tin(source: str, target: str) -> None:
+    """Make a raster of 1 m of the TIN of the ground points of a classified file by Whitebox."""
+    import whitebox_workflows
+
+    environment = whitebox_workflows.WbEnvironment()
+    environment.verbose = False
+    others = [each for each in range(256) if each != 2]
+    raster = environment.lidar_tin_gridding(
+        environment.read_lidar(source), returns_included="all", cell_size=1.0,
+        excluded_classes=others,
+    )  # fmt: skip
+    environment.write_raster(raster, f"{target}.tif")
+
+
+def whitebox_height(source: str, target: str) -> None:
+    """Replace z by heights above the ground of a classified file by Whitebox."""
+    import whitebox_workflows
+
+    environment = whitebox_workflows.WbEnvironment()
+    environment.verbose = False
+    environment.write_lidar(environment.height_above_ground(environment.read_lidar(source)), target)
+
+
+_ALL = (floor, cloth, morphological, whitebox, whitebox_tin, whitebox_height)
+SCRIPTS = {each.__name__: each for each in _ALL}
 
 
 def _read(source: str):

@@ -298,7 +298,7 @@ def test_peers_that_are_there_write_every_point(survey, tmp_path):
 
 def test_missing_peers_say_what_installs_them():
     peers = [each for each in contestants.contestants() if each.is_peer]
-    assert len({each.name for each in peers}) == 4
+    assert len({each.name for each in peers}) == 6
     assert all(not each.missing or each.missing.startswith("pip install ") for each in peers)
 
 
