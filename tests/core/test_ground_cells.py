@@ -28,11 +28,18 @@ def test_a_platform_with_walls_on_three_sides_and_a_ramp_on_the_fourth_is_ground
     assert not _ground(heights, gentle_share=1.1).all()
 
 
-def test_the_uppermost_terraces_in_a_corner_of_the_survey_are_ground():
+def test_the_uppermost_terrace_in_a_corner_of_the_survey_is_ground():
     rows, columns = np.indices((120, 120))
-    heights = 6.0 * (rows + columns < 70) + 6.0 * (rows + columns < 45)
+    heights = 4.0 * (rows + columns < 60)
     assert _ground(heights, window=60.0).all()
     assert not _ground(heights, window=60.0, border_area=1e9).all()
+
+
+def test_a_building_in_a_corner_of_the_survey_is_not_ground():
+    rows, columns = np.indices((120, 120))
+    roof = (rows < 40) & (columns < 40)
+    found = _ground(12.0 * roof, window=60.0)
+    assert not found[roof].any() and found[~roof].all()
 
 
 def test_a_plateau_goes_as_a_whole_where_a_window_cuts_off_part_of_it():

@@ -40,8 +40,11 @@ class Allowance:
     rise_counts : bool
         Whether a border that rises to the ground counts as a gentle one: the tread of a terrace.
     border_area : float
-        A region of so many square metres or more is terrain as well where most of its border is
-        that of the survey: too little is known of it, and no building is as large there.
+        A region of so many square metres or more is terrain as well where much of its border is
+        that of the survey: too little is known of it.
+    border_height : float
+        But not if it stands so many metres above the ground, on average: the border of the survey
+        cuts buildings.
     follows_slopes : bool
         Whether a step between cells is no edge where those before or after it are as high: a
         steep slope, or a cliff, of which points lie on the face; or where the terrain at large
@@ -61,6 +64,7 @@ class Allowance:
     hall_height: float = 2.5
     hall_per_slope: float = 0.1
     border_area: float = 800.0
+    border_height: float = 4.5
     rise_counts: bool = True
     follows_slopes: bool = True
 

@@ -18,6 +18,8 @@ _JOINING_PASSES = 4
 _ALIKE = 0.4
 # Metres over which the surface is smoothed to tell a step from the terrain's own rise.
 _TREND_SMOOTHING = 2.0
+# Share of the trend that the ground round must rise, so that a trend is that of the terrain.
+_LEAST_OF_TREND = 0.25
 # Share of a large region's border above which that of the survey tells too little to be judged by:
 # less than half, as the sides of cells make a slanted edge longer than it is.
 _OPEN_SHARE = 0.45
@@ -81,6 +83,9 @@ def gentle_regions(
         )
     ]
     open_ = np.bincount(region[cells], _unsurveyed(known).ravel()[cells], count)
+    above = np.bincount(region[cells], (filled - surface).ravel()[cells], count) * size**2 / area
+    # As high as that it may be a building that the border of the survey cuts.
+    open_[(area < allowance.border_area) | (above > allowance.border_height)] = 0.0
     is_terrain = _joined(borders, area, open_, allowance)
     result = np.zeros(up.size, dtype=bool)
     result[cells] = is_terrain[region[cells]]
@@ -118,7 +123,7 @@ def _joined(
     area : numpy.ndarray of float, shape (regions,)
         Square metres.
     open_ : numpy.ndarray of float, shape (regions,)
-        Sides of cells at the border of the survey.
+        Sides of cells at the border of the survey; 0 where that tells nothing.
     allowance : Allowance
         Which share of the border must be gentle.
 
@@ -141,7 +146,7 @@ def _joined(
         # A ramp is level with the ground: the side of a roof rises to the next one.
         new |= (level >= allowance.wide_share * bounded) & (area >= allowance.wide_area)
         new &= gentle > 0
-        new |= (open_ > _OPEN_SHARE * (bounded + open_)) & (area >= allowance.border_area)
+        new |= open_ > _OPEN_SHARE * (bounded + open_)
         new &= area >= allowance.gentle_area
         if not (new & ~joined).any():
             break
@@ -181,9 +186,12 @@ def _steps(
     sign = (rise > allowed).astype(np.int8) - (rise < -allowed).astype(np.int8)
     if trend is not None:
         stepped = np.flatnonzero(sign)
-        rises = trend.at(*np.divmod(one[stepped], filled.shape[1]))
-        rise = (rise + usual)[stepped] - (rises.east if axis else rises.north)
-        sign[stepped[np.abs(rise) <= allowance.gentle_step + rises.steepest]] = 0
+        rises, usual = trend.at(*np.divmod(one[stepped], filled.shape[1])), usual[stepped]
+        along = rises.east if axis else rises.north
+        alike = np.abs(rise[stepped] + usual - along) <= allowance.gentle_step + rises.steepest
+        # A building makes a trend of its own, that the ground round it knows nothing of.
+        alike &= usual * np.sign(along) >= _LEAST_OF_TREND * np.abs(along)
+        sign[stepped[alike]] = 0
     if allowance.follows_slopes:
         stepped = np.flatnonzero(sign)
         sign[stepped[_on_slope(filled, known, one[stepped], axis)]] = 0
