@@ -10,11 +10,10 @@ from typing import Any, Sequence
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import check_output
 from ..core.progress import SILENT, Progress, Unsaid
 from ..las.changes import Changes
 from ..las.cloud import PointCloud
-from ..las.writing import check_writable, write_changed
+from ..las.writing import write_changed
 from ..survey.collection import open_collection
 from ..survey.selection import Selection
 from ..survey.vpc import write_vpc
@@ -25,6 +24,7 @@ from .memory import Resources
 from .output import height_dimension, z_of
 from .run import Run
 from .survey import Survey, frame_of, grouped, memory_of, places_of, points_in
+from .tiles import check_survey, targets_of
 from .workers import Threads, Workers
 
 VPC_NAME = "heights.vpc"
@@ -167,14 +167,9 @@ def write_heights_of_survey(
     """
     folder = Path(folder)
     collection = open_collection(sources, progress=progress.part(0.0, 0.02))
-    inputs = [each.path for each in (*collection.tiles, *collection.broken)]
-    targets = {path: folder / path.name for path in inputs}
-    if not folder.exists():
-        check_output(folder)
-    for target in targets.values():
-        if folder.exists():
-            check_output(target, tuple(inputs))
-        check_writable(target)
+    vpc = folder / VPC_NAME
+    check_survey(collection, folder, vpc)
+    targets = targets_of(collection, folder)
     folder.mkdir(exist_ok=True)
     survey = Survey(None, Selection(), frame_of(collection), HEIGHT_BLOCKS)
     workers = Threads() if workers is None else workers
@@ -194,10 +189,9 @@ def write_heights_of_survey(
     done = sorted(run.done)
     if not done:
         raise BareEarthError(f"None of the {len(failures):,} files could be written.")
-    vpc = folder / VPC_NAME
     write_vpc(vpc, [folder / each.name for each in done], progress.part(0.98, 1.0))
     points = sum(each.point_count for each in done)
-    return HeightsSummary(len(inputs), len(done), points, failures, str(vpc))
+    return HeightsSummary(len(targets), len(done), points, failures, str(vpc))
 
 
 def _with(kind: type, job: Any, **more: Any) -> Any:

@@ -6,7 +6,7 @@ import os
 import shutil
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Iterable, NamedTuple
+from typing import Any, Iterable, NamedTuple, Sequence
 
 from ..core.errors import BareEarthError
 from ..core.files import (
@@ -136,8 +136,8 @@ def classify_tiles(
                 f"Input and output are the same file, {source}. Choose another output."
             )
     collection = open_collection(sources, files.recursive, progress.part(0.0, 0.02))
-    _check(collection, folder, vpc, sources if files.recursive else [])
-    targets = _targets(collection, folder, output.format)
+    check_survey(collection, folder, vpc, sources if files.recursive else [])
+    targets = targets_of(collection, folder, output.format)
     _check_rasters(rasters, folder, (vpc, *targets, *targets.values()))
     blocks = blocks or blocks_of(parameters)
     survey = Survey(parameters, selection, frame_of(collection), blocks)
@@ -182,7 +182,9 @@ def classify_tiles(
     )
 
 
-def _check(collection: Collection, folder: Path, vpc: Path, searched: list[Path]) -> None:
+def check_survey(
+    collection: Collection, folder: Path, vpc: Path, searched: Sequence[Path] = ()
+) -> None:
     """Refuse what could not be done or would do harm, before any work."""
     if collection.crs.is_geographic:
         raise BareEarthError(
@@ -220,8 +222,8 @@ def _check_rasters(rasters: RasterRequest, folder: Path, others: tuple[Path, ...
     RasterFiles(**elsewhere).check(others)
 
 
-def _targets(collection: Collection, folder: Path, format: str) -> dict[Path, Path]:
-    """Return the output of each input."""
+def targets_of(collection: Collection, folder: Path, format: str = "same") -> dict[Path, Path]:
+    """Return the output of each input; refuse those that would get the same name."""
     targets, inputs = {}, {}
     for tile in (*collection.tiles, *collection.broken):
         name = tile.path.name

@@ -194,7 +194,7 @@ class DenseSurface:
     @property
     def hull(self) -> np.ndarray:
         """Which of the points are the corners of the convex hull."""
-        return self._thinned.hull()
+        return self._thinned.hull
 
     def _in_tile(
         self, place: tuple[int, int], queries: _Queries, are_corners: bool, max_edge: float | None
@@ -230,7 +230,7 @@ class DenseSurface:
     def _vertices(self, near: tuple[np.ndarray, np.ndarray] | None = None) -> np.ndarray:
         """Return which points are vertices, in ascending order; all, or those near some places."""
         is_vertex = np.zeros(self._points.count, dtype=bool)
-        is_vertex[self._thinned.hull()] = True
+        is_vertex[self._thinned.hull] = True
         marked = None if near is None else _marked(self._thinned, *near)
         for place, tile in self._thinned.tiles.items():
             if marked is None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -120,6 +121,7 @@ class ThinnedPoints:
         """Number of points that are left."""
         return sum(len(each.which) for each in self.tiles.values())
 
+    @cached_property
     def hull(self) -> np.ndarray:
         """Return which of all points are the corners of their convex hull."""
         outer = np.concatenate([each.outer for each in self.tiles.values()])

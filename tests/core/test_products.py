@@ -462,3 +462,21 @@ def test_heights_of_many_files_are_those_of_one(tmp_path, as_z):
     one = heights([tmp_path / "h.laz"])
     assert np.allclose(one, many, atol=0.011 if as_z else 1e-4)
     assert np.ptp(one[:, 2]) > 5.0
+
+
+def test_two_inputs_of_one_name_are_refused(tmp_path, capsys):
+    for name in ("a", "b"):
+        (tmp_path / name).mkdir()
+        scene(tmp_path / name / "in.las")
+    words = ["height", *(str(tmp_path / name) for name in ("a", "b")), str(tmp_path / "out")]
+    assert main(words) == 1
+    assert "would both become" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_heights_do_not_go_into_the_folder_of_the_inputs(tmp_path, capsys):
+    (tmp_path / "in").mkdir()
+    scene(tmp_path / "in" / "in.las")
+    assert main(["height", str(tmp_path / "in"), str(tmp_path / "in")]) == 1
+    assert "in the same folder" in capsys.readouterr().err
+    assert os.listdir(tmp_path / "in") == ["in.las"]
