@@ -5,25 +5,25 @@ from __future__ import annotations
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Sequence
+from typing import Sequence
 
 import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress, Unsaid
-from ..las.changes import Changes
 from ..las.cloud import PointCloud
 from ..las.writing import write_changed
 from ..survey.collection import open_collection
-from ..survey.selection import Selection
+from ..survey.selection import Selection, ground_of
 from ..survey.vpc import write_vpc
 from .cloudstore import CloudStore
 from .heights import HEIGHT_BLOCKS, in_unit, measure_heights
 from .jobs import KeptValues, PointJob, Share, TileJob
 from .memory import Resources
-from .output import height_dimension, z_of
+from .output import height_changes
+from .planning import block_jobs
 from .run import Run
-from .survey import Survey, frame_of, grouped, memory_of, places_of, points_in
+from .survey import Survey, frame_of, places_of
 from .tiles import check_survey, targets_of
 from .workers import Threads, Workers
 
@@ -48,8 +48,7 @@ class HeightJob(PointJob):
 
     def marks(self, cloud: PointCloud) -> tuple[np.ndarray, np.ndarray]:
         """Return all points, and which of them are ground."""
-        ground = np.isin(cloud.classification, self.ground_classes) & ~cloud.withheld
-        return np.ones(cloud.count, dtype=bool), ground
+        return np.ones(cloud.count, dtype=bool), ground_of(cloud, self.ground_classes)
 
     def work(self, store: CloudStore, resources: Resources, progress: Progress) -> None:
         """Measure the heights."""
@@ -75,10 +74,7 @@ class HeightTile(TileJob):
             where, some = kept.of(part)
             heights[where] = in_unit(some, part)
         kept.check()
-        if self.as_z:
-            changes = Changes(z=z_of(part, heights))
-        else:
-            changes = Changes(extra=height_dimension(part, heights))
+        changes = height_changes(part, heights, self.as_z)
         write_changed(self.tile.file, self.target, changes, progress.part(0.4, 1.0), part)
         known = heights[~np.isnan(heights)]
         extremes = (float(known.min()), float(known.max())) if len(known) else (np.nan, np.nan)
@@ -174,9 +170,18 @@ def write_heights_of_survey(
     survey = Survey(None, Selection(), frame_of(collection), HEIGHT_BLOCKS)
     workers = Threads() if workers is None else workers
     with tempfile.TemporaryDirectory(prefix=".bare-earth-", dir=folder) as waiting:
-        blocks, tiles = _jobs(collection, survey, Path(waiting), targets, workers)
-        blocks = [_with(HeightJob, each, ground_classes=ground_classes) for each in blocks]
-        tiles = [_with(HeightTile, each, as_z=as_z) for each in tiles]
+        of_tile = {tile.path: tuple(places_of(survey, tile)) for tile in collection.tiles}
+        places = sorted({place for each in of_tile.values() for place in each})
+        files = {each: Path(waiting) / f"{each.column}_{each.row}.npz" for each in places}
+        more = {"ground_classes": ground_classes}
+        blocks = block_jobs(
+            HeightJob, survey, collection, files, folder, len(of_tile), workers, **more
+        )
+        tiles = []
+        for tile in collection.tiles:
+            where = of_tile[tile.path]
+            kept = tuple(files[each] for each in where)
+            tiles.append(HeightTile(survey, tile, targets[tile.path], where, kept, {}, as_z))
         run = Run(blocks, tiles, workers, progress.part(0.02, 0.98))
         try:
             run.work()
@@ -192,42 +197,3 @@ def write_heights_of_survey(
     write_vpc(vpc, [folder / each.name for each in done], progress.part(0.98, 1.0))
     points = sum(each.point_count for each in done)
     return HeightsSummary(len(targets), len(done), points, failures, str(vpc))
-
-
-def _with(kind: type, job: Any, **more: Any) -> Any:
-    """Return a job of a kind with the fields of another."""
-    return kind(**vars(job), **more)
-
-
-def _jobs(
-    collection: Any, survey: Survey, waiting: Path, targets: dict[Path, Path], workers: Workers
-) -> tuple[list[PointJob], list[TileJob]]:
-    """Return the jobs of blocks and tiles, and let the workers begin."""
-    of_tile = {tile.path: places_of(survey, tile) for tile in collection.tiles}
-    places = sorted({place for each in of_tile.values() for place in each})
-    files = {each: waiting / f"{each.column}_{each.row}.npz" for each in places}
-    least = max((memory_of(survey, collection, [each]) for each in places), default=0)
-    workers.start(targets[collection.tiles[0].path].parent, least, len(places), len(of_tile))
-    groups = grouped(survey, collection, places, workers.at_once, workers.share.memory)
-    blocks = [
-        PointJob(
-            survey,
-            tuple(group),
-            tuple(files[each] for each in group),
-            tuple(each.path for each in collection.touching(survey.window(group))),
-            points_in(collection, survey.window(group)),
-        )
-        for group in groups
-    ]
-    tiles = [
-        TileJob(
-            survey,
-            tile,
-            targets[tile.path],
-            tuple(of_tile[tile.path]),
-            tuple(files[each] for each in of_tile[tile.path]),
-            {},
-        )
-        for tile in collection.tiles
-    ]
-    return blocks, tiles

@@ -92,7 +92,7 @@ def height_dimension(cloud: PointCloud, heights: np.ndarray) -> ExtraDimension:
     )
 
 
-def z_of(cloud: PointCloud, heights: np.ndarray) -> np.ndarray:
+def _z_of(cloud: PointCloud, heights: np.ndarray) -> np.ndarray:
     """Return heights as integers of the file's scale and offset.
 
     Raises
@@ -112,3 +112,25 @@ def z_of(cloud: PointCloud, heights: np.ndarray) -> np.ndarray:
             f" {cloud.offset[2]:g} of z in {cloud.path}. Write them as an extra dimension."
         )
     return values.astype(np.int32)
+
+
+def height_changes(cloud: PointCloud, heights: np.ndarray, as_z: bool) -> Changes:
+    """Return what becomes other where heights above ground are written.
+
+    Parameters
+    ----------
+    cloud : PointCloud
+        The points, or some of them.
+    heights : numpy.ndarray of float, shape (n,)
+        In the vertical unit of the CRS, in the order of the file.
+    as_z : bool
+        Whether they replace z; else they are an extra dimension.
+
+    Raises
+    ------
+    BareEarthError
+        If they do not fit into z.
+    """
+    if as_z:
+        return Changes(z=_z_of(cloud, heights))
+    return Changes(extra=height_dimension(cloud, heights))

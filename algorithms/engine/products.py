@@ -30,9 +30,10 @@ from ..products.raster_block import BlockRasters
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import TerrainModel
 from ..survey.collection import is_cloud, open_collection
+from ..survey.selection import ground_of
 from .heights import DiskHeights, heights_of
 from .memory import Resources
-from .output import HEIGHT_DIMENSION, height_dimension, z_of
+from .output import HEIGHT_DIMENSION, height_changes
 from .raster_jobs import make_rasters
 from .rasters import (
     RasterFiles,
@@ -80,7 +81,7 @@ class GroundClasses(ParameterSet):
         if not self.ground_classes:
             raise BareEarthError("Choose at least one ground class.")
         classes = (*self.ground_classes, *also)
-        ground = np.isin(cloud.classification, classes) & ~cloud.withheld
+        ground = ground_of(cloud, classes)
         if not ground.any():
             wanted = " or ".join(str(each) for each in self.ground_classes)
             present = ", ".join(str(each) for each in np.unique(cloud.classification))
@@ -211,10 +212,7 @@ def write_height_above_ground(
         ground_count = int(np.count_nonzero(is_ground))
     else:
         cloud, heights, ground_count = _heights_from_disk(las, target, ground, resources, progress)
-    if output.output_as == "z":
-        changes = Changes(z=z_of(cloud, heights))
-    else:
-        changes = Changes(extra=height_dimension(cloud, heights))
+    changes = height_changes(cloud, heights, output.output_as == "z")
     write_changed(cloud.file, target, changes, progress.part(0.8, 1.0))
     return HeightSummary(
         point_count=len(heights),
@@ -243,11 +241,11 @@ def _heights_from_disk(
     ground_count : int
         Points of the ground.
     """
-    points, lowest, ground_count = RasterPoints(ground.ground_classes), [], 0
+    lowest, ground_count = [], 0
     with DiskHeights(target) as heights:
         for part in read_parts(las, progress.part(0.0, 0.3)):
             part.require_projected()
-            is_ground = points.ground_of(part)
+            is_ground = ground_of(part, ground.ground_classes)
             ground_count += int(np.count_nonzero(is_ground))
             heights.append(part, is_ground)
             lowest.append(part.lowest)

@@ -19,9 +19,10 @@ from ..survey.selection import Selection
 from .blocks import Block
 from .cloudstore import CloudStore, Part
 from .jobs import BlockJob, Share
+from .planning import block_jobs
 from .rasters import RasterPoints, RasterRequest, RasterSize, rasters_of_store, write_rasters
 from .run import Run
-from .survey import Place, Survey, frame_of, grouped, memory_of, places_of, points_in
+from .survey import Place, Survey, frame_of, places_of
 from .workers import Workers
 
 _LARGE = ("terrain", "surface", "confidence")
@@ -148,8 +149,11 @@ def make_rasters(
         If the user asked to stop.
     """
     survey = Survey(None, Selection(), frame_of(collection), request.blocks)
-    jobs = _jobs(collection, survey, folder, request, points, workers)
-    files = [file for job in jobs for file in job.files]
+    places = sorted({place for tile in collection.tiles for place in places_of(survey, tile)})
+    files = {each: folder / f"rasters_{each.column}_{each.row}.npz" for each in places}
+    jobs = block_jobs(
+        RasterJob, survey, collection, files, folder, 0, workers, request=request, points=points
+    )
     try:
         run = Run(jobs, [], workers, progress.part(0.0, 0.8))
         try:
@@ -158,36 +162,9 @@ def make_rasters(
             workers.stop()
         if run.lost:
             raise BareEarthError(f"The rasters cannot be made. {run.lost[0]}")
-        made = [each for file in files for each in _kept_in(file)]
+        made = [each for file in files.values() for each in _kept_in(file)]
         with contextlib.ExitStack() as outputs:
             return write_rasters(made, survey.frame, request, outputs, progress.part(0.8, 1.0))
     finally:
-        for file in files:
+        for file in files.values():
             file.unlink(missing_ok=True)
-
-
-def _jobs(
-    collection: Collection,
-    survey: Survey,
-    folder: Path,
-    request: RasterRequest,
-    points: RasterPoints,
-    workers: Workers,
-) -> list[BlockJob]:
-    """Return the jobs, and let the workers begin."""
-    places = sorted({place for tile in collection.tiles for place in places_of(survey, tile)})
-    least = max((memory_of(survey, collection, [each]) for each in places), default=0)
-    workers.start(folder, least, len(places), 0)
-    groups = grouped(survey, collection, places, workers.at_once, workers.share.memory)
-    return [
-        RasterJob(
-            survey,
-            tuple(group),
-            tuple(folder / f"rasters_{place.column}_{place.row}.npz" for place in group),
-            tuple(each.path for each in collection.touching(survey.window(group))),
-            points_in(collection, survey.window(group)),
-            request,
-            points,
-        )
-        for group in groups
-    ]

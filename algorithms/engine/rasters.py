@@ -22,7 +22,7 @@ from ..products.surface_model import SurfaceModel, canopy_height
 from ..products.terrain_model import TerrainModel
 from ..rasters.geotiff import NODATA, RasterGrid
 from ..rasters.writing import Rows, check_raster_output, write_geotiff
-from ..survey.selection import NOISE
+from ..survey.selection import NOISE, ground_of
 from .blocks import Block, Blocks, Store
 from .cloudstore import CloudStore, Part
 from .ground import over_blocks
@@ -149,10 +149,6 @@ class RasterPoints(NamedTuple):
     ground_classes: tuple[int, ...]
     covers_ground: bool = False
 
-    def ground_of(self, cloud: PointCloud) -> np.ndarray:
-        """Return which points are ground; boolean, shape (n,)."""
-        return np.isin(cloud.classification, self.ground_classes) & ~cloud.withheld
-
     def of(self, cloud: PointCloud, request: RasterRequest) -> tuple[np.ndarray, ...]:
         """Return which points are covered, are ground, and belong to the surface.
 
@@ -162,7 +158,7 @@ class RasterPoints(NamedTuple):
         """
         ground = np.zeros(cloud.count, dtype=bool)
         if request.needs_terrain:
-            ground = self.ground_of(cloud)
+            ground = ground_of(cloud, self.ground_classes)
         if self.covers_ground:
             return ground, ground, np.zeros(cloud.count, dtype=bool)
         shown = ground | (~np.isin(cloud.classification, NOISE) & ~cloud.withheld)

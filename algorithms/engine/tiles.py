@@ -28,11 +28,12 @@ from .blocks import Blocks
 from .ground import blocks_of
 from .jobs import ClassJob, LabelJob, TileSummary
 from .options import TileInput, TileOutput
+from .planning import block_jobs
 from .raster_jobs import make_rasters
 from .rasters import RasterFiles, RasterPoints, RasterRequest
 from .record import folders_of, label_file, made_of, read_record, remove_record, state_of
 from .run import Run
-from .survey import Place, Survey, frame_of, grouped, memory_of, places_of, points_in
+from .survey import Place, Survey, frame_of, places_of
 from .workers import Threads, Workers
 
 VPC_NAME = "classified.vpc"
@@ -360,17 +361,6 @@ class _Plan:
             )
             for needs in self._todo
         ]
-        places = [each for each in places if not files[each].exists()]
-        least = max((memory_of(survey, collection, [each]) for each in places), default=0)
-        workers.start(folder, least, len(places), len(tiles))
-        groups = grouped(survey, collection, places, workers.at_once, workers.share.memory)
-        return [
-            LabelJob(
-                survey,
-                tuple(group),
-                tuple(files[each] for each in group),
-                tuple(sorted({path for each in group for path in self._sources[each]})),
-                points_in(collection, survey.window(group)),
-            )
-            for group in groups
-        ], tiles
+        missing = {each: files[each] for each in places if not files[each].exists()}
+        count = len(tiles)
+        return block_jobs(LabelJob, survey, collection, missing, folder, count, workers), tiles

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, Sequence
 
 import numpy as np
 
@@ -372,6 +372,16 @@ def _is_one_of(classification: np.ndarray, classes: tuple[int, ...]) -> np.ndarr
     for each in classes:
         found |= classification == each
     return found
+
+
+def ground_of(cloud: PointCloud, classes: Sequence[int]) -> np.ndarray:
+    """Return which points are of some classes and not withheld: the ground of a product.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (n,)
+    """
+    return np.isin(cloud.classification, classes) & ~cloud.withheld
 
 
 def count_classes(classes: np.ndarray) -> np.ndarray:

@@ -1,0 +1,60 @@
+"""Which jobs do the blocks of a survey."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from ..survey.collection import Collection
+from .jobs import BlockJob
+from .survey import Place, Survey, grouped, memory_of, points_in
+from .workers import Workers
+
+
+def block_jobs(
+    kind: type[BlockJob],
+    survey: Survey,
+    collection: Collection,
+    files: dict[Place, Path],
+    folder: Path,
+    tile_count: int,
+    workers: Workers,
+    **more: Any,
+) -> list[BlockJob]:
+    """Return the jobs of some blocks, and let the workers begin.
+
+    Parameters
+    ----------
+    kind : type
+        Of the jobs.
+    survey, collection
+        The survey.
+    files : dict of Place to Path
+        Where what is made of each block goes.
+    folder : Path
+        Of the output; all workers see it.
+    tile_count : int
+        How many files are to be written with what the blocks give.
+    workers : Workers
+        Who does the jobs.
+    **more
+        What jobs of this kind know besides.
+    """
+    least = max((memory_of(survey, collection, [each]) for each in files), default=0)
+    workers.start(folder, least, len(files), tile_count)
+    sources = {
+        place: {each.path for each in collection.touching(survey.window([place]))}
+        for place in files
+    }
+    groups = grouped(survey, collection, list(files), workers.at_once, workers.share.memory)
+    return [
+        kind(
+            survey,
+            tuple(group),
+            tuple(files[each] for each in group),
+            tuple(sorted(set().union(*(sources[each] for each in group)))),
+            points_in(collection, survey.window(group)),
+            **more,
+        )
+        for group in groups
+    ]
