@@ -1,1 +1,86 @@
-"""The standalone classifier: numpy, scipy and laspy; never QGIS."""
+"""Ground classification of lidar points, and terrain models: the public API.
+
+Names are imported when they are first used, so that importing the package costs nothing and needs
+no scipy.
+
+>>> from bare_earth.algorithms import ClassifyRequest, classify
+>>> summary = classify("tile.laz", "classified.laz", ClassifyRequest())  # doctest: +SKIP
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .core.errors import BareEarthError as BareEarthError
+    from .core.errors import Cancelled as Cancelled
+    from .core.progress import Progress as Progress
+    from .core.version import __version__ as __version__
+    from .engine.heights import HeightOutput as HeightOutput
+    from .engine.key_points import KeyPointMark as KeyPointMark
+    from .engine.memory import Resources as Resources
+    from .engine.output import Output as Output
+    from .engine.rasters import RasterFiles as RasterFiles
+    from .engine.requests import ClassifyRequest as ClassifyRequest
+    from .engine.requests import HeightRequest as HeightRequest
+    from .engine.requests import KeyPointRequest as KeyPointRequest
+    from .engine.requests import TerrainRequest as TerrainRequest
+    from .engine.runs import classify as classify
+    from .engine.runs import heights as heights
+    from .engine.runs import key_points as key_points
+    from .engine.runs import terrain as terrain
+    from .filters.grid_minimum.filter import GridMinimum as GridMinimum
+    from .filters.slope.filter import SlopeFilter as SlopeFilter
+    from .filters.tin_densification.filter import TinDensification as TinDensification
+    from .grids.model_key_points import ModelKeyPoints as ModelKeyPoints
+    from .products.assessment import assess_files as assess  # noqa: F401
+    from .products.surface_model import SurfaceModel as SurfaceModel
+    from .products.terrain_model import TerrainModel as TerrainModel
+    from .survey.area import Area as Area
+    from .survey.ground_classes import GroundClasses as GroundClasses
+    from .survey.selection import Selection as Selection
+
+# Each name, and the module that has it; with its name there, if that is another one.
+_MODULES = {
+    "BareEarthError": "core.errors",
+    "Cancelled": "core.errors",
+    "Progress": "core.progress",
+    "__version__": "core.version",
+    "HeightOutput": "engine.heights",
+    "KeyPointMark": "engine.key_points",
+    "Resources": "engine.memory",
+    "Output": "engine.output",
+    "RasterFiles": "engine.rasters",
+    "ClassifyRequest": "engine.requests",
+    "HeightRequest": "engine.requests",
+    "KeyPointRequest": "engine.requests",
+    "TerrainRequest": "engine.requests",
+    "classify": "engine.runs",
+    "heights": "engine.runs",
+    "key_points": "engine.runs",
+    "terrain": "engine.runs",
+    "GridMinimum": "filters.grid_minimum.filter",
+    "SlopeFilter": "filters.slope.filter",
+    "TinDensification": "filters.tin_densification.filter",
+    "ModelKeyPoints": "grids.model_key_points",
+    "assess": "products.assessment:assess_files",
+    "SurfaceModel": "products.surface_model",
+    "TerrainModel": "products.terrain_model",
+    "Area": "survey.area",
+    "GroundClasses": "survey.ground_classes",
+    "Selection": "survey.selection",
+}
+
+__all__ = list(_MODULES)
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _MODULES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    module, _, there = _MODULES[name].partition(":")
+    return getattr(importlib.import_module(f".{module}", __name__), there or name)
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -12,7 +12,7 @@ from typing import NamedTuple, Protocol, Sequence
 import numpy as np
 
 from bare_earth.algorithms.core.parameters import ParameterSet
-from bare_earth.algorithms.engine.classification import classify
+from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.products.comparison import Assessment, AssessmentOptions, compare
@@ -44,7 +44,7 @@ class Filter:
 
     def ground(self, cloud: PointCloud) -> np.ndarray:
         """Return the ground mask of a cloud."""
-        return classify(cloud, self.parameters)[0] == GROUND
+        return classify_cloud(cloud, self.parameters)[0] == GROUND
 
 
 # Name of the filter, name of the sample.

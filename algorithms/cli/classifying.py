@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Sequence
 
-from ..core.errors import BareEarthError, Cancelled
-from .command import DONE, FAILED, Command
-from .options import UsageError, add_input, add_json, add_output, add_parameters, chosen
+from ..core.errors import BareEarthError
+from .command import DONE, Command
+from .options import UsageError, add_inputs, add_json, add_parameters, chosen
+from .surveys import (
+    add_rasters,
+    add_scheduler,
+    finished_files_stay,
+    rasters_of,
+    tell_of_survey,
+    workers_of,
+)
 from .terminal import Terminal, tell
 
 if TYPE_CHECKING:
@@ -19,36 +26,42 @@ if TYPE_CHECKING:
 
 def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..engine.memory import Resources
+    from ..engine.options import TileInput, TileOutput
     from ..engine.output import Output
     from ..products.terrain_model import TerrainModel
     from ..survey.selection import Selection
 
-    add_input(parser)
-    add_output(parser)
-    _add_rasters(parser)
+    add_inputs(parser)
+    parser.add_argument(
+        "output", metavar="OUTPUT", type=Path,
+        help="the file to write (.las, .laz or .copc.laz); of many inputs a folder",
+    )  # fmt: skip
+    add_rasters(parser)
     parser.add_argument(
         "--extent", nargs=4, type=float, metavar=("XMIN", "YMIN", "XMAX", "YMAX"),
-        help="classify only points in this rectangle, in the CRS of the points",
+        help="of one file, classify only points in this rectangle, in the CRS of the points",
     )  # fmt: skip
     parser.add_argument(
         "--boundary", metavar="FILE", type=Path,
-        help="classify only points in these polygons (.geojson, .json, .wkt), in the CRS of the"
-        " points",
+        help="of one file, classify only points in these polygons (.geojson, .json, .wkt), in the"
+        " CRS of the points",
     )  # fmt: skip
+    parser.add_argument(
+        "--vpc", metavar="FILE", type=Path,
+        help="of many files, the virtual point cloud of the results (default: classified.vpc in"
+        " the folder)",
+    )  # fmt: skip
+    add_scheduler(parser)
     method = _add_method(parser, arguments)
     add_json(parser, "the counts ")
     add_parameters(
-        parser, method.parameters, Selection, TerrainModel, Output, Resources,
+        parser, method.parameters, Selection, TerrainModel, Output, TileInput, TileOutput,
+        Resources,
         titles=(
             f"{method.label} parameters", "Which points, which classes", "Terrain model", "Output",
-            "Threads and memory",
+            "Files", "Output of many files", "Threads and memory",
         ),
     )  # fmt: skip
-
-
-def _add_rasters(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--dtm", metavar="FILE", type=Path, help="write the terrain model (.tif)")
-    parser.add_argument("--hillshade", metavar="FILE", type=Path, help="write its hillshade (.tif)")
 
 
 def _add_method(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> Method:
@@ -66,29 +79,27 @@ def _add_method(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> Me
 
 
 def _classify(options: argparse.Namespace) -> int:
-    from ..engine.classification import classify_file
+    from ..engine.many_files import classify_files
+    from ..engine.one_file import classify_file
+    from ..engine.requests import ClassifyRequest
+    from ..engine.runs import is_one_file
 
-    parameters, selection, terrain, output, resources = chosen(options)
     area = _area_of(options)
-    with Terminal(options.verbose) as progress:
-        summary = classify_file(
-            options.input,
-            options.output,
-            parameters,
-            selection,
-            terrain,
-            dtm=options.dtm,
-            hillshade=options.hillshade,
-            progress=progress,
-            area=area,
-            resources=resources,
-            output=output,
+    request = ClassifyRequest.of(chosen(options), rasters=rasters_of(options), area=area)
+    if options.command != _TILES and not options.scheduler and is_one_file(options.input):
+        with Terminal(options.verbose) as progress:
+            summary = classify_file(options.input[0], options.output, request, progress)
+        ground, count = summary.area_ground_count, summary.area_count
+        place = "" if area is None else " in the area"
+        text = f"{ground:,} of {count:,} points{place} are ground ({100 * ground / count:.1f} %)"
+        tell(options, summary, f"{options.output}: {text}")
+        return DONE
+    workers = workers_of(options, request.resources)
+    with finished_files_stay(), Terminal(options.verbose) as progress:
+        done = classify_files(
+            options.input, options.output, request, progress, workers, options.vpc
         )
-    ground, count = summary.area_ground_count, summary.area_count
-    place = "" if area is None else " in the area"
-    text = f"{ground:,} of {count:,} points{place} are ground ({100 * ground / count:.1f} %)"
-    tell(options, summary, f"{options.output}: {text}")
-    return DONE
+    return tell_of_survey(options, done)
 
 
 def _area_of(options: argparse.Namespace) -> Area | None:
@@ -104,79 +115,28 @@ def _area_of(options: argparse.Namespace) -> Area | None:
     return Area(box, () if options.boundary is None else read_boundary(options.boundary))
 
 
-def _add_classify_tiles(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..engine.memory import Resources
-    from ..engine.options import TileInput, TileOutput
-    from ..products.terrain_model import TerrainModel
-    from ..survey.selection import Selection
-
-    parser.add_argument(
-        "input", metavar="INPUT", type=Path, nargs="+",
-        help="files, folders, virtual point clouds (.vpc), or lists of files (.txt)",
-    )  # fmt: skip
-    parser.add_argument("output", metavar="FOLDER", type=Path, help="where the results go")
-    parser.add_argument(
-        "--vpc", metavar="FILE", type=Path,
-        help="the virtual point cloud of the results (default: classified.vpc in FOLDER)",
-    )  # fmt: skip
-    _add_rasters(parser)
-    parser.add_argument(
-        "--scheduler", metavar="ADDRESS",
-        help="let the workers of this Dask scheduler do it, such as tcp://host:8786; without it,"
-        " processes of this computer do",
-    )  # fmt: skip
-    method = _add_method(parser, arguments)
-    add_json(parser)
-    add_parameters(
-        parser, method.parameters, Selection, TileInput, TileOutput, TerrainModel, Resources,
-        titles=(
-            f"{method.label} parameters", "Which points, which classes", "Files", "Output",
-            "Terrain model", "Threads and memory",
-        ),
-    )  # fmt: skip
-
-
-def _classify_tiles(options: argparse.Namespace) -> int:
-    from ..engine.cluster import Cluster
-    from ..engine.rasters import RasterFiles, RasterRequest
-    from ..engine.tiles import classify_tiles
-    from ..engine.workers import Processes
-
-    *policy, terrain, resources = chosen(options)
-    rasters = RasterRequest(RasterFiles(dtm=options.dtm, hillshade=options.hillshade), terrain)
-    workers = Processes(resources)
-    if options.scheduler:
-        workers = Cluster(options.scheduler, resources)
-    try:
-        with Terminal(options.verbose) as progress:
-            summary = classify_tiles(
-                options.input, options.output, *policy, options.vpc, progress, workers,
-                rasters=rasters,
-            )  # fmt: skip
-    except (Cancelled, KeyboardInterrupt):
-        text = "Cancelled; the tiles that are finished stay. Go on with --resume."
-        print(f"bare-earth: {text}", file=sys.stderr)
-        return FAILED
-    tell(options, summary, f"{options.output}: {summary.text}")
-    return FAILED if summary.failures else DONE
-
+_TILES = "classify-tiles"
+_ABOUT = (
+    " Of many files, folders and virtual point clouds, each point gets the class that it would get"
+    " if all were one file: there is no seam. A file that cannot be classified is reported at the"
+    " end. Give --method before --help to see its parameters."
+)
 
 COMMANDS = (
     Command(
         "classify",
-        "classify the ground points of a file",
-        "Classifies the ground points of a LAS, LAZ or COPC file. The output equals the"
-        " input but for the classification. Give --method before --help to see its parameters.",
+        "classify the ground points of a file, or of many as one survey",
+        "Classifies the ground points of LAS, LAZ and COPC files. The output equals the input but"
+        " for the classification." + _ABOUT,
         _add_classify,
         _classify,
     ),
     Command(
-        "classify-tiles",
-        "classify the ground points of many files as one survey",
-        "Classifies the ground points of many LAS, LAZ or COPC files. Each point gets"
-        " the class that it would get if all files were one: there is no seam. A file that cannot"
-        " be classified is reported at the end. Give --method before --help to see its parameters.",
-        _add_classify_tiles,
-        _classify_tiles,
+        _TILES,
+        "the same as classify, the output always a folder",
+        "Classifies the ground points of LAS, LAZ and COPC files, and writes each into a folder."
+        + _ABOUT,
+        _add_classify,
+        _classify,
     ),
 )

@@ -21,9 +21,13 @@ def add_input(parser: argparse.ArgumentParser, metavar: str = "INPUT") -> None:
     parser.add_argument("input", metavar=metavar, type=Path, help="a .las, .laz or .copc.laz file")
 
 
-def add_output(parser: argparse.ArgumentParser) -> None:
-    """Add the argument that names the point cloud to write."""
-    parser.add_argument("output", metavar="OUTPUT", type=Path, help=".las, .laz or .copc.laz")
+def add_inputs(parser: argparse.ArgumentParser, first: str = "") -> None:
+    """Add the argument that names any number of point clouds to read."""
+    parser.add_argument(
+        "input", metavar="INPUT", type=Path, nargs="+",
+        help=first + "files, folders, virtual point clouds (.vpc), or lists of files (.txt): all"
+        " are one survey",
+    )  # fmt: skip
 
 
 def add_json(parser: argparse.ArgumentParser, what: str = "what was done ") -> None:

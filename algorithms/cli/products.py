@@ -4,11 +4,23 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import Sequence
+from typing import TYPE_CHECKING, Sequence
 
-from .command import DONE, FAILED, Command
-from .options import add_input, add_json, add_output, add_parameters, chosen
+from .command import DONE, Command
+from .options import add_inputs, add_json, add_parameters, chosen
+from .surveys import (
+    add_rasters,
+    add_scheduler,
+    finished_files_stay,
+    rasters_of,
+    tell_of_survey,
+    workers_of,
+)
 from .terminal import Terminal, tell
+
+if TYPE_CHECKING:
+    from ..core.parameters import ParameterSet
+    from ..engine.requests import HeightRequest, KeyPointRequest
 
 
 def _add_remove_objects(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
@@ -30,102 +42,89 @@ def _remove_objects(options: argparse.Namespace) -> int:
 
 
 def _add_height(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..engine.memory import Resources
-    from ..engine.products import GroundClasses, HeightOutput
+    from ..engine.heights import HeightOutput
 
-    parser.add_argument(
-        "input", metavar="INPUT", type=Path, nargs="+",
-        help="a classified file, or files, folders, virtual point clouds (.vpc), or lists of files"
-        " (.txt)",
-    )  # fmt: skip
-    parser.add_argument(
-        "output", metavar="OUTPUT", type=Path, help="a file; of many inputs a folder"
-    )
-    add_json(parser)
-    add_parameters(parser, GroundClasses, HeightOutput, Resources)
-
-
-def _height(options: argparse.Namespace) -> int:
-    from ..engine.height_jobs import write_heights_of_survey
-    from ..engine.products import write_height_above_ground
-    from ..engine.workers import Processes
-    from ..survey.collection import is_cloud
-
-    ground, output, resources = chosen(options)
-    with Terminal(options.verbose) as progress:
-        first, *others = options.input
-        if others or first.is_dir() or not is_cloud(first):
-            summary = write_heights_of_survey(
-                options.input, options.output, ground.ground_classes, output.output_as == "z",
-                progress, Processes(resources),
-            )  # fmt: skip
-            text = f"heights of {summary.done_count:,} of {summary.tile_count:,} files are written"
-        else:
-            summary = write_height_above_ground(
-                first, options.output, ground, output, resources, progress
-            )
-            extremes = f"{summary.minimum:.2f} to {summary.maximum:.2f} {summary.unit}"
-            text = f"heights above ground are {extremes}"
-    tell(options, summary, f"{options.output}: {text}")
-    return FAILED if getattr(summary, "failures", None) else DONE
+    _add_files(parser, HeightOutput)
 
 
 def _add_key_points(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..engine.products import GroundClasses, KeyPointMark
+    from ..engine.key_points import KeyPointMark
     from ..grids.model_key_points import ModelKeyPoints
 
-    add_input(parser)
-    add_output(parser)
+    _add_files(parser, ModelKeyPoints, KeyPointMark)
+
+
+def _add_files(parser: argparse.ArgumentParser, *sets: type[ParameterSet]) -> None:
+    """Add what the commands have in common that write classified files anew."""
+    from ..engine.memory import Resources
+    from ..engine.options import TileInput, TileOutput
+    from ..survey.ground_classes import GroundClasses
+
+    add_inputs(parser, "a classified file, or ")
+    parser.add_argument(
+        "output", metavar="OUTPUT", type=Path,
+        help="the file to write (.las, .laz or .copc.laz); of many inputs a folder",
+    )  # fmt: skip
+    add_scheduler(parser)
     add_json(parser)
-    add_parameters(parser, ModelKeyPoints, GroundClasses, KeyPointMark)
+    add_parameters(parser, *sets, GroundClasses, TileInput, TileOutput, Resources)
+
+
+def _height(options: argparse.Namespace) -> int:
+    from ..engine.requests import HeightRequest
+
+    return _write(options, HeightRequest.of(chosen(options)))
 
 
 def _key_points(options: argparse.Namespace) -> int:
-    from ..engine.products import write_key_points
+    from ..engine.requests import KeyPointRequest
 
-    with Terminal(options.verbose) as progress:
-        summary = write_key_points(options.input, options.output, *chosen(options), progress)
-    text = f"{summary.key_point_count:,} of {summary.ground_count:,} ground points are key points"
-    tell(options, summary, f"{options.output}: {text}")
-    return DONE
+    return _write(options, KeyPointRequest.of(chosen(options)))
+
+
+def _write(options: argparse.Namespace, request: HeightRequest | KeyPointRequest) -> int:
+    """Write classified files anew with what the step of a request finds."""
+    from ..engine.many_files import write_files
+    from ..engine.one_file import write_points
+    from ..engine.runs import is_one_file
+
+    if is_one_file(options.input) and not options.scheduler:
+        with Terminal(options.verbose) as progress:
+            summary = write_points(
+                options.input[0], options.output, request.step, request.resources, progress
+            )
+        tell(options, summary, f"{options.output.parent / summary.text}")
+        return DONE
+    workers = workers_of(options, request.resources)
+    with finished_files_stay(), Terminal(options.verbose) as progress:
+        done = write_files(
+            options.input, options.output, [request.step], request, progress, workers
+        )
+    return tell_of_survey(options, done)
 
 
 def _add_terrain(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..engine.memory import Resources
-    from ..engine.products import GroundClasses
+    from ..engine.options import TileInput
     from ..products.surface_model import SurfaceModel
     from ..products.terrain_model import TerrainModel
+    from ..survey.ground_classes import GroundClasses
 
-    parser.add_argument(
-        "input", metavar="INPUT", type=Path, nargs="+",
-        help="files, folders, virtual point clouds (.vpc), or lists of files (.txt): all are one"
-        " survey",
-    )  # fmt: skip
-    for name, what in (
-        ("dtm", "terrain model"),
-        ("dsm", "surface model, the top of all that stands on the terrain"),
-        ("chm", "canopy height, the surface above the terrain"),
-        ("hillshade", "hillshade of the terrain model"),
-        ("confidence", "probability, 0 to 1, that the terrain model is right"),
-    ):
-        parser.add_argument(f"--{name}", metavar="FILE", type=Path, help=f"the {what} (.tif)")
+    add_inputs(parser)
+    add_rasters(parser)
+    add_scheduler(parser)
     add_json(parser)
-    add_parameters(parser, GroundClasses, TerrainModel, SurfaceModel, Resources)
+    add_parameters(parser, GroundClasses, TerrainModel, SurfaceModel, TileInput, Resources)
 
 
 def _terrain(options: argparse.Namespace) -> int:
-    from ..engine.products import write_terrain_models
-    from ..engine.rasters import RasterFiles
-    from ..engine.workers import Processes
+    from ..engine.requests import TerrainRequest
+    from ..engine.runs import terrain
 
-    files = RasterFiles(
-        options.dtm, options.dsm, options.chm, options.hillshade, options.confidence
-    )
-    *policy, resources = chosen(options)
+    request = TerrainRequest.of(chosen(options), rasters=rasters_of(options))
     with Terminal(options.verbose) as progress:
-        summary = write_terrain_models(
-            options.input, files, *policy, resources, progress, Processes(resources)
-        )
+        workers = workers_of(options, request.resources)
+        summary = terrain(options.input, request, progress, workers)
     text = f"{summary.columns:,} x {summary.rows:,} cells of {summary.ground_count:,} ground points"
     tell(options, summary, f"{options.input[0]}: {text}")
     return DONE
@@ -151,8 +150,9 @@ COMMANDS = (
     Command(
         "key-points",
         "mark the ground points that a terrain model needs",
-        "Writes a classified file anew with its model key points marked: the few ground"
-        " points from whose TIN no other ground point lies farther than the tolerance.",
+        "Writes a classified file, or many as one survey, anew with the model key points marked:"
+        " the few ground points from whose TIN no other ground point lies farther than the"
+        " tolerance.",
         _add_key_points,
         _key_points,
     ),

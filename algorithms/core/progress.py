@@ -41,6 +41,10 @@ class Progress:
         """Return a progress whose 0 to 1 is the range `start` to `end` of this one."""
         return _Part(self, start, end)
 
+    def quiet(self) -> Progress:
+        """Return one that passes on how far it is, and no messages: they are told elsewhere."""
+        return _Quiet(self)
+
 
 class _Part(Progress):
     def __init__(self, whole: Progress, start: float, end: float) -> None:
@@ -56,20 +60,11 @@ class _Part(Progress):
         self._whole.warning(text)
 
 
-class Unsaid(Progress):
-    """Passes on how far a computation is, and none of its messages: they are told elsewhere.
-
-    Parameters
-    ----------
-    whole : Progress
-        Receives how far it is.
-    """
-
+class _Quiet(Progress):
     def __init__(self, whole: Progress) -> None:
         self._whole = whole
 
     def report(self, fraction: float) -> None:
-        """Pass it on."""
         self._whole(fraction)
 
 

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ..core.errors import BareEarthError
 from ..las.backends import require
-from .jobs import JobResult, Share, attempt
+from .jobs import JobResult, attempt
 from .memory import Resources, free_memory
-from .workers import SCHEDULER_GONE, Job, JobProgress, Running, Workers
+from .workers import SCHEDULER_GONE, Job, JobProgress, Running, Workers, share_of
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -85,7 +85,7 @@ class Cluster(Workers):
                 for each in facts.values()
             }
             memory = int(min(_SHARE * each.free / on_host[each.host] for each in facts.values()))
-        self.share = Share(1, memory)
+        self.share = share_of(1, memory)
         self.at_once = self._room()
         # Each job is done once, whatever Dask still knows of one that is the same.
         self._pool = self._client.get_executor(pure=False)
@@ -165,5 +165,5 @@ def _facts(marker: str) -> _Facts:
     return _Facts(__version__, Path(marker).exists(), free_memory(), socket.gethostname())
 
 
-def _on_cluster(job: Job, share: Share) -> JobResult:
+def _on_cluster(job: Job, share: Resources) -> JobResult:
     return attempt(job, share, JobProgress(threading.Event()))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
+import os
 import tempfile
 import threading
 from pathlib import Path
@@ -25,6 +26,8 @@ _MARGIN = 1e-3
 _GAP = 1 << 16
 # Points that are read at a time.
 _MOST_READ = 1 << 15
+# Bytes that are written at a time to make room.
+_STEP = 1 << 24
 
 
 class DiskPoints:
@@ -61,6 +64,8 @@ class DiskPoints:
         self.cloud: PointCloud | None = None
         self._frame = Frame()
         self._first = np.zeros(2, dtype=np.int64)
+        # Of each part, where its points begin here, and which it has, as bits.
+        self._parts: list[tuple[int, np.ndarray]] = []
         self._runs = LeafIndex()
 
     def _file(self) -> BinaryIO:
@@ -108,6 +113,7 @@ class DiskPoints:
         with self._told():
             self._records.write(records.tobytes())
         self._runs.add(found.codes, found.counts, self.count)
+        self._parts.append((self.count, np.packbits(selected)))
         self.count += len(which)
 
     def _sorted(self, part: PointCloud, selected: np.ndarray) -> Sorted:
@@ -118,16 +124,9 @@ class DiskPoints:
         )
         return Sorted.of(y, x)
 
-    def finish(self, lowest: tuple[int, int]) -> Frame:
-        """End the points; return the frame of the cloud itself, as `PointCloud.frame`.
-
-        Parameters
-        ----------
-        lowest : tuple of int
-            The smallest x and y of the file, as integers.
-        """
+    def finish(self) -> None:
+        """End the points."""
         cloud = self.cloud
-        corner = {name: np.array([value]) for name, value in zip("xyz", (*lowest, 0))}
         rows, columns, totals = self._runs.finish()
         x, y = (
             number * self._side + (first * scale + offset) * cloud.crs.horizontal_unit - _MARGIN
@@ -139,7 +138,6 @@ class DiskPoints:
         with self._told():
             self._records.flush()
             self._labels.truncate(self.count * self._kind.itemsize)
-        return dataclasses.replace(cloud, **corner).frame
 
     def read(
         self, leaves: np.ndarray, box: Box | None = None, corner: Corner = (0.0, 0.0)
@@ -182,25 +180,58 @@ class DiskPoints:
         data = self._labels.read((last - first) * self._kind.itemsize)
         return np.frombuffer(data, dtype=self._kind)
 
-    def labels_of(self, part: PointCloud, selected: np.ndarray, start: int) -> np.ndarray:
-        """Return the labels of the points of a part, as it was appended.
+    def values_of(self, number: int, part: PointCloud) -> np.ndarray:
+        """Return what is kept of the points of a part that was appended.
 
         Parameters
         ----------
-        part, selected
-            As for `append`.
-        start : int
-            Points that were appended before it.
+        number : int
+            How many parts were appended before it.
+        part : PointCloud
+            Its points.
 
         Returns
         -------
         numpy.ndarray, shape (n,)
             0 for those that are not selected.
         """
+        start, bits = self._parts[number]
+        selected = np.unpackbits(bits, count=part.count).astype(bool)
         order = self._sorted(part, selected).order
-        labels = np.zeros(part.count, dtype=self._kind)
-        labels[np.flatnonzero(selected)[order]] = self._labels_at(start, start + len(order))
-        return labels
+        values = np.zeros(part.count, dtype=self._kind)
+        values[np.flatnonzero(selected)[order]] = self._labels_at(start, start + len(order))
+        return values
+
+
+def room_on_disk(target: Path, kind: type, count: int) -> np.ndarray:
+    """Return room for values of points in a temporary file without a name.
+
+    Parameters
+    ----------
+    target : Path
+        The output, in whose folder the file is.
+    kind : type
+        Of the values.
+    count : int
+        How many there are.
+
+    Raises
+    ------
+    BareEarthError
+        If the disk is full: memory of a file that has no room ends the process later.
+    """
+    try:
+        with tempfile.TemporaryFile(dir=target.parent) as file:
+            size = max(count, 1) * np.dtype(kind).itemsize
+            if hasattr(os, "posix_fallocate"):
+                os.posix_fallocate(file.fileno(), 0, size)
+            else:
+                for start in range(0, size, _STEP):
+                    file.write(bytes(min(_STEP, size - start)))
+                file.flush()
+            return np.memmap(file, kind, "r+", shape=(count,))
+    except OSError as error:
+        raise describe_write_error(target, error) from error
 
 
 def _joined(starts: np.ndarray, counts: np.ndarray) -> Iterator[tuple[int, int]]:

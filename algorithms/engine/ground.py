@@ -9,7 +9,7 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet
-from ..core.progress import SILENT, Progress, Unsaid
+from ..core.progress import SILENT, Progress
 from ..filters import Method, method_of
 from ..filters.shared.below_ground import below_ground
 from ..filters.shared.bridges import bridge_decks
@@ -224,7 +224,7 @@ def _labels(
         part = progress.part(done / len(groups), end / len(groups))
         try:
             # What there is to say of the points is said of the most of them.
-            labels[which] = filter_.label(contents.take(which), Unsaid(part) if done else part)
+            labels[which] = filter_.label(contents.take(which), part.quiet() if done else part)
         except BareEarthError as error:
             failures.append(error)
         done = end

@@ -1,28 +1,173 @@
-"""Heights above ground of the points of a store, block by block."""
+"""The step that measures heights above ground."""
 
 from __future__ import annotations
 
-import tempfile
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import Callable, Iterable, NamedTuple
+from typing import Callable, NamedTuple
 
 import numpy as np
 
-from ..core.errors import BareEarthError
+from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
-from ..las.cloud import PointCloud, survey_frame
+from ..crs.system import unit_name
+from ..las.cloud import PointCloud
+from ..las.edits import Edits
 from ..products.height_above_ground import height_above_ground
+from ..survey.ground_classes import GroundClasses, GroundTally
+from ..survey.selection import ground_of
 from .blocks import Block, Blocks, Store
-from .disk_points import DiskPoints
 from .ground import over_blocks
 from .memory import Resources
-from .memory_points import MemoryPoints, SurveyFile
+from .output import HEIGHT_DIMENSION, height_edits
+from .steps import Marks, PointResult, PointStep, Room
 
 # Metres round a block in which ground points matter for its heights.
-_REACH = 100.0
-HEIGHT_BLOCKS = Blocks.of(_REACH)
-_NO_GROUND = "All ground points of {} are withheld, so that no height above ground can be measured."
+_BLOCKS = Blocks.of(100.0)
+
+
+@dataclass(frozen=True)
+class HeightOutput(ParameterSet):
+    """Where the heights above ground go."""
+
+    output_as: str = parameter(
+        "dimension",
+        label="Write the heights as",
+        choices={
+            "dimension": f"Extra dimension {HEIGHT_DIMENSION}",
+            "z": "Z, in place of the elevation",
+        },
+        help="An extra dimension keeps all else as it is. In place of the elevation the heights"
+        " show in programs that know no extra dimensions, and the terrain is flat.",
+    )
+
+
+@dataclass(frozen=True, order=True)
+class HeightSummary:
+    """What heights above ground a file has.
+
+    Attributes
+    ----------
+    name : str
+        Of the output.
+    point_count, ground_count : int
+        Its points, and those of the ground.
+    minimum, maximum : float
+        The lowest and the highest height, in the vertical unit of the CRS.
+    unit : str
+        Name of that unit.
+    """
+
+    name: str
+    point_count: int
+    ground_count: int
+    minimum: float
+    maximum: float
+    unit: str
+
+    @property
+    def text(self) -> str:
+        """All of it in words."""
+        extremes = f"{self.minimum:.2f} to {self.maximum:.2f} {self.unit}"
+        return f"{self.name}: heights above ground are {extremes}"
+
+
+@dataclass(frozen=True)
+class MeasureHeights(PointStep):
+    """Measures how high each point stands above the ground.
+
+    Attributes
+    ----------
+    ground : GroundClasses
+        Which points are ground.
+    output : HeightOutput
+        Whether the heights are an extra dimension or replace z; both in the vertical unit.
+    ground_only : bool
+        Whether only ground points are written.
+    """
+
+    ground: GroundClasses = field(default_factory=GroundClasses)
+    output: HeightOutput = field(default_factory=HeightOutput)
+    ground_only: bool = False
+
+    kind = np.float64
+    blocks = _BLOCKS
+    summary_type = HeightSummary
+    vpc_name = "heights.vpc"
+
+    def tally(self) -> GroundTally:
+        """Return what `marks` counts in."""
+        return GroundTally()
+
+    def marks(self, part: PointCloud, tally: GroundTally) -> Marks:
+        """Return all points, and which of them are ground."""
+        every = np.ones(part.count, dtype=bool)
+        return Marks(every, self.ground.of(part, tally), every)
+
+    def tell(self, tally: GroundTally, path: Path, progress: Progress) -> None:
+        """Refuse a file without ground."""
+        self.ground.check(tally, path)
+
+    def work(self, store: Store, resources: Resources, progress: Progress) -> None:
+        """Put the height of each wanted point in metres; NaN in blocks without ground."""
+        job_of = partial(_job_of, store)
+        for _, result in over_blocks(store, self.blocks, job_of, resources, progress):
+            store.put(result.positions, result.heights)
+
+    def result(self, path: Path, room: Room) -> HeightsOfPoints:
+        """Return what keeps the heights of a file."""
+        return HeightsOfPoints(self, room)
+
+
+class HeightsOfPoints(PointResult):
+    """The heights above ground of the points of a file.
+
+    Parameters
+    ----------
+    step : MeasureHeights
+        What measures them.
+    room : callable
+        Makes room for a value of each point.
+
+    Attributes
+    ----------
+    heights : numpy.ndarray of float, shape (n,)
+        In the vertical unit of the CRS, in file order; NaN far from any ground.
+    """
+
+    def __init__(self, step: MeasureHeights, room: Room) -> None:
+        self._step, self._as_z = step, step.output.output_as == "z"
+        # A dimension needs no more digits; in place of z they are rounded as z is.
+        self.heights = room(np.float64 if self._as_z else np.float32)
+        self._kept = room(bool) if step.ground_only else None
+        self._lowest, self._highest = np.inf, -np.inf
+        self._ground_count, self._unit = 0, ""
+
+    def add(self, where: slice, part: PointCloud, values: np.ndarray) -> None:
+        """Keep heights in metres in the vertical unit, without the noise of rounding."""
+        # Ground points have 0, not -0.
+        heights = np.round(values / part.crs.vertical_unit, 6) + 0.0
+        self.heights[where] = heights
+        ground = ground_of(part, self._step.ground.ground_classes)
+        if self._kept is not None:
+            self._kept[where] = ground
+        self._ground_count += int(np.count_nonzero(ground))
+        self._unit = unit_name(part.crs.vertical_unit)
+        self._lowest = min(self._lowest, float(np.fmin.reduce(heights, initial=np.inf)))
+        self._highest = max(self._highest, float(np.fmax.reduce(heights, initial=-np.inf)))
+
+    def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
+        """Return the heights as z or as a dimension."""
+        return replace(height_edits(cloud, self.heights, self._as_z), kept=self._kept)
+
+    def summary(self, name: str) -> HeightSummary:
+        """Return the lowest and the highest height."""
+        extremes = self._lowest, self._highest
+        if self._lowest > self._highest:
+            extremes = np.nan, np.nan
+        written = len(self.heights) if self._kept is None else self._ground_count
+        return HeightSummary(name, written, self._ground_count, *extremes, self._unit)
 
 
 class _Heights(NamedTuple):
@@ -32,137 +177,12 @@ class _Heights(NamedTuple):
     heights: np.ndarray
 
 
-def heights_of(
-    cloud: PointCloud,
-    ground: np.ndarray,
-    resources: Resources = Resources(),
-    progress: Progress = SILENT,
-) -> np.ndarray:
-    """Return how high each point of a cloud stands above its ground.
-
-    Parameters
-    ----------
-    cloud : PointCloud
-        The points.
-    ground : numpy.ndarray of bool, shape (n,)
-        Which of them are ground.
-    resources : Resources
-        Threads and memory.
-    progress : Progress
-        Receives progress.
-
-    Returns
-    -------
-    numpy.ndarray of float64, shape (n,)
-        In the vertical unit of the CRS; NaN in blocks without ground.
-
-    Raises
-    ------
-    BareEarthError
-        If no point is ground, or the CRS is geographic.
-    """
-    if not ground.any():
-        raise BareEarthError(_NO_GROUND.format(cloud.path))
-    part = SurveyFile(cloud, np.ones(cloud.count, dtype=bool), ground)
-    frame, first = survey_frame(cloud.crs), progress.part(0.0, 0.1)
-    store = MemoryPoints([part], frame, HEIGHT_BLOCKS, first, np.float64)
-    measure_heights(store, resources, progress.part(0.1, 1.0))
-    return in_unit(store.labels[0], cloud)
-
-
-def in_unit(heights: np.ndarray, cloud: PointCloud) -> np.ndarray:
-    """Return heights in metres in the vertical unit of a cloud, without the noise of rounding."""
-    # Ground points have 0, not -0.
-    return np.round(heights / cloud.crs.vertical_unit, 6) + 0.0
-
-
-class DiskHeights:
-    """The heights of the points of a file, on disk until they are written.
-
-    Parameters
-    ----------
-    target : Path
-        The output, in whose folder the temporary files are.
-    """
-
-    def __init__(self, target: Path) -> None:
-        self._target = target
-        self._spill = DiskPoints(target, HEIGHT_BLOCKS.leaf_side, np.float64)
-
-    def __enter__(self) -> DiskHeights:
-        return self
-
-    def __exit__(self, *exception: object) -> None:
-        self._spill.__exit__(*exception)
-
-    def append(self, part: PointCloud, ground: np.ndarray) -> None:
-        """Add the next points of the file, and say which of them are ground."""
-        every = np.ones(part.count, dtype=bool)
-        self._spill.append(part, every, ground, every)
-
-    def measured(
-        self,
-        lowest: tuple[int, int],
-        parts: Iterable[PointCloud],
-        kind: type,
-        resources: Resources,
-        progress: Progress,
-    ) -> np.ndarray:
-        """Measure the heights; return them in the order of the file, in its vertical unit.
-
-        Parameters
-        ----------
-        lowest : tuple of int
-            The smallest x and y of the file, as integers.
-        parts : iterable of PointCloud
-            The points once more, as they were appended.
-        kind : type
-            Of the numbers that are returned.
-        resources : Resources
-            Threads and memory.
-        progress : Progress
-            Receives progress.
-        """
-        if not self._spill.has_known:
-            raise BareEarthError(_NO_GROUND.format(self._spill.cloud.path))
-        self._spill.finish(lowest)
-        measure_heights(self._spill, resources, progress)
-        with tempfile.TemporaryFile(dir=self._target.parent) as file:
-            heights = np.memmap(file, kind, "w+", shape=(self._spill.count,))
-        start = 0
-        for part in parts:
-            every = np.ones(part.count, dtype=bool)
-            found = self._spill.labels_of(part, every, start)
-            heights[start : start + part.count] = in_unit(found, part)
-            start += part.count
-        return heights
-
-
-def measure_heights(
-    store: Store, resources: Resources = Resources(), progress: Progress = SILENT
-) -> None:
-    """Put the height in metres above the known ground of each wanted point of a store.
-
-    Parameters
-    ----------
-    store : Store
-        The points, all of which take part.
-    resources : Resources
-        Threads and memory.
-    progress : Progress
-        Receives progress.
-    """
-    job_of = partial(_job_of, store)
-    for _, result in over_blocks(store, HEIGHT_BLOCKS, job_of, resources, progress):
-        store.put(result.positions, result.heights)
-
-
 def _job_of(store: Store, block: Block, is_only: bool) -> Callable[[Progress], _Heights]:
     def job(progress: Progress) -> _Heights:
-        contents = HEIGHT_BLOCKS.contents(block, store)
+        contents = _BLOCKS.contents(block, store)
         wanted = contents.wanted.copy()
         if not is_only:
-            wanted &= block.holds(contents.points, HEIGHT_BLOCKS.corner(block))
+            wanted &= block.holds(contents.points, _BLOCKS.corner(block))
         positions = contents.positions[wanted]
         if not contents.known.any():
             return _Heights(positions, np.full(len(positions), np.nan))

@@ -6,10 +6,11 @@ import collections
 import re
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, wait
 from pathlib import Path
+from typing import Any
 
 from ..core.errors import BareEarthError
 from ..core.progress import Progress
-from .jobs import BlockJob, JobResult, TileJob, TileSummary
+from .jobs import BlockJob, JobResult, TileJob
 from .workers import SCHEDULER_GONE, Job, Running, Workers
 
 _POLL = 0.1
@@ -37,8 +38,8 @@ class JobQueue:
 
     Attributes
     ----------
-    done : list of TileSummary
-        The tiles that were written.
+    done : list of object
+        The summaries of the tiles that were written.
     failures : dict of Path to str
         Why the others were not, by their inputs.
     lost : list of str
@@ -48,7 +49,7 @@ class JobQueue:
     def __init__(
         self, blocks: list[BlockJob], tiles: list[TileJob], workers: Workers, progress: Progress
     ) -> None:
-        self.done: list[TileSummary] = []
+        self.done: list[Any] = []
         self.failures: dict[Path, str] = {}
         self.lost: list[str] = []
         self._workers, self._progress = workers, progress
@@ -180,6 +181,18 @@ class JobQueue:
         for (kind, _), texts in self._heard.items():
             more = f" (And {len(texts) - 1:,} times the like.)" if len(texts) > 1 else ""
             getattr(self._progress, kind)(texts[0] + more)
+
+
+def worked_off(
+    blocks: list[BlockJob], tiles: list[TileJob], workers: Workers, progress: Progress
+) -> JobQueue:
+    """Run jobs, stop the workers, and return what became of the jobs; see `JobQueue`."""
+    queue = JobQueue(blocks, tiles, workers, progress)
+    try:
+        queue.work()
+    finally:
+        workers.stop()
+    return queue
 
 
 def _without_numbers(text: str) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from dataclasses import dataclass
 
 from ..core.parameters import ParameterSet, parameter
@@ -72,11 +71,3 @@ class TileOutput(ParameterSet):
         help="Tiles that are done stay, if they were made from the same files with the same"
         " parameters. All others are classified anew.",
     )
-
-
-def as_plain(parameters: ParameterSet) -> dict[str, object]:
-    """Return parameters as JSON would give them back."""
-    return {
-        name: list(value) if isinstance(value, tuple) else value
-        for name, value in dataclasses.asdict(parameters).items()
-    }

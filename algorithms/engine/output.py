@@ -40,11 +40,11 @@ class Output(ParameterSet):
         """Whether points change in more than their classes."""
         return self.ground_only or self.height_above_ground
 
-    def changes(
+    def edits(
         self,
         cloud: PointCloud,
         classification: np.ndarray,
-        ground: np.ndarray,
+        ground: np.ndarray | None,
         heights: np.ndarray | None = None,
         progress: Progress = SILENT,
     ) -> Edits:
@@ -56,8 +56,8 @@ class Output(ParameterSet):
             The points as they are.
         classification : numpy.ndarray of uint8, shape (n,)
             Their new classes.
-        ground : numpy.ndarray of bool, shape (n,)
-            Which of them are ground.
+        ground : numpy.ndarray of bool, shape (n,), or None
+            Which of them are ground; needed if more changes than the classes.
         heights : numpy.ndarray of float, shape (n,), optional
             Their heights above ground, if they are wanted.
         progress : Progress
@@ -114,7 +114,7 @@ def _z_of(cloud: PointCloud, heights: np.ndarray) -> np.ndarray:
     return values.astype(np.int32)
 
 
-def height_changes(cloud: PointCloud, heights: np.ndarray, as_z: bool) -> Edits:
+def height_edits(cloud: PointCloud, heights: np.ndarray, as_z: bool) -> Edits:
     """Return what becomes other where heights above ground are written.
 
     Parameters

@@ -46,7 +46,7 @@ def block_jobs(
         place: {each.path for each in collection.touching(survey.window([place]))}
         for place in files
     }
-    groups = grouped(survey, collection, list(files), workers.at_once, workers.share.memory)
+    groups = grouped(survey, collection, list(files), workers.at_once, workers.share.bytes)
     return [
         kind(
             survey,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Sequence
 
@@ -15,13 +15,13 @@ from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
 from ..products.raster_block import BlockRasters
 from ..survey.collection import Collection
-from ..survey.selection import Selection
 from .blocks import Block
-from .job_queue import JobQueue
-from .jobs import BlockJob, Share
+from .job_queue import worked_off
+from .jobs import BlockJob
+from .memory import Resources
 from .memory_points import MemoryPoints, SurveyFile
 from .planning import block_jobs
-from .rasters import RasterPoints, RasterRequest, RasterSize, rasters_of_store, write_rasters
+from .rasters import MakeRasters, RasterSize, write_rasters
 from .survey import BlockIndex, Survey, frame_of, places_of
 from .workers import Workers
 
@@ -34,28 +34,24 @@ class RasterJob(BlockJob):
 
     Attributes
     ----------
-    request : RasterRequest
-        What is wanted.
-    points : RasterPoints
-        Which points they are made of.
+    step : MakeRasters
+        What is to be made.
     """
 
-    request: RasterRequest = field(default_factory=RasterRequest)
-    points: RasterPoints = field(default_factory=lambda: RasterPoints((2,)))
+    step: MakeRasters
 
-    def run(self, share: Share, progress: Progress) -> None:
+    def run(self, resources: Resources, progress: Progress) -> None:
         """Do it."""
+        tally = self.step.tally()
         parts = [
-            SurveyFile(cloud, *self.points.of(cloud, self.request))
+            SurveyFile(cloud, *self.step.marks(cloud, tally))
             for cloud in self.clouds(progress.part(0.0, 0.5))
         ]
         made: dict[BlockIndex, list[BlockRasters]] = {place: [] for place in self.places}
         if any(part.selected.any() for part in parts):
             survey, rest = self.survey, progress.part(0.6, 0.95)
             store = MemoryPoints(parts, survey.frame, survey.blocks, progress.part(0.5, 0.6))
-            for each in rasters_of_store(
-                store, self.request, share.resources, rest, lambda b: self._place(b) in made
-            ):
+            for each in self.step.work(store, resources, rest, lambda b: self._place(b) in made):
                 made[self._place_of(each.window)].append(each)
         for place, file in zip(self.places, self.files):
             _keep(file, made[place])
@@ -68,7 +64,7 @@ class RasterJob(BlockJob):
 
     def _place_of(self, window: CellWindow) -> BlockIndex:
         """Return the place of the block in which the first of some cells has its centre."""
-        cell, blocks = self.request.model.dtm_cell_size, self.survey.blocks
+        cell, blocks = self.step.request.model.dtm_cell_size, self.survey.blocks
         x, y = ((each + 0.5) * cell for each in (window.column, window.row))
         return BlockIndex(int(blocks.number(x)), int(blocks.number(y)))
 
@@ -119,8 +115,7 @@ def _kept_in(file: Path) -> list[_Kept]:
 def make_rasters(
     collection: Collection,
     folder: Path,
-    request: RasterRequest,
-    points: RasterPoints,
+    step: MakeRasters,
     workers: Workers,
     progress: Progress = SILENT,
 ) -> RasterSize:
@@ -132,10 +127,8 @@ def make_rasters(
         The files.
     folder : Path
         Where the rasters of the blocks wait; it must be there, and is seen by all workers.
-    request : RasterRequest
-        What is wanted, and where it goes.
-    points : RasterPoints
-        Which points they are made of.
+    step : MakeRasters
+        What is wanted, where it goes, and which points it is made of.
     workers : Workers
         Who does it; they are stopped afterwards.
     progress : Progress
@@ -148,23 +141,17 @@ def make_rasters(
     Cancelled
         If the user asked to stop.
     """
-    survey = Survey(None, Selection(), frame_of(collection), request.blocks)
+    survey = Survey(frame_of(collection), step.blocks)
     places = sorted({place for tile in collection.tiles for place in places_of(survey, tile)})
     files = {each: folder / f"rasters_{each.column}_{each.row}.npz" for each in places}
-    jobs = block_jobs(
-        RasterJob, survey, collection, files, folder, 0, workers, request=request, points=points
-    )
+    jobs = block_jobs(RasterJob, survey, collection, files, folder, 0, workers, step=step)
     try:
-        run = JobQueue(jobs, [], workers, progress.part(0.0, 0.8))
-        try:
-            run.work()
-        finally:
-            workers.stop()
-        if run.lost:
-            raise BareEarthError(f"The rasters cannot be made. {run.lost[0]}")
+        lost = worked_off(jobs, [], workers, progress.part(0.0, 0.8)).lost
+        if lost:
+            raise BareEarthError(f"The rasters cannot be made. {lost[0]}")
         made = [each for file in files.values() for each in _kept_in(file)]
         with contextlib.ExitStack() as outputs:
-            return write_rasters(made, survey.frame, request, outputs, progress.part(0.8, 1.0))
+            return write_rasters(made, survey.frame, step.request, outputs, progress.part(0.8, 1.0))
     finally:
         for file in files.values():
             file.unlink(missing_ok=True)

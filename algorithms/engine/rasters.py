@@ -6,7 +6,7 @@ import contextlib
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import Callable, Iterator, NamedTuple, Sequence
+from typing import Callable, Iterator, Sequence
 
 import numpy as np
 
@@ -16,18 +16,19 @@ from ..core.points import Frame
 from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
 from ..grids.hillshade import hillshade
-from ..las.cloud import PointCloud, survey_frame
+from ..las.cloud import PointCloud
 from ..products.raster_block import BlockRasters, RasterStep
 from ..products.surface_model import SurfaceModel, canopy_height
 from ..products.terrain_model import TerrainModel
 from ..rasters.geotiff import NODATA, RasterGrid
 from ..rasters.writing import Rows, check_raster_output, write_geotiff
-from ..survey.selection import NOISE, ground_of
+from ..survey.ground_classes import GroundClasses, GroundTally
+from ..survey.selection import NOISE
 from .blocks import Block, Blocks, Store
 from .ground import over_blocks
 from .memory import Resources
-from .memory_points import MemoryPoints, SurveyFile
 from .mosaic import Mosaic, Piece, gathered_strips
+from .steps import Marks, Step
 
 _MOST_CELLS = 4_000_000_000
 # A raster of more cells must have blocks with points over this share of it: else it is large
@@ -111,11 +112,6 @@ class RasterRequest:
             self.surface.max_edge,
         )
 
-    @property
-    def blocks(self) -> Blocks:
-        """The blocks in which the rasters are made."""
-        return Blocks.of(self.step.reach)
-
 
 @dataclass(frozen=True)
 class RasterSize:
@@ -135,84 +131,86 @@ class RasterSize:
     rows: int
 
 
-class RasterPoints(NamedTuple):
-    """Which points of a classified cloud the rasters are made of.
+@dataclass(frozen=True)
+class MakeRasters(Step):
+    """Makes the rasters of classified points.
 
     Attributes
     ----------
-    ground_classes : tuple of int
-        Classes of the ground. Withheld points are left out.
+    request : RasterRequest
+        Which rasters, and how.
+    ground : GroundClasses
+        Which points are ground.
     covers_ground : bool
         Whether the rasters reach as far as the ground does, not as all points but noise.
     """
 
-    ground_classes: tuple[int, ...]
+    request: RasterRequest = field(default_factory=RasterRequest)
+    ground: GroundClasses = field(default_factory=GroundClasses)
     covers_ground: bool = False
 
-    def of(self, cloud: PointCloud, request: RasterRequest) -> tuple[np.ndarray, ...]:
-        """Return which points are covered, are ground, and belong to the surface.
+    @property
+    def blocks(self) -> Blocks:
+        """The blocks in which the rasters are made."""
+        return Blocks.of(self.request.step.reach)
 
-        Returns
-        -------
-        shown, ground, top : numpy.ndarray of bool, shape (n,)
-        """
-        ground = np.zeros(cloud.count, dtype=bool)
-        if request.needs_terrain:
-            ground = ground_of(cloud, self.ground_classes)
+    def tally(self) -> RasterTally:
+        """Return what `marks` counts in."""
+        return RasterTally()
+
+    def marks(self, part: PointCloud, tally: RasterTally) -> Marks:
+        """Return which points are covered, are ground, and belong to the surface."""
+        nothing = np.zeros(part.count, dtype=bool)
+        ground = self.ground.of(part, tally)
+        if not self.request.needs_terrain:
+            ground = nothing
         if self.covers_ground:
-            return ground, ground, np.zeros(cloud.count, dtype=bool)
-        shown = ground | (~np.isin(cloud.classification, NOISE) & ~cloud.withheld)
-        top = shown & request.needs_surface
-        if request.surface.surface_returns == "first":
-            top &= cloud.return_number <= 1
-        return shown, ground, top
+            return Marks(ground, ground, nothing)
+        shown = ground | (~np.isin(part.classification, NOISE) & ~part.withheld)
+        top = shown & self.request.needs_surface
+        if self.request.surface.surface_returns == "first":
+            top &= part.return_number <= 1
+        tally.top += int(np.count_nonzero(top))
+        return Marks(shown, ground, top)
+
+    def tell(self, tally: RasterTally, path: Path, progress: Progress) -> None:
+        """Refuse a file that has nothing to make the rasters of."""
+        if self.request.needs_terrain:
+            self.ground.check(tally, path)
+        if self.request.needs_surface and not tally.top:
+            raise BareEarthError(
+                f"{path} has no first returns to make a surface of. Take all returns instead."
+            )
+
+    def work(
+        self,
+        store: Store,
+        resources: Resources,
+        progress: Progress,
+        is_wanted: Callable[[Block], bool] | None = None,
+    ) -> list[BlockRasters]:
+        """Return the rasters of the blocks, or of those that are wanted."""
+        made = {}
+        if len(store.leaves.counts):
+            # The only block of all need not be looked at for what lies in it.
+            job_of = partial(_job_of, store, self.blocks, self.request.step, is_wanted is None)
+            jobs = over_blocks(store, self.blocks, job_of, resources, progress, is_wanted)
+            for number, result in jobs:
+                made[number] = result
+        return [made[number] for number in sorted(made)]
 
 
-def rasters_of_cloud(
-    cloud: PointCloud,
-    marks: tuple[np.ndarray, ...],
-    request: RasterRequest,
-    resources: Resources = Resources(),
-    progress: Progress = SILENT,
-) -> list[BlockRasters]:
-    """Return the rasters of the blocks of a cloud in memory.
+@dataclass
+class RasterTally(GroundTally):
+    """What was counted in the parts of a file so far; the rest as in `GroundTally`.
 
-    Parameters
+    Attributes
     ----------
-    cloud : PointCloud
-        The points.
-    marks : tuple of numpy.ndarray of bool, shape (n,)
-        What `RasterPoints.of` returns for it.
-    request : RasterRequest
-        What is wanted.
-    resources : Resources
-        Threads and memory.
-    progress : Progress
-        Receives progress.
+    top : int
+        Points of the surface.
     """
-    blocks = request.blocks
-    part = SurveyFile(cloud, *marks)
-    store = MemoryPoints([part], survey_frame(cloud.crs), blocks, progress.part(0.0, 0.1))
-    return rasters_of_store(store, request, resources, progress.part(0.1, 1.0))
 
-
-def rasters_of_store(
-    store: Store,
-    request: RasterRequest,
-    resources: Resources = Resources(),
-    progress: Progress = SILENT,
-    is_wanted: Callable[[Block], bool] | None = None,
-) -> list[BlockRasters]:
-    """Return the rasters of the blocks of a store, in which ground is known and the top wanted."""
-    blocks, step = request.blocks, request.step
-    made = {}
-    if len(store.leaves.counts):
-        # The only block of all need not be looked at for what lies in it.
-        job_of = partial(_job_of, store, blocks, step, is_wanted is None)
-        jobs = over_blocks(store, blocks, job_of, resources, progress, is_wanted)
-        for number, result in jobs:
-            made[number] = result
-    return [made[number] for number in sorted(made)]
+    top: int = 0
 
 
 def _job_of(

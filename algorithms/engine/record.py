@@ -9,7 +9,7 @@ from typing import Any, Iterable
 
 from ..core.errors import BareEarthError
 from ..core.files import replacing
-from .options import as_plain
+from .steps import Step
 from .survey import BlockIndex, Survey
 
 _FOLDER, _LABELS = ".bare-earth", "labels"
@@ -42,13 +42,17 @@ def state_of(path: Path) -> State:
     return [str(path.resolve()), status.st_size, status.st_mtime_ns]
 
 
-def made_of(survey: Survey, tile: Path, sources: Iterable[State], target: Path) -> Record:
-    """Return all that the classification of a tile depends on.
+def made_of(
+    survey: Survey, step: Step, tile: Path, sources: Iterable[State], target: Path
+) -> Record:
+    """Return all that an output depends on.
 
     Parameters
     ----------
     survey : Survey
-        Parameters, frame and blocks.
+        Frame and blocks.
+    step : Step
+        What is made.
     tile : Path
         The input.
     sources : iterable of State
@@ -57,17 +61,19 @@ def made_of(survey: Survey, tile: Path, sources: Iterable[State], target: Path) 
         The output.
     """
     return {
-        **_settings(survey),
+        **_settings(survey, step),
         "input": tile.name,
         "output": target.name,
         "files": list(sources),
     }
 
 
-def label_file(survey: Survey, folder: Path, place: BlockIndex, sources: Iterable[State]) -> Path:
-    """Return where the labels of a block are kept; the name tells all that they depend on."""
+def label_file(
+    survey: Survey, step: Step, folder: Path, place: BlockIndex, sources: Iterable[State]
+) -> Path:
+    """Return where what is found in a block is kept; the name tells all that it depends on."""
     content = {
-        **_settings(survey),
+        **_settings(survey, step),
         "place": list(place),
         "files": list(sources),
     }
@@ -75,16 +81,13 @@ def label_file(survey: Survey, folder: Path, place: BlockIndex, sources: Iterabl
     return folder / f"{place.column}_{place.row}_{digest[:20]}.npz"
 
 
-def _settings(survey: Survey) -> dict[str, Any]:
+def _settings(survey: Survey, step: Step) -> dict[str, Any]:
     from ..core.version import __version__
-    from ..filters import method_of
 
     blocks = survey.blocks
     return {
         "version": __version__,
-        "method": method_of(survey.parameters).name,
-        "parameters": as_plain(survey.parameters),
-        "selection": as_plain(survey.selection),
+        **step.settings(),
         "origin": list(survey.frame.origin),
         "units": [survey.frame.horizontal_unit, survey.frame.vertical_unit],
         "blocks": [blocks.side, blocks.buffer, blocks.most_points],

@@ -13,14 +13,12 @@ from typing import Iterable, Iterator, NamedTuple, Sequence
 
 import numpy as np
 
-from ..core.parameters import ParameterSet
 from ..core.points import Frame
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud, survey_frame
 from ..las.reading import read_cloud
 from ..survey.area import Box
 from ..survey.collection import Collection, Tile
-from ..survey.selection import Selection
 from .blocks import Block, Blocks
 from .ground import memory_of_block
 
@@ -49,18 +47,12 @@ class Survey:
 
     Attributes
     ----------
-    parameters : ParameterSet or None
-        Those of one method; None if nothing is to be classified.
-    selection : Selection
-        Which points take part, and what their classes become.
     frame : Frame
         That of all files: the CRS and its zero.
     blocks : Blocks
         How the survey is cut.
     """
 
-    parameters: ParameterSet | None
-    selection: Selection
     frame: Frame
     blocks: Blocks
 

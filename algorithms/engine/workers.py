@@ -14,8 +14,8 @@ from typing import NamedTuple, Union
 from ..core.errors import Cancelled
 from ..core.files import remove_leftovers
 from ..core.progress import Progress
-from .jobs import BlockJob, JobResult, Share, TileJob, attempt
-from .memory import Resources
+from .jobs import BlockJob, JobResult, TileJob, attempt
+from .memory import GIGABYTE, Resources
 from .record import folders_of
 
 # Seconds that jobs get to stop by themselves when the user cancels.
@@ -58,13 +58,13 @@ class Workers:
     ----------
     at_once : int
         How many jobs they take at the same time.
-    share : Share
+    share : Resources
         What each job may use.
     """
 
     def __init__(self, resources: Resources = Resources()) -> None:
         self.resources = resources
-        self.at_once, self.share = 1, Share(1, 0)
+        self.at_once, self.share = 1, share_of(1, 0)
 
     def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
         """Be ready for jobs.
@@ -82,7 +82,7 @@ class Workers:
         self.at_once = int(max(1, min(threads, memory // max(least, 1), max(blocks, tiles))))
         # Blocks take the time: where there are few, each may use the threads that would be idle.
         together = max(1, min(self.at_once, blocks))
-        self.share = Share(max(1, threads // together), memory // self.at_once)
+        self.share = share_of(max(1, threads // together), memory // self.at_once)
 
     def submit(self, job: Job) -> Running:
         """Begin a job."""
@@ -93,6 +93,11 @@ class Workers:
 
     def stop(self) -> None:
         """End, also jobs that run; of what these were writing nothing is left."""
+
+
+def share_of(threads: int, memory: int) -> Resources:
+    """Return what a job may use, given the bytes."""
+    return Resources(threads=threads, memory=max(memory / GIGABYTE, 0.001))
 
 
 class Threads(Workers):
@@ -134,7 +139,7 @@ class Processes(Workers):
 
     def _open(self) -> None:
         self._pool = ProcessPoolExecutor(
-            self.at_once, self._context, _begin, (self._stop, self.share.threads)
+            self.at_once, self._context, _begin, (self._stop, self.share.thread_count)
         )
 
     def submit(self, job: Job) -> Running:
@@ -192,5 +197,5 @@ def _end_with_parent() -> None:
         os._exit(1)
 
 
-def _in_process(job: Job, share: Share) -> JobResult:
+def _in_process(job: Job, share: Resources) -> JobResult:
     return attempt(job, share, JobProgress(_stop_of_process or threading.Event()))

@@ -80,7 +80,8 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
     ) -> dict[str, Any]:
         """Classify the file."""
         # Not at the start of QGIS.
-        from ...algorithms.engine.classification import classify_file
+        from ...algorithms.engine.one_file import classify_file
+        from ...algorithms.engine.requests import ClassifyRequest
 
         chosen = self.chosen(parameters, context)
         output = self.point_cloud_destination(parameters, "OUTPUT", context)
@@ -88,12 +89,8 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         options = {"method": self.method, **paths}
         command = command_line("classify", [str(self._source), output], chosen, options)
         progress.command(" ".join([command, *self._area_options(progress)]))
-        files = raster_files(paths)
-        rasters = files.dtm, files.hillshade
-        *policy, wanted, resources = chosen
-        summary = classify_file(
-            self._source, Path(output), *policy, *rasters, progress, self._area, resources, wanted
-        )
+        request = ClassifyRequest.of(chosen, rasters=raster_files(paths), area=self._area)
+        summary = classify_file(self._source, Path(output), request, progress)
         ground, count = summary.area_ground_count, summary.area_count
         place = " in the area" if self._area else ""
         progress.info(f"{ground:,} of {count:,} points{place} are ground ({ground / count:.1%}).")

@@ -10,7 +10,6 @@ from qgis.core import QgsProcessingParameterFolderDestination as Folder
 
 from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.options import TileInput, TileMethod, TileOutput
-from ...algorithms.engine.rasters import RasterRequest
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
 from .. import compat
@@ -60,20 +59,19 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
 
     def compute(self, parameters, context, progress):
         """Classify the files."""
-        from ...algorithms.engine.tiles import VPC_NAME, classify_tiles
-        from ...algorithms.engine.workers import Threads
+        from ...algorithms.engine.many_files import classify_files
+        from ...algorithms.engine.requests import ClassifyRequest
 
-        method, *policy, terrain, resources = chosen = self.chosen(parameters, context)
+        chosen = self.chosen(parameters, context)
         sources = clouds_of(self, parameters, context)
         folder = Path(self.parameterAsFileOutput(parameters, "OUTPUT_FOLDER", context))
-        vpc = self.parameterAsFileOutput(parameters, "OUTPUT_VPC", context) or folder / VPC_NAME
+        vpc = self.parameterAsFileOutput(parameters, "OUTPUT_VPC", context)
         paths = raster_paths(self, parameters, context)
-        words, options = [*map(str, sources), str(folder)], {"VPC": str(vpc), **paths}
+        words, options = [*map(str, sources), str(folder)], {"VPC": vpc, **paths}
         progress.command(command_line("classify-tiles", words, chosen, options))
-        given = (sources, folder, method.parameters, *policy, Path(vpc), progress)
-        rasters = RasterRequest(raster_files(paths), terrain)
-        summary = classify_tiles(*given, Threads(resources), rasters=rasters)
+        request = ClassifyRequest.of(chosen, rasters=raster_files(paths))
+        summary = classify_files(sources, folder, request, progress, vpc=vpc or None)
         progress.info(f"{summary.text}.")
-        compat.load_virtual_point_cloud(str(vpc), "Classified", context)
+        compat.load_virtual_point_cloud(summary.vpc, "Classified", context)
         results = {name: getattr(summary, name.lower()) for name in _NUMBERS}
-        return {"OUTPUT_FOLDER": str(folder), "OUTPUT_VPC": str(vpc), **paths, **results}
+        return {"OUTPUT_FOLDER": str(folder), "OUTPUT_VPC": summary.vpc, **paths, **results}

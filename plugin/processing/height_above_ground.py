@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ...algorithms.engine.products import GroundClasses, HeightOutput, write_height_above_ground
+from ...algorithms.engine.heights import HeightOutput
+from ...algorithms.engine.memory import Resources
+from ...algorithms.survey.ground_classes import GroundClasses
 from .base import command_line
 from .products import ProductAlgorithm
 
@@ -36,15 +38,18 @@ class HeightAboveGroundAlgorithm(ProductAlgorithm):
     )
 
     def parameter_sets(self):
-        """Return the ground classes and where the heights go."""
-        return GroundClasses, HeightOutput
+        """Return the ground classes, where the heights go, and what may be used."""
+        return GroundClasses, HeightOutput, Resources
 
     def compute(self, parameters, context, progress):
         """Write the heights."""
+        from ...algorithms.engine.requests import HeightRequest
+        from ...algorithms.engine.runs import heights
+
         chosen = self.chosen(parameters, context)
         output = self.cloud_output(parameters, context, progress)
         progress.command(command_line("height", [str(self.source), output], chosen, {}))
-        summary = write_height_above_ground(self.source, Path(output), *chosen, progress=progress)
+        summary = heights(self.source, Path(output), HeightRequest.of(chosen), progress)
         progress.info(
             f"Heights above ground are {summary.minimum:.2f} to {summary.maximum:.2f}"
             f" {summary.unit}."

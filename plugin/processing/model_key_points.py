@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ...algorithms.engine.products import GroundClasses, KeyPointMark, write_key_points
+from ...algorithms.engine.key_points import KeyPointMark
+from ...algorithms.engine.memory import Resources
 from ...algorithms.grids.model_key_points import ModelKeyPoints
+from ...algorithms.survey.ground_classes import GroundClasses
 from .base import command_line
 from .outputs import ClassStyle, style
 from .products import ProductAlgorithm
@@ -36,15 +38,18 @@ class ModelKeyPointsAlgorithm(ProductAlgorithm):
     )
 
     def parameter_sets(self):
-        """Return tolerances, ground classes, and how the points are marked."""
-        return ModelKeyPoints, GroundClasses, KeyPointMark
+        """Return tolerances, ground classes, how points are marked, and what may be used."""
+        return ModelKeyPoints, GroundClasses, KeyPointMark, Resources
 
     def compute(self, parameters, context, progress):
         """Find and mark them."""
+        from ...algorithms.engine.requests import KeyPointRequest
+        from ...algorithms.engine.runs import key_points
+
         chosen = self.chosen(parameters, context)
         output = self.cloud_output(parameters, context, progress)
         progress.command(command_line("key-points", [str(self.source), output], chosen, {}))
-        summary = write_key_points(self.source, Path(output), *chosen, progress)
+        summary = key_points(self.source, Path(output), KeyPointRequest.of(chosen), progress)
         progress.info(
             f"{summary.key_point_count:,} of {summary.ground_count:,} ground points are key points"
             f" ({summary.key_point_count / summary.ground_count:.1%})."

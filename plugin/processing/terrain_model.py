@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from ...algorithms.core.errors import BareEarthError
 from ...algorithms.engine.memory import Resources
-from ...algorithms.engine.products import GroundClasses, write_terrain_models
 from ...algorithms.products.surface_model import SurfaceModel
 from ...algorithms.products.terrain_model import TerrainModel
+from ...algorithms.survey.ground_classes import GroundClasses
 from .base import command_line
 from .outputs import add_rasters, raster_files, raster_paths
 from .products import ProductAlgorithm
@@ -41,12 +41,15 @@ class TerrainModelAlgorithm(ProductAlgorithm):
 
     def compute(self, parameters, context, progress):
         """Make those that are wanted."""
+        from ...algorithms.engine.requests import TerrainRequest
+        from ...algorithms.engine.runs import terrain
+
         chosen = self.chosen(parameters, context)
         paths = raster_paths(self, parameters, context)
         if not paths:
             raise BareEarthError("Choose at least one raster to make.")
         progress.command(command_line("terrain", [str(self.source)], chosen, paths))
-        files = raster_files(paths)
-        summary = write_terrain_models(self.source, files, *chosen, progress=progress)
+        request = TerrainRequest.of(chosen, rasters=raster_files(paths))
+        summary = terrain(self.source, request, progress)
         progress.info(f"The rasters have {summary.columns:,} x {summary.rows:,} cells.")
         return {**paths, **self.numbers_of(summary)}

@@ -8,7 +8,7 @@ import signal
 import laspy
 import numpy as np
 
-from bare_earth.algorithms.engine.jobs import ClassJob
+from bare_earth.algorithms.engine.jobs import TileJob
 
 SCALE = (0.01, 0.01, 0.01)
 ORIGIN = (500_000.0, 5_700_000.0, 0.0)
@@ -75,7 +75,7 @@ def bytes_of(folder):
     return {path.name: path.read_bytes() for path in finished(folder)}
 
 
-class DeadlyJob(ClassJob):
+class DeadlyJob(TileJob):
     """Kills the process that works on it, if it is that of one tile."""
 
     def run(self, share, progress):

@@ -9,7 +9,7 @@ from realdata import real
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.crs.system import Crs
-from bare_earth.algorithms.engine.classification import classify
+from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
 from bare_earth.algorithms.filters.shared.bridges import bridge_decks
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
@@ -183,9 +183,9 @@ def cloud_of(points, classes=1, point_format=6):
 def test_a_bridge_is_other_or_of_the_class_that_is_wanted(parameters, las):
     points, deck = SCENES["underpass"]
     cloud, heard = cloud_of(points), las.Heard()
-    kept, _ = classify(cloud, parameters, Selection(bridges="keep"))
-    other, _ = classify(cloud, parameters, progress=heard)
-    marked, _ = classify(cloud, parameters, Selection(bridge_class=17))
+    kept, _ = classify_cloud(cloud, parameters, Selection(bridges="keep"))
+    other, _ = classify_cloud(cloud, parameters, progress=heard)
+    marked, _ = classify_cloud(cloud, parameters, Selection(bridge_class=17))
     assert np.mean(kept[deck] == 2) > 0.5
     assert np.mean(other[deck] == 2) < 0.15
     assert set(np.unique(other)) == {1, 2}
@@ -204,7 +204,7 @@ def test_a_classic_preset_knows_no_bridges_unless_told_to_find_them(parameters):
     points, deck = SCENES["underpass"]
     cloud = cloud_of(points)
     kept, usual, found = (
-        classify(cloud, parameters, selection)[0] == 2
+        classify_cloud(cloud, parameters, selection)[0] == 2
         for selection in (Selection(bridges="keep"), Selection(), Selection(bridges="find"))
     )
     assert np.array_equal(usual, kept)
@@ -219,7 +219,7 @@ def test_known_ground_and_low_outliers_stay_what_they_are():
     classes = np.where(deck, 8, 1).astype(np.uint8)
     cloud = cloud_of(Points(points.x, points.y, z), classes)
     selection = Selection(seed_classes=(8,), low_noise_class=True, bridge_class=17)
-    found, _ = classify(cloud, TinDensification(), selection)
+    found, _ = classify_cloud(cloud, TinDensification(), selection)
     assert (found[deck] == 2).all()
     assert (found[low] == 7).all()
 
@@ -227,7 +227,7 @@ def test_known_ground_and_low_outliers_stay_what_they_are():
 def test_a_class_that_the_points_cannot_hold_is_refused():
     points, _ = SCENES["underpass"]
     with pytest.raises(BareEarthError, match="bridges"):
-        classify(cloud_of(points, point_format=0), SlopeFilter(), Selection(bridge_class=64))
+        classify_cloud(cloud_of(points, point_format=0), SlopeFilter(), Selection(bridge_class=64))
 
 
 @pytest.mark.parametrize("parameters", [TinDensification(), GridMinimum(), SlopeFilter()])
@@ -235,7 +235,7 @@ def test_the_bridges_of_a_real_survey_are_not_ground(parameters):
     cloud = read_cloud(real("real/ign_bridge.laz"))
     deck, ground = cloud.classification == 17, cloud.classification == 2
     cloud.classification[:] = 0
-    found, _ = classify(cloud, parameters, Selection(bridge_class=17))
+    found, _ = classify_cloud(cloud, parameters, Selection(bridge_class=17))
     # 24.5 to 25.5 % by method.
     assert np.mean(found[deck] == 2) <= 0.26
     assert np.count_nonzero(found[ground] == 17) < 20

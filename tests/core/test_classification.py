@@ -4,13 +4,14 @@ from pathlib import Path
 import laspy
 import numpy as np
 import pytest
+from runs import classify_file
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.crs.system import Crs
-from bare_earth.algorithms.engine import classification, cloudstore, ground
-from bare_earth.algorithms.engine.classification import classify, classify_file
+from bare_earth.algorithms.engine import file_points, ground, labelling, memory_points
+from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
 from bare_earth.algorithms.filters.shared.below_ground import below_ground
@@ -59,9 +60,9 @@ def long_scene():
 @pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
 def test_in_an_area_the_result_is_that_of_the_whole_survey(parameters, long_scene):
     cloud = cloud_of(long_scene, classes=6)
-    whole, _ = classify(cloud, parameters)
+    whole, _ = classify_cloud(cloud, parameters)
     area = box(220, 5, 260, 35)
-    found, selected = classify(cloud, parameters, area=area)
+    found, selected = classify_cloud(cloud, parameters, area=area)
     inside = area.of(cloud)
     assert 1000 < inside.sum() < 5000 and 0.2 < (whole[inside] == 2).mean() < 0.95
     assert np.array_equal(found[inside], whole[inside])
@@ -80,9 +81,9 @@ def test_however_many_points_are_looked_at_together_the_result_is_the_same(
     results = []
     for most in (1 << 19, 700):
         monkeypatch.setattr(cloud_module, "_PART", most)
-        monkeypatch.setattr(cloudstore, "_CHOSEN", most)
+        monkeypatch.setattr(memory_points, "_CHOSEN", most)
         heard = las.Heard()
-        found = classify(cloud, TinDensification(), selection, heard, box(20, 5, 400, 35))
+        found = classify_cloud(cloud, TinDensification(), selection, heard, box(20, 5, 400, 35))
         assert heard.fractions == sorted(heard.fractions)
         results.append((*found, heard.infos, heard.warnings))
         steps = len(heard.fractions)
@@ -100,7 +101,7 @@ def watched(monkeypatch, result=None, takes_known_ground=False):
         return np.zeros(points.count, bool) if result is None else result(points)
 
     method = METHODS["slope"]._replace(classify=watch, takes_known_ground=takes_known_ground)
-    for module in (classification, ground):
+    for module in (labelling, ground):
         monkeypatch.setattr(module, "method_of", lambda parameters: method)
     return given
 
@@ -108,12 +109,12 @@ def watched(monkeypatch, result=None, takes_known_ground=False):
 @pytest.mark.parametrize("unit", [1.0, FOOT])
 def test_the_method_sees_what_lies_near_the_area_and_no_more(unit, long_scene, monkeypatch):
     given, cloud = watched(monkeypatch), cloud_of(long_scene, unit=unit)
-    classify(cloud, SlopeFilter(max_building_size=40.0), area=box(220, 5, 260, 35, unit))
+    classify_cloud(cloud, SlopeFilter(max_building_size=40.0), area=box(220, 5, 260, 35, unit))
     assert np.ptp(given["points"].x) == pytest.approx(240, abs=0.5)
     # Metres from the corner of the block.
     assert given["points"].x.min() == pytest.approx(EAST * unit % 2000 + 120, abs=0.5)
     # More where a parameter is larger.
-    classify(cloud, SlopeFilter(max_building_size=100.0), area=box(220, 5, 260, 35, unit))
+    classify_cloud(cloud, SlopeFilter(max_building_size=100.0), area=box(220, 5, 260, 35, unit))
     assert np.ptp(given["points"].x) == pytest.approx(440, abs=0.5)
 
 
@@ -122,7 +123,7 @@ def test_outside_an_area_even_old_ground_and_class_0_stay(scene):
     classes = np.arange(points.count, dtype=np.uint8) % 3
     cloud, area = cloud_of(points, classes), box(20, 20, 50, 60)
     for others in ("keep", "unclassified"):
-        found, _ = classify(cloud, SlopeFilter(), Selection(others=others), area=area)
+        found, _ = classify_cloud(cloud, SlopeFilter(), Selection(others=others), area=area)
         inside = area.of(cloud)
         assert np.array_equal(found[~inside], classes[~inside])
         assert set(np.unique(found[inside])) == {1, 2}
@@ -132,14 +133,14 @@ def test_a_polygon_limits_too(scene):
     points, _ = scene
     cloud = cloud_of(points, 5)
     corners = np.array([(EAST, NORTH), (EAST + 60, NORTH), (EAST, NORTH + 60)])
-    found, _ = classify(cloud, SlopeFilter(), area=Area(polygons=((corners,),)))
+    found, _ = classify_cloud(cloud, SlopeFilter(), area=Area(polygons=((corners,),)))
     changed = found != 5
     assert changed.any() and (points.x + points.y)[changed].max() <= 60.01
 
 
 def test_an_area_without_points_is_told_with_both_extents(scene):
     with pytest.raises(BareEarthError) as caught:
-        classify(cloud_of(scene[0]), SlopeFilter(), area=Area((9.0, 50.0, 9.1, 50.1)))
+        classify_cloud(cloud_of(scene[0]), SlopeFilter(), area=Area((9.0, 50.0, 9.1, 50.1)))
     text = str(caught.value)
     assert "\n" not in text and "in.las lies in the area (x 9 to 9.1, y 50 to 50.1)" in text
     assert "the points have x 500000" in text and "CRS of the points" in text
@@ -149,7 +150,7 @@ def test_an_area_where_nothing_takes_part_is_told(scene):
     points, _ = scene
     classes = np.where(points.x < 40, 9, 1).astype(np.uint8)
     with pytest.raises(BareEarthError, match=r"None of the [\d,]+ points in the area takes part"):
-        classify(
+        classify_cloud(
             cloud_of(points, classes), SlopeFilter(), Selection(from_classes=(1,)),
             area=box(0, 0, 30, 80),
         )  # fmt: skip
@@ -158,7 +159,7 @@ def test_an_area_where_nothing_takes_part_is_told(scene):
 def test_geographic_coordinates_are_told_before_an_area_without_points(scene):
     cloud = cloud_of(scene[0], crs=Crs(is_geographic=True))
     with pytest.raises(BareEarthError, match="not in a projected CRS"):
-        classify(cloud, SlopeFilter(), area=Area((0, 0, 1, 1)))
+        classify_cloud(cloud, SlopeFilter(), area=Area((0, 0, 1, 1)))
 
 
 # Known ground
@@ -169,7 +170,7 @@ def test_known_ground_stays_ground_whatever_the_method_finds(scene, monkeypatch,
     classes = np.ones(scene[0].count, np.uint8)
     classes[::7], classes[::9] = 8, 5
     cloud, selection = cloud_of(scene[0], classes), Selection(seed_classes=(8,))
-    found, _ = classify(cloud, SlopeFilter(), selection, heard)
+    found, _ = classify_cloud(cloud, SlopeFilter(), selection, heard)
     assert np.array_equal(found == 2, classes == 8)
     assert (found[classes == 5] == 5).all()
     assert "known_ground" not in given
@@ -184,14 +185,14 @@ def test_a_method_that_takes_known_ground_gets_it(scene, monkeypatch, las):
     classes[::7], classes[::9] = 2, 9
     cloud = cloud_of(scene[0], classes)
     # Of class 9, which takes no part, nothing is given.
-    found, selected = classify(
+    found, selected = classify_cloud(
         cloud, SlopeFilter(), Selection(from_classes=(1,), seed_classes=(2,)), heard
     )
     assert np.array_equal(given["known_ground"], classes[selected] == 2)
     assert given["points"].count == np.count_nonzero(selected) == np.count_nonzero(classes < 9)
     assert np.array_equal(found, np.where(classes == 1, 1, classes))
     assert not any("does not start" in each for each in heard.infos)
-    classify(cloud, SlopeFilter(), Selection(from_classes=(1,)))
+    classify_cloud(cloud, SlopeFilter(), Selection(from_classes=(1,)))
     assert given["points"].count == np.count_nonzero(classes == 1)
 
 
@@ -199,14 +200,16 @@ def test_known_ground_is_context_outside_the_area_and_counts_there_only(scene, m
     given = watched(monkeypatch, takes_known_ground=True)
     classes = np.where(scene[0].x < 40, 2, 1).astype(np.uint8)
     cloud = cloud_of(scene[0], classes)
-    found, _ = classify(cloud, SlopeFilter(), Selection(seed_classes=(2,)), area=box(50, 0, 80, 80))
+    found, _ = classify_cloud(
+        cloud, SlopeFilter(), Selection(seed_classes=(2,)), area=box(50, 0, 80, 80)
+    )
     assert np.count_nonzero(given["known_ground"]) == np.count_nonzero(classes == 2)
     assert np.array_equal(found, classes)
 
 
 def test_without_known_ground_there_is_a_warning(scene, las):
     heard = las.Heard()
-    classify(cloud_of(scene[0]), SlopeFilter(), Selection(seed_classes=(2, 8)), heard)
+    classify_cloud(cloud_of(scene[0]), SlopeFilter(), Selection(seed_classes=(2, 8)), heard)
     assert heard.warnings == ["There are no points of known ground (class 2, 8)."]
 
 
@@ -216,7 +219,7 @@ def test_every_method_keeps_known_ground(parameters, scene):
     # Of the roofs, too, though no method would take them.
     classes = np.where(np.random.default_rng(1).random(points.count) < 0.02, 2, 1).astype(np.uint8)
     assert (~truth)[classes == 2].sum() > 20
-    found, _ = classify(cloud_of(points, classes), parameters, Selection(seed_classes=(2,)))
+    found, _ = classify_cloud(cloud_of(points, classes), parameters, Selection(seed_classes=(2,)))
     assert (found[classes == 2] == 2).all()
 
 
@@ -233,13 +236,15 @@ def test_low_outliers_go_to_class_7_where_wanted(parameters, scene, las):
     low = is_low(points)
     assert low.sum() == 6 and not truth[low].any()
     cloud, heard = cloud_of(points), las.Heard()
-    plain, _ = classify(cloud, parameters)
+    plain, _ = classify_cloud(cloud, parameters)
     assert (plain[low] == 1).all()
-    found, _ = classify(cloud, parameters, Selection(low_noise_class=True), heard)
+    found, _ = classify_cloud(cloud, parameters, Selection(low_noise_class=True), heard)
     assert (found[low] == 7).all() and (found == 7).sum() <= 8
     assert np.array_equal(found == 2, plain == 2)
     assert any("lie more than 1 m below the ground" in each for each in heard.infos)
-    deep, _ = classify(cloud, parameters, Selection(low_noise_class=True, low_noise_depth=100))
+    deep, _ = classify_cloud(
+        cloud, parameters, Selection(low_noise_class=True, low_noise_depth=100)
+    )
     assert np.array_equal(deep, plain)
 
 
@@ -250,7 +255,7 @@ def test_low_outliers_outside_the_area_or_of_other_classes_stay(scene):
     classes[np.flatnonzero(low)[:2]] = 9
     selection = Selection(low_noise_class=True, from_classes=(1,))
     cloud, area = cloud_of(points, classes), box(0, 0, 80, 45)
-    found, _ = classify(cloud, SlopeFilter(), selection, area=area)
+    found, _ = classify_cloud(cloud, SlopeFilter(), selection, area=area)
     expected = low & (classes == 1) & area.of(cloud)
     assert np.array_equal(found == 7, expected) and 0 < expected.sum() < 4
 
@@ -324,7 +329,7 @@ def test_the_file_is_the_same_whether_its_records_are_kept_or_read_again(
     selection = Selection(returns="all", from_classes=tuple(range(32)))
     written = []
     for longest in (0, 48):
-        monkeypatch.setattr(classification, "_LONGEST_KEPT", longest)
+        monkeypatch.setattr(file_points, "_LONGEST_KEPT", longest)
         classify_file(source, tmp_path / target, SlopeFilter(), selection)
         written.append((tmp_path / target).read_bytes())
     assert written[0] == written[1]

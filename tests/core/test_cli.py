@@ -10,7 +10,7 @@ import pytest
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.core.parameters import ParameterSet
-from bare_earth.algorithms.engine import classification
+from bare_earth.algorithms.engine import one_file
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.products.terrain_model import TerrainModel
 from bare_earth.algorithms.survey.selection import Selection
@@ -164,7 +164,7 @@ def failing(monkeypatch, error):
     def fail(*_, **__):
         raise error
 
-    monkeypatch.setattr(classification, "classify_file", fail)
+    monkeypatch.setattr(one_file, "classify_file", fail)
 
 
 @pytest.mark.parametrize(
@@ -264,11 +264,11 @@ def test_an_empty_parameter_is_not_used_or_automatic_as_its_help_says(capsys):
 def heard_by_classify(monkeypatch):
     calls = []
 
-    def classify_file(*values, **named):
-        calls.append((values, named))
-        return classification.Summary(1, 1, 1, 1, 1, {2: 1})
+    def classify_file(source, target, request, progress):
+        calls.append(request)
+        return one_file.Summary(1, 1, 1, 1, 1, {2: 1})
 
-    monkeypatch.setattr(classification, "classify_file", classify_file)
+    monkeypatch.setattr(one_file, "classify_file", classify_file)
     return calls
 
 
@@ -292,7 +292,7 @@ def test_each_parameter_reaches_the_classifier(method, declared, each, monkeypat
         kind(**{each.name: value}) if kind is declared else kind()
         for kind in (method.parameters, Selection, TerrainModel)
     ]
-    (_, _, *chosen), _ = calls[0]
+    chosen = [calls[0].parameters, calls[0].selection, calls[0].terrain]
     assert chosen == expected
     assert all(isinstance(one, ParameterSet) for one in chosen)
 
@@ -301,7 +301,7 @@ def test_each_parameter_reaches_the_classifier(method, declared, each, monkeypat
 def test_a_parameter_can_be_left_empty(word, monkeypatch):
     calls = heard_by_classify(monkeypatch)
     assert run("classify", "in.las", "out.las", "--stop-edge", word) == 0
-    assert calls[0][0][2].stop_edge is None
+    assert calls[0].parameters.stop_edge is None
 
 
 def test_rasters_and_area_reach_the_classifier(monkeypatch, tmp_path):
@@ -310,11 +310,11 @@ def test_rasters_and_area_reach_the_classifier(monkeypatch, tmp_path):
     boundary.write_text("POLYGON ((0 0, 5 0, 5 5))")
     words = "classify in.las out.las --dtm a.tif --hillshade b.tif --extent -1.5 -2 3 4e0"
     assert run(*words.split(), "--boundary", boundary) == 0
-    named = calls[0][1]
-    assert str(named["dtm"]) == "a.tif" and str(named["hillshade"]) == "b.tif"
-    assert named["area"].box == (-1.5, -2.0, 3.0, 4.0) and len(named["area"].polygons) == 1
+    rasters, area = calls[0].rasters, calls[0].area
+    assert str(rasters.dtm) == "a.tif" and str(rasters.hillshade) == "b.tif"
+    assert area.box == (-1.5, -2.0, 3.0, 4.0) and len(area.polygons) == 1
     assert run("classify", "in.las", "out.las") == 0
-    assert calls[1][1]["area"] is None
+    assert calls[1].area is None
 
 
 # What comes out

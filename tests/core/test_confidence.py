@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.engine.classification import classify
+from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.shared.confidence import Weights, confidence
 from benchmarks.confidence import Seen, compared, fitted, reliability
@@ -35,7 +35,7 @@ def test_it_is_right_as_often_as_it_says(method):
     seen = []
     for kind in ("village", "open_forest"):
         scene = make(kind, seed=7, size=110.0)
-        classes, takes_part = classify(scene.cloud(), METHODS[method].parameters())
+        classes, takes_part = classify_cloud(scene.cloud(), METHODS[method].parameters())
         points, ground = scene.points.take(takes_part), classes[takes_part] == 2
         seen.append(compared(points, ground, scene.terrain))
     bins = [each for each in reliability(seen) if each.share > 0]

@@ -13,12 +13,12 @@ import lazrs
 import numpy as np
 import pytest
 import surveys
+from runs import classify_file
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.crs.provider import to_wgs84
 from bare_earth.algorithms.crs.system import crs_of_wkt
-from bare_earth.algorithms.engine.classification import classify_file
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 from bare_earth.algorithms.las.edits import Edits

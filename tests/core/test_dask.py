@@ -7,6 +7,7 @@ import time
 from pathlib import Path
 
 import pytest
+from runs import classify_tiles
 from surveys import bytes_of, cut, strip
 
 from bare_earth.algorithms.cli import main
@@ -14,10 +15,9 @@ from bare_earth.algorithms.core import version
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine import cluster as cluster_module
-from bare_earth.algorithms.engine import tiles as tiles_module
+from bare_earth.algorithms.engine import many_files as many_files_module
 from bare_earth.algorithms.engine.cluster import Cluster
 from bare_earth.algorithms.engine.options import TileOutput
-from bare_earth.algorithms.engine.tiles import classify_tiles
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 
 pytest.importorskip("distributed")
@@ -34,7 +34,7 @@ def free_port():
 def dask(tmp_path_factory):
     """A scheduler and two workers, each a process: the address, the workers, the scheduler."""
     folder = tmp_path_factory.mktemp("dask")
-    parent = str(Path(tiles_module.__file__).parents[2])
+    parent = str(Path(many_files_module.__file__).parents[2])
     path = os.pathsep.join([parent, os.environ.get("PYTHONPATH", "")])
     address = f"tcp://127.0.0.1:{free_port()}"
     started = []

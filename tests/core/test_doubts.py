@@ -7,9 +7,9 @@ import pytest
 
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.engine.blocks import Blocks
-from bare_earth.algorithms.engine.classification import classify
 from bare_earth.algorithms.engine.ground import label_ground
 from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
+from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
@@ -38,7 +38,7 @@ def land(width, depth, outliers=0.0, density=2.0, seed=4):
 
 def warnings_of(cloud, parameters, las):
     heard = las.Heard()
-    classify(cloud, parameters, progress=heard)
+    classify_cloud(cloud, parameters, progress=heard)
     return heard.warnings
 
 

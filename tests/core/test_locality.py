@@ -5,12 +5,12 @@ import dataclasses
 import numpy as np
 import pytest
 from realdata import real
+from runs import classify_tiles
 from surveys import cut, finished, points_of, strip, write
 
-from bare_earth.algorithms.engine.classification import classify
 from bare_earth.algorithms.engine.ground import blocks_of, label_ground
 from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
-from bare_earth.algorithms.engine.tiles import classify_tiles
+from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.filters import METHODS, method_of
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
@@ -59,11 +59,11 @@ def crops(cloud):
 
 @pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
 def test_what_is_cut_off_changes_nothing_farther_away_than_the_filter_looks(parameters, wide):
-    whole, _ = classify(wide, parameters)
+    whole, _ = classify_cloud(wide, parameters)
     assert 0.3 < np.mean(whole == 2) < 0.98
     reach = method_of(parameters).reach(parameters)
     for left, distance in crops(wide):
-        found, _ = classify(some(wide, left), parameters)
+        found, _ = classify_cloud(some(wide, left), parameters)
         far = distance > reach
         assert np.array_equal(found[far], whole[left][far])
         assert np.mean(found != whole[left]) < 0.01
@@ -75,14 +75,14 @@ def test_crops_and_stray_points_of_real_surveys_change_nothing_far_away(paramete
     cloud = read_cloud(real(name))
     if cloud.count > 500_000:  # half of them are quicker
         cloud = some(cloud, slice(None, None, 2))
-    whole, _ = classify(cloud, parameters)
+    whole, _ = classify_cloud(cloud, parameters)
     reach = method_of(parameters).reach(parameters)
     for left, distance in crops(cloud):
-        found, _ = classify(some(cloud, left), parameters)
+        found, _ = classify_cloud(some(cloud, left), parameters)
         far = distance > reach
         assert np.array_equal(found[far], whole[left][far])
     for stray in ((-400.0, 50.0, 0.0), (700.0, 600.0, 40.0), (-5000.0, 0.0, -30.0)):
-        found, _ = classify(with_stray(cloud, *stray), parameters)
+        found, _ = classify_cloud(with_stray(cloud, *stray), parameters)
         assert np.array_equal(found[:-1], whole)
 
 

@@ -9,15 +9,15 @@ import laspy
 import numpy as np
 import pytest
 from realdata import real
+from runs import classify_file, write_height_above_ground
 
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.core.progress import Progress
-from bare_earth.algorithms.engine import classification, spill, streaming
+from bare_earth.algorithms.engine import disk_points, file_points, labelling
 from bare_earth.algorithms.engine.blocks import Blocks
-from bare_earth.algorithms.engine.classification import classify_file
+from bare_earth.algorithms.engine.heights import HeightOutput
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.output import Output
-from bare_earth.algorithms.engine.products import HeightOutput, write_height_above_ground
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
@@ -38,17 +38,16 @@ EAST, NORTH = 500_000.0, 5_700_000.0
 @pytest.fixture(autouse=True)
 def hungry(monkeypatch):
     """Make a few hundred points too many for the least memory that can be given."""
-    monkeypatch.setattr(streaming, "_BYTES_A_POINT_KEPT", 3000)
+    monkeypatch.setattr(file_points, "_BYTES_A_POINT_KEPT", 3000)
 
 
 @pytest.fixture
 def small(monkeypatch):
     """Make parts and blocks small, so that a small file has many."""
     monkeypatch.setattr(reading, "_CHUNK", 1700)
-    monkeypatch.setattr(spill, "_GAP", 50)
-    for module in (classification, streaming):
-        blocks = Blocks(80.0, 30.0, most_points=2500)
-        monkeypatch.setattr(module, "blocks_of", lambda parameters, blocks=blocks: blocks)
+    monkeypatch.setattr(disk_points, "_GAP", 50)
+    blocks = Blocks(80.0, 30.0, most_points=2500)
+    monkeypatch.setattr(labelling, "blocks_of", lambda parameters: blocks)
 
 
 def write(path, count=9000, east=EAST, stray=(), seed=3, shape=(160.0, 90.0), first=0.0):
@@ -188,7 +187,7 @@ def test_a_full_disk_is_told_in_a_sentence(tmp_path, monkeypatch):
         def __exit__(self, *exception):
             return None
 
-    monkeypatch.setattr(spill.tempfile, "TemporaryFile", lambda dir: Full())
+    monkeypatch.setattr(disk_points.tempfile, "TemporaryFile", lambda dir: Full())
     with pytest.raises(BareEarthError, match=r"Cannot write .*out\.laz: the disk is full"):
         run(write(tmp_path / "in.las", 500), tmp_path / "out", SlopeFilter(), LITTLE)
 
@@ -247,17 +246,17 @@ sys.exit(cli.main(sys.argv[1:]))
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows ends a process without telling it")
-@pytest.mark.parametrize("module", ["ground", "streaming"])
+@pytest.mark.parametrize("module", ["ground", "labelling"])
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
 def test_a_killed_run_leaves_nothing_beside_the_output(module, number, tmp_path):
     # In the middle of the blocks, and when they are about to begin.
     name = "_labels" if module == "ground" else "label_ground"
     wait = "import time; [time.sleep(0.1) or arguments[-1](0.5) for _ in range(300)]"
-    if module == "streaming":
+    if module == "labelling":
         wait = "import time; time.sleep(30)"
     source, out = write(tmp_path / "in.las", 9000), tmp_path / "out"
     out.mkdir()
-    root = Path(classification.__file__).parents[2]
+    root = Path(labelling.__file__).parents[2]
     process = subprocess.Popen(
         [
             sys.executable, "-c", _RUN.format(module=module, name=name, wait=wait), "classify",

@@ -5,12 +5,11 @@ import struct
 import laspy
 import numpy as np
 import pytest
+from runs import classify_file, write_height_above_ground
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
-from bare_earth.algorithms.engine.classification import classify_file
 from bare_earth.algorithms.engine.output import HEIGHT_DIMENSION, Output
-from bare_earth.algorithms.engine.products import write_height_above_ground
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
 from bare_earth.algorithms.las.edits import Edits
 from bare_earth.algorithms.las.extrabytes import ExtraDimension

@@ -6,6 +6,7 @@ import os
 import laspy
 import numpy as np
 import pytest
+from runs import write_height_above_ground, write_key_points, write_terrain_models
 from surveys import cut, strip
 from surveys import write as write_strip
 
@@ -13,19 +14,14 @@ from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine import rasters
-from bare_earth.algorithms.engine.products import (
-    GroundClasses,
-    HeightOutput,
-    KeyPointMark,
-    write_height_above_ground,
-    write_key_points,
-    write_terrain_models,
-)
+from bare_earth.algorithms.engine.heights import HeightOutput
+from bare_earth.algorithms.engine.key_points import KeyPointMark
 from bare_earth.algorithms.engine.rasters import RasterFiles
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.products.surface_model import SurfaceModel, canopy_height
 from bare_earth.algorithms.products.terrain_model import TerrainModel
+from bare_earth.algorithms.survey.ground_classes import GroundClasses
 
 FEET_WKT = (
     'PROJCS["feet",GEOGCS["g",DATUM["d",SPHEROID["s",6378137,298.257]],PRIMEM["Greenwich",0],'
@@ -448,7 +444,7 @@ def test_heights_of_many_files_are_those_of_one(tmp_path, as_z):
     assert main(["height", str(tmp_path / "one.laz"), str(tmp_path / "h.laz"), *words]) == 0
     assert main(["height", str(tmp_path / "many"), str(tmp_path / "out"), *words]) == 0
     names = sorted(os.listdir(tmp_path / "out"))
-    assert names == [*(f"{n}.laz" for n in range(8)), "heights.vpc"]
+    assert names == [".bare-earth", *(f"{n}.laz" for n in range(8)), "heights.vpc"]
 
     def heights(paths):
         rows = []

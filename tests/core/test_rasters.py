@@ -7,23 +7,22 @@ import os
 import laspy
 import numpy as np
 import pytest
+from runs import classify_file, classify_tiles, write_terrain_models
 from surveys import cut, strip, write
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.core.progress import Progress
+from bare_earth.algorithms.core.progress import SILENT, Progress
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.engine import blocks as blocks_module
-from bare_earth.algorithms.engine.classification import classify_file
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.engine.products import write_terrain_models
+from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
 from bare_earth.algorithms.engine.rasters import (
+    MakeRasters,
     RasterFiles,
     RasterRequest,
-    rasters_of_cloud,
     write_rasters,
 )
-from bare_earth.algorithms.engine.tiles import classify_tiles
 from bare_earth.algorithms.engine.workers import Processes, Threads
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 from bare_earth.algorithms.grids.tin import Tin
@@ -58,7 +57,9 @@ def _made(cloud, folder, max_edge=None, files=("dtm",), cell=2.5, shown=True):
     files = RasterFiles(**{name: folder / f"{name}.tif" for name in files})
     request = RasterRequest(files, TerrainModel(cell), SurfaceModel(max_edge=max_edge))
     every = np.full(cloud.count, shown)
-    made = rasters_of_cloud(cloud, (every, every, every), request)
+    step, files_of = MakeRasters(request), [SurveyFile(cloud, every, every, every)]
+    store = MemoryPoints(files_of, survey_frame(cloud.crs), step.blocks)
+    made = step.work(store, Resources(), SILENT)
     with contextlib.ExitStack() as outputs:
         write_rasters(made, survey_frame(cloud.crs), request, outputs)
     with rasterio.open(next(iter(files.wanted.values()))) as raster:
@@ -184,7 +185,7 @@ def test_classified_tiles_give_the_terrain_model_of_one_file(survey, tmp_path):
     dtm, shade = tmp_path / "dtm.tif", tmp_path / "shade.tif"
     files = RasterFiles(dtm=dtm, hillshade=shade)
     many = tmp_path / "out"
-    classify_tiles([survey / "many"], many, SlopeFilter(), rasters=RasterRequest(files))
+    classify_tiles([survey / "many"], many, SlopeFilter(), rasters=files)
     classify_file(survey / "one.laz", tmp_path / "one.laz", SlopeFilter(), dtm=tmp_path / "1.tif")
     assert _same([_values(dtm)], [_values(tmp_path / "1.tif")])
     assert shade.exists() and not list(many.glob("*.npz"))

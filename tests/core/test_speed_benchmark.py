@@ -100,7 +100,7 @@ def test_survey_is_one(survey, tmp_path):
 
 
 def test_survey_has_ground_houses_and_trees(survey):
-    from bare_earth.algorithms.engine.classification import classify
+    from bare_earth.algorithms.engine.one_file import classify_cloud
     from bare_earth.algorithms.filters import METHODS
     from bare_earth.algorithms.las.reading import read_cloud
 
@@ -111,7 +111,7 @@ def test_survey_has_ground_houses_and_trees(survey):
     assert 0.005 < np.mean(solid > 2.5) < 0.2
     top, bottom = landscape._crown(x, y, solid)
     assert 0.05 < np.mean(top - bottom > 1.0) < 0.6
-    ground = classify(cloud, METHODS["slope"].parameters())[0] == 2
+    ground = classify_cloud(cloud, METHODS["slope"].parameters())[0] == 2
     assert 0.4 < ground.mean() < 0.95
 
 

@@ -12,22 +12,23 @@ import laspy
 import numpy as np
 import pytest
 from realdata import real
+from runs import classify_file, classify_tiles
 from surveys import DeadlyJob, bytes_of, cut, finished, points_of, strip, write
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.core.progress import SILENT, Progress
+from bare_earth.algorithms.engine import file_points as file_points_module
 from bare_earth.algorithms.engine import jobs as jobs_module
-from bare_earth.algorithms.engine import tiles as tiles_module
+from bare_earth.algorithms.engine import labelling as labelling_module
+from bare_earth.algorithms.engine import tile_run as tile_run_module
 from bare_earth.algorithms.engine import workers as workers_module
 from bare_earth.algorithms.engine.blocks import BRIDGE, GROUND, LOW, Blocks
-from bare_earth.algorithms.engine.classification import classify_file
 from bare_earth.algorithms.engine.ground import label_ground
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
 from bare_earth.algorithms.engine.options import TileInput, TileMethod, TileOutput
 from bare_earth.algorithms.engine.survey import BlockIndex, Survey, frame_of, grouped
-from bare_earth.algorithms.engine.tiles import classify_tiles
 from bare_earth.algorithms.engine.workers import Processes, Threads
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
@@ -171,11 +172,11 @@ def test_tiles_larger_than_memory_give_the_same_bytes(many, out, monkeypatch):
     monkeypatch.setattr(reading_module, "_CHUNK", 700)
     asked = []
 
-    def fits(count, resources, length):
+    def fits(count, resources, length=0):
         asked.append(count)
         return False
 
-    monkeypatch.setattr(jobs_module, "fits_in_memory", fits)
+    monkeypatch.setattr(file_points_module, "fits_in_memory", fits)
     workers = Threads(Resources(threads=2, memory=0.001))
     classify_tiles([many[0]], out, FAST, workers=workers)
     assert workers.at_once == 1 and len(asked) == 16 and min(asked) > 700
@@ -184,7 +185,7 @@ def test_tiles_larger_than_memory_give_the_same_bytes(many, out, monkeypatch):
 
 def test_blocks_are_read_in_groups_that_fit_into_memory(six):
     collection = open_collection([six])
-    survey = Survey(FAST, Selection(), frame_of(collection), Blocks(20.0, 5.0))
+    survey = Survey(frame_of(collection), Blocks(20.0, 5.0))
     places = [BlockIndex(column, row) for row in range(6) for column in range(15)]
     many = grouped(survey, collection, places, 1, 1 << 40)
     assert len(many) == 4 * 2  # squares of 4 x 4; with 8 x 8 there would be too few
@@ -257,7 +258,7 @@ def test_tiles_that_are_done_are_kept_when_a_run_goes_on(six, out, las):
     after = changed_times(out)
     assert {name for name in after if after[name] != before[name]} == {"3.laz"}
     assert summary.kept_count == 5 and summary.done_count == 6
-    assert "5 tiles are done already." in heard.infos
+    assert "5 files are done already." in heard.infos
     assert summary.point_count == 4000
     # Without asking for it everything is done anew.
     assert classify_tiles([six], out, FAST, blocks=BLOCKS).kept_count == 0
@@ -269,7 +270,7 @@ def test_other_parameters_or_inputs_make_tiles_anew_where_they_matter(six, out, 
     survey = dict(output=RESUME, blocks=Blocks(40.0, 5.0))
     other, heard = dataclasses.replace(FAST, height_threshold=0.4), las.Heard()
     assert classify_tiles([six], out, other, progress=heard, **survey).kept_count == 0
-    assert any("6 tiles that were done are classified anew" in each for each in heard.infos)
+    assert any("6 files that were done are made anew" in each for each in heard.infos)
     assert classify_tiles([six], out, other, **survey).kept_count == 6
     selection = Selection(others="unclassified")
     assert classify_tiles([six], out, other, selection, **survey).kept_count == 0
@@ -330,7 +331,7 @@ def command(*words):
 
 
 def environment():
-    parent = str(Path(tiles_module.__file__).parents[2])
+    parent = str(Path(tile_run_module.__file__).parents[2])
     return {**os.environ, "PYTHONPATH": os.pathsep.join([parent, os.environ.get("PYTHONPATH", "")])}
 
 
@@ -379,7 +380,7 @@ def test_broken_tiles_are_told_at_the_end_and_the_others_done(six, out, las, cap
     assert [Path(path).name for path in summary.failures] == ["1.laz", "9.laz"]
     assert summary.done_count == 5 and summary.tile_count == 7
     assert set(bytes_of(out)) == {"0.laz", "2.laz", "3.laz", "4.laz", "5.laz"}
-    assert any("beside 1.laz are classified without its points" in each for each in heard.warnings)
+    assert any("beside 1.laz is made without its points" in each for each in heard.warnings)
     assert len(read_vpc(out / "classified.vpc")) == 5
     assert main(["classify-tiles", str(six), str(out), "--method", "slope", "--json"]) == 1
     said = capsys.readouterr()
@@ -404,7 +405,7 @@ def test_tiles_without_ground_or_points_to_classify_are_told(six, out):
 def test_a_survey_of_which_nothing_can_be_classified_fails(tmp_path, out):
     (tmp_path / "in").mkdir()
     write(tmp_path / "in" / "a.laz", strip(500), classes=18)
-    with pytest.raises(BareEarthError, match="None of the 1 tiles"):
+    with pytest.raises(BareEarthError, match="None of the 1 files"):
         classify_tiles([tmp_path / "in"], out, FAST)
     assert not (out / "classified.vpc").exists()
 
@@ -450,7 +451,7 @@ def test_a_process_that_dies_loses_nothing(many, out):
 
 @pytest.mark.skipif(os.name == "nt", reason="it kills by signals")
 def test_a_tile_that_kills_its_process_fails_alone(six, out, monkeypatch):
-    monkeypatch.setattr(tiles_module, "ClassJob", DeadlyJob)
+    monkeypatch.setattr(tile_run_module, "TileJob", DeadlyJob)
     summary = classify_tiles([six], out, FAST, workers=Processes(Resources(threads=2)))
     assert list(summary.failures) == [str(six / "3.laz")]
     assert "ended unexpectedly" in summary.failures[str(six / "3.laz")]
@@ -476,7 +477,7 @@ def test_labelling_that_fails_fails_the_tiles_of_that_block_only(six, out, monke
             raise ValueError("no")
         return label_ground(store, parameters, blocks, *rest)
 
-    monkeypatch.setattr(jobs_module, "label_ground", failing)
+    monkeypatch.setattr(labelling_module, "label_ground", failing)
     summary = classify_tiles([six], out, FAST, blocks=Blocks(20.0, 5.0))
     assert 0 < len(summary.failures) < 6
     assert all("Unexpected ValueError: no" in each for each in summary.failures.values())
@@ -520,8 +521,8 @@ def test_blocks_labelled_before_a_cancel_are_not_labelled_again(many, out, monke
         labelled.append(file)
         write_labels(job, file, *rest)
 
-    write_labels = jobs_module.LabelJob._write
-    monkeypatch.setattr(jobs_module.LabelJob, "_write", noted)
+    write_labels = jobs_module.PointJob._write
+    monkeypatch.setattr(jobs_module.PointJob, "_write", noted)
     run = dict(blocks=Blocks(50.0, 10.0), output=RESUME)
     one = Threads(Resources(threads=1))
     with pytest.raises(Cancelled):
@@ -551,7 +552,7 @@ def test_a_second_run_into_the_same_folder_is_refused_and_the_first_goes_on(six,
     assert again.kept_count == 6
 
 
-class Overtaken(jobs_module.ClassJob):
+class Overtaken(jobs_module.TileJob):
     """Finds another file with as many points in the place of that whose points were labelled."""
 
     def run(self, share, progress):
@@ -564,7 +565,7 @@ class Overtaken(jobs_module.ClassJob):
 
 
 def test_a_tile_that_changed_since_its_points_were_labelled_is_not_written(six, out, monkeypatch):
-    monkeypatch.setattr(tiles_module, "ClassJob", Overtaken)
+    monkeypatch.setattr(tile_run_module, "TileJob", Overtaken)
     done = classify_tiles([six], out, FAST)
     assert [Path(each).name for each in done.failures] == ["2.laz"]
     assert "changed while it was worked on" in next(iter(done.failures.values()))

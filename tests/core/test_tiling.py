@@ -13,11 +13,11 @@ from bare_earth.algorithms.core.threads import workers
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.engine import ground as ground_module
 from bare_earth.algorithms.engine.blocks import Blocks
-from bare_earth.algorithms.engine.classification import classify
 from bare_earth.algorithms.engine.disk_points import DiskPoints
 from bare_earth.algorithms.engine.ground import blocks_of, label_ground
 from bare_earth.algorithms.engine.memory import Resources, free_memory
 from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
+from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.engine.scheduling import run_jobs
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
@@ -139,7 +139,7 @@ def test_a_block_gets_the_points_of_its_window_that_take_part(tmp_path, request,
         for cut in cuts:
             store.append(part_of(cloud, cut), selected[cut], known[cut], wanted[cut])
         request.addfinalizer(store.__exit__)
-        store.finish(cloud.lowest)
+        store.finish()
     assert store.leaves.counts.sum() == selected.sum()
     frame, seen = survey_frame(cloud.crs), 0
     points = cloud.points(slice(None), frame)
@@ -249,10 +249,10 @@ def test_points_that_are_only_context_get_no_label_and_their_blocks_no_filter():
 def test_a_stray_point_far_away_changes_nothing_else(parameters, east):
     x, y, z = survey(8000, 120.0, 90.0)
     stray = [np.r_[values, at] for values, at in zip((x, y, z), (int(east * 100), 4000, 1000))]
-    found, selected = classify(cloud_of(*stray), parameters)
+    found, selected = classify_cloud(cloud_of(*stray), parameters)
     assert selected.all() and len(found) == 8001
     assert 0.4 < (found[:-1] == 2).mean() < 0.95
-    alone, _ = classify(cloud_of(x, y, z), parameters)
+    alone, _ = classify_cloud(cloud_of(x, y, z), parameters)
     assert np.array_equal(found[:-1], alone)
 
 

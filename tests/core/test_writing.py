@@ -7,7 +7,7 @@ import pytest
 from realdata import real
 
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.las import changes
+from bare_earth.algorithms.las import edits
 from bare_earth.algorithms.las import records as records_module
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.las.writing import check_writable, write_classified
@@ -179,7 +179,7 @@ def test_bytes_after_the_points_of_las_stay(las):
 
 def test_several_chunks_are_joined_in_order(las, monkeypatch):
     read = records_module.read_records
-    monkeypatch.setattr(changes, "read_records", lambda layout: read(layout, 17))
+    monkeypatch.setattr(edits, "read_records", lambda layout: read(layout, 17))
     source, target = las.make("in.laz", count=60), las.folder / "out.laz"
     write_classified(source, target, new_classes(60))
     np.testing.assert_array_equal(

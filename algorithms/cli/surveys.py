@@ -1,0 +1,73 @@
+"""What the commands that take many files have in common."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+from pathlib import Path
+from typing import TYPE_CHECKING, Iterator
+
+from ..core.errors import BareEarthError, Cancelled
+from .command import DONE, FAILED
+from .terminal import tell
+
+if TYPE_CHECKING:
+    from ..engine.many_files import SurveySummary
+    from ..engine.memory import Resources
+    from ..engine.rasters import RasterFiles
+    from ..engine.workers import Workers
+
+_RASTERS = {
+    "dtm": "terrain model",
+    "dsm": "surface model, the top of all that stands on the terrain",
+    "chm": "canopy height, the surface above the terrain",
+    "hillshade": "hillshade of the terrain model",
+    "confidence": "probability, 0 to 1, that the terrain model is right",
+}
+
+
+def add_rasters(parser: argparse.ArgumentParser) -> None:
+    """Add the options that name rasters."""
+    for name, what in _RASTERS.items():
+        parser.add_argument(f"--{name}", metavar="FILE", type=Path, help=f"write the {what} (.tif)")
+
+
+def rasters_of(options: argparse.Namespace) -> RasterFiles:
+    """Return the rasters that the options name."""
+    from ..engine.rasters import RasterFiles
+
+    return RasterFiles(**{name: getattr(options, name) for name in _RASTERS})
+
+
+def add_scheduler(parser: argparse.ArgumentParser) -> None:
+    """Add the option for a cluster."""
+    parser.add_argument(
+        "--scheduler", metavar="ADDRESS",
+        help="of many files, let the workers of this Dask scheduler do it, such as"
+        " tcp://host:8786; without it, processes of this computer do",
+    )  # fmt: skip
+
+
+def workers_of(options: argparse.Namespace, resources: Resources) -> Workers:
+    """Return who works on many files."""
+    from ..engine.cluster import Cluster
+    from ..engine.workers import Processes
+
+    return Cluster(options.scheduler, resources) if options.scheduler else Processes(resources)
+
+
+@contextlib.contextmanager
+def finished_files_stay() -> Iterator[None]:
+    """Tell of a cancelled run that it can go on."""
+    try:
+        yield
+    except (Cancelled, KeyboardInterrupt) as error:
+        raise BareEarthError(
+            "Cancelled; the files that are finished stay. Go on with --resume."
+        ) from error
+
+
+def tell_of_survey(options: argparse.Namespace, summary: SurveySummary) -> int:
+    """Tell what became of many files; return the exit code."""
+    tell(options, summary, f"{options.output}: {summary.text}")
+    return FAILED if summary.failures else DONE

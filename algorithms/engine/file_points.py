@@ -1,0 +1,244 @@
+"""The points of one file while a run works on them: in memory, or read anew part by part."""
+
+from __future__ import annotations
+
+import contextlib
+from pathlib import Path
+from typing import Any, Iterable, Iterator, Sequence
+
+import numpy as np
+
+from ..core.progress import SILENT, Progress
+from ..las.cloud import PointCloud, survey_frame
+from ..las.lasfile import LasFile
+from ..las.reading import read_cloud, read_parts
+from .blocks import Store
+from .disk_points import DiskPoints, room_on_disk
+from .memory import GIGABYTE, Resources
+from .memory_points import MemoryPoints, SurveyFile
+from .steps import Marks, PointResult, PointStep, Step
+
+# Bytes that a cloud in memory takes a point, besides what a filter takes for those it sees.
+_BYTES_A_POINT_KEPT, _BYTES_A_POINT_SEEN, _MOST_SEEN = 40, 110, 12_000_000
+# How much of the memory the blocks may take where the points are on disk.
+_MOST_FOR_BLOCKS = GIGABYTE
+# Bytes of a point, as the file has it, up to which all of it is kept: reading it again for what
+# does not change would take as long as the filter.
+_LONGEST_KEPT = 48
+
+# Some points: where they stand in the file, and themselves.
+Parts = Iterable[tuple[slice, PointCloud]]
+
+
+def fits_in_memory(count: int, resources: Resources, record_length: int = 0) -> bool:
+    """Return whether a file of `count` points can be worked on with all of them in memory.
+
+    Parameters
+    ----------
+    count : int
+        Points of the file.
+    resources : Resources
+        How much memory there is.
+    record_length : int
+        Bytes of each point that are to be kept besides, as the file has them.
+    """
+    seen = _BYTES_A_POINT_SEEN * min(count, _MOST_SEEN)
+    return (_BYTES_A_POINT_KEPT + record_length) * count + seen <= resources.bytes
+
+
+class FilePoints:
+    """The points of one file.
+
+    Parameters
+    ----------
+    cloud : PointCloud or LasFile
+        All points, or the file that is to be read part by part.
+    resources : Resources
+        Threads and memory.
+    target : Path, optional
+        The output, in whose folder temporary files are made.
+
+    Attributes
+    ----------
+    path : Path
+        The file.
+    count : int
+        Its points.
+    cloud : PointCloud or None
+        All points, where they are in memory; else some of them, once any are read.
+    resources : Resources
+        What the blocks may use.
+    """
+
+    def __init__(
+        self, cloud: PointCloud | LasFile, resources: Resources, target: Path | None = None
+    ) -> None:
+        self.path, self.count, self.resources = cloud.path, cloud.count, resources
+        self.is_in_memory = isinstance(cloud, PointCloud)
+        self.cloud = cloud if self.is_in_memory else None
+        self._source, self._target = cloud, target
+        self._files, self._is_told = contextlib.ExitStack(), False
+        if not self.is_in_memory:
+            memory = min(resources.bytes, _MOST_FOR_BLOCKS) / GIGABYTE
+            self.resources = Resources(threads=resources.threads, memory=max(memory, 0.001))
+
+    @classmethod
+    def opened(
+        cls,
+        las: LasFile,
+        target: Path,
+        resources: Resources,
+        keep_records: bool = True,
+        progress: Progress = SILENT,
+    ) -> FilePoints:
+        """Read a file, if it fits into memory.
+
+        Parameters
+        ----------
+        las : LasFile
+            The file.
+        target, resources
+            As for the class.
+        keep_records : bool
+            Whether all of a point is kept, if that fits as well, to be written again.
+        progress : Progress
+            Receives progress and messages.
+        """
+        if not fits_in_memory(las.count, resources):
+            progress.info(
+                f"The {las.count:,} points do not fit into the memory that may be used: they are"
+                " read twice, and wait in a temporary file in the folder of the output meanwhile."
+            )
+            return cls(las, resources, target)
+        length = las.record_length
+        keep = keep_records and length <= _LONGEST_KEPT
+        keep = keep and fits_in_memory(las.count, resources, length)
+        return cls(read_cloud(las, progress, keep_records=keep), resources, target)
+
+    def __enter__(self) -> FilePoints:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self._files.close()
+
+    def parts(self, progress: Progress = SILENT) -> Iterator[tuple[slice, PointCloud]]:
+        """Yield the points some at a time, and where they stand; each time the same parts."""
+        if self.is_in_memory:
+            for where, part in self.cloud.parts():
+                yield where, part
+                progress(where.stop / max(self.count, 1))
+            return
+        start, told = 0, progress.quiet() if self._is_told else progress
+        self._is_told = True
+        for part in read_parts(self._source, told):
+            self.cloud = self.cloud or part
+            yield slice(start, start + part.count), part
+            start += part.count
+
+    def room(self, kind: type) -> np.ndarray:
+        """Return room for one value of each point; only small ones are always in memory."""
+        if self.is_in_memory or np.dtype(kind).itemsize == 1:
+            return np.empty(self.count, dtype=kind)
+        return room_on_disk(self._target, kind, self.count)
+
+    def gathered(
+        self, steps: Sequence[tuple[Step, Any]], parts: Parts, progress: Progress = SILENT
+    ) -> list[Store]:
+        """Return for each step a store of the points that it needs.
+
+        Parameters
+        ----------
+        steps : sequence of tuple
+            Each step, and what it counts in.
+        parts : iterable
+            All points once, as `parts` yields them, perhaps with other classes.
+        progress : Progress
+            Receives progress of sorting, and what the steps tell.
+
+        Raises
+        ------
+        BareEarthError
+            If there is nothing to do for a step.
+        """
+        gather = self._in_memory if self.is_in_memory else self._on_disk
+        return gather(steps, parts, progress)
+
+    def _in_memory(
+        self, steps: Sequence[tuple[Step, Any]], parts: Parts, progress: Progress
+    ) -> list[Store]:
+        every = [Marks(*(np.empty(self.count, dtype=bool) for _ in range(3))) for _ in steps]
+        for where, part in parts:
+            for (step, tally), marks in zip(steps, every):
+                for mine, some in zip(marks, step.marks(part, tally)):
+                    mine[where] = some
+        stores = []
+        for (step, tally), marks in zip(steps, every):
+            step.tell(tally, self.path, progress)
+            files, frame = [SurveyFile(self.cloud, *marks)], survey_frame(self.cloud.crs)
+            stores.append(MemoryPoints(files, frame, step.blocks, progress, step.kind))
+        return stores
+
+    def _on_disk(
+        self, steps: Sequence[tuple[Step, Any]], parts: Parts, progress: Progress
+    ) -> list[Store]:
+        stores = [
+            self._files.enter_context(DiskPoints(self._target, step.blocks.leaf_side, step.kind))
+            for step, _ in steps
+        ]
+        for _, part in parts:
+            for (step, tally), store in zip(steps, stores):
+                store.append(part, *step.marks(part, tally))
+        for (step, tally), store in zip(steps, stores):
+            step.tell(tally, self.path, progress)
+            store.finish()
+        return stores
+
+    def values(
+        self, store: Store, progress: Progress = SILENT
+    ) -> Iterator[tuple[slice, PointCloud, np.ndarray]]:
+        """Yield the points some at a time, where they stand, and what a store keeps of them."""
+        for number, (where, part) in enumerate(self.parts(progress)):
+            found = store.labels[0][where] if self.is_in_memory else store.values_of(number, part)
+            yield where, part, found
+
+    def find(
+        self, step: PointStep, tally: Any, progress: Progress = SILENT, then: Sequence[Step] = ()
+    ) -> tuple[PointResult, list[Store]]:
+        """Find a value of each point.
+
+        Parameters
+        ----------
+        step : PointStep
+            What finds it.
+        tally : object
+            What it counts in.
+        progress : Progress
+            Receives progress and messages.
+        then : sequence of Step
+            Further steps on the points as they are thereafter.
+
+        Returns
+        -------
+        result : PointResult
+            The values.
+        stores : list of Store
+            The points that each of the further steps needs.
+
+        Raises
+        ------
+        BareEarthError
+            If there is nothing to do, or the file cannot be read.
+        Cancelled
+            If the user asked to stop.
+        """
+        parts = self.parts(progress.part(0.0, 0.15))
+        (store,) = self.gathered([(step, tally)], parts, progress.part(0.15, 0.2))
+        step.work(store, self.resources, progress.part(0.2, 0.9))
+        result = step.result(self.path, self.room)
+
+        def found() -> Parts:
+            for where, part, values in self.values(store, progress.part(0.9, 1.0)):
+                result.add(where, part, values)
+                yield where, result.part(where, part)
+
+        return result, self.gathered([(each, each.tally()) for each in then], found())

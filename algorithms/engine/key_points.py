@@ -1,0 +1,219 @@
+"""The step that finds model key points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from typing import Callable, NamedTuple
+
+import numpy as np
+
+from ..core.parameters import ParameterSet, parameter
+from ..core.progress import SILENT, Progress
+from ..grids.model_key_points import ModelKeyPoints, model_key_points
+from ..las.cloud import PointCloud
+from ..las.edits import Edits
+from ..las.records import check_class
+from ..survey.collection import Tile
+from ..survey.ground_classes import GroundClasses, GroundTally
+from ..survey.selection import count_classes
+from .blocks import Block, Blocks, Store
+from .ground import over_blocks
+from .memory import Resources
+from .steps import Marks, PointResult, PointStep, Room
+
+# Cells of the grid round a block in which ground points matter for its key points.
+_CELLS = 5.0
+# What a store keeps of ground points that are key points, and of the others.
+_KEY, _OTHER = 1, 2
+
+
+@dataclass(frozen=True)
+class KeyPointMark(ParameterSet):
+    """How model key points are marked."""
+
+    mark_as: str = parameter(
+        "class",
+        label="Mark key points by",
+        choices={
+            "class": "A class of their own",
+            "flag": "The key-point flag of LAS; the class stays",
+        },
+        help="Up to LAS 1.3, and for most programs, key points are a class. LAS 1.4 has a flag for"
+        " them, so that they stay ground.",
+    )
+    key_class: int = parameter(
+        8,
+        label="Class of key points",
+        minimum=0,
+        maximum=255,
+        help="The class that key points get. Points that have it already are taken as ground, and"
+        " get the first of the ground classes again if they are not needed. Point formats 0 to 5"
+        " hold classes up to 31.",
+    )
+
+    @property
+    def by_class(self) -> bool:
+        """Whether key points get a class."""
+        return self.mark_as == "class"
+
+
+@dataclass(frozen=True, order=True)
+class KeyPointSummary:
+    """How many model key points a file has.
+
+    Attributes
+    ----------
+    name : str
+        Of the output.
+    point_count, ground_count, key_point_count : int
+        Its points, those of the ground, and those of them that are key points.
+    class_counts : dict of int to int
+        Points of each class in the output.
+    """
+
+    name: str
+    point_count: int
+    ground_count: int
+    key_point_count: int
+    class_counts: dict[int, int] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        # JSON, in which a run before keeps them, knows no numbers as keys.
+        counts = {int(each): count for each, count in self.class_counts.items()}
+        object.__setattr__(self, "class_counts", counts)
+
+    @property
+    def text(self) -> str:
+        """All of it in words."""
+        return (
+            f"{self.name}: {self.key_point_count:,} of {self.ground_count:,} ground points are key"
+            " points"
+        )
+
+
+@dataclass(frozen=True)
+class FindKeyPoints(PointStep):
+    """Finds the few ground points whose TIN is as good as that of all of them.
+
+    Attributes
+    ----------
+    parameters : ModelKeyPoints
+        How closely they follow the ground.
+    ground : GroundClasses
+        Which points are ground.
+    mark : KeyPointMark
+        Whether key points get a class or a flag.
+    """
+
+    parameters: ModelKeyPoints = field(default_factory=ModelKeyPoints)
+    ground: GroundClasses = field(default_factory=GroundClasses)
+    mark: KeyPointMark = field(default_factory=KeyPointMark)
+
+    summary_type = KeyPointSummary
+    vpc_name = "key_points.vpc"
+
+    @property
+    def blocks(self) -> Blocks:
+        """The blocks in which key points are found."""
+        return Blocks.of(_CELLS * self.parameters.grid_size)
+
+    def tally(self) -> GroundTally:
+        """Return what `marks` counts in."""
+        return GroundTally()
+
+    def marks(self, part: PointCloud, tally: GroundTally) -> Marks:
+        """Return the ground points."""
+        self.check_tile(part)
+        also = (self.mark.key_class,) if self.mark.by_class else ()
+        ground = self.ground.of(part, tally, also)
+        return Marks(ground, ground, ground)
+
+    def tell(self, tally: GroundTally, path: Path, progress: Progress) -> None:
+        """Refuse a file without ground."""
+        self.ground.check(tally, path)
+
+    def check_tile(self, tile: Tile | PointCloud) -> None:
+        """Refuse a file whose points cannot hold the class."""
+        if self.mark.by_class:
+            check_class(tile.path, tile.point_format, self.mark.key_class, "the key points")
+
+    def work(self, store: Store, resources: Resources, progress: Progress) -> None:
+        """Find the key points."""
+        job_of = partial(_job_of, store, self.blocks, self.parameters)
+        for _, found in over_blocks(store, self.blocks, job_of, resources, progress):
+            store.put(found.positions, np.where(found.keys, _KEY, _OTHER).astype(np.uint8))
+
+    def result(self, path: Path, room: Room) -> KeyPointsOfPoints:
+        """Return what keeps the key points of a file."""
+        return KeyPointsOfPoints(self, room)
+
+
+class KeyPointsOfPoints(PointResult):
+    """The key points among the points of a file.
+
+    Parameters
+    ----------
+    step : FindKeyPoints
+        What finds them.
+    room : callable
+        Makes room for a value of each point.
+    """
+
+    def __init__(self, step: FindKeyPoints, room: Room) -> None:
+        self._step = step
+        # Classes, or what becomes of the flag.
+        self._values = room(np.uint8 if step.mark.by_class else np.int8)
+        self._counts = np.zeros(256, dtype=np.int64)
+        self._ground_count = self._key_point_count = 0
+
+    def add(self, where: slice, part: PointCloud, values: np.ndarray) -> None:
+        """Put in the class or the flag of some points."""
+        keys, others, mark = values == _KEY, values == _OTHER, self._step.mark
+        classes = part.classification
+        if mark.by_class:
+            classes = classes.copy()
+            classes[others & (classes == mark.key_class)] = self._step.ground.ground_classes[0]
+            classes[keys] = mark.key_class
+            self._values[where] = classes
+        else:
+            self._values[where] = np.where(keys, 1, np.where(others, 0, -1))
+        self._counts += count_classes(classes)
+        self._ground_count += int(np.count_nonzero(values))
+        self._key_point_count += int(np.count_nonzero(keys))
+
+    def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
+        """Return the classes or the flags."""
+        if self._step.mark.by_class:
+            return Edits(classification=self._values)
+        return Edits(key_points=self._values)
+
+    def summary(self, name: str) -> KeyPointSummary:
+        """Return how many key points there are."""
+        counts = {int(each): int(self._counts[each]) for each in np.flatnonzero(self._counts)}
+        points = self._ground_count, self._key_point_count
+        return KeyPointSummary(name, len(self._values), *points, counts)
+
+
+class _Found(NamedTuple):
+    """Which of the points at some positions of a store are key points."""
+
+    positions: np.ndarray
+    keys: np.ndarray
+
+
+def _job_of(
+    store: Store, blocks: Blocks, parameters: ModelKeyPoints, block: Block, is_only: bool
+) -> Callable[[Progress], _Found]:
+    def job(progress: Progress) -> _Found:
+        contents = blocks.contents(block, store)
+        core = contents.wanted.copy()
+        if not is_only:
+            core &= block.holds(contents.points, blocks.corner(block))
+        keys = np.zeros(len(core), dtype=bool)
+        if core.any():
+            keys = model_key_points(contents.points, parameters, progress)
+        return _Found(contents.positions[core], keys[core])
+
+    return job

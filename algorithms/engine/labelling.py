@@ -1,0 +1,201 @@
+"""The step that finds the ground, and the classes that follow from it."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.parameters import ParameterSet
+from ..core.progress import SILENT, Progress
+from ..filters import method_of
+from ..las.cloud import PointCloud
+from ..las.edits import Edits
+from ..las.records import check_class
+from ..survey.area import Area
+from ..survey.collection import Tile
+from ..survey.point_chooser import ChosenTally, PointChooser
+from ..survey.selection import Selection, count_classes
+from .blocks import BRIDGE, GROUND, LOW, Blocks, Store
+from .ground import blocks_of, label_ground
+from .memory import Resources
+from .output import Output
+from .steps import Marks, PointResult, PointStep, Room
+
+
+@dataclass(frozen=True, order=True)
+class ClassifiedSummary:
+    """What became of one file of a survey.
+
+    Attributes
+    ----------
+    name : str
+        Of the output.
+    point_count, ground_count : int
+        Its points, and those of the target class.
+    """
+
+    name: str
+    point_count: int
+    ground_count: int
+
+    @property
+    def text(self) -> str:
+        """All of it in words."""
+        share = self.ground_count / max(self.point_count, 1)
+        return f"{self.name}: {self.point_count:,} points, {share:.1%} ground"
+
+
+@dataclass(frozen=True)
+class LabelGround(PointStep):
+    """Finds the ground, low outliers and decks of bridges.
+
+    Attributes
+    ----------
+    parameters : ParameterSet
+        Those of one method; their type chooses the method.
+    selection : Selection
+        Which points take part, and what their classes become.
+    area : Area or None
+        Where points are classified. Those outside keep their class; those near it are context.
+    output : Output
+        Which points are written.
+    cut : Blocks or None
+        How the survey is cut, if not as the method has it.
+    """
+
+    parameters: ParameterSet
+    selection: Selection = field(default_factory=Selection)
+    area: Area | None = None
+    output: Output = field(default_factory=Output)
+    cut: Blocks | None = None
+
+    summary_type = ClassifiedSummary
+    vpc_name = "classified.vpc"
+
+    @property
+    def blocks(self) -> Blocks:
+        """The blocks in which the method works."""
+        return self.cut or blocks_of(self.parameters)
+
+    @property
+    def chooser(self) -> PointChooser:
+        """What says which points take part."""
+        reach = method_of(self.parameters).reach(self.parameters)
+        return PointChooser(self.selection, self.area, reach)
+
+    def tally(self) -> ChosenTally:
+        """Return what `marks` counts in."""
+        return ChosenTally()
+
+    def marks(self, part: PointCloud, tally: ChosenTally) -> Marks:
+        """Return which points take part, are surely ground, and lie in the area."""
+        inside, selected = self.chooser.choose(part, tally)
+        return Marks(selected, self.selection.known_ground(part, selected), inside)
+
+    def tell(self, tally: ChosenTally, path: Path, progress: Progress) -> None:
+        """Tell how many points take part; refuse a file in which none does."""
+        self.chooser.tell(tally, path, progress)
+
+    def check_tile(self, tile: Tile) -> None:
+        """Refuse a file whose points cannot hold the classes."""
+        for value, name in self.selection.new_classes():
+            check_class(tile.path, tile.point_format, value, name)
+
+    def tell_of_tile(self, tally: ChosenTally, path: Path, progress: Progress) -> None:
+        """Tell how many points of a file took part; refuse one in which none does."""
+        self.selection.tell(tally, path, progress)
+
+    def work(self, store: Store, resources: Resources, progress: Progress) -> None:
+        """Label the points."""
+        special = self.selection.special
+        label_ground(store, self.parameters, self.blocks, special, resources, progress)
+
+    def result(self, path: Path, room: Room) -> ClassifiedPoints:
+        """Return what turns labels into classes."""
+        return ClassifiedPoints(self, path, room)
+
+
+class ClassifiedPoints(PointResult):
+    """The new classes of the points of a file.
+
+    Parameters
+    ----------
+    step : LabelGround
+        What labels them.
+    path : Path
+        The file.
+    room : callable
+        Makes room for a value of each point.
+
+    Attributes
+    ----------
+    classification : numpy.ndarray of uint8, shape (n,)
+        The new class of every point, in file order.
+    class_counts : numpy.ndarray of int64, shape (256,)
+        Points of each class.
+    area_ground_count, area_low_count, area_deck_count : int
+        Points in the area of the class of the ground, those labelled as low outliers, and those on
+        decks of bridges.
+    """
+
+    def __init__(self, step: LabelGround, path: Path, room: Room) -> None:
+        self._step, self._path = step, path
+        self.classification = room(np.uint8)
+        self.class_counts = np.zeros(256, dtype=np.int64)
+        self.area_ground_count = self.area_low_count = self.area_deck_count = 0
+        self._has_ground = False
+
+    def add(self, where: slice, part: PointCloud, values: np.ndarray) -> None:
+        """Put in the classes that follow from the labels of some points, and count them."""
+        selection, inside = self._step.selection, self._step.chooser.inside(part)
+        ground, low, decks = (values == each for each in (GROUND, LOW, BRIDGE))
+        classes = selection.classes(part, ground, low, inside, decks)
+        self.classification[where] = classes
+        self.class_counts += count_classes(classes)
+        self._has_ground |= bool(ground.any())
+        ground = classes == selection.to_class
+        self.area_ground_count += int(np.count_nonzero(ground & inside))
+        self.area_low_count += int(np.count_nonzero(low & inside))
+        self.area_deck_count += int(np.count_nonzero(decks & inside))
+
+    def part(self, where: slice, part: PointCloud) -> PointCloud:
+        """Return some points with their new classes."""
+        return dataclasses.replace(part, classification=self.classification[where])
+
+    def check(self, why: str = "") -> None:
+        """Refuse to write a file without ground."""
+        if not self._has_ground:
+            raise BareEarthError(why or f"No ground was found in {self._path}.")
+
+    def tell(self, progress: Progress) -> None:
+        """Tell how many low outliers and points on bridges there are in the area."""
+        if self._step.selection.low_noise_class:
+            depth = self._step.selection.low_noise_depth
+            progress.info(
+                f"{self.area_low_count:,} points lie more than {depth:g} m below the ground."
+            )
+        if self.area_deck_count:
+            progress.info(
+                f"{self.area_deck_count:,} points lie on decks of bridges: they are not ground."
+            )
+
+    def edits(
+        self,
+        cloud: PointCloud,
+        progress: Progress = SILENT,
+        heights: np.ndarray | None = None,
+    ) -> Edits:
+        """Return the new classes, and what else the output is to have."""
+        output, ground = self._step.output, None
+        if output.changes_points:
+            ground = self.classification == self._step.selection.to_class
+        return output.edits(cloud, self.classification, ground, heights, progress)
+
+    def summary(self, name: str) -> ClassifiedSummary:
+        """Return how many points there are, and how many of them are ground."""
+        ground = int(self.class_counts[self._step.selection.to_class])
+        return ClassifiedSummary(name, len(self.classification), ground)

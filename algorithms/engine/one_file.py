@@ -1,0 +1,280 @@
+"""What is made of one point cloud file: a classified one, heights, key points, rasters."""
+
+from __future__ import annotations
+
+import contextlib
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.files import check_output
+from ..core.parameters import ParameterSet
+from ..core.progress import SILENT, Progress
+from ..core.threads import may_use
+from ..las.cloud import PointCloud, survey_frame
+from ..las.lasfile import LasFile
+from ..las.opening import open_las
+from ..las.writing import check_writable, is_copc, layers_kept, write_changed
+from ..survey.area import Area
+from ..survey.selection import Selection
+from .file_points import FilePoints, fits_in_memory
+from .labelling import ClassifiedPoints, LabelGround
+from .memory import Resources
+from .rasters import RasterSize, write_rasters
+from .requests import ClassifyRequest, TerrainRequest
+from .steps import PointStep, Step
+
+
+@dataclass(frozen=True)
+class Summary:
+    """What a classification did.
+
+    Attributes
+    ----------
+    point_count : int
+        Points in the file.
+    area_count : int
+        Points in the area that was to be classified: all, if none was given.
+    selected_count : int
+        Points in the area that took part in the filter.
+    ground_count : int
+        Points of the target class in the output, in the area and outside.
+    area_ground_count : int
+        Points of the target class in the area.
+    class_counts : dict of int to int
+        Points of each class in the output, in the area and outside.
+    """
+
+    point_count: int
+    area_count: int
+    selected_count: int
+    ground_count: int
+    area_ground_count: int
+    class_counts: dict[int, int] = field(default_factory=dict)
+
+
+def classify_cloud(
+    cloud: PointCloud,
+    parameters: ParameterSet,
+    selection: Selection = Selection(),
+    progress: Progress = SILENT,
+    area: Area | None = None,
+    resources: Resources = Resources(),
+) -> tuple[np.ndarray, np.ndarray]:
+    """Classify the points of a cloud in memory.
+
+    Parameters
+    ----------
+    cloud : PointCloud
+        The points, with their present classes.
+    parameters : ParameterSet
+        The parameters of one method; their type chooses the method.
+    selection : Selection
+        Which points take part, and what their classes become.
+    progress : Progress
+        Receives progress and messages.
+    area : Area, optional
+        Points outside keep their class; those near it are still context for the method.
+    resources : Resources
+        How many threads to use, and how much memory.
+
+    Returns
+    -------
+    classification : numpy.ndarray of uint8, shape (n,)
+        The new class of every point, in file order.
+    selected : numpy.ndarray of bool, shape (n,)
+        Which points in the area took part.
+
+    Raises
+    ------
+    BareEarthError
+        If no point is left to classify, or the CRS is geographic.
+    Cancelled
+        If the user asked to stop.
+    """
+    step = LabelGround(parameters, selection, area)
+    with may_use(resources.thread_count):
+        result, _ = FilePoints(cloud, resources).find(step, step.tally(), progress)
+        result.tell(progress)
+        inside, selected = step.chooser.choose(cloud, step.tally())
+    return result.classification, selected & inside
+
+
+def classify_file(
+    source: Path,
+    target: Path,
+    request: ClassifyRequest = ClassifyRequest(),
+    progress: Progress = SILENT,
+) -> Summary:
+    """Classify the ground points of a LAS, LAZ or COPC file and write the file anew.
+
+    Parameters
+    ----------
+    source, target : Path
+        The input, and the output (.las, .laz or .copc.laz). The output equals the input but for
+        the classification, and what the request asks for.
+    request : ClassifyRequest
+        What to do.
+    progress : Progress
+        Receives progress and messages.
+
+    Raises
+    ------
+    BareEarthError
+        If the input cannot be read or an output cannot be written.
+    Cancelled
+        If the user asked to stop; no output is left behind.
+    """
+    las, resources = _checked(source, target, request.resources)
+    request.rasters.check((source, target))
+    step, products = request.step, _products(request)
+    tally, first = step.tally(), progress.part(0.0, 0.2)
+    is_copied = not request.output.changes_points and layers_kept(las, target) is not None
+    _check_copc(las, target, is_copied, resources)
+    with contextlib.ExitStack() as outputs:
+        outputs.enter_context(may_use(resources.thread_count))
+        points = FilePoints.opened(las, target, resources, not is_copied, first)
+        outputs.enter_context(points)
+        result, stores = points.find(step, tally, progress.part(0.2, 0.65), list(products.values()))
+        result.tell(progress)
+        waiting, heights = dict(zip(products, stores)), None
+        # All outputs or none: the rasters get their names after the cloud is written.
+        if "rasters" in products:
+            made = products["rasters"].work(
+                waiting["rasters"], points.resources, progress.part(0.65, 0.75)
+            )
+            frame, part = survey_frame(points.cloud.crs), progress.part(0.75, 0.85)
+            write_rasters(made, frame, products["rasters"].request, outputs, part)
+        if "heights" in products:
+            heights = _worked(points, products["heights"], waiting["heights"], progress).heights
+        edits = result.edits(points.cloud, progress, heights)
+        write_changed(las, target, edits, progress.part(0.9, 1.0), points.cloud)
+    return _summary(result, tally, request)
+
+
+def _products(request: ClassifyRequest) -> dict[str, Step]:
+    """Return what is to be made of the classified points."""
+    products: dict[str, Step] = {}
+    if request.rasters.wanted:
+        products["rasters"] = request.raster_step
+    if request.output.height_above_ground:
+        products["heights"] = request.height_step
+    return products
+
+
+def _worked(points: FilePoints, step: PointStep, store: Any, progress: Progress) -> Any:
+    """Return what a further step finds of the points of a store."""
+    step.work(store, points.resources, progress.part(0.85, 0.9))
+    result = step.result(points.path, points.room)
+    for where, part, values in points.values(store):
+        result.add(where, part, values)
+    return result
+
+
+def _summary(result: ClassifiedPoints, tally: Any, request: ClassifyRequest) -> Summary:
+    counts, to_class = result.class_counts, request.selection.to_class
+    written = [to_class] if request.output.ground_only else np.flatnonzero(counts)
+    return Summary(
+        point_count=tally.points,
+        area_count=tally.inside,
+        selected_count=tally.wanted,
+        ground_count=int(counts[to_class]),
+        area_ground_count=result.area_ground_count,
+        class_counts={int(value): int(counts[value]) for value in written},
+    )
+
+
+def write_points(
+    source: Path,
+    target: Path,
+    step: PointStep,
+    resources: Resources = Resources(),
+    progress: Progress = SILENT,
+) -> Any:
+    """Write a file anew with what a step finds of each point, such as heights or key points.
+
+    Parameters
+    ----------
+    source, target : Path
+        The input, and the output (.las, .laz or .copc.laz); equal but for what the step changes.
+    step : PointStep
+        What to find.
+    resources : Resources
+        Threads and memory.
+    progress : Progress
+        Receives progress and messages.
+
+    Returns
+    -------
+    object
+        The summary of the step.
+
+    Raises
+    ------
+    BareEarthError
+        If the input does not do or cannot be read, or the output cannot be written.
+    Cancelled
+        If the user asked to stop; no output is left behind.
+    """
+    las, resources = _checked(source, target, resources)
+    _check_copc(las, target, False, resources)
+    with may_use(resources.thread_count):
+        first = progress.part(0.0, 0.15)
+        with FilePoints.opened(las, target, resources, progress=first) as points:
+            result, _ = points.find(step, step.tally(), progress.part(0.15, 0.8))
+            edits = result.edits(points.cloud, progress)
+            write_changed(las, target, edits, progress.part(0.8, 1.0), points.cloud)
+    return result.summary(target.name)
+
+
+def rasters_of_file(
+    source: Path, request: TerrainRequest, progress: Progress = SILENT
+) -> RasterSize:
+    """Write rasters of a classified file; all of them or none.
+
+    Parameters
+    ----------
+    source : Path
+        The file.
+    request : TerrainRequest
+        What to make.
+    progress : Progress
+        Receives progress and messages.
+
+    Raises
+    ------
+    BareEarthError
+        If the input has no ground or cannot be read, or a raster cannot be written.
+    Cancelled
+        If the user asked to stop; no output is left behind.
+    """
+    step, resources = request.raster_step, request.resources.now()
+    beside = next(iter(request.rasters.wanted.values()))
+    with may_use(resources.thread_count), contextlib.ExitStack() as outputs:
+        las, first = open_las(source), progress.part(0.0, 0.2)
+        points = FilePoints.opened(las, beside, resources, False, first)
+        outputs.enter_context(points)
+        parts = points.parts(progress.part(0.2, 0.3))
+        (store,) = points.gathered([(step, step.tally())], parts, progress.part(0.3, 0.35))
+        made = step.work(store, points.resources, progress.part(0.35, 0.8))
+        frame = survey_frame(points.cloud.crs)
+        return write_rasters(made, frame, step.request, outputs, progress.part(0.8, 1.0))
+
+
+def _checked(source: Path, target: Path, resources: Resources) -> tuple[LasFile, Resources]:
+    """Refuse an output that cannot be written; return the opened input, and what may be used."""
+    check_output(target, (source,))
+    check_writable(target)
+    return open_las(source), resources.now()
+
+
+def _check_copc(las: LasFile, target: Path, is_copied: bool, resources: Resources) -> None:
+    """Refuse an output that needs all points in memory where they do not fit."""
+    if is_copc(target) and not is_copied and not fits_in_memory(las.count, resources):
+        raise BareEarthError(
+            f"The {las.count:,} points do not fit into the memory that may be used, which making a"
+            " COPC file needs. Name the output .laz, or give more memory."
+        )

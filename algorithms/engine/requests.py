@@ -1,0 +1,180 @@
+"""What a run is to do, each as one value that every front end fills from the declarations."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass, field
+from typing import Any, Iterable, TypeVar
+
+from ..core.parameters import ParameterSet
+from ..filters import DEFAULT_METHOD, METHODS
+from ..grids.model_key_points import ModelKeyPoints
+from ..products.surface_model import SurfaceModel
+from ..products.terrain_model import TerrainModel
+from ..survey.area import Area
+from ..survey.ground_classes import GroundClasses
+from ..survey.selection import Selection
+from .heights import HeightOutput, MeasureHeights
+from .key_points import FindKeyPoints, KeyPointMark
+from .labelling import LabelGround
+from .memory import Resources
+from .options import TileInput, TileMethod, TileOutput
+from .output import Output
+from .rasters import MakeRasters, RasterFiles, RasterRequest
+
+_Request = TypeVar("_Request", bound="Request")
+
+
+@dataclass(frozen=True)
+class Request:
+    """Base of the requests.
+
+    Attributes
+    ----------
+    files : TileInput
+        Which files are taken of folders.
+    tiles : TileOutput
+        Of many files: the format of the outputs, and whether those that are done are kept.
+    resources : Resources
+        Threads and memory.
+    """
+
+    files: TileInput = field(default_factory=TileInput)
+    tiles: TileOutput = field(default_factory=TileOutput)
+    resources: Resources = field(default_factory=Resources)
+
+    @classmethod
+    def of(cls: type[_Request], sets: Iterable[ParameterSet], **others: Any) -> _Request:
+        """Return a request of parameter sets, in any order.
+
+        Parameters
+        ----------
+        sets : iterable of ParameterSet
+            Each goes where one of its type belongs; one that belongs nowhere is that of the method.
+        **others
+            Attributes that are no parameter sets.
+        """
+        fields = {type(getattr(cls(), each.name)): each.name for each in dataclasses.fields(cls)}
+        for each in sets:
+            if isinstance(each, TileMethod):
+                each = each.parameters
+            others[fields.get(type(each), "parameters")] = each
+        return cls(**others)
+
+
+@dataclass(frozen=True)
+class ClassifyRequest(Request):
+    """To classify the ground, and what to make of it.
+
+    Attributes
+    ----------
+    parameters : ParameterSet
+        Those of one method; their type chooses the method.
+    selection : Selection
+        Which points take part, and what their classes become.
+    area : Area or None
+        Where points are classified; everywhere if it is None. Of one file only.
+    output : Output
+        Which points are written, and whether with their heights above ground.
+    rasters : RasterFiles
+        Rasters to write as well.
+    terrain : TerrainModel
+        Their cell size and light.
+    """
+
+    parameters: ParameterSet = field(default_factory=METHODS[DEFAULT_METHOD].parameters)
+    selection: Selection = field(default_factory=Selection)
+    area: Area | None = None
+    output: Output = field(default_factory=Output)
+    rasters: RasterFiles = field(default_factory=RasterFiles)
+    terrain: TerrainModel = field(default_factory=TerrainModel)
+
+    @property
+    def step(self) -> LabelGround:
+        """What finds the ground."""
+        return LabelGround(self.parameters, self.selection, self.area, self.output)
+
+    @property
+    def _ground(self) -> GroundClasses:
+        return GroundClasses((self.selection.to_class,))
+
+    @property
+    def raster_step(self) -> MakeRasters:
+        """What makes the rasters of the classified points."""
+        request = RasterRequest(self.rasters, self.terrain)
+        return MakeRasters(request, self._ground, covers_ground=not request.needs_surface)
+
+    @property
+    def height_step(self) -> MeasureHeights:
+        """What measures the heights of the classified points."""
+        return MeasureHeights(self._ground)
+
+
+@dataclass(frozen=True)
+class HeightRequest(Request):
+    """To measure heights above ground.
+
+    Attributes
+    ----------
+    ground : GroundClasses
+        Which points are ground.
+    output : HeightOutput
+        Whether the heights are an extra dimension or replace z; both in the vertical unit.
+    """
+
+    ground: GroundClasses = field(default_factory=GroundClasses)
+    output: HeightOutput = field(default_factory=HeightOutput)
+
+    @property
+    def step(self) -> MeasureHeights:
+        """What measures the heights."""
+        return MeasureHeights(self.ground, self.output)
+
+
+@dataclass(frozen=True)
+class KeyPointRequest(Request):
+    """To mark model key points.
+
+    Attributes
+    ----------
+    parameters : ModelKeyPoints
+        How closely they follow the ground.
+    ground : GroundClasses
+        Which points are ground.
+    mark : KeyPointMark
+        Whether they get a class or a flag.
+    """
+
+    parameters: ModelKeyPoints = field(default_factory=ModelKeyPoints)
+    ground: GroundClasses = field(default_factory=GroundClasses)
+    mark: KeyPointMark = field(default_factory=KeyPointMark)
+
+    @property
+    def step(self) -> FindKeyPoints:
+        """What finds the key points."""
+        return FindKeyPoints(self.parameters, self.ground, self.mark)
+
+
+@dataclass(frozen=True)
+class TerrainRequest(Request):
+    """To make rasters of the terrain and of what stands on it.
+
+    Attributes
+    ----------
+    rasters : RasterFiles
+        What to write.
+    ground : GroundClasses
+        Which points are ground.
+    terrain, surface : TerrainModel, SurfaceModel
+        Cell size, light, gaps, and which points make the surface.
+    """
+
+    rasters: RasterFiles = field(default_factory=RasterFiles)
+    ground: GroundClasses = field(default_factory=GroundClasses)
+    terrain: TerrainModel = field(default_factory=TerrainModel)
+    surface: SurfaceModel = field(default_factory=SurfaceModel)
+
+    @property
+    def raster_step(self) -> MakeRasters:
+        """What makes the rasters."""
+        return MakeRasters(RasterRequest(self.rasters, self.terrain, self.surface), self.ground)

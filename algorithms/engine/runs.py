@@ -1,0 +1,168 @@
+"""What a run does with one file, with many, with folders and with virtual point clouds."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Iterable, Union
+
+from ..core.errors import BareEarthError
+from ..core.progress import SILENT, Progress
+from ..survey.collection import is_cloud
+from .many_files import SurveySummary, classify_files, rasters_of_files, write_files
+from .one_file import Summary, classify_file, rasters_of_file, write_points
+from .rasters import RasterSize
+from .requests import ClassifyRequest, HeightRequest, KeyPointRequest, TerrainRequest
+from .workers import Workers
+
+Sources = Union[str, Path, Iterable[Union[str, Path]]]
+
+
+def classify(
+    sources: Sources,
+    output: str | Path,
+    request: ClassifyRequest = ClassifyRequest(),
+    progress: Progress = SILENT,
+    workers: Workers | None = None,
+) -> Summary | SurveySummary:
+    """Classify the ground points of a file, or of many files as one survey.
+
+    Parameters
+    ----------
+    sources : path or iterable of paths
+        LAS, LAZ and COPC files, folders of them, virtual point clouds (.vpc) and lists (.txt).
+    output : path
+        Of one file the file to write (.las, .laz or .copc.laz); else a folder, which is made if it
+        is not there.
+    request : ClassifyRequest
+        What to do.
+    progress : Progress
+        Receives progress and messages.
+    workers : Workers, optional
+        Who works on many files; threads of this process if not given.
+
+    Returns
+    -------
+    Summary or SurveySummary
+        What was done, of one file or of many.
+
+    Raises
+    ------
+    BareEarthError
+        If an input cannot be read or an output cannot be written.
+    Cancelled
+        If the user asked to stop; nothing is left half written.
+
+    Examples
+    --------
+    >>> from bare_earth.algorithms import ClassifyRequest, TinDensification, classify
+    >>> request = ClassifyRequest(parameters=TinDensification(preset="hilly"))
+    >>> summary = classify("tile.laz", "classified.laz", request)  # doctest: +SKIP
+    """
+    paths, one = _paths(sources), Path(output)
+    if is_one_file(paths):
+        return classify_file(paths[0], one, request, progress)
+    return classify_files(paths, one, request, progress, workers)
+
+
+def heights(
+    sources: Sources,
+    output: str | Path,
+    request: HeightRequest = HeightRequest(),
+    progress: Progress = SILENT,
+    workers: Workers | None = None,
+) -> Any:
+    """Write classified files anew with the height of every point above the ground.
+
+    Parameters
+    ----------
+    request : HeightRequest
+        Which points are ground, and where the heights go.
+    sources, output, progress, workers
+        As for `classify`.
+
+    Returns
+    -------
+    HeightSummary or SurveySummary
+        What was done, of one file or of many.
+    """
+    return _written(_paths(sources), Path(output), request, progress, workers)
+
+
+def key_points(
+    sources: Sources,
+    output: str | Path,
+    request: KeyPointRequest = KeyPointRequest(),
+    progress: Progress = SILENT,
+    workers: Workers | None = None,
+) -> Any:
+    """Write classified files anew with their model key points marked.
+
+    Parameters
+    ----------
+    request : KeyPointRequest
+        How closely the key points follow the ground, and how they are marked.
+    sources, output, progress, workers
+        As for `classify`.
+
+    Returns
+    -------
+    KeyPointSummary or SurveySummary
+        What was done, of one file or of many.
+    """
+    return _written(_paths(sources), Path(output), request, progress, workers)
+
+
+def terrain(
+    sources: Sources,
+    request: TerrainRequest,
+    progress: Progress = SILENT,
+    workers: Workers | None = None,
+) -> RasterSize:
+    """Write rasters of the terrain and of what stands on it; all of them or none.
+
+    Parameters
+    ----------
+    request : TerrainRequest
+        Which rasters, where they go, and how they are made.
+    sources, progress, workers
+        As for `classify`; all files together are one survey.
+
+    Raises
+    ------
+    BareEarthError
+        If no raster is wanted, the input has no ground or cannot be read, or a raster cannot be
+        written.
+    Cancelled
+        If the user asked to stop; no output is left behind.
+    """
+    paths = _paths(sources)
+    if not request.rasters.wanted:
+        raise BareEarthError("Name at least one raster to make.")
+    if not request.ground.ground_classes:
+        raise BareEarthError("Choose at least one ground class.")
+    request.rasters.check(tuple(paths))
+    if is_one_file(paths):
+        return rasters_of_file(paths[0], request, progress)
+    return rasters_of_files(paths, request, progress, workers)
+
+
+def is_one_file(paths: list[Path]) -> bool:
+    """Return whether inputs are one point cloud file, not a folder or a list of several."""
+    return len(paths) == 1 and not paths[0].is_dir() and is_cloud(paths[0])
+
+
+def _written(
+    paths: list[Path],
+    output: Path,
+    request: HeightRequest | KeyPointRequest,
+    progress: Progress,
+    workers: Workers | None,
+) -> Any:
+    if is_one_file(paths):
+        return write_points(paths[0], output, request.step, request.resources, progress)
+    return write_files(paths, output, [request.step], request, progress, workers)
+
+
+def _paths(sources: Sources) -> list[Path]:
+    one = isinstance(sources, (str, Path))
+    return [Path(each) for each in ([sources] if one else sources)]

@@ -1,0 +1,95 @@
+"""Which points of a classified cloud are ground."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.parameters import ParameterSet, parameter
+from ..las.cloud import PointCloud
+from .selection import count_classes, ground_of
+
+
+@dataclass
+class GroundTally:
+    """What was counted in the parts of a file so far.
+
+    Attributes
+    ----------
+    points, ground : int
+        Points, and those of the ground.
+    classes : numpy.ndarray of int64, shape (256,)
+        Points of each class.
+    """
+
+    points: int = 0
+    ground: int = 0
+    classes: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
+
+
+@dataclass(frozen=True)
+class GroundClasses(ParameterSet):
+    """Which points of a classified cloud are ground."""
+
+    ground_classes: tuple[int, ...] = parameter(
+        (2,),
+        label="Ground classes",
+        minimum=0,
+        maximum=255,
+        help="Classes of the points that are ground. Add 8 where model key points have that class,"
+        " and 9 where water counts as ground. Withheld points are left out.",
+    )
+
+    def of(self, part: PointCloud, tally: GroundTally, also: tuple[int, ...] = ()) -> np.ndarray:
+        """Return which points are ground, and count them.
+
+        Parameters
+        ----------
+        part : PointCloud
+            Any points of a file, with their classes.
+        tally : GroundTally
+            Gets the points added.
+        also : tuple of int
+            Classes that are ground as well.
+
+        Returns
+        -------
+        numpy.ndarray of bool, shape (n,)
+
+        Raises
+        ------
+        BareEarthError
+            If no class is chosen, or the CRS is geographic.
+        """
+        part.require_projected()
+        if not self.ground_classes:
+            raise BareEarthError("Choose at least one ground class.")
+        ground = ground_of(part, (*self.ground_classes, *also))
+        tally.points += part.count
+        tally.ground += int(np.count_nonzero(ground))
+        tally.classes += count_classes(part.classification)
+        return ground
+
+    def check(self, tally: GroundTally, path: Path) -> None:
+        """Refuse a file without ground.
+
+        Raises
+        ------
+        BareEarthError
+            If no point that was counted is ground.
+        """
+        if tally.ground:
+            return
+        wanted = " or ".join(str(each) for each in self.ground_classes)
+        if tally.classes[list(self.ground_classes)].any():
+            raise BareEarthError(
+                f"All ground points of {path} (class {wanted}) are withheld. Clear that flag first."
+            )
+        present = ", ".join(str(each) for each in np.flatnonzero(tally.classes))
+        raise BareEarthError(
+            f"{path} has no ground points: none is of class {wanted}, there are the"
+            f" classes {present}. Classify its ground first, or choose other ground classes."
+        )

@@ -1,0 +1,117 @@
+"""Which points of a file are to be classified, and which take part: area and selection together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.progress import Progress
+from ..las.cloud import PointCloud
+from .area import Area
+from .selection import Selection, Tally
+
+
+@dataclass
+class ChosenTally(Tally):
+    """What was counted in the parts of a file so far; the rest as in `Tally`.
+
+    Attributes
+    ----------
+    inside, wanted : int
+        Points in the area, and those of them that take part.
+    bounds : tuple of float or None
+        Smallest x and y, largest x and y of all points, in units of the CRS.
+    """
+
+    inside: int = 0
+    wanted: int = 0
+    bounds: tuple[float, float, float, float] | None = None
+
+    def see(self, part: PointCloud) -> None:
+        """Take in where the points of a part lie."""
+        corners = (part.lowest, part.highest)
+        box = [
+            corner[axis] * part.scale[axis] + part.offset[axis]
+            for corner in corners
+            for axis in (0, 1)
+        ]
+        if self.bounds is not None:
+            box = [*map(min, self.bounds[:2], box[:2]), *map(max, self.bounds[2:], box[2:])]
+        self.bounds = tuple(box)
+
+
+@dataclass(frozen=True)
+class PointChooser:
+    """Chooses the points of a run, part by part.
+
+    Attributes
+    ----------
+    selection : Selection
+        Which points take part.
+    area : Area or None
+        Where points are to be classified; everywhere if it is None.
+    context : float
+        Metres round the area from which points take part as well.
+    """
+
+    selection: Selection
+    area: Area | None = None
+    context: float = 0.0
+
+    def choose(self, part: PointCloud, tally: ChosenTally) -> tuple[np.ndarray, np.ndarray]:
+        """Return which points lie in the area, and which take part; count them.
+
+        Returns
+        -------
+        inside, selected : numpy.ndarray of bool, shape (n,)
+
+        Raises
+        ------
+        BareEarthError
+            If nothing can be measured in the CRS, or the points cannot hold the class.
+        """
+        self.selection.check(part)
+        inside, near = self.inside(part), None
+        if self.area is not None:
+            tally.see(part)
+            box = self.area.buffered_box(self.context / part.crs.horizontal_unit)
+            near = Area(box).of(part)
+        selected = self.selection.choose(part, tally, near)
+        tally.inside += int(np.count_nonzero(inside))
+        tally.wanted += int(np.count_nonzero(inside & selected))
+        return inside, selected
+
+    def inside(self, part: PointCloud) -> np.ndarray:
+        """Return which points lie in the area; boolean, shape (n,)."""
+        return np.ones(part.count, dtype=bool) if self.area is None else self.area.of(part)
+
+    def tell(self, tally: ChosenTally, path: Path, progress: Progress) -> None:
+        """Tell what lies in the area and what takes part, once all points are counted.
+
+        Raises
+        ------
+        BareEarthError
+            If no point lies in the area, or none of these takes part.
+        """
+        if self.area is not None:
+            if not tally.inside:
+                wanted, there = _in_words(self.area.bounds), _in_words(tally.bounds)
+                raise BareEarthError(
+                    f"No point of {path} lies in the area ({wanted}): the points have"
+                    f" {there}. Give the area in the CRS of the points."
+                )
+            progress.info(f"{tally.inside:,} of {tally.points:,} points lie in the area.")
+        self.selection.tell(tally, path, progress, self.area is not None)
+        if not tally.wanted:
+            raise BareEarthError(
+                f"None of the {tally.inside:,} points in the area takes part. Choose"
+                " another area, or other returns or classes."
+            )
+
+
+def _in_words(bounds: tuple[float, ...]) -> str:
+    west, south, east, north = bounds
+    return f"x {west:.10g} to {east:.10g}, y {south:.10g} to {north:.10g}"

@@ -1,0 +1,77 @@
+"""Runs of the engine, called with what a test is about and nothing else."""
+
+from __future__ import annotations
+
+from bare_earth.algorithms.core.progress import SILENT
+from bare_earth.algorithms.engine import many_files, one_file
+from bare_earth.algorithms.engine.heights import HeightOutput
+from bare_earth.algorithms.engine.key_points import KeyPointMark
+from bare_earth.algorithms.engine.memory import Resources
+from bare_earth.algorithms.engine.options import TileInput, TileOutput
+from bare_earth.algorithms.engine.output import Output
+from bare_earth.algorithms.engine.rasters import RasterFiles
+from bare_earth.algorithms.engine.requests import (
+    ClassifyRequest,
+    HeightRequest,
+    KeyPointRequest,
+    TerrainRequest,
+)
+from bare_earth.algorithms.engine.runs import terrain
+from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
+from bare_earth.algorithms.products.surface_model import SurfaceModel
+from bare_earth.algorithms.products.terrain_model import TerrainModel
+from bare_earth.algorithms.survey.ground_classes import GroundClasses
+from bare_earth.algorithms.survey.selection import Selection
+
+
+def classify_file(
+    source, target, parameters, selection=Selection(), terrain=TerrainModel(),
+    dtm=None, hillshade=None, progress=SILENT, area=None, resources=Resources(), output=Output(),
+):  # fmt: skip
+    request = ClassifyRequest(
+        parameters=parameters, selection=selection, area=area, output=output, terrain=terrain,
+        rasters=RasterFiles(dtm=dtm, hillshade=hillshade), resources=resources,
+    )  # fmt: skip
+    return one_file.classify_file(source, target, request, progress)
+
+
+def classify_tiles(
+    sources, folder, parameters, selection=Selection(), files=TileInput(), output=TileOutput(),
+    vpc=None, progress=SILENT, workers=None, blocks=None, rasters=RasterFiles(),
+    terrain=TerrainModel(), points=Output(),
+):  # fmt: skip
+    request = ClassifyRequest(
+        parameters=parameters, selection=selection, files=files, tiles=output, rasters=rasters,
+        terrain=terrain, output=points,
+    )  # fmt: skip
+    return many_files.classify_files(sources, folder, request, progress, workers, vpc, blocks)
+
+
+def write_height_above_ground(
+    source, target, ground=GroundClasses(), output=HeightOutput(), resources=Resources(),
+    progress=SILENT,
+):  # fmt: skip
+    request = HeightRequest(ground=ground, output=output)
+    return one_file.write_points(source, target, request.step, resources, progress)
+
+
+def write_key_points(
+    source, target, parameters=ModelKeyPoints(), ground=GroundClasses(), mark=KeyPointMark(),
+    progress=SILENT,
+):  # fmt: skip
+    request = KeyPointRequest(parameters=parameters, ground=ground, mark=mark)
+    return one_file.write_points(source, target, request.step, progress=progress)
+
+
+def write_terrain_models(
+    sources, files, ground=GroundClasses(), model=TerrainModel(), surface=SurfaceModel(),
+    resources=Resources(), progress=SILENT, workers=None,
+):  # fmt: skip
+    request = TerrainRequest(
+        rasters=files, ground=ground, terrain=model, surface=surface, resources=resources
+    )
+    return terrain(sources, request, progress, workers)
+
+
+def write_heights(sources, folder, **rest):
+    return many_files.write_files(sources, folder, [HeightRequest().step], **rest)

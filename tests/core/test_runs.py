@@ -1,0 +1,160 @@
+"""What is made of many files in one go, and the public API."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import laspy
+import numpy as np
+import pytest
+from runs import classify_file, classify_tiles, write_heights, write_key_points
+from surveys import bytes_of, cut, finished, strip, write
+
+import bare_earth.algorithms as api
+from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.engine import runs as runs_module
+from bare_earth.algorithms.engine.many_files import write_files
+from bare_earth.algorithms.engine.memory import Resources
+from bare_earth.algorithms.engine.output import Output
+from bare_earth.algorithms.engine.rasters import RasterFiles
+from bare_earth.algorithms.engine.requests import ClassifyRequest, HeightRequest, KeyPointRequest
+from bare_earth.algorithms.filters.slope.filter import SlopeFilter
+from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
+from bare_earth.algorithms.survey.area import Area
+from bare_earth.algorithms.survey.ground_classes import GroundClasses
+from bare_earth.algorithms.survey.selection import Selection
+
+SLOPE = SlopeFilter()
+
+
+@pytest.fixture
+def survey(tmp_path):
+    """One file, and the same points in six."""
+    points = strip(12_000, 300.0, 150.0)
+    cut(tmp_path / "in", points, 6)
+    return write(tmp_path / "one.laz", points)
+
+
+def _rows(paths, *names):
+    rows = []
+    for path in paths:
+        las = laspy.read(path)
+        rows.append(np.column_stack([np.asarray(las[name]) for name in ("x", "y", "z", *names)]))
+    rows = np.round(np.concatenate(rows), 3)
+    return rows[np.lexsort(rows.T)]
+
+
+def test_classes_rasters_and_heights_of_many_files_in_one_go(survey, tmp_path):
+    words = ["--method", "slope", "--height-above-ground"]
+    dtm, shade = tmp_path / "dtm.tif", tmp_path / "shade.tif"
+    one = ["classify", str(survey), str(tmp_path / "out.laz"), "--dtm", str(tmp_path / "1.tif")]
+    assert main([*one, *words]) == 0
+    many = ["classify", str(tmp_path / "in"), str(tmp_path / "out"), "--dtm", str(dtm)]
+    assert main([*many, "--hillshade", str(shade), *words]) == 0
+    names = ("classification", "HeightAboveGround")
+    found = _rows(finished(tmp_path / "out"), *names)
+    expected = _rows([tmp_path / "out.laz"], *names)
+    assert np.array_equal(found[:, :4], expected[:, :4])
+    assert np.allclose(found[:, 4], expected[:, 4], atol=1e-3) and np.ptp(found[:, 4]) > 5.0
+    assert dtm.stat().st_size and shade.stat().st_size
+    assert not list((tmp_path / "out" / ".bare-earth").glob("waiting*"))
+
+
+def test_ground_alone_of_many_files_with_heights_and_without(survey, tmp_path):
+    classify_file(survey, tmp_path / "all.laz", SLOPE)
+    ground = _rows([tmp_path / "all.laz"], "classification")
+    ground = ground[ground[:, 3] == 2]
+    for heights in (False, True):
+        output = Output(ground_only=True, height_above_ground=heights)
+        folder = tmp_path / f"{heights}"
+        summary = classify_tiles([tmp_path / "in"], folder, SLOPE, points=output)
+        assert np.array_equal(_rows(finished(folder), "classification"), ground)
+        assert summary.ground_count == len(ground)
+
+
+def test_of_ground_alone_there_is_no_surface_of_many_files(survey, tmp_path):
+    with pytest.raises(BareEarthError, match="Of ground points alone"):
+        classify_tiles(
+            [tmp_path / "in"], tmp_path / "out", SLOPE, points=Output(ground_only=True),
+            rasters=RasterFiles(dsm=tmp_path / "dsm.tif"),
+        )  # fmt: skip
+
+
+def test_an_area_is_for_one_file(survey, tmp_path):
+    request = ClassifyRequest(parameters=SLOPE, area=Area((0.0, 0.0, 1.0, 1.0)))
+    with pytest.raises(BareEarthError, match="for one file only"):
+        runs_module.classify([tmp_path / "in"], tmp_path / "out", request)
+
+
+def test_heights_go_on_where_a_run_ended(survey, tmp_path):
+    classify_tiles([tmp_path / "in"], tmp_path / "classified", SLOPE)
+    sources, folder = [tmp_path / "classified"], tmp_path / "out"
+    write_heights(sources, folder)
+    before = bytes_of(folder)
+    (folder / "3.laz").unlink()
+    request = HeightRequest.of([runs_module.ClassifyRequest().tiles, GroundClasses()])
+    assert request == HeightRequest()
+    resumed = HeightRequest(tiles=type(request.tiles)(resume=True))
+    summary = write_files(sources, folder, [resumed.step], resumed)
+    assert summary.kept_count == 5 and summary.done_count == 6
+    assert bytes_of(folder) == before
+    assert [each.name for each in summary.tiles] == sorted(each.name for each in finished(folder))
+
+
+def test_key_points_of_many_files_are_as_good_as_those_of_one(survey, tmp_path):
+    classify_tiles([tmp_path / "in"], tmp_path / "classified", SLOPE)
+    classify_file(survey, tmp_path / "classified.laz", SLOPE)
+    one = write_key_points(tmp_path / "classified.laz", tmp_path / "keys.laz")
+    words = ["key-points", str(tmp_path / "classified"), str(tmp_path / "keys")]
+    assert main(words) == 0
+    # The blocks are the same, whatever the files.
+    names = ("classification",)
+    found = _rows(finished(tmp_path / "keys"), *names)
+    assert np.array_equal(found, _rows([tmp_path / "keys.laz"], *names))
+    assert one.key_point_count == np.count_nonzero(found[:, 3] == 8) > 100
+    resume = [*words, "--resume", "--json"]
+    assert main(resume) == 0
+
+
+def test_a_request_takes_parameter_sets_in_any_order():
+    sets = [Selection(returns="all"), Resources(threads=1), SLOPE, Output(ground_only=True)]
+    request = ClassifyRequest.of(sets)
+    assert request == ClassifyRequest.of(sets[::-1])
+    assert (request.parameters, request.selection.returns) == (SLOPE, "all")
+    assert request.output.ground_only and request.resources.threads == 1
+    keys = KeyPointRequest.of([GroundClasses((2, 8)), ModelKeyPoints(tolerance_above=1.0)])
+    assert keys.parameters.tolerance_above == 1.0 and keys.ground.ground_classes == (2, 8)
+
+
+def test_the_public_api_is_there_and_costs_nothing_before_it_is_used():
+    assert set(api.__all__) <= set(dir(api))
+    assert all(getattr(api, name) is not None for name in api.__all__)
+    with pytest.raises(AttributeError, match="nothing_of_that_name"):
+        api.nothing_of_that_name  # noqa: B018
+    text = Path(api.__file__).read_text(encoding="utf-8")
+    typed = {line.split()[-1] for line in text.splitlines() if line.startswith("    from .")}
+    assert {*api.__all__} - {"assess"} <= typed
+    code = (
+        "import sys, bare_earth.algorithms; print('scipy' in sys.modules, 'numpy' in sys.modules)"
+    )
+    root = str(Path(api.__file__).parents[2])
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True,
+        env={"PYTHONPATH": root, "PATH": ""},
+    )  # fmt: skip
+    assert done.stdout.split() == ["False", "False"]
+
+
+def test_the_public_functions_take_one_file_and_many(survey, tmp_path):
+    request = api.ClassifyRequest(parameters=SLOPE)
+    one = api.classify(str(survey), tmp_path / "one-out.laz", request)
+    many = api.classify(tmp_path / "in", tmp_path / "many", request)
+    assert one.ground_count == many.ground_count > 5000
+    heights = api.heights(tmp_path / "one-out.laz", tmp_path / "heights.laz")
+    assert heights.maximum > 5.0 and heights.unit == "metre"
+    rasters = api.RasterFiles(dtm=tmp_path / "dtm.tif", dsm=tmp_path / "dsm.tif")
+    size = api.terrain([tmp_path / "many"], api.TerrainRequest(rasters=rasters))
+    assert size.ground_count == one.ground_count and (tmp_path / "dsm.tif").stat().st_size
+    assert json.dumps(many.failures) == "{}"
