@@ -88,7 +88,7 @@ def test_the_zip_holds_one_folder_with_what_qgis_needs(names):
     needed = "__init__.py metadata.txt LICENSE README.md requirements.txt plugin/plugin.py"
     for name in needed.split():
         assert f"bare_earth/{name}" in names, name
-    assert "bare_earth/algorithms/engine/classification.py" in names
+    assert "bare_earth/algorithms/engine/runs.py" in names
 
 
 def test_the_zip_holds_nothing_else(names):
