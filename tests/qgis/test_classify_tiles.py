@@ -55,7 +55,7 @@ def test_a_folder_is_classified_and_the_log_says_how_to_repeat_it(tiles, folder,
     assert [each["assets"]["data"]["href"] for each in listed["features"]] == [
         f"./{number}.laz" for number in range(4)
     ]
-    assert "0.laz: 25,600 points" in log.text and "4 of 4 tiles are classified" in log.text
+    assert "0.laz: 25,600 points" in log.text and "4 of 4 files are done" in log.text
     loaded = str(out / "classified.vpc") in context.layersToLoadOnCompletion()
     assert loaded == ("vpc" in QgsProviderRegistry.instance().providerList())
     if loaded:
@@ -95,7 +95,7 @@ def test_a_broken_file_is_told_and_the_others_are_done(tiles, folder, context, l
     parameters = {"INPUT_FOLDER": str(folder), "OUTPUT_FOLDER": str(folder.parent / "out")}
     results, done = tiles.run(parameters, context, log)
     assert done and results["DONE_COUNT"] == 4 and results["TILE_COUNT"] == 5
-    assert f"{folder / 'broken.laz'} is not classified." in log.text
+    assert f"{folder / 'broken.laz'} is left out." in log.text
 
 
 @pytest.mark.parametrize("given", [{}, {"INPUT": ["/no/such.laz"]}, {"INPUT_FOLDER": "/no"}])

@@ -61,12 +61,14 @@ PARAMETERS = {
         "THREADS", "MEMORY",
         "OUTPUT_FOLDER", "OUTPUT_VPC", "DTM", "HILLSHADE",
     ],
-    "bareearth:heightaboveground": ["INPUT", "GROUND_CLASSES", "OUTPUT_AS", "OUTPUT"],
+    "bareearth:heightaboveground": [
+        "INPUT", "GROUND_CLASSES", "OUTPUT_AS", "THREADS", "MEMORY", "OUTPUT",
+    ],
     "bareearth:modelkeypoints": [
         "INPUT",
         "TOLERANCE_ABOVE", "TOLERANCE_BELOW", "GRID_SIZE",
         "GROUND_CLASSES", "MARK_AS", "KEY_CLASS",
-        "OUTPUT",
+        "THREADS", "MEMORY", "OUTPUT",
     ],
     "bareearth:terrainmodel": [
         "INPUT", "GROUND_CLASSES",
