@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, Sequence
 
 from ..core.errors import BareEarthError
-from ..core.parameters import Declaration, ParameterSet
+from ..core.parameters import Declaration, ParameterSet, shown_value
 
 _NOT_USED = ("none", "automatic")
 
@@ -73,6 +73,9 @@ def _add_options(parser: Any, declared: type[ParameterSet]) -> None:
             parser.add_argument(flag, action=argparse.BooleanOptionalAction, **words)
         elif each.kind == "choice":
             parser.add_argument(flag, choices=list(each.choices), **words)
+        elif each.kind == "choices":
+            names = {"choices": list(each.choices), "metavar": each.name.upper().rstrip("S")}
+            parser.add_argument(flag, nargs="+", **names, **words)
         elif each.kind in ("numbers", "integers"):
             parser.add_argument(flag, nargs="*", metavar="N", **words)
         else:
@@ -82,7 +85,7 @@ def _add_options(parser: Any, declared: type[ParameterSet]) -> None:
 def _help_of(each: Declaration) -> str:
     default = each.default
     if isinstance(default, tuple):
-        default = " ".join(f"{value:g}" for value in default) or "none"
+        default = " ".join(map(shown_value, default)) or "none"
     unit = f" {each.unit}" if each.unit and default is not None else ""
     words = [each.help, f"(default: {each.empty if default is None else default}{unit})"]
     words[1:1] = [f"{value}: {label}." for value, label in each.choices.items()]

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import os
-import shlex
 from html import escape
 from typing import Any, Iterator
 
@@ -16,8 +14,9 @@ from qgis.core import (
 )
 from qgis.PyQt.QtGui import QIcon
 
+from ...algorithms.core.commands import shell_line
 from ...algorithms.core.errors import BareEarthError, Cancelled
-from ...algorithms.core.parameters import ParameterSet
+from ...algorithms.core.parameters import ParameterSet, shown_value
 from ...algorithms.las.backends import install_hint, missing_packages
 from .. import compat
 from .feedback import FeedbackProgress
@@ -240,15 +239,12 @@ def command_line(
             value = getattr(parameters, each.name)
             if value != each.default:
                 words += _option(each.name.replace("_", "-"), value)
-    if os.name == "nt":
-        # Windows knows double quotes only, and file names there hold none.
-        return " ".join(f'"{word}"' if " " in word else word for word in words)
-    return shlex.join(words)
+    return shell_line(words)
 
 
 def _option(name: str, value: Any) -> list[str]:
     if isinstance(value, bool):
         return [f"--{name}" if value else f"--no-{name}"]
     if isinstance(value, tuple):
-        return [f"--{name}", *(f"{each:g}" for each in value)]
+        return [f"--{name}", *map(shown_value, value)]
     return [f"--{name}", "none" if value is None else str(value)]

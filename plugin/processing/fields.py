@@ -39,7 +39,11 @@ def field_of(declaration: Declaration) -> QgsProcessingParameterDefinition:
     """
     name, label = declaration.name.upper(), title_of(declaration)
     default, optional = declaration.default, declaration.optional
-    if declaration.kind == "boolean":
+    if declaration.kind == "choices":
+        field = QgsProcessingParameterEnum(
+            name, label, list(declaration.choices), True, list(default), optional, True
+        )
+    elif declaration.kind == "boolean":
         field = QgsProcessingParameterBoolean(name, label, default, optional)
     elif declaration.kind == "choice":
         # The values themselves, not their places in the list: they stay true in saved models.
@@ -128,6 +132,10 @@ def _value(
         if isinstance(given, (str, int)):
             return given
         return algorithm.parameterAsEnumString(parameters, name, context) or None
+    if declaration.kind == "choices":
+        if isinstance(given, (list, tuple)):
+            return given
+        return algorithm.parameterAsEnumStrings(parameters, name, context)
     if declaration.kind in _LISTS:
         if isinstance(given, (list, tuple)):
             return given
