@@ -30,6 +30,14 @@ def add_inputs(parser: argparse.ArgumentParser, first: str = "") -> None:
     )  # fmt: skip
 
 
+def add_extent(parser: argparse.ArgumentParser, what: str, required: bool = False) -> None:
+    """Add the option for a rectangle; `what` says what it is for."""
+    parser.add_argument(
+        "--extent", nargs=4, type=float, metavar=("XMIN", "YMIN", "XMAX", "YMAX"),
+        required=required, help=f"{what}, in the CRS of the points",
+    )  # fmt: skip
+
+
 def add_json(parser: argparse.ArgumentParser, what: str = "what was done ") -> None:
     """Add the option to print something as JSON."""
     parser.add_argument("--json", action="store_true", help=f"print {what}as JSON")

@@ -77,8 +77,8 @@ def data_uri(pixels: np.ndarray) -> str:
     return "data:image/png;base64," + base64.b64encode(png(pixels)).decode("ascii")
 
 
-def map_figure(picture: Picture, name: str, caption: str = "") -> tuple[str, float]:
-    """Return a map with a bar of scale below it, and the metres that the bar is long.
+def map_figure(picture: Picture, name: str, caption: str = "") -> str:
+    """Return a map with a bar of scale below it.
 
     Parameters
     ----------
@@ -87,14 +87,13 @@ def map_figure(picture: Picture, name: str, caption: str = "") -> tuple[str, flo
     name : str
         What is said where pictures cannot be seen, as plain text.
     caption : str
-        HTML above the map.
+        What stands above the map, as plain text.
     """
-    columns = picture.pixels.shape[1]
-    length = round_length(columns * picture.cell_size / 4)
-    share = length / (columns * picture.cell_size)
-    html = f"""{caption}<img src="{data_uri(picture.pixels)}" alt="{text(name)}">
-<div class="bar" style="width: {100 * share:.2f}%"></div>"""
-    return html, length
+    width = picture.pixels.shape[1] * picture.cell_size
+    length = round_length(width / 4)
+    above = f"<figcaption>{text(caption)}</figcaption>" if caption else ""
+    return f"""{above}<img src="{data_uri(picture.pixels)}" alt="{text(name)}">
+<div class="bar" style="width: {100 * length / width:.2f}%"></div>{length:g} m"""
 
 
 def key(colour: str, meaning: str) -> str:

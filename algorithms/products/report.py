@@ -103,12 +103,10 @@ def _figures(assessment: Assessment) -> str:
 
 def _map(picture: Picture) -> str:
     rows, columns, _ = picture.pixels.shape
-    html, length = map_figure(picture, "Map of the errors")
     return f"""<figure style="max-width: {LONGEST_SIDE * min(columns / rows, 1):.0f}px">
-{html}
+{map_figure(picture, "Map of the errors")}
 </figure>
-<p>{length:g} m
-{key(TYPE_1, "type I: ground that was rejected")}
+<p>{key(TYPE_1, "type I: ground that was rejected")}
 {key(TYPE_2, "type II: other points that were accepted")}</p>
 <p>North is up. Grey is the relief of the highest points. A pixel is {picture.cell_size:.3g} m wide;
 it takes the colour of its more frequent error, the stronger the more of its points are

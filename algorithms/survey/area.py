@@ -109,6 +109,12 @@ class Area:
         return inside
 
 
+def box_in_words(box: Box) -> str:
+    """Return from where to where a box reaches."""
+    west, south, east, north = box
+    return f"x {west:.10g} to {east:.10g}, y {south:.10g} to {north:.10g}"
+
+
 def read_boundary(path: Path) -> tuple[Polygon, ...]:
     """Read polygons from a GeoJSON or WKT file; what else it holds is left out.
 
