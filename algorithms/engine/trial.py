@@ -49,8 +49,8 @@ class TrialSummary:
         wide = max(len(each["name"]) for each in self.settings)
         return [
             f"{each['name']:<{wide}}  {each['ground_share']:6.2f} % ground, confidence"
-            f" {each['confidence']:3.0f} %; {each['gained']:.2f} % more, {each['lost']:.2f} % less"
-            " ground than the first"
+            f" {each['confidence']:3.0f} %; {each['gained']:,} points more and {each['lost']:,}"
+            " less ground than the first"
             for each in self.settings
         ]
 

@@ -84,7 +84,7 @@ class Profile(NamedTuple):
         return f"""<svg viewBox="{-_LEFT} -8 {_WIDTH + _LEFT + 20} {_HEIGHT + _BELOW + 8}"
  role="img" aria-label="Profile"><image width="{_WIDTH}" height="{_HEIGHT}" href="{points}"/>
 <g stroke="#000" stroke-opacity=".13">{grid}</g>
-<g fill="none" stroke-width="1.4">{"".join(lines)}</g>
+<g fill="none" stroke-width="1.1">{"".join(lines)}</g>
 <rect width="{_WIDTH}" height="{_HEIGHT}" fill="none" stroke="#888"/>
 <g font-size="12" fill="#333">{labels}</g></svg>"""
 
@@ -139,7 +139,9 @@ class Profile(NamedTuple):
         for height in np.arange(np.ceil(self.lowest / step), self.highest / step) * step:
             y = float(self._places(np.zeros(1), np.array([height]))[0][0])
             grid.append(f'<path d="M0 {y:.1f}H{_WIDTH}"/>')
-            labels.append(f'<text x="-6" y="{y + 4:.1f}" text-anchor="end">{height:g} m</text>')
+            labels.append(
+                f'<text x="-6" y="{y + 4:.1f}" text-anchor="end">{height + 0.0:g} m</text>'
+            )
         step = round_length(self.line.length / 4)
         for length in np.arange(0.0, self.line.length + step / 100, step):
             x = length / self.line.length * _WIDTH

@@ -19,7 +19,7 @@ _LONGEST_SIDE = 500
 
 _STYLE = """
 body { max-width: 1320px; }
-.maps { display: flex; flex-wrap: wrap; gap: 1em; }
+.maps { display: flex; flex-wrap: wrap; gap: 1em; align-items: flex-end; }
 .maps figure { flex: 1 1 280px; max-width: 500px; }
 figcaption { font-weight: 600; }
 svg { width: 100%; max-width: 976px; display: block; font-family: inherit; }
@@ -103,8 +103,11 @@ the colour of its more frequent difference, the stronger the more of its points 
             apart = each.terrain_difference
             others = ["first"] * 3
             if number:
-                terrain = "none" if apart is None else f"{apart:.2f} m"
-                others = [percent(each.gained), percent(each.lost), terrain]
+                others = [
+                    f"{count:,} ({percent(100.0 * count / each.point_count)})"
+                    for count in (each.gained, each.lost)
+                ]
+                others.append("none" if apart is None else f"{apart:.2f} m")
             cells = [percent(each.ground_share), f"{each.confidence:.0f} %", *others]
             cells = "".join(f"<td>{cell}</td>" for cell in cells)
             rows.append(f'<tr><th class="text">{text(each.label)}</th>{cells}</tr>')
@@ -115,7 +118,7 @@ the colour of its more frequent difference, the stronger the more of its points 
 </table>
 <p>Of the {self.figures[0].point_count:,} points in the window. Ground: their share that is ground.
 Confidence: the mean probability that the terrain is right, as each setting's own points tell it.
-More, less ground: the share that is ground here but not with the first setting, and the reverse.
+More, less ground: points that are ground here but not with the first setting, and the reverse.
 Terrain differs by: the mean of the absolute differences in height.</p>"""
 
     def _terrain(self, outcome: Outcome) -> str:

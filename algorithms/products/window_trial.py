@@ -12,10 +12,12 @@ from ..filters.shared.confidence import confidence
 from ..grids.dense_surface import DenseSurface
 
 # Pixels along the longer side of the terrain, at most, and the sides in metres that they may have.
-_MOST_CELLS = 500
+_MOST_CELLS = 300
 _CELL_SIZES = (0.25, 0.5, 1.0, 2.0, 5.0)
 # Half the width in metres of the strip along a profile: so wide that points are dense enough.
 _POINTS_A_METRE, _NARROWEST, _WIDEST = 8.0, 0.5, 3.0
+# Metres round the window in which points matter for the confidence in it.
+_NEAR = 20.0
 
 
 class Window(NamedTuple):
@@ -108,7 +110,10 @@ def outcome_of(
 
 def _confidence(window: Window, ground: np.ndarray, selected: np.ndarray) -> float:
     """Return the mean of the cells of 1 m in the window."""
-    cells, values = confidence(window.points.take(selected), ground[selected])
+    x, y, _ = window.points
+    near = (x >= -_NEAR) & (y >= -_NEAR) & (x <= window.width + _NEAR)
+    near &= selected & (y <= window.height + _NEAR)
+    cells, values = confidence(window.points.take(near), ground[near])
     rows, columns = (
         slice(max(-first, 0), max(math.ceil(side / cells.size) - first, 0))
         for first, side in zip(cells.first, (window.height, window.width))
@@ -130,8 +135,8 @@ class Figures(NamedTuple):
         The latter in percent of the former.
     confidence : float
         Mean, in percent.
-    gained, lost : float
-        Points that are ground but not with the first setting, and the reverse, in percent of all.
+    gained, lost : int
+        Points that are ground but not with the first setting, and the reverse.
     terrain_difference : float or None
         Mean absolute difference in metres from the terrain of the first; None without terrain.
     """
@@ -142,26 +147,30 @@ class Figures(NamedTuple):
     ground_count: int
     ground_share: float
     confidence: float
-    gained: float
-    lost: float
+    gained: int
+    lost: int
     terrain_difference: float | None
 
 
 def figures_of(window: Window, outcome: Outcome, first: Outcome) -> Figures:
     """Return the figures of a setting beside those of the first."""
-    count = int(np.count_nonzero(window.inside))
     ground, before = outcome.ground[window.inside], first.ground[window.inside]
     apart = np.abs(outcome.terrain - first.terrain)
     apart = apart[np.isfinite(apart)]
 
-    def share(which: np.ndarray) -> float:
-        return 100.0 * np.count_nonzero(which) / count
-
+    shared = int(np.count_nonzero(ground & before))
+    ground_count, first_count = (int(np.count_nonzero(each)) for each in (ground, before))
     return Figures(
-        outcome.name, outcome.label, count, int(np.count_nonzero(ground)), share(ground),
-        100.0 * outcome.confidence, share(ground & ~before), share(before & ~ground),
+        outcome.name,
+        outcome.label,
+        len(ground),
+        ground_count,
+        100.0 * ground_count / len(ground),
+        100.0 * outcome.confidence,
+        ground_count - shared,
+        first_count - shared,
         float(apart.mean()) if apart.size else None,
-    )  # fmt: skip
+    )
 
 
 class Line(NamedTuple):
