@@ -105,11 +105,11 @@ def compare_settings(
                 f"The window and what lies round it have {points.count:,} points, more than fit"
                 " into the memory that may be used. Choose a smaller one."
             )
-        outcomes = []
+        labelled = []
         for number, setting in enumerate(settings):
-            done = (0.4 + 0.5 * (number + step) / len(settings) for step in (0, 1))
-            outcomes.append(points.tried(setting, resources, progress.part(*done)))
-        found = _page(paths, points, outcomes, options, (context, reach))
+            done = (0.4 + 0.4 * (number + step) / len(settings) for step in (0, 1))
+            labelled.append(points.labelled(setting, resources, progress.part(*done)))
+        found = _page(paths, points, points.outcomes(labelled), options, (context, reach))
         html = found.html()
     with replacing(page) as temporary:
         temporary.write_text(html, encoding="utf-8")

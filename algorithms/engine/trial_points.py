@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Sequence
+from typing import NamedTuple, Sequence
 
 import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.points import Box, Points
 from ..core.progress import SILENT, Progress
+from ..core.threads import in_threads
 from ..crs.system import Crs
 from ..las.cloud import PointCloud, survey_frame
 from ..las.crs_records import read_crs
@@ -29,6 +30,25 @@ from .trial_options import Setting
 
 # Metres: a wider window is no quick trial any more.
 _WIDEST = 1000.0
+
+
+class Labelled(NamedTuple):
+    """The points as a setting classifies them.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Name and label of the setting.
+    classes : numpy.ndarray of uint8, shape (n,)
+        Classes.
+    ground, selected : numpy.ndarray of bool, shape (n,)
+        Which are ground, and which took part.
+    """
+
+    names: tuple[str, str]
+    classes: np.ndarray
+    ground: np.ndarray
+    selected: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -76,8 +96,8 @@ class TrialPoints:
         x1, y1, x2, y2 = ((each - start) * unit for each, start in zip(ends, corner))
         return Line((x1, y1), (x2, y2))
 
-    def tried(self, setting: Setting, resources: Resources, progress: Progress) -> Outcome:
-        """Return what a setting makes of the window.
+    def labelled(self, setting: Setting, resources: Resources, progress: Progress) -> Labelled:
+        """Classify the points with a setting.
 
         Parameters
         ----------
@@ -102,7 +122,7 @@ class TrialPoints:
         frame = survey_frame(self.crs)
         store = MemoryPoints(files, frame, step.blocks, progress.part(0.0, 0.1), step.kind)
         try:
-            step.work(store, resources, progress.part(0.1, 0.8))
+            step.work(store, resources, progress.part(0.1, 1.0))
         except BareEarthError as error:
             progress.warning(f"{setting.label}: {error}")
         classes = np.concatenate(
@@ -110,8 +130,12 @@ class TrialPoints:
         )
         ground = classes == step.selection.to_class
         selected = np.concatenate([file.selected for file in files])
-        names = setting.name, setting.label
-        return outcome_of(self.window, names, classes, ground, selected)
+        return Labelled((setting.name, setting.label), classes, ground, selected)
+
+    def outcomes(self, labelled: Sequence[Labelled]) -> list[Outcome]:
+        """Return what settings make of the window, several at the same time."""
+        window = self.window
+        return in_threads(lambda each: outcome_of(window, *each), labelled)
 
 
 def read_trial_points(
