@@ -2,6 +2,7 @@
 
 from .assess import AssessAlgorithm
 from .classify_tiles import ClassifyTilesAlgorithm
+from .compare_settings import CompareSettingsAlgorithm
 from .grid_minimum import GridMinimumAlgorithm
 from .height_above_ground import HeightAboveGroundAlgorithm
 from .model_key_points import ModelKeyPointsAlgorithm
@@ -18,6 +19,7 @@ ALGORITHMS = (
     TerrainModelAlgorithm,
     HeightAboveGroundAlgorithm,
     ModelKeyPointsAlgorithm,
+    CompareSettingsAlgorithm,
     AssessAlgorithm,
     RemoveOffTerrainObjectsAlgorithm,
 )

@@ -77,6 +77,9 @@ PARAMETERS = {
         "THREADS", "MEMORY",
         "DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE",
     ],
+    "bareearth:comparesettings": [
+        "INPUT", "EXTENT", "SETTINGS", "CONTEXT", "PROFILE", "THREADS", "MEMORY", "OUTPUT",
+    ],
     "bareearth:assess": [
         "CLASSIFIED", "REFERENCE", "GROUND_CLASSES", "IGNORED_CLASSES", "MAP_CELL_SIZE",
         "REPORT", "ERROR_MAP",
@@ -117,6 +120,7 @@ OUTPUTS = {
         "GROUND_COUNT",
         "SURFACE_COUNT",
     ],
+    "bareearth:comparesettings": ["OUTPUT"],
     "bareearth:assess": [
         "REPORT",
         "ERROR_MAP",
@@ -265,7 +269,7 @@ def test_its_page_holds_every_parameter_with_its_default(each, registry):
             elif isinstance(parameter.default, float):
                 shown = f"{parameter.default:g}{unit}"
             elif isinstance(parameter.default, tuple):
-                shown = str(parameter.default).strip("(,)") + unit
+                shown = ", ".join(map(str, parameter.default)) + unit
             elif parameter.default is not None:
                 shown = str(parameter.default)
             else:
