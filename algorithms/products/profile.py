@@ -120,7 +120,8 @@ class Profile(NamedTuple):
         return row, distance / self.line.length * _WIDTH
 
     def _terrain(self, window: Window, outcome: Outcome, look: str) -> str:
-        row, column = self._places(*self.line.heights(window, outcome.terrain))
+        distance, row, column = self.line.cells(window)
+        row, column = self._places(distance, outcome.terrain[row, column])
         # A line each for what lies between gaps.
         parts = np.split(np.arange(len(row)), np.flatnonzero(np.diff(np.isnan(row))) + 1)
         rows = np.clip(row, 0.0, _HEIGHT)

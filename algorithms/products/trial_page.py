@@ -8,12 +8,13 @@ import numpy as np
 
 from ..grids.hillshade import hillshade
 from .page import key, map_figure, page_html, percent, text
-from .pictures import Picture, Relief
+from .pictures import Picture, Relief, rgb
 from .profile import Profile
 from .window_trial import Figures, Outcome, Window
 
 # Told apart by colour-blind eyes, and in print.
 _LOST, _GAINED = "#d1157f", "#1b62c4"
+_PROFILE = "#e06c00"
 _NO_TERRAIN = (236, 236, 236)
 _LONGEST_SIDE = 500
 
@@ -21,6 +22,7 @@ _STYLE = """
 body { max-width: 1320px; }
 .maps { display: flex; flex-wrap: wrap; gap: 1em; align-items: flex-end; }
 .maps figure { flex: 1 1 280px; max-width: 500px; }
+td { white-space: nowrap; }
 figcaption { font-weight: 600; }
 svg { width: 100%; max-width: 976px; display: block; font-family: inherit; }
 svg image { image-rendering: pixelated; }
@@ -85,7 +87,7 @@ class TrialPage(NamedTuple):
 <h2>Terrain</h2>
 <div class="maps">{"".join(map(self._terrain, self.outcomes))}</div>
 <p>Hillshade of the terrain, lit from north-west; north is up, a pixel is {cell:g} m wide. Light
-grey: no terrain.</p>
+grey: no terrain. {key(_PROFILE, "where the profile lies")}</p>
 <h2>Differences from {text(first.label)}</h2>
 <div class="maps">{self._differences()}</div>
 <p>{key(_GAINED, "ground here, but not with the first setting")}
@@ -125,6 +127,8 @@ Terrain differs by: the mean of the absolute differences in height.</p>"""
         lit = np.maximum(hillshade(outcome.terrain, self.window.cell_size), 1)
         pixels = np.repeat(lit[..., None], 3, axis=2)
         pixels[np.isnan(outcome.terrain)] = _NO_TERRAIN
+        _, row, column = self.profile.line.cells(self.window)
+        pixels[row[::2], column[::2]] = rgb(_PROFILE)
         return _figure(Picture(pixels, self.window.cell_size), outcome.label)
 
     def _differences(self) -> str:

@@ -190,8 +190,11 @@ class Line(NamedTuple):
         x, y = x - self.start[0], y - self.start[1]
         return x * east + y * north, y * east - x * north
 
-    def heights(self, window: Window, terrain: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return distances along the line, one a cell, and the heights of a terrain there."""
+    def cells(self, window: Window) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return distances along the line, and row and column of the terrain's cell at each.
+
+        Only those in the window; they are as far apart as cells are wide.
+        """
         cell = window.cell_size
         distance = np.arange(0.0, self.length, cell) + 0.5 * min(cell, self.length)
         share = distance / self.length
@@ -201,9 +204,7 @@ class Line(NamedTuple):
         )
         row = window.shape[0] - 1 - row
         inside = (row >= 0) & (row < window.shape[0]) & (column >= 0) & (column < window.shape[1])
-        heights = np.full(len(distance), np.nan)
-        heights[inside] = terrain[row[inside], column[inside]]
-        return distance, heights
+        return distance[inside], row[inside], column[inside]
 
 
 def line_across(window: Window, outcomes: Sequence[Outcome]) -> Line:
