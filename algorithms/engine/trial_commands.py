@@ -31,10 +31,10 @@ def commands_for(paths: Sequence[Path], setting: Setting) -> Commands:
         Method and preset.
     """
     method, preset, is_one = setting.method.name, setting.preset, is_one_file(paths)
-    output = str(_output(paths[0], setting, is_one))
-    sources = [str(path) for path in paths]
-    options = ["--method", method, "--preset", preset]
-    shell = shell_line(["bare-earth", "classify", *sources, output, *options])
+    output, options = _output(paths[0], setting, is_one), ["--method", method, "--preset", preset]
+    shell = shell_line(["bare-earth", "classify", *map(str, paths), str(output), *options])
+    # QGIS works in a folder of its own.
+    *sources, output = (str(path.absolute()) for path in (*paths, output))
     if is_one:
         call = _ALGORITHMS[method], {"INPUT": sources[0], "PRESET": preset, "OUTPUT": output}
     else:

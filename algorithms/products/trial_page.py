@@ -128,7 +128,7 @@ Terrain differs by: the mean of the absolute differences in height.</p>"""
         pixels = np.repeat(lit[..., None], 3, axis=2)
         pixels[np.isnan(outcome.terrain)] = _NO_TERRAIN
         _, row, column = self.profile.line.cells(self.window)
-        pixels[row[::2], column[::2]] = rgb(_PROFILE)
+        pixels[row, column] = rgb(_PROFILE)
         return _figure(Picture(pixels, self.window.cell_size), outcome.label)
 
     def _differences(self) -> str:
