@@ -79,7 +79,7 @@ def _classify(options: argparse.Namespace) -> int:
     from ..engine.many_files import classify_files
     from ..engine.one_file import classify_file
     from ..engine.requests import ClassifyRequest
-    from ..engine.runs import is_one_file
+    from ..survey.collection import is_one_file
 
     area = _area_of(options)
     request = ClassifyRequest.of(chosen(options), rasters=rasters_of(options), area=area)

@@ -150,7 +150,8 @@ def _notes(settings: Sequence[Setting], context: float, reach: float) -> list[st
     ]
     if context < reach:
         notes[0] += (
-            f" The settings look up to {reach:g} m far: near the edges, and beside buildings wider"
-            " than that, a run on all points may give other classes."
+            f" The settings look up to {reach:g} m far: near the edges of the window, beside large"
+            " buildings above all, a run on all points may give other classes. More context makes"
+            " this sure."
         )
     return notes

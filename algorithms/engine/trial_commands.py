@@ -7,8 +7,8 @@ from typing import Sequence
 
 from ..core.commands import shell_line
 from ..products.trial_page import Commands
+from ..survey.collection import is_one_file
 from .options import TileMethod
-from .runs import is_one_file
 from .trial_options import Setting
 
 # The ids in the toolbox of QGIS; they never change.

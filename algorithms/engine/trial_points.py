@@ -20,12 +20,11 @@ from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..products.window_trial import Line, Outcome, Window, outcome_of
 from ..survey.area import Area, box_in_words
-from ..survey.collection import open_collection
+from ..survey.collection import is_one_file, open_collection
 from ..survey.window import read_window
 from .labelling import LabelGround
 from .memory import Resources
 from .memory_points import MemoryPoints, SurveyFile
-from .runs import is_one_file
 from .trial_options import Setting
 
 # Metres: a wider window is no quick trial any more.

@@ -16,7 +16,7 @@ from .window_trial import Figures, Outcome, Window
 _LOST, _GAINED = "#d1157f", "#1b62c4"
 _PROFILE = "#e06c00"
 _NO_TERRAIN = (236, 236, 236)
-_LONGEST_SIDE = 500
+_LONGEST_SIDE = 400
 
 _STYLE = """
 body { max-width: 1320px; }

@@ -7,7 +7,7 @@ import os
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Iterable, Iterator
+from typing import Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -234,6 +234,11 @@ def _expand(source: Path, recursive: bool) -> Iterator[Path]:
 def is_cloud(path: Path) -> bool:
     """Return whether a path is named as a point cloud is."""
     return path.suffix.lower() in _CLOUDS
+
+
+def is_one_file(paths: Sequence[Path]) -> bool:
+    """Return whether inputs are one point cloud file, not a folder or a list of several."""
+    return len(paths) == 1 and not paths[0].is_dir() and is_cloud(paths[0])
 
 
 def _listed(source: Path) -> list[Path]:
