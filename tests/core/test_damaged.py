@@ -26,8 +26,8 @@ from bare_earth.algorithms.las.extrabytes import ExtraDimension
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import inspect, read_cloud, read_parts
 from bare_earth.algorithms.las.writing import write_changed, write_classified
-from bare_earth.algorithms.survey.area import read_boundary
 from bare_earth.algorithms.survey.collection import open_collection
+from bare_earth.algorithms.survey.vector_files import read_boundary
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
 from benchmarks.data import FOLDER
 
