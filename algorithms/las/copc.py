@@ -284,8 +284,9 @@ def _integers(records: np.ndarray, axis: int) -> np.ndarray:
 
 def _column(records: np.ndarray, start: int, kind: str) -> np.ndarray:
     """Return the field at a byte of each record, as a view that may be written to."""
-    kind = np.dtype(kind)
-    return records[:, start : start + kind.itemsize].view(kind)[:, 0]
+    # numpy before 1.23 cannot view a few columns in another type, but it can view whole rows.
+    row = {"names": ["field"], "formats": [kind], "offsets": [start]}
+    return records.view(np.dtype({**row, "itemsize": records.shape[1]}))["field"][:, 0]
 
 
 def _extent(
