@@ -1,7 +1,6 @@
 """Packs the last commit, with the Python packages that travel along, as a zip to install in QGIS.
 
-    python tools/package.py            dist/bare_earth-X.Y.Z.zip
-    python tools/package.py FOLDER     the same, into another folder
+It is dist/bare_earth-X.Y.Z.zip, or in another folder that is named.
 """
 
 from __future__ import annotations
@@ -56,7 +55,7 @@ def _download(folder: Path) -> None:
 
 
 def _add(archive: zipfile.ZipFile, wheel: Path) -> None:
-    """Add what a wheel holds, its licence too, with the date of the commit: same bytes each time."""
+    """Add all that a wheel holds with the date of the commit, so that the bytes stay the same."""
     date = archive.infolist()[0].date_time
     with zipfile.ZipFile(wheel) as packed:
         for member in sorted(packed.namelist()):

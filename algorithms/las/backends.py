@@ -67,7 +67,7 @@ def install_hint(packages: Iterable[str]) -> str:
     if missing == ["lazrs"]:
         return "Choose Plugins > Bare Earth > LAZ support in the QGIS window to get it."
     if "laspy" in missing:
-        return "Install the plugin from its zip, which holds laspy: a clone of its sources does not."
+        return "Install the plugin from its zip, which holds laspy; a clone does not."
     return _command_of_the_build(missing)
 
 
