@@ -129,7 +129,7 @@ class Store(Protocol):
 
     def read(
         self, leaves: np.ndarray, box: Box | None = None, corner: Corner = (0.0, 0.0)
-    ) -> Contents:
+    ) -> BlockPoints:
         """Return the points of some leaves, or those of them in a box.
 
         Coordinates, and the box, are relative to a corner. May be called from several threads.
@@ -139,7 +139,7 @@ class Store(Protocol):
         """Keep the labels of points; called from one thread."""
 
 
-class Contents(NamedTuple):
+class BlockPoints(NamedTuple):
     """Points of a store.
 
     Attributes
@@ -160,22 +160,22 @@ class Contents(NamedTuple):
     positions: np.ndarray
 
     @classmethod
-    def empty(cls, count: int, kind: type) -> Contents:
+    def empty(cls, count: int, kind: type) -> BlockPoints:
         """Return room for so many points, and for their places as integers of a type."""
         known, wanted = np.zeros(count, dtype=bool), np.zeros(count, dtype=bool)
         return cls(Points(*np.empty((3, count))), known, wanted, np.empty(count, dtype=kind))
 
-    def put(self, start: int, some: Contents) -> None:
+    def put(self, start: int, some: BlockPoints) -> None:
         """Put others in the place of these from `start` on."""
         where = slice(start, start + some.points.count)
         for mine, others in zip((*self.points, *self[1:]), (*some.points, *some[1:])):
             mine[where] = others
 
-    def take(self, which: np.ndarray | slice) -> Contents:
+    def take(self, which: np.ndarray | slice) -> BlockPoints:
         """Return what a mask or a slice names."""
-        return Contents(self.points.take(which), *(each[which] for each in self[1:]))
+        return BlockPoints(self.points.take(which), *(each[which] for each in self[1:]))
 
-    def within(self, box: Box) -> Contents:
+    def within(self, box: Box) -> BlockPoints:
         """Return those in a box; on its largest x and y they are outside."""
         west, south, east, north = box
         x, y = self.points.x, self.points.y
@@ -185,10 +185,10 @@ class Contents(NamedTuple):
 
 def gathered(
     counts: Sequence[int],
-    read: Callable[[int], Contents],
+    read: Callable[[int], BlockPoints],
     box: Box | None = None,
     kind: type = np.int64,
-) -> Contents:
+) -> BlockPoints:
     """Return contents that are read piece by piece: small ones stay in the processor's cache.
 
     Parameters
@@ -203,7 +203,7 @@ def gathered(
         Integers that hold the place of any point.
     """
     starts = np.concatenate(([0], np.cumsum(counts, dtype=np.int64))).tolist()
-    whole = Contents.empty(starts[-1], kind)
+    whole = BlockPoints.empty(starts[-1], kind)
     if box is None:
         in_threads(lambda number: whole.put(starts[number], read(number)), range(len(counts)))
         return whole
@@ -327,7 +327,7 @@ class Blocks:
             counts += np.bincount(row * width + column, minlength=width**2).reshape(counts.shape)
         return counts
 
-    def contents(self, block: Block, store: Store) -> Contents:
+    def contents(self, block: Block, store: Store) -> BlockPoints:
         """Return what the filter sees for a block, relative to its `corner`."""
         box, corner = self.window(block), self.corner(block)
         leaves = store.leaves.within(box)

@@ -14,8 +14,8 @@ from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
 from ..core.threads import may_use
 from ..filters import method_of
-from ..las.changes import Changes
 from ..las.cloud import PointCloud, survey_frame
+from ..las.edits import Edits
 from ..las.opening import open_las
 from ..las.reading import read_cloud
 from ..las.writing import check_writable, is_copc, layers_kept, write_changed
@@ -23,13 +23,13 @@ from ..products.terrain_model import TerrainModel
 from ..survey.area import Area
 from ..survey.scope import Scope
 from ..survey.selection import Selection
-from .cloudstore import CloudStore, Part
 from .ground import blocks_of, label_ground
 from .heights import heights_of
 from .memory import Resources
+from .memory_points import MemoryPoints, SurveyFile
 from .output import Output
 from .rasters import RasterFiles, RasterRequest, rasters_of_cloud, write_rasters
-from .streaming import Outcome, classify_parts, fits_in_memory
+from .streaming import ClassifiedPoints, classify_parts, fits_in_memory
 
 # Bytes of a point, as the file has it, up to which all of it is kept: reading it again for what
 # does not change would take as long as the filter.
@@ -115,18 +115,18 @@ def _in_memory(
     scope: Scope,
     resources: Resources,
     progress: Progress,
-) -> tuple[Outcome, np.ndarray, np.ndarray]:
+) -> tuple[ClassifiedPoints, np.ndarray, np.ndarray]:
     """Classify points in memory; return which lie in the area, and which take part, as well."""
     selection = scope.selection
     inside, selected = scope.choose_all(cloud, progress.part(0.0, 0.1))
     scope.tell(progress)
     blocks = blocks_of(parameters)
     known = selection.known_ground(cloud, selected) if selection.seed_classes else None
-    part = Part(cloud, selected, known, inside)
-    store = CloudStore([part], survey_frame(cloud.crs), blocks, progress.part(0.1, 0.2))
+    part = SurveyFile(cloud, selected, known, inside)
+    store = MemoryPoints([part], survey_frame(cloud.crs), blocks, progress.part(0.1, 0.2))
     part = progress.part(0.2, 0.95)
     label_ground(store, parameters, blocks, selection.special, resources, part)
-    outcome = Outcome(cloud, np.empty(cloud.count, dtype=np.uint8))
+    outcome = ClassifiedPoints(cloud, np.empty(cloud.count, dtype=np.uint8))
     for where, some in cloud.parts():
         outcome.add(where.start, some, store.labels[0][where], inside[where], selection)
         progress(0.95 + 0.05 * where.stop / cloud.count)
@@ -185,7 +185,7 @@ def classify_file(
             frame = survey_frame(outcome.cloud.crs)
             write_rasters(outcome.rasters, frame, request, outputs, progress.part(0.75, 0.85))
         classes = outcome.classification
-        changes = Changes(classification=classes)
+        changes = Edits(classification=classes)
         if output.changes_points:
             ground, heights = classes == selection.to_class, outcome.heights
             if output.height_above_ground and heights is None:
@@ -215,7 +215,7 @@ def _outcome(
     request: RasterRequest,
     output: Output,
     progress: Progress,
-) -> Outcome:
+) -> ClassifiedPoints:
     """Classify the points of a file, in memory if they fit."""
     layout = open_las(Path(source))
     count, length = layout.count, layout.record_length

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ..core.errors import BareEarthError
 from ..las.backends import require
-from .jobs import Outcome, Share, attempt
+from .jobs import JobResult, Share, attempt
 from .memory import Resources, free_memory
 from .workers import SCHEDULER_GONE, Job, JobProgress, Running, Workers
 
@@ -165,5 +165,5 @@ def _facts(marker: str) -> _Facts:
     return _Facts(__version__, Path(marker).exists(), free_memory(), socket.gethostname())
 
 
-def _on_cluster(job: Job, share: Share) -> Outcome:
+def _on_cluster(job: Job, share: Share) -> JobResult:
     return attempt(job, share, JobProgress(threading.Event()))

@@ -16,7 +16,7 @@ from ..filters.shared.bridges import bridge_decks
 from ..filters.shared.doubts import tell_of_extent, tell_of_little_ground
 from ..grids.cells import apart
 from ..survey.selection import Special
-from .blocks import BRIDGE, LOW, Block, Blocks, Contents, Store
+from .blocks import BRIDGE, LOW, Block, BlockPoints, Blocks, Store
 from .memory import Resources
 from .scheduling import run_jobs
 
@@ -146,7 +146,7 @@ class _Filter(NamedTuple):
     parameters: ParameterSet
     special: Special
 
-    def label(self, contents: Contents, progress: Progress) -> np.ndarray:
+    def label(self, contents: BlockPoints, progress: Progress) -> np.ndarray:
         """Return the label of each point."""
         depth, method = self.special.low_noise_depth, self.method
         end = 1.0 if depth is None else 1.0 - _LOW_SHARE
@@ -205,7 +205,7 @@ def _job_maker(
 
 
 def _labels(
-    contents: Contents, wanted: np.ndarray, filter_: _Filter, reach: float, progress: Progress
+    contents: BlockPoints, wanted: np.ndarray, filter_: _Filter, reach: float, progress: Progress
 ) -> np.ndarray:
     """Return the label of each point of a window that is wanted.
 

@@ -16,13 +16,13 @@ from ..las.writing import write_changed
 from ..survey.collection import open_collection
 from ..survey.selection import Selection, ground_of
 from ..survey.vpc import write_vpc
-from .cloudstore import CloudStore
 from .heights import HEIGHT_BLOCKS, in_unit, measure_heights
+from .job_queue import JobQueue
 from .jobs import KeptValues, PointJob, Share, TileJob
 from .memory import Resources
+from .memory_points import MemoryPoints
 from .output import height_changes
 from .planning import block_jobs
-from .run import Run
 from .survey import Survey, frame_of, places_of
 from .tiles import check_survey, targets_of
 from .workers import Threads, Workers
@@ -50,7 +50,7 @@ class HeightJob(PointJob):
         """Return all points, and which of them are ground."""
         return np.ones(cloud.count, dtype=bool), ground_of(cloud, self.ground_classes)
 
-    def work(self, store: CloudStore, resources: Resources, progress: Progress) -> None:
+    def work(self, store: MemoryPoints, resources: Resources, progress: Progress) -> None:
         """Measure the heights."""
         measure_heights(store, resources, progress)
 
@@ -182,7 +182,7 @@ def write_heights_of_survey(
             where = of_tile[tile.path]
             kept = tuple(files[each] for each in where)
             tiles.append(HeightTile(survey, tile, targets[tile.path], where, kept, {}, as_z))
-        run = Run(blocks, tiles, workers, progress.part(0.02, 0.98))
+        run = JobQueue(blocks, tiles, workers, progress.part(0.02, 0.98))
         try:
             run.work()
         finally:

@@ -14,10 +14,10 @@ from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud, survey_frame
 from ..products.height_above_ground import height_above_ground
 from .blocks import Block, Blocks, Store
-from .cloudstore import CloudStore, Part
+from .disk_points import DiskPoints
 from .ground import over_blocks
 from .memory import Resources
-from .spill import Spill
+from .memory_points import MemoryPoints, SurveyFile
 
 # Metres round a block in which ground points matter for its heights.
 _REACH = 100.0
@@ -63,9 +63,9 @@ def heights_of(
     """
     if not ground.any():
         raise BareEarthError(_NO_GROUND.format(cloud.path))
-    part = Part(cloud, np.ones(cloud.count, dtype=bool), ground)
+    part = SurveyFile(cloud, np.ones(cloud.count, dtype=bool), ground)
     frame, first = survey_frame(cloud.crs), progress.part(0.0, 0.1)
-    store = CloudStore([part], frame, HEIGHT_BLOCKS, first, np.float64)
+    store = MemoryPoints([part], frame, HEIGHT_BLOCKS, first, np.float64)
     measure_heights(store, resources, progress.part(0.1, 1.0))
     return in_unit(store.labels[0], cloud)
 
@@ -87,7 +87,7 @@ class DiskHeights:
 
     def __init__(self, target: Path) -> None:
         self._target = target
-        self._spill = Spill(target, HEIGHT_BLOCKS.leaf_side, np.float64)
+        self._spill = DiskPoints(target, HEIGHT_BLOCKS.leaf_side, np.float64)
 
     def __enter__(self) -> DiskHeights:
         return self

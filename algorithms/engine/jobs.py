@@ -16,20 +16,20 @@ from ..core.errors import BareEarthError, Cancelled
 from ..core.files import replacing
 from ..core.progress import Progress, Unsaid
 from ..core.threads import may_use
-from ..las.changes import Changes
 from ..las.cloud import PointCloud
+from ..las.edits import Edits
 from ..las.reading import read_cloud, read_parts
 from ..las.writing import layers_kept, write_changed
 from ..survey.collection import Tile
 from ..survey.selection import Tally
 from ..survey.window import read_window
 from .blocks import BRIDGE, GROUND, LOW
-from .cloudstore import CloudStore, Part
 from .ground import label_ground
 from .memory import GIGABYTE, Resources
+from .memory_points import MemoryPoints, SurveyFile
 from .record import Record, write_record
 from .streaming import fits_in_memory
-from .survey import Place, Survey, code
+from .survey import BlockIndex, Survey, code
 
 _FAILURE = "no ground"
 
@@ -54,7 +54,7 @@ class Share(NamedTuple):
         return Resources(threads=self.threads, memory=max(self.memory / GIGABYTE, 0.001))
 
 
-class Outcome(NamedTuple):
+class JobResult(NamedTuple):
     """What became of a job.
 
     Attributes
@@ -80,7 +80,7 @@ class BlockJob:
     ----------
     survey : Survey
         What all jobs share.
-    places : tuple of Place
+    places : tuple of BlockIndex
         The blocks.
     files : tuple of Path
         Where what is made of each goes.
@@ -91,7 +91,7 @@ class BlockJob:
     """
 
     survey: Survey
-    places: tuple[Place, ...]
+    places: tuple[BlockIndex, ...]
     files: tuple[Path, ...]
     sources: tuple[Path, ...]
     count: float
@@ -132,7 +132,7 @@ class PointJob(BlockJob):
         values, failure = [np.zeros(part.cloud.count, self.kind()) for part in parts], ""
         if any(part.wanted.any() and part.selected.any() for part in parts):
             survey, part = self.survey, progress.part(0.3, 0.35)
-            store = CloudStore(parts, survey.frame, survey.blocks, part, self.kind())
+            store = MemoryPoints(parts, survey.frame, survey.blocks, part, self.kind())
             try:
                 self.work(store, share.resources, progress.part(0.35, 0.95))
                 values = store.labels
@@ -150,24 +150,24 @@ class PointJob(BlockJob):
         """Return which points of a file take part, and which are known ground."""
         raise NotImplementedError
 
-    def work(self, store: CloudStore, resources: Resources, progress: Progress) -> None:
+    def work(self, store: MemoryPoints, resources: Resources, progress: Progress) -> None:
         """Put what is found into the store."""
         raise NotImplementedError
 
-    def _read(self, progress: Progress) -> tuple[list[Part], list[np.ndarray]]:
+    def _read(self, progress: Progress) -> tuple[list[SurveyFile], list[np.ndarray]]:
         """Return the points that the blocks need, and the block of each."""
         parts, codes = [], []
         here = np.array([code(place) for place in self.places])
         for cloud in self.clouds(progress):
             codes.append(self.survey.codes(cloud))
-            parts.append(Part(cloud, *self.marks(cloud), np.isin(codes[-1], here)))
+            parts.append(SurveyFile(cloud, *self.marks(cloud), np.isin(codes[-1], here)))
         return parts, codes
 
     def _write(
         self,
         file: Path,
         block: int,
-        parts: list[Part],
+        parts: list[SurveyFile],
         codes: list[np.ndarray],
         values: list[np.ndarray],
         failure: str,
@@ -196,7 +196,7 @@ class LabelJob(PointJob):
         selected = selection.choose(cloud, Tally())
         return selected, selection.known_ground(cloud, selected)
 
-    def work(self, store: CloudStore, resources: Resources, progress: Progress) -> None:
+    def work(self, store: MemoryPoints, resources: Resources, progress: Progress) -> None:
         """Label the points."""
         survey = self.survey
         special = survey.selection.special
@@ -242,7 +242,7 @@ class TileJob:
         The input.
     target : Path
         The output.
-    places : tuple of Place
+    places : tuple of BlockIndex
         The blocks that may hold its points.
     files : tuple of Path
         Where what was found in each is.
@@ -253,7 +253,7 @@ class TileJob:
     survey: Survey
     tile: Tile
     target: Path
-    places: tuple[Place, ...]
+    places: tuple[BlockIndex, ...]
     files: tuple[Path, ...]
     record: Record
 
@@ -291,7 +291,7 @@ class ClassJob(TileJob):
         kept.check()
         if not any_ground:
             raise BareEarthError(kept.failure or f"No ground was found in {path}.")
-        changes, rest = Changes(classification=classes), progress.part(0.4, 1.0)
+        changes, rest = Edits(classification=classes), progress.part(0.4, 1.0)
         write_changed(self.tile.file, self.target, changes, rest, part)
         ground = int(np.count_nonzero(classes == selection.to_class))
         summary = TileSummary(self.target.name, len(classes), ground)
@@ -362,12 +362,12 @@ class KeptValues:
         return BareEarthError(f"{self._path} changed while it was worked on. Classify it again.")
 
 
-def attempt(job: BlockJob | TileJob, share: Share, progress: Progress) -> Outcome:
+def attempt(job: BlockJob | TileJob, share: Share, progress: Progress) -> JobResult:
     """Run a job; what goes wrong with it is told, not raised."""
     notes = _Notes(progress)
     try:
         with may_use(share.threads):
-            return Outcome(job.run(share, notes), tuple(notes.messages))
+            return JobResult(job.run(share, notes), tuple(notes.messages))
     except Cancelled:
         raise
     except BareEarthError as error:
@@ -376,7 +376,7 @@ def attempt(job: BlockJob | TileJob, share: Share, progress: Progress) -> Outcom
         failure = "There is not enough memory for it. Allow fewer threads."
     except Exception as error:
         failure = f"Unexpected {type(error).__name__}: {error}. Please report it."
-    return Outcome(None, tuple(notes.messages), failure)
+    return JobResult(None, tuple(notes.messages), failure)
 
 
 class _Notes(Progress):

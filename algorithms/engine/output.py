@@ -10,8 +10,8 @@ from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..crs.system import unit_name
-from ..las.changes import Changes
 from ..las.cloud import PointCloud
+from ..las.edits import Edits
 from ..las.extrabytes import ExtraDimension
 
 HEIGHT_DIMENSION = "HeightAboveGround"
@@ -47,7 +47,7 @@ class Output(ParameterSet):
         ground: np.ndarray,
         heights: np.ndarray | None = None,
         progress: Progress = SILENT,
-    ) -> Changes:
+    ) -> Edits:
         """Return what is to become other in a cloud.
 
         Parameters
@@ -81,7 +81,7 @@ class Output(ParameterSet):
             kept = ground
             count = np.count_nonzero(~ground)
             progress.info(f"{count:,} points that are not ground are left out of the output.")
-        return Changes(classification=classification, extra=extra, kept=kept)
+        return Edits(classification=classification, extra=extra, kept=kept)
 
 
 def height_dimension(cloud: PointCloud, heights: np.ndarray) -> ExtraDimension:
@@ -114,7 +114,7 @@ def _z_of(cloud: PointCloud, heights: np.ndarray) -> np.ndarray:
     return values.astype(np.int32)
 
 
-def height_changes(cloud: PointCloud, heights: np.ndarray, as_z: bool) -> Changes:
+def height_changes(cloud: PointCloud, heights: np.ndarray, as_z: bool) -> Edits:
     """Return what becomes other where heights above ground are written.
 
     Parameters
@@ -132,5 +132,5 @@ def height_changes(cloud: PointCloud, heights: np.ndarray, as_z: bool) -> Change
         If they do not fit into z.
     """
     if as_z:
-        return Changes(z=_z_of(cloud, heights))
-    return Changes(extra=height_dimension(cloud, heights))
+        return Edits(z=_z_of(cloud, heights))
+    return Edits(extra=height_dimension(cloud, heights))

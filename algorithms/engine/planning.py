@@ -7,7 +7,7 @@ from typing import Any
 
 from ..survey.collection import Collection
 from .jobs import BlockJob
-from .survey import Place, Survey, grouped, memory_of, points_in
+from .survey import BlockIndex, Survey, grouped, memory_of, points_in
 from .workers import Workers
 
 
@@ -15,7 +15,7 @@ def block_jobs(
     kind: type[BlockJob],
     survey: Survey,
     collection: Collection,
-    files: dict[Place, Path],
+    files: dict[BlockIndex, Path],
     folder: Path,
     tile_count: int,
     workers: Workers,
@@ -29,7 +29,7 @@ def block_jobs(
         Of the jobs.
     survey, collection
         The survey.
-    files : dict of Place to Path
+    files : dict of BlockIndex to Path
         Where what is made of each block goes.
     folder : Path
         Of the output; all workers see it.

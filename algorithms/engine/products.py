@@ -20,8 +20,8 @@ from ..core.progress import SILENT, Progress
 from ..core.threads import may_use
 from ..crs.system import Crs, unit_name
 from ..grids.model_key_points import ModelKeyPoints, model_key_points
-from ..las.changes import Changes
 from ..las.cloud import PointCloud, survey_frame
+from ..las.edits import Edits
 from ..las.opening import LasFile, open_las
 from ..las.reading import read_cloud, read_parts
 from ..las.records import check_class
@@ -31,6 +31,7 @@ from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import TerrainModel
 from ..survey.collection import is_cloud, open_collection
 from ..survey.selection import ground_of
+from .disk_points import DiskPoints
 from .heights import DiskHeights, heights_of
 from .memory import Resources
 from .output import HEIGHT_DIMENSION, height_changes
@@ -44,7 +45,6 @@ from .rasters import (
     rasters_of_store,
     write_rasters,
 )
-from .spill import Spill
 from .streaming import fits_in_memory
 from .workers import Threads, Workers
 
@@ -301,11 +301,11 @@ def write_key_points(
     if by_class:
         classes[is_ground & old] = ground.ground_classes[0]
         classes[keys] = mark.key_class
-        changes = Changes(classification=classes)
+        changes = Edits(classification=classes)
     else:
         flags = np.where(is_ground, 0, -1).astype(np.int8)
         flags[keys] = 1
-        changes = Changes(key_points=flags)
+        changes = Edits(key_points=flags)
     write_changed(cloud.file, target, changes, progress.part(0.85, 1.0))
     counts = np.unique(classes, return_counts=True)
     return KeyPointSummary(
@@ -387,7 +387,7 @@ def _from_disk(
     """Return the rasters of the blocks of a file that does not fit into memory, and its CRS."""
     target = next(iter(request.files.wanted.values()))
     points, lowest = RasterPoints(ground.ground_classes), []
-    with Spill(target, request.blocks.leaf_side) as spill:
+    with DiskPoints(target, request.blocks.leaf_side) as spill:
         for part in read_parts(source, progress.part(0.0, 0.4)):
             part.require_projected()
             spill.append(part, *points.of(part, request))

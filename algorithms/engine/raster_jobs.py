@@ -17,12 +17,12 @@ from ..products.raster_block import BlockRasters
 from ..survey.collection import Collection
 from ..survey.selection import Selection
 from .blocks import Block
-from .cloudstore import CloudStore, Part
+from .job_queue import JobQueue
 from .jobs import BlockJob, Share
+from .memory_points import MemoryPoints, SurveyFile
 from .planning import block_jobs
 from .rasters import RasterPoints, RasterRequest, RasterSize, rasters_of_store, write_rasters
-from .run import Run
-from .survey import Place, Survey, frame_of, places_of
+from .survey import BlockIndex, Survey, frame_of, places_of
 from .workers import Workers
 
 _LARGE = ("terrain", "surface", "confidence")
@@ -46,13 +46,13 @@ class RasterJob(BlockJob):
     def run(self, share: Share, progress: Progress) -> None:
         """Do it."""
         parts = [
-            Part(cloud, *self.points.of(cloud, self.request))
+            SurveyFile(cloud, *self.points.of(cloud, self.request))
             for cloud in self.clouds(progress.part(0.0, 0.5))
         ]
-        made: dict[Place, list[BlockRasters]] = {place: [] for place in self.places}
+        made: dict[BlockIndex, list[BlockRasters]] = {place: [] for place in self.places}
         if any(part.selected.any() for part in parts):
             survey, rest = self.survey, progress.part(0.6, 0.95)
-            store = CloudStore(parts, survey.frame, survey.blocks, progress.part(0.5, 0.6))
+            store = MemoryPoints(parts, survey.frame, survey.blocks, progress.part(0.5, 0.6))
             for each in rasters_of_store(
                 store, self.request, share.resources, rest, lambda b: self._place(b) in made
             ):
@@ -61,16 +61,16 @@ class RasterJob(BlockJob):
             _keep(file, made[place])
         progress(1.0)
 
-    def _place(self, block: Block) -> Place:
+    def _place(self, block: Block) -> BlockIndex:
         """Return the place of the block of which one is a part."""
         share = round(self.survey.blocks.side / block.side)
-        return Place(block.column // share, block.row // share)
+        return BlockIndex(block.column // share, block.row // share)
 
-    def _place_of(self, window: CellWindow) -> Place:
+    def _place_of(self, window: CellWindow) -> BlockIndex:
         """Return the place of the block in which the first of some cells has its centre."""
         cell, blocks = self.request.model.dtm_cell_size, self.survey.blocks
         x, y = ((each + 0.5) * cell for each in (window.column, window.row))
-        return Place(int(blocks.number(x)), int(blocks.number(y)))
+        return BlockIndex(int(blocks.number(x)), int(blocks.number(y)))
 
 
 def _keep(file: Path, made: Sequence[BlockRasters]) -> None:
@@ -155,7 +155,7 @@ def make_rasters(
         RasterJob, survey, collection, files, folder, 0, workers, request=request, points=points
     )
     try:
-        run = Run(jobs, [], workers, progress.part(0.0, 0.8))
+        run = JobQueue(jobs, [], workers, progress.part(0.0, 0.8))
         try:
             run.work()
         finally:

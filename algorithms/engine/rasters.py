@@ -24,9 +24,9 @@ from ..rasters.geotiff import NODATA, RasterGrid
 from ..rasters.writing import Rows, check_raster_output, write_geotiff
 from ..survey.selection import NOISE, ground_of
 from .blocks import Block, Blocks, Store
-from .cloudstore import CloudStore, Part
 from .ground import over_blocks
 from .memory import Resources
+from .memory_points import MemoryPoints, SurveyFile
 from .mosaic import Mosaic, Piece, gathered_strips
 
 _MOST_CELLS = 4_000_000_000
@@ -191,8 +191,8 @@ def rasters_of_cloud(
         Receives progress.
     """
     blocks = request.blocks
-    part = Part(cloud, *marks)
-    store = CloudStore([part], survey_frame(cloud.crs), blocks, progress.part(0.0, 0.1))
+    part = SurveyFile(cloud, *marks)
+    store = MemoryPoints([part], survey_frame(cloud.crs), blocks, progress.part(0.0, 0.1))
     return rasters_of_store(store, request, resources, progress.part(0.1, 1.0))
 
 

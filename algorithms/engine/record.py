@@ -10,7 +10,7 @@ from typing import Any, Iterable
 from ..core.errors import BareEarthError
 from ..core.files import replacing
 from .options import as_plain
-from .survey import Place, Survey
+from .survey import BlockIndex, Survey
 
 _FOLDER, _LABELS = ".bare-earth", "labels"
 
@@ -64,7 +64,7 @@ def made_of(survey: Survey, tile: Path, sources: Iterable[State], target: Path) 
     }
 
 
-def label_file(survey: Survey, folder: Path, place: Place, sources: Iterable[State]) -> Path:
+def label_file(survey: Survey, folder: Path, place: BlockIndex, sources: Iterable[State]) -> Path:
     """Return where the labels of a block are kept; the name tells all that they depend on."""
     content = {
         **_settings(survey),

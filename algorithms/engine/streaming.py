@@ -16,11 +16,11 @@ from ..products.raster_block import BlockRasters
 from ..survey.scope import Scope
 from ..survey.selection import Selection, count_classes
 from .blocks import BRIDGE, GROUND, LOW
+from .disk_points import DiskPoints
 from .ground import blocks_of, label_ground
 from .heights import DiskHeights
 from .memory import GIGABYTE, Resources
 from .rasters import RasterRequest, rasters_of_store
-from .spill import Spill
 
 # Bytes that a cloud in memory takes a point, besides what a filter takes for those it sees.
 _BYTES_A_POINT_KEPT, _BYTES_A_POINT_SEEN, _MOST_SEEN = 40, 110, 12_000_000
@@ -29,7 +29,7 @@ _MOST_FOR_BLOCKS = GIGABYTE
 
 
 @dataclass
-class Outcome:
+class ClassifiedPoints:
     """What became of the points of a file.
 
     Attributes
@@ -125,7 +125,7 @@ def classify_parts(
     request: RasterRequest = RasterRequest(),
     with_heights: bool = False,
     progress: Progress = SILENT,
-) -> Outcome:
+) -> ClassifiedPoints:
     """Classify a file part by part, its points on disk until their block is filtered.
 
     Parameters
@@ -147,7 +147,7 @@ def classify_parts(
 
     Returns
     -------
-    Outcome
+    ClassifiedPoints
         The same as that of all points in memory.
 
     Raises
@@ -161,7 +161,7 @@ def classify_parts(
     blocks = blocks_of(parameters)
     fewer = _for_blocks(resources)
     with contextlib.ExitStack() as files:
-        spill = files.enter_context(Spill(target, blocks.leaf_side))
+        spill = files.enter_context(DiskPoints(target, blocks.leaf_side))
         for part in read_parts(source, progress.part(0.0, 0.3)):
             inside, selected = scope.choose(part)
             known = selection.known_ground(part, selected)
@@ -171,10 +171,10 @@ def classify_parts(
         label_ground(spill, parameters, blocks, selection.special, fewer, progress.part(0.3, 0.7))
         ground = heights = None
         if request.files.wanted:
-            ground = files.enter_context(Spill(target, request.blocks.leaf_side))
+            ground = files.enter_context(DiskPoints(target, request.blocks.leaf_side))
         if with_heights:
             heights = files.enter_context(DiskHeights(target))
-        outcome = Outcome(spill.cloud, np.empty(scope.tally.points, dtype=np.uint8))
+        outcome = ClassifiedPoints(spill.cloud, np.empty(scope.tally.points, dtype=np.uint8))
         start = taken = 0
         for part in read_parts(source, Unsaid(progress.part(0.7, 0.85))):
             inside, selected = scope.choose_again(part)

@@ -36,7 +36,7 @@ _LARGEST_GROUP = 16
 _STEP, _SHIFT, _HALF = 1 << 20, 32, 1 << 31
 
 
-class Place(NamedTuple):
+class BlockIndex(NamedTuple):
     """Column and row of a block of the survey."""
 
     column: int
@@ -64,11 +64,11 @@ class Survey:
     frame: Frame
     blocks: Blocks
 
-    def block(self, place: Place) -> Block:
+    def block(self, place: BlockIndex) -> Block:
         """Return the block at a place."""
         return self.blocks.block(*place)
 
-    def window(self, places: Iterable[Place]) -> Box:
+    def window(self, places: Iterable[BlockIndex]) -> Box:
         """Return the box, in units of the CRS, of all points that some blocks need."""
         boxes = np.array([self.blocks.window(self.block(place)) for place in places])
         low, high = boxes[:, :2].min(axis=0) - _MARGIN, boxes[:, 2:].max(axis=0) + _MARGIN
@@ -98,7 +98,7 @@ class Survey:
         return codes
 
 
-def code(place: Place) -> int:
+def code(place: BlockIndex) -> int:
     """Return one number for a place."""
     return (place.row << _SHIFT) + place.column + _HALF
 
@@ -108,7 +108,7 @@ def frame_of(collection: Collection) -> Frame:
     return survey_frame(collection.crs)
 
 
-def places_of(survey: Survey, tile: Tile, progress: Progress = SILENT) -> list[Place]:
+def places_of(survey: Survey, tile: Tile, progress: Progress = SILENT) -> list[BlockIndex]:
     """Return the blocks that may hold points of a tile, from south to north.
 
     Raises
@@ -120,13 +120,13 @@ def places_of(survey: Survey, tile: Tile, progress: Progress = SILENT) -> list[P
     x, y = tile.scale[:2]  # headers are rounded
     columns, rows = survey.places_in((west - x, south - y, east + x, north + y))
     if len(columns) * len(rows) <= _MOST_PLACES:
-        return [Place(column, row) for row, column in itertools.product(rows, columns)]
+        return [BlockIndex(column, row) for row, column in itertools.product(rows, columns)]
     codes = np.unique(survey.codes(read_cloud(tile.path, progress)))
     low = (codes & ((1 << _SHIFT) - 1)) - _HALF
-    return [Place(*each) for each in zip(low.tolist(), (codes >> _SHIFT).tolist())]
+    return [BlockIndex(*each) for each in zip(low.tolist(), (codes >> _SHIFT).tolist())]
 
 
-def memory_of(survey: Survey, collection: Collection, places: Sequence[Place]) -> int:
+def memory_of(survey: Survey, collection: Collection, places: Sequence[BlockIndex]) -> int:
     """Return about how many bytes it takes to filter some blocks, one after the other."""
     count = points_in(collection, survey.window(places))
     return int(_BYTES_HELD * count) + memory_of_block(
@@ -153,13 +153,13 @@ def _share(low: float, high: float, start: float, end: float) -> float:
 
 
 def grouped(
-    survey: Survey, collection: Collection, places: Sequence[Place], workers: int, memory: int
-) -> list[list[Place]]:
+    survey: Survey, collection: Collection, places: Sequence[BlockIndex], workers: int, memory: int
+) -> list[list[BlockIndex]]:
     """Return blocks in groups whose files are read together, from south to north.
 
     Parameters
     ----------
-    places : sequence of Place
+    places : sequence of BlockIndex
         The blocks.
     workers : int
         How many groups are worked on at the same time.
@@ -177,13 +177,13 @@ def grouped(
     return groups
 
 
-def _squares(places: Sequence[Place], width: int) -> Iterator[list[Place]]:
-    def square(place: Place) -> tuple[int, int]:
+def _squares(places: Sequence[BlockIndex], width: int) -> Iterator[list[BlockIndex]]:
+    def square(place: BlockIndex) -> tuple[int, int]:
         return place.row // width, place.column // width
 
     for _, group in itertools.groupby(sorted(places, key=square), square):
         yield sorted(group, key=_by_row)
 
 
-def _by_row(place: Place) -> tuple[int, int]:
+def _by_row(place: BlockIndex) -> tuple[int, int]:
     return place.row, place.column

@@ -26,14 +26,14 @@ from ..survey.vpc import SUFFIX as VPC_SUFFIX
 from ..survey.vpc import write_vpc
 from .blocks import Blocks
 from .ground import blocks_of
+from .job_queue import JobQueue
 from .jobs import ClassJob, LabelJob, TileSummary
 from .options import TileInput, TileOutput
 from .planning import block_jobs
 from .raster_jobs import make_rasters
 from .rasters import RasterFiles, RasterPoints, RasterRequest
 from .record import folders_of, label_file, made_of, read_record, remove_record, state_of
-from .run import Run
-from .survey import Place, Survey, frame_of, places_of
+from .survey import BlockIndex, Survey, frame_of, places_of
 from .workers import Threads, Workers
 
 VPC_NAME = "classified.vpc"
@@ -152,7 +152,7 @@ def classify_tiles(
         kept = plan.keep_done(output.resume, progress)
         labels, tiles = plan.jobs(folder, workers)
         end = 0.8 if rasters.files.wanted else 0.98
-        run = Run(labels, tiles, workers, progress.part(0.05, end))
+        run = JobQueue(labels, tiles, workers, progress.part(0.05, end))
         try:
             run.work()
         finally:
@@ -263,7 +263,7 @@ class _Needs(NamedTuple):
     """A tile, the blocks that may hold its points, and the files that these need."""
 
     tile: Tile
-    places: list[Place]
+    places: list[BlockIndex]
     sources: list[Path]
 
 
@@ -290,7 +290,7 @@ class _Plan:
     ) -> None:
         self.failures: dict[Path, str] = {}
         self._survey, self._collection, self._targets = survey, collection, targets
-        self._sources: dict[Place, list[Path]] = {}
+        self._sources: dict[BlockIndex, list[Path]] = {}
         # As they are before any of them is read.
         self._states = {each.path: state_of(each.path) for each in collection.tiles}
         self._todo: list[_Needs] = []

@@ -14,7 +14,7 @@ from typing import NamedTuple, Union
 from ..core.errors import Cancelled
 from ..core.files import remove_leftovers
 from ..core.progress import Progress
-from .jobs import BlockJob, Outcome, Share, TileJob, attempt
+from .jobs import BlockJob, JobResult, Share, TileJob, attempt
 from .memory import Resources
 from .record import folders_of
 
@@ -27,7 +27,7 @@ Job = Union[BlockJob, TileJob]
 
 
 class Running(NamedTuple):
-    """A job that runs: the future of its `Outcome`, and how far it is, where that is known."""
+    """A job that runs: the future of its `JobResult`, and how far it is, where that is known."""
 
     future: Future
     progress: JobProgress
@@ -192,5 +192,5 @@ def _end_with_parent() -> None:
         os._exit(1)
 
 
-def _in_process(job: Job, share: Share) -> Outcome:
+def _in_process(job: Job, share: Share) -> JobResult:
     return attempt(job, share, JobProgress(_stop_of_process or threading.Event()))

@@ -21,8 +21,8 @@ import numpy as np
 from ..core.progress import SILENT, Progress
 from ..crs.system import compound_wkt
 from . import header as fields
-from .changes import Rewriting
 from .crs_records import GEOKEY_RECORDS, WKT_RECORD, read_crs, wkt_text
+from .edits import EditedFile
 from .lasfile import (
     COPC_EXTENTS,
     COPC_HIERARCHY,
@@ -103,7 +103,7 @@ class _Statistics(NamedTuple):
     gps_time: tuple[float, float]
 
 
-def write_copc(rewriting: Rewriting, target: Path, progress: Progress = SILENT) -> None:
+def write_copc(rewriting: EditedFile, target: Path, progress: Progress = SILENT) -> None:
     """Write a file as COPC, with other values of its points.
 
     All points are in memory at once, as their bytes. The order of the points changes; scale,
@@ -111,7 +111,7 @@ def write_copc(rewriting: Rewriting, target: Path, progress: Progress = SILENT) 
 
     Parameters
     ----------
-    rewriting : Rewriting
+    rewriting : EditedFile
         The input, and what changes in it.
     target : Path
         The file to make.
@@ -302,7 +302,7 @@ def _extent(
     )
 
 
-def _read(rewriting: Rewriting, point_format: int, progress: Progress) -> np.ndarray:
+def _read(rewriting: EditedFile, point_format: int, progress: Progress) -> np.ndarray:
     """Return the bytes of all points as they are to be, in a format that COPC takes."""
     layout = rewriting.target
     length = RECORD_LENGTHS[point_format]

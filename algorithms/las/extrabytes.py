@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..core.errors import BareEarthError
-from .header_changes import with_record_length
+from .header_edits import with_record_length
 from .lasfile import LARGEST_VLR, RECORD_LENGTHS, LasFile, Vlr, new_vlr
 
 EXTRA_BYTES = ("LASF_Spec", 4)

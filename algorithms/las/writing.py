@@ -17,14 +17,14 @@ from ..core.errors import BareEarthError
 from ..core.files import replacing
 from ..core.progress import SILENT, Progress
 from .backends import require
-from .changes import Changes, Rewriting
 from .class_layers import ClassLayers, class_layers
 from .cloud import PointCloud
 from .copc import write_copc
 from .copc_index import CopcIndex
 from .copc_nodes import OctreeError
+from .edits import EditedFile, Edits
 from .header import EVLR_COUNT
-from .header_changes import with_statistics
+from .header_edits import with_statistics
 from .lasfile import (
     COPC_HIERARCHY,
     COPC_INFO,
@@ -75,13 +75,13 @@ def write_classified(
     source, target, progress
         As for `write_changed`.
     """
-    write_changed(source, target, Changes(classification=classification), progress)
+    write_changed(source, target, Edits(classification=classification), progress)
 
 
 def write_changed(
     source: Path | LasFile,
     target: Path,
-    changes: Changes,
+    changes: Edits,
     progress: Progress = SILENT,
     cloud: PointCloud | None = None,
 ) -> None:
@@ -99,7 +99,7 @@ def write_changed(
         given, a file that changed since is refused.
     target : Path
         The output: .las, .laz or .copc.laz.
-    changes : Changes
+    changes : Edits
         What changes.
     progress : Progress
         Told what an output cannot hold.
@@ -120,7 +120,7 @@ def write_changed(
     layout.check_unchanged()
     if cloud is not None and cloud.file is not None:
         cloud.file.check_unchanged()
-    rewriting = Rewriting(layout, changes, None if cloud is None else cloud.records)
+    rewriting = EditedFile(layout, changes, None if cloud is None else cloud.records)
     if layout.is_compressed:
         require("lazrs")
     kept = None if rewriting.only_classes is None else layers_kept(layout, target)
@@ -178,7 +178,7 @@ def layers_kept(source: LasFile, target: Path) -> Kept | None:
 
 
 def _replace_classes(
-    rewriting: Rewriting, kept: Kept, target: Path, progress: Progress, cloud: PointCloud | None
+    rewriting: EditedFile, kept: Kept, target: Path, progress: Progress, cloud: PointCloud | None
 ) -> None:
     """Write a compressed file anew, nothing of whose points changes but the classes."""
     layout, dropped = rewriting.target, ()
@@ -204,7 +204,7 @@ def _tell_of_index(layout: LasFile, progress: Progress) -> None:
         )
 
 
-def _write(rewriting: Rewriting, target: Path, progress: Progress) -> None:
+def _write(rewriting: EditedFile, target: Path, progress: Progress) -> None:
     rewriting.check_classes()
     layout = rewriting.target
     _tell_of_index(layout, progress)
@@ -252,7 +252,7 @@ def _check_channels(layout: LasFile, channels: set[int]) -> None:
         )
 
 
-def _copy_tail(rewriting: Rewriting, file: BinaryIO, *dropped: tuple[str, int]) -> None:
+def _copy_tail(rewriting: EditedFile, file: BinaryIO, *dropped: tuple[str, int]) -> None:
     """Copy what follows the points, but for some records; let the header say where it is now."""
     layout = rewriting.source
     kept = {evlr.key for evlr in rewriting.target.evlrs}

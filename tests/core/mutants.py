@@ -15,7 +15,7 @@ import numpy as np
 from conftest import las_bytes, vlr
 
 from bare_earth.algorithms.core.errors import BareEarthError
-from bare_earth.algorithms.las.changes import Changes
+from bare_earth.algorithms.las.edits import Edits
 from bare_earth.algorithms.las.extrabytes import ExtraDimension
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import inspect, read_cloud
@@ -87,7 +87,7 @@ def actions(source):
         target = source.with_name(f"out{suffix}")
         yield functools.partial(write_classified, source, target, classes)
     values = np.zeros(count, np.float32)
-    extra = Changes(extra=ExtraDimension("height", "of it", values), kept=classes > 1)
+    extra = Edits(extra=ExtraDimension("height", "of it", values), kept=classes > 1)
     yield lambda: write_changed(source, source.with_name("out.las"), extra)
     yield lambda: read_cloud(source).points(slice(None))
     yield lambda: read_window(source, (4e5, 5e6, 4e5 + 3, 5e6 + 3))

@@ -10,8 +10,8 @@ import pytest
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.las import class_layers as module
 from bare_earth.algorithms.las import writing
-from bare_earth.algorithms.las.changes import Changes
 from bare_earth.algorithms.las.class_layers import class_layers
+from bare_earth.algorithms.las.edits import Edits
 from bare_earth.algorithms.las.lasfile import LASZIP
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import read_cloud
@@ -57,7 +57,7 @@ def test_only_the_layer_of_the_classes_is_another(las, monkeypatch, point_format
     source = las.make("in.laz", version=4, point_format=point_format, extra=extra, records=records)
     target, classes = las.folder / "out.laz", classes_of(COUNT)
     cloud = read_cloud(source) if in_memory else None
-    write_changed(source, target, Changes(classification=classes), cloud=cloud)
+    write_changed(source, target, Edits(classification=classes), cloud=cloud)
     records[:, 16] = classes
     np.testing.assert_array_equal(las.split(target).records, records)
     # As if all of it had been compressed anew.
@@ -113,7 +113,7 @@ def test_nothing_but_the_returns_is_decompressed_and_not_even_they_if_they_are_k
 
     monkeypatch.setattr(module, "read_records", heard)
     monkeypatch.setattr(writing, "_write", None)
-    changes = Changes(classification=classes)
+    changes = Edits(classification=classes)
     write_changed(source, las.folder / "known.laz", changes, cloud=cloud)
     assert asked == []
     write_changed(source, las.folder / "read.laz", changes)

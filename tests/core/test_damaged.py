@@ -21,7 +21,7 @@ from bare_earth.algorithms.crs.system import crs_of_wkt
 from bare_earth.algorithms.engine.classification import classify_file
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
-from bare_earth.algorithms.las.changes import Changes
+from bare_earth.algorithms.las.edits import Edits
 from bare_earth.algorithms.las.extrabytes import ExtraDimension
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import inspect, read_cloud, read_parts
@@ -177,7 +177,7 @@ def test_extra_bytes_of_no_type_and_no_length(las):
     source, target = las.make(vlrs=[record], extra=2), las.folder / "out.las"
     assert inspect(source).extra_dimensions == ["undocumented"]
     values = np.arange(60, dtype=np.float32)
-    write_changed(source, target, Changes(extra=ExtraDimension("height", "of it", values)))
+    write_changed(source, target, Edits(extra=ExtraDimension("height", "of it", values)))
     records = las.split(target).records
     assert np.array_equal(records[:, :-4], las.split(source).records)
     assert np.array_equal(np.ascontiguousarray(records[:, -4:]).view("<f4")[:, 0], values)
@@ -233,7 +233,7 @@ def test_an_input_that_changed_since_it_was_read_is_refused(las, kind, name, poi
     source = las.make(name, version=4, point_format=point_format)
     target = las.folder / f"out{source.suffix}"
     cloud, layout = read_cloud(source, keep_records=keep), open_las(source)
-    classes = Changes(classification=np.zeros(60, np.uint8))
+    classes = Edits(classification=np.zeros(60, np.uint8))
     write_changed(source, target, classes, cloud=cloud)
     target.unlink()
     replace_by_another(source, kind)

@@ -8,8 +8,8 @@ import pytest
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.classification import classify
-from bare_earth.algorithms.engine.cloudstore import CloudStore, Part
 from bare_earth.algorithms.engine.ground import label_ground
+from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
@@ -74,8 +74,8 @@ def test_the_size_is_what_was_given(parameters, width, las):
 def test_the_same_warning_of_several_blocks_is_told_once(las):
     cloud, heard = land(400, 30), las.Heard()
     blocks = Blocks(100.0, 50.0)
-    part = Part(cloud, np.ones(cloud.count, bool))
-    store = CloudStore([part], survey_frame(cloud.crs), blocks)
+    part = SurveyFile(cloud, np.ones(cloud.count, bool))
+    store = MemoryPoints([part], survey_frame(cloud.crs), blocks)
     label_ground(store, GridMinimum(), blocks, progress=heard)
     (warning,) = heard.warnings
     assert EXTENT in warning and "blocks" not in warning

@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 
 from bare_earth.algorithms.core.errors import BareEarthError
-from bare_earth.algorithms.las.changes import Changes
+from bare_earth.algorithms.las.edits import Edits
 from bare_earth.algorithms.las.extrabytes import ExtraDimension
 from bare_earth.algorithms.las.writing import write_changed
 
 VERSIONS = {0: (0, 1), 1: (0, 1), 2: range(4), 3: range(6), 4: range(11)}
 EVERY = [(version, each) for version, formats in VERSIONS.items() for each in formats]
 VALUES = np.linspace(-1.5, 40.0, 60).astype(np.float32)
-HEIGHTS = Changes(extra=ExtraDimension("HeightAboveGround", "Above ground, metre", VALUES))
+HEIGHTS = Edits(extra=ExtraDimension("HeightAboveGround", "Above ground, metre", VALUES))
 
 
 def descriptor(name, kind, options=0):
@@ -150,7 +150,7 @@ def test_other_heights_change_z_and_its_range(las, name, version, point_format):
     source = las.make(name, version=version, point_format=point_format, extra=2)
     target = las.folder / "out.las"
     z = np.arange(60, dtype=np.int32) * 100 - 500
-    write_changed(source, target, Changes(z=z))
+    write_changed(source, target, Edits(z=z))
     before, after = las.split(source), las.split(target)
     assert np.array_equal(after.records[:, 8:12].copy().view("<i4")[:, 0], z)
     rest = np.r_[0:8, 12 : before.records.shape[1]]
@@ -165,7 +165,7 @@ def test_a_flag_is_set_cleared_or_left(las, point_format):
     source = las.make(version=4, point_format=point_format)
     target = las.folder / "out.las"
     wanted = (np.arange(60) % 3 - 1).astype(np.int8)
-    write_changed(source, target, Changes(key_points=wanted))
+    write_changed(source, target, Edits(key_points=wanted))
     before, after = las.split(source).records, las.split(target).records
     bit = 0x40 if point_format < 6 else 0x02
     assert (after[wanted == 1, 15] & bit).all() and not (after[wanted == 0, 15] & bit).any()

@@ -8,8 +8,8 @@ from realdata import real
 from surveys import cut, finished, points_of, strip, write
 
 from bare_earth.algorithms.engine.classification import classify
-from bare_earth.algorithms.engine.cloudstore import CloudStore, Part
 from bare_earth.algorithms.engine.ground import blocks_of, label_ground
+from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
 from bare_earth.algorithms.engine.tiles import classify_tiles
 from bare_earth.algorithms.filters import METHODS, method_of
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
@@ -105,8 +105,8 @@ def test_quartering_crowded_blocks_changes_no_label_of_a_real_survey(parameters)
     cloud, labels = read_cloud(real("isprs/samp11.laz")), []
     for most in (10_000_000, 10_000):
         blocks = dataclasses.replace(blocks_of(parameters), most_points=most)
-        every = Part(cloud, np.ones(cloud.count, dtype=bool))
-        store = CloudStore([every], survey_frame(cloud.crs), blocks)
+        every = SurveyFile(cloud, np.ones(cloud.count, dtype=bool))
+        store = MemoryPoints([every], survey_frame(cloud.crs), blocks)
         assert (len(list(blocks.over(store))) > 1) == (most == 10_000)
         label_ground(store, parameters, blocks)
         labels.append(store.labels[0])

@@ -12,7 +12,7 @@ from bare_earth.algorithms.engine.classification import classify_file
 from bare_earth.algorithms.engine.output import HEIGHT_DIMENSION, Output
 from bare_earth.algorithms.engine.products import write_height_above_ground
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
-from bare_earth.algorithms.las.changes import Changes
+from bare_earth.algorithms.las.edits import Edits
 from bare_earth.algorithms.las.extrabytes import ExtraDimension
 from bare_earth.algorithms.las.writing import write_changed
 
@@ -38,7 +38,7 @@ def test_of_the_points_that_are_kept_nothing_is_lost(las, version, point_format,
         vlrs=[las.vlr(b"somebody", 7, b"else's data")],
     )  # fmt: skip
     target, kept = las.folder / f"out.{suffix}", masked()
-    write_changed(source, target, Changes(kept=kept))
+    write_changed(source, target, Edits(kept=kept))
     before, after = las.split(source), las.split(target)
     assert np.array_equal(after.records, before.records[kept])
     # The record on the compression tells of the version of who compressed.
@@ -66,7 +66,7 @@ def test_other_programs_read_the_points_that_are_kept(las, suffix):
     kept, heights = masked(3000), np.arange(3000, dtype=np.float32)
     target = las.folder / f"out.{suffix}"
     extra = ExtraDimension("Height", "above something", heights)
-    write_changed(source, target, Changes(kept=kept, extra=extra))
+    write_changed(source, target, Edits(kept=kept, extra=extra))
     before, after = laspy.read(source), laspy.read(target)
     assert len(after.points) == after.header.point_count == kept.sum()
     places = np.argsort(after["Height"])
@@ -85,7 +85,7 @@ def test_other_programs_read_the_points_that_are_kept(las, suffix):
 def test_nothing_left_to_write_is_told_and_leaves_no_file(las):
     source, target = las.make(), las.folder / "out.las"
     with pytest.raises(BareEarthError, match=r"None of the points of .* is left"):
-        write_changed(source, target, Changes(kept=np.zeros(60, bool)))
+        write_changed(source, target, Edits(kept=np.zeros(60, bool)))
     assert not target.exists()
 
 

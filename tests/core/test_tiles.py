@@ -22,11 +22,11 @@ from bare_earth.algorithms.engine import tiles as tiles_module
 from bare_earth.algorithms.engine import workers as workers_module
 from bare_earth.algorithms.engine.blocks import BRIDGE, GROUND, LOW, Blocks
 from bare_earth.algorithms.engine.classification import classify_file
-from bare_earth.algorithms.engine.cloudstore import CloudStore, Part
 from bare_earth.algorithms.engine.ground import label_ground
 from bare_earth.algorithms.engine.memory import Resources
+from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
 from bare_earth.algorithms.engine.options import TileInput, TileMethod, TileOutput
-from bare_earth.algorithms.engine.survey import Place, Survey, frame_of, grouped
+from bare_earth.algorithms.engine.survey import BlockIndex, Survey, frame_of, grouped
 from bare_earth.algorithms.engine.tiles import classify_tiles
 from bare_earth.algorithms.engine.workers import Processes, Threads
 from bare_earth.algorithms.filters import METHODS
@@ -69,8 +69,8 @@ def whole_classes(path, parameters, selection=Selection(), blocks=BLOCKS):
     """Return the points of a file with the classes that they get as one cloud in these blocks."""
     cloud = read_cloud(path)
     selected = selection.select(cloud, SILENT)
-    store = CloudStore(
-        [Part(cloud, selected, selection.known_ground(cloud, selected))],
+    store = MemoryPoints(
+        [SurveyFile(cloud, selected, selection.known_ground(cloud, selected))],
         survey_frame(cloud.crs),
         blocks,
     )
@@ -185,7 +185,7 @@ def test_tiles_larger_than_memory_give_the_same_bytes(many, out, monkeypatch):
 def test_blocks_are_read_in_groups_that_fit_into_memory(six):
     collection = open_collection([six])
     survey = Survey(FAST, Selection(), frame_of(collection), Blocks(20.0, 5.0))
-    places = [Place(column, row) for row in range(6) for column in range(15)]
+    places = [BlockIndex(column, row) for row in range(6) for column in range(15)]
     many = grouped(survey, collection, places, 1, 1 << 40)
     assert len(many) == 4 * 2  # squares of 4 x 4; with 8 x 8 there would be too few
     assert sorted(place for group in many for place in group) == sorted(places)

@@ -14,11 +14,11 @@ from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.engine import ground as ground_module
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.classification import classify
-from bare_earth.algorithms.engine.cloudstore import CloudStore, Part
+from bare_earth.algorithms.engine.disk_points import DiskPoints
 from bare_earth.algorithms.engine.ground import blocks_of, label_ground
 from bare_earth.algorithms.engine.memory import Resources, free_memory
+from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
 from bare_earth.algorithms.engine.scheduling import run_jobs
-from bare_earth.algorithms.engine.spill import Spill
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
@@ -62,7 +62,9 @@ def survey(count=30_000, width=300.0, depth=130.0, seed=3):
 
 def labels_of(parts, parameters, blocks, threads=1, depth=1.0, known=None, progress=SILENT):
     frame = survey_frame(parts[0].crs)
-    store = CloudStore([Part(each, np.ones(each.count, bool)) for each in parts], frame, blocks)
+    store = MemoryPoints(
+        [SurveyFile(each, np.ones(each.count, bool)) for each in parts], frame, blocks
+    )
     label_ground(store, parameters, blocks, Special(depth), Resources(threads=threads), progress)
     return store.labels
 
@@ -88,7 +90,7 @@ def test_a_tile_of_a_kilometre_that_begins_at_a_block_has_no_narrow_rest(east, o
     x = np.array([0.0 - overhang, 1000.0 + overhang]) + east - ORIGIN[0]
     cloud = cloud_of(*(np.round(each * 100) for each in (x, x - x, x - x)))
     blocks = Blocks.of(100.0)
-    store = CloudStore([Part(cloud, np.ones(2, bool))], survey_frame(cloud.crs), blocks)
+    store = MemoryPoints([SurveyFile(cloud, np.ones(2, bool))], survey_frame(cloud.crs), blocks)
     assert [(each.column, each.row) for each in blocks.over(store)] == [(east // 2000, 2850)]
 
 
@@ -101,7 +103,7 @@ def test_every_point_lies_in_one_block_and_crowded_blocks_are_quartered():
     crowd = np.random.default_rng(4).uniform(10_000, 12_000, (2, 5000)).astype(int)
     cloud = cloud_of(np.r_[x, crowd[0]], np.r_[y, crowd[1]], np.r_[z, z[:5000]])
     blocks = Blocks(80.0, 8.0, most_points=1500)
-    store = CloudStore([Part(cloud, np.ones(cloud.count, bool))], cloud.frame, blocks)
+    store = MemoryPoints([SurveyFile(cloud, np.ones(cloud.count, bool))], cloud.frame, blocks)
     points, times = cloud.points(slice(None)), np.zeros(cloud.count, int)
     sides = set()
     for block in blocks.over(store):
@@ -128,10 +130,12 @@ def test_a_block_gets_the_points_of_its_window_that_take_part(tmp_path, request,
     blocks = Blocks(80.0, 8.0)
     cuts = (slice(0, 70_000), slice(70_000, 70_001), slice(70_001, None))
     if waiting == "in memory":
-        parts = [Part(part_of(cloud, cut), selected[cut], known[cut], wanted[cut]) for cut in cuts]
-        store = CloudStore(parts, survey_frame(cloud.crs), blocks)
+        parts = [
+            SurveyFile(part_of(cloud, cut), selected[cut], known[cut], wanted[cut]) for cut in cuts
+        ]
+        store = MemoryPoints(parts, survey_frame(cloud.crs), blocks)
     else:
-        store = Spill(tmp_path / "out.laz", blocks.leaf_side)
+        store = DiskPoints(tmp_path / "out.laz", blocks.leaf_side)
         for cut in cuts:
             store.append(part_of(cloud, cut), selected[cut], known[cut], wanted[cut])
         request.addfinalizer(store.__exit__)
@@ -229,7 +233,8 @@ def test_points_that_are_only_context_get_no_label_and_their_blocks_no_filter():
     cloud, blocks = cloud_of(x, y, z), Blocks(80.0, 40.0)
     every, wanted = np.ones(cloud.count, bool), x < 7000
     whole, some = (
-        CloudStore([Part(cloud, every, None, each)], cloud.frame, blocks) for each in (None, wanted)
+        MemoryPoints([SurveyFile(cloud, every, None, each)], cloud.frame, blocks)
+        for each in (None, wanted)
     )
     for store in (whole, some):
         label_ground(store, GridMinimum(), blocks)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ..core.errors import BareEarthError
 from ..core.progress import Progress
-from .jobs import BlockJob, Outcome, TileJob, TileSummary
+from .jobs import BlockJob, JobResult, TileJob, TileSummary
 from .workers import SCHEDULER_GONE, Job, Running, Workers
 
 _POLL = 0.1
@@ -21,7 +21,7 @@ _DIED = (
 )
 
 
-class Run:
+class JobQueue:
     """The jobs of a survey, and what became of them.
 
     Parameters
@@ -118,19 +118,19 @@ class Run:
             if not is_alone:
                 return
             self._suspects.pop()
-            outcome = Outcome(None, failure=_DIED)
+            outcome = JobResult(None, failure=_DIED)
         except CancelledError as error:
             raise BareEarthError(SCHEDULER_GONE) from error
         except Exception as error:
             # A cluster gave the job up.
             failure = f"It could not be done: {error or type(error).__name__}."
-            outcome = Outcome(None, failure=failure)
+            outcome = JobResult(None, failure=failure)
         self._running.pop(ended, None)
         self._finished += _weight(job)
         self._hear(job, outcome)
         (self._end_tile if isinstance(job, TileJob) else self._end_blocks)(job, outcome)
 
-    def _end_blocks(self, job: BlockJob, outcome: Outcome) -> None:
+    def _end_blocks(self, job: BlockJob, outcome: JobResult) -> None:
         if outcome.failure is not None and len(job.places) > 1:
             parts = job.split()
             self._blocks.extendleft(parts)
@@ -155,7 +155,7 @@ class Run:
             (self._ready if is_ready else waiting).append(each)
         self._waiting = waiting
 
-    def _end_tile(self, job: TileJob, outcome: Outcome) -> None:
+    def _end_tile(self, job: TileJob, outcome: JobResult) -> None:
         if outcome.failure is not None:
             self.failures[job.tile.path] = outcome.failure
         else:
@@ -166,7 +166,7 @@ class Run:
             if not self._uses[file] and file not in self._missing:
                 file.unlink(missing_ok=True)
 
-    def _hear(self, job: Job, outcome: Outcome) -> None:
+    def _hear(self, job: Job, outcome: JobResult) -> None:
         """Keep what a job told; of tiles not what only counts their points."""
         is_tile = isinstance(job, TileJob)
         for kind, text in outcome.messages:

@@ -10,13 +10,13 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.progress import paced
 from .extrabytes import ExtraDimension, place_dimension
-from .header_changes import with_count, with_z_range
+from .header_edits import with_count, with_z_range
 from .lasfile import LasFile
 from .records import MOST_KEPT, check_class, named, read_records
 
 
 @dataclass(frozen=True)
-class Changes:
+class Edits:
     """New values of points, each of shape (n,) in the order of the file; None where all stay.
 
     Attributes
@@ -46,14 +46,14 @@ class Changes:
         return [each for each in columns if each is not None]
 
 
-class Rewriting:
+class EditedFile:
     """A file and what becomes of it.
 
     Parameters
     ----------
     source : LasFile
         The file as it is.
-    changes : Changes
+    changes : Edits
         What changes in its points.
     records : numpy.ndarray of uint8, shape (n, record length), optional
         Its points, if they were kept when it was read; they are changed.
@@ -69,9 +69,7 @@ class Rewriting:
         If the file is not the one that the changes are for, or cannot hold them.
     """
 
-    def __init__(
-        self, source: LasFile, changes: Changes, records: np.ndarray | None = None
-    ) -> None:
+    def __init__(self, source: LasFile, changes: Edits, records: np.ndarray | None = None) -> None:
         read = (source.count, source.record_length) if records is None else records.shape
         if read != (source.count, source.record_length) or any(
             len(column) != source.count for column in changes.columns()

@@ -10,14 +10,14 @@ from ..core.points import Frame
 from ..core.progress import SILENT, Progress
 from ..core.threads import over_parts, parts_of
 from ..las.cloud import PointCloud
-from .blocks import Blocks, Box, Contents, Corner, Leaves, gathered
-from .runs import Runs, Sorted, code_of
+from .blocks import BlockPoints, Blocks, Box, Corner, Leaves, gathered
+from .leaf_index import LeafIndex, Sorted, code_of
 
 # Points that are looked at, sorted, and read together.
 _CHOSEN, _SORTED, _READ = 1 << 19, 1 << 16, 1 << 15
 
 
-class Part(NamedTuple):
+class SurveyFile(NamedTuple):
     """The points of one file, in its order.
 
     Attributes
@@ -38,12 +38,12 @@ class Part(NamedTuple):
     wanted: np.ndarray | None = None
 
 
-class CloudStore:
+class MemoryPoints:
     """The points of one or more files.
 
     Parameters
     ----------
-    parts : sequence of Part
+    parts : sequence of SurveyFile
         The files.
     frame : Frame
         That of the survey.
@@ -65,7 +65,7 @@ class CloudStore:
 
     def __init__(
         self,
-        parts: Sequence[Part],
+        parts: Sequence[SurveyFile],
         frame: Frame,
         blocks: Blocks,
         progress: Progress = SILENT,
@@ -80,7 +80,7 @@ class CloudStore:
         # Selected points of each file; their places in all of them together are those of the runs.
         self._orders = [_indices(part, progress.part(0.0, 0.3)) for part in self._parts]
         self._ends = np.cumsum([len(order) for order in self._orders])
-        self._runs = Runs()
+        self._runs = LeafIndex()
         is_one = self._is_one_block(blocks)
         side = blocks.side if is_one else blocks.leaf_side
         self._start = blocks.start
@@ -137,11 +137,11 @@ class CloudStore:
 
     def read(
         self, leaves: np.ndarray, box: Box | None = None, corner: Corner = (0.0, 0.0)
-    ) -> Contents:
+    ) -> BlockPoints:
         """Return the points of some leaves, or those of them in a box, relative to a corner."""
         pieces, frame = list(self._pieces(leaves)), self._frame.moved(corner)
 
-        def read(number: int) -> Contents:
+        def read(number: int) -> BlockPoints:
             return self._contents(*pieces[number], frame)
 
         return gathered([len(which) for _, which in pieces], read, box, self._kind)
@@ -159,12 +159,12 @@ class CloudStore:
             for piece in parts_of(len(which), _READ):
                 yield number, which[piece]
 
-    def _contents(self, number: int, which: np.ndarray, frame: Frame) -> Contents:
+    def _contents(self, number: int, which: np.ndarray, frame: Frame) -> BlockPoints:
         part, start = self._parts[number], self._starts[number]
         known = np.zeros(len(which), bool) if part.known is None else part.known[which]
         wanted = np.ones(len(which), bool) if part.wanted is None else part.wanted[which]
         positions = np.add(which, start, dtype=self._kind)
-        return Contents(part.cloud.points(which, frame), known, wanted, positions)
+        return BlockPoints(part.cloud.points(which, frame), known, wanted, positions)
 
     def put(self, positions: np.ndarray, labels: np.ndarray) -> None:
         """Keep the labels of points."""
@@ -177,14 +177,14 @@ class CloudStore:
             mine[positions[here] - start] = labels[here]
 
 
-def _as_needed(part: Part) -> Part:
+def _as_needed(part: SurveyFile) -> SurveyFile:
     """Return a part without flags that say the same of all points."""
     known = part.known if part.known is not None and part.known.any() else None
     wanted = part.wanted if part.wanted is not None and not part.wanted.all() else None
     return part._replace(known=known, wanted=wanted)
 
 
-def _indices(part: Part, progress: Progress) -> np.ndarray:
+def _indices(part: SurveyFile, progress: Progress) -> np.ndarray:
     """Return the indices of the points of a part that are selected, in the smallest type."""
     count = np.count_nonzero(part.selected)
     indices, end = np.empty(count, dtype=_smallest(part.cloud.count)), 0

@@ -41,7 +41,7 @@ class Sorted(NamedTuple):
         return cls(order, codes[starts], np.diff(starts, append=len(codes)))
 
 
-class Runs:
+class LeafIndex:
     """The runs of the leaves of a store, added as its points are sorted."""
 
     def __init__(self) -> None:

@@ -14,8 +14,8 @@ import numpy as np
 from ..core.files import describe_write_error
 from ..core.points import Frame
 from ..las.cloud import PointCloud, survey_frame
-from .blocks import Box, Contents, Corner, Leaves, gathered
-from .runs import Runs, Sorted
+from .blocks import BlockPoints, Box, Corner, Leaves, gathered
+from .leaf_index import LeafIndex, Sorted
 
 _RECORD = np.dtype([("x", "<i4"), ("y", "<i4"), ("z", "<i4"), ("flags", "u1")])
 _KNOWN, _WANTED = 1, 2
@@ -27,7 +27,7 @@ _GAP = 1 << 16
 _MOST_READ = 1 << 15
 
 
-class Spill:
+class DiskPoints:
     """The points that take part, in temporary files without a name.
 
     They are gone as soon as they are closed, or the process ends, however that may be.
@@ -61,12 +61,12 @@ class Spill:
         self.cloud: PointCloud | None = None
         self._frame = Frame()
         self._first = np.zeros(2, dtype=np.int64)
-        self._runs = Runs()
+        self._runs = LeafIndex()
 
     def _file(self) -> BinaryIO:
         return self._files.enter_context(tempfile.TemporaryFile(dir=self._target.parent))
 
-    def __enter__(self) -> Spill:
+    def __enter__(self) -> DiskPoints:
         return self
 
     def __exit__(self, *exception: object) -> None:
@@ -143,18 +143,18 @@ class Spill:
 
     def read(
         self, leaves: np.ndarray, box: Box | None = None, corner: Corner = (0.0, 0.0)
-    ) -> Contents:
+    ) -> BlockPoints:
         """Return the points of some leaves, in the order of the file, or those of them in a box."""
         runs, frame = list(_joined(*self._runs.of(leaves))), self._frame.moved(corner)
 
-        def read(number: int) -> Contents:
+        def read(number: int) -> BlockPoints:
             start, end = runs[number]
             records = self._read(start, end)
             columns = {name: records[name] for name in "xyz"}
             points = dataclasses.replace(self.cloud, **columns).points(slice(None), frame)
             flags = records["flags"]
             positions = np.arange(start, end)
-            return Contents(points, flags & _KNOWN > 0, flags & _WANTED > 0, positions)
+            return BlockPoints(points, flags & _KNOWN > 0, flags & _WANTED > 0, positions)
 
         return gathered([end - start for start, end in runs], read, box)
 
