@@ -7,12 +7,17 @@ import csv
 import hashlib
 import stat
 import zipfile
+import zlib
 from pathlib import Path, PurePosixPath
 
 from ...algorithms.core.errors import BareEarthError
 from .build import Build
 
 _MOST_BYTES = 1 << 26  # unzipped; lazrs has 2 MB
+# What zipfile raises when the file is not a zip, damaged or encrypted.
+_UNREADABLE = (
+    zipfile.BadZipFile, zlib.error, EOFError, KeyError, RuntimeError, UnicodeDecodeError
+)  # fmt: skip
 
 
 def unpack(wheel: Path, folder: Path, package: str, build: Build) -> None:
@@ -40,9 +45,9 @@ def unpack(wheel: Path, folder: Path, package: str, build: Build) -> None:
     try:
         with zipfile.ZipFile(wheel) as archive:
             info = _info_folder(archive, wheel, package)
-            _check_tags(archive.read(f"{info}/WHEEL").decode(), wheel, build)
             members = [each for each in archive.infolist() if not each.is_dir()]
             _check_places(members, wheel, (package, f"{package}.libs", info))
+            _check_tags(archive.read(f"{info}/WHEEL").decode(), wheel, build)
             hashes = _hashes(archive.read(f"{info}/RECORD").decode())
             for member in members:
                 content = archive.read(member)
@@ -51,7 +56,7 @@ def unpack(wheel: Path, folder: Path, package: str, build: Build) -> None:
                 target = folder / member.filename
                 target.parent.mkdir(parents=True, exist_ok=True)
                 target.write_bytes(content)
-    except (zipfile.BadZipFile, KeyError, UnicodeDecodeError, NotImplementedError) as error:
+    except _UNREADABLE as error:
         raise BareEarthError(f"{wheel.name} is not a wheel, or damaged. Get it anew.") from error
     except OSError as error:
         raise BareEarthError(f"{wheel.name} could not be unzipped: {error}.") from error

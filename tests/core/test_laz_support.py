@@ -79,19 +79,22 @@ def tag_here():
     return f"{build.name.partition('-')[0]}-none-any"
 
 
-def make_wheel(path, files=None, name=PACKAGE, tag=None, record=True, links=()):
+def make_wheel(
+    path, files=None, name=PACKAGE, tag=None, record=True, links=(), compression=zipfile.ZIP_STORED
+):
     """Write a wheel; `record` False leaves the hashes wrong."""
     info = f"{name}-1.0.dist-info"
     content = {f"{name}/__init__.py": "made = True\n"} if files is None else dict(files)
     content[f"{info}/WHEEL"] = f"Wheel-Version: 1.0\nTag: {tag or tag_here()}\n"
     content[f"{info}/METADATA"] = f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n"
     lines = []
-    with zipfile.ZipFile(path, "w") as archive:
+    with zipfile.ZipFile(path, "w", compression) as archive:
         for file, text in content.items():
             digest = hashlib.sha256(text.encode()).digest() if record else b"\0" * 32
             value = base64.urlsafe_b64encode(digest).rstrip(b"=").decode()
             lines.append(f"{file},sha256={value},{len(text)}\n")
             entry = zipfile.ZipInfo(file)
+            entry.compress_type = compression
             entry.external_attr = (0o120777 if file in links else 0o644) << 16
             archive.writestr(entry, text)
         archive.writestr(f"{info}/RECORD", "".join(lines) + f"{info}/RECORD,,\n")
@@ -206,11 +209,12 @@ def test_files_that_are_no_wheels_are_refused(support, tmp_path):
     assert not left(support)
 
 
-def test_bytes_that_are_changed_anywhere_are_told(support, tmp_path):
-    whole = bytearray(make_wheel(tmp_path / "a.whl").read_bytes())
-    for place in range(0, len(whole), 7):
+@pytest.mark.parametrize("compression", [zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED])
+def test_bytes_that_are_changed_anywhere_are_told(tmp_path, compression):
+    whole = make_wheel(tmp_path / "a.whl", compression=compression).read_bytes()
+    for place in range(0, 2 * len(whole), 3):
         changed = bytearray(whole)
-        changed[place] ^= 0x55
+        changed[place // 2] ^= 0x01 if place % 2 else 0xFF
         (tmp_path / "b.whl").write_bytes(changed)
         # Some bytes say nothing (dates, modes); a sentence or the package, nothing else.
         try:
