@@ -21,6 +21,7 @@ from qgis.PyQt.QtWidgets import (
 )
 
 from ..algorithms.core.errors import BareEarthError
+from .libraries.build import Build
 from .libraries.laz_support import LazSupport
 from .libraries.pip import Finished, Run
 
@@ -52,10 +53,10 @@ class LazDialog(QDialog):
         about = QLabel(
             self.tr(
                 "Compressed point clouds (.laz, .copc.laz) need the package lazrs, which few builds"
-                " of QGIS have. Here you get it from the Python Package Index (0.6 MB), or from"
-                " a wheel file (.whl) without the internet. It goes into your profile; QGIS itself"
-                " is left as it is."
-            )
+                " of QGIS have. Here you get it from the Python Package Index (0.6 MB), or, without"
+                " the internet, from a wheel file of lazrs for {}. It goes into your profile; QGIS"
+                " itself is left as it is."
+            ).format(Build.here().wheels)
         )
         self.state, self.result = QLabel(), QLabel()
         for label in (about, self.state, self.result):

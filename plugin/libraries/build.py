@@ -59,6 +59,11 @@ class Build:
         return "-".join([self._python, "_".join(filter(None, [self.system, self.machine]))])
 
     @property
+    def wheels(self) -> str:
+        """Say in words what wheels must be for: "cp311 and linux_x86_64"."""
+        return self.name.replace("-", " and ", 1)
+
+    @property
     def _python(self) -> str:
         return "cp{}{}".format(*self.python)
 

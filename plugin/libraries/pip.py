@@ -149,7 +149,7 @@ def _reason(output: str, build: Build) -> str:
         if words in output:
             return meaning
     if "No matching distribution" in output:
-        return f"the package index has none for {build.name.replace('-', ' and ')}."
+        return f"the package index has none for {build.wheels}."
     lines = [line.strip() for line in output.splitlines() if line.strip()]
     errors = [line for line in lines if line.startswith("ERROR")]
     return (errors or lines or ["pip failed without a word"])[-1].rstrip(".") + "."

@@ -81,10 +81,9 @@ def _info_folder(archive: zipfile.ZipFile, wheel: Path, package: str) -> str:
 def _check_tags(text: str, wheel: Path, build: Build) -> None:
     tags = [line.partition(":")[2].strip() for line in text.splitlines() if line[:4] == "Tag:"]
     if not any(build.takes(tag) for tag in tags):
-        python, _, system = build.name.partition("-")
         raise BareEarthError(
             f"{wheel.name} is for another Python or system ({', '.join(tags)}); this QGIS needs one"
-            f" for {python} and {system}."
+            f" for {build.wheels}."
         )
 
 
