@@ -131,6 +131,8 @@ class LazDialog(QDialog):
         self.get.setEnabled(not working and not self._support.is_there)
         self.choose.setEnabled(not working and not self._support.is_there)
         self.remove.setEnabled(not working and self._support.is_ours)
+        # For the sentences that came or went.
+        self.adjustSize()
 
 
 class _Task(QgsTask):

@@ -43,7 +43,7 @@ class LazSupport:
     def state(self) -> str:
         """What there is now, in a sentence."""
         if not self.is_there:
-            return "Not there yet: .laz and .copc.laz files cannot be read and written."
+            return "Not there yet: .laz and .copc.laz files cannot be read or written."
         if self.is_ours:
             return f"Ready. The package lazrs is in {self.folder}"
         return "Ready. This QGIS has the package lazrs."
