@@ -110,6 +110,8 @@ class Qgis:
 
 @pytest.fixture(scope="session")
 def package(tmp_path_factory):
+    if not (ROOT / ".git").exists():
+        pytest.skip("this is no git checkout")
     folder = tmp_path_factory.mktemp("package")
     environment = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
     subprocess.run([ROOT / "tools" / "environment", "package", folder], env=environment, check=True)
