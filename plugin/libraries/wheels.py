@@ -82,8 +82,8 @@ def _check_tags(text: str, wheel: Path, build: Build) -> None:
     tags = [line.partition(":")[2].strip() for line in text.splitlines() if line[:4] == "Tag:"]
     if not any(build.takes(tag) for tag in tags):
         raise BareEarthError(
-            f"{wheel.name} is for another Python or system ({', '.join(tags[:1])}); this QGIS needs one"
-            f" for {build.wheels}."
+            f"{wheel.name} is for another Python or system ({', '.join(tags[:1])}); this QGIS"
+            f" needs one for {build.wheels}."
         )
 
 
