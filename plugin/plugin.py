@@ -6,9 +6,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from qgis.core import Qgis, QgsApplication, QgsMessageLog, QgsSettings
-from qgis.PyQt.QtWidgets import QAction, QPushButton
+from qgis.PyQt.QtWidgets import QPushButton
 
 from ..algorithms.las.backends import install_hint, missing_packages
+from .compat import QAction
 from .libraries.folders import BUNDLED, add_to_path
 from .libraries.laz_support import LazSupport
 
