@@ -3,22 +3,29 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Iterator
 
 import numpy as np
 
 from ..core.parameters import ParameterSet, parameter
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
-from .cells import Cells
-from .tin import Tin, hull_corners, lowest_of_duplicates
+from ..core.threads import over_parts
+from .cells import Cells, first_of_each
+from .growing_tin import GrowingTin
+from .tin import hull_corners, lowest_of_duplicates
 
-# Where a round would add so small a share of vertices it adds all points beyond the tolerance
-# instead of one a triangle: another triangulation for each few of them is not worth it.
-_SMALL_ROUND = 0.005
-# Share of the way to the middle of the survey by which queries on the hull are moved inside it.
-_INWARDS = 1e-9
-# Of triangles, factors that mix the numbers of their corners into one number.
-_MIX = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], dtype=np.uint64)
+# Metres by which a point may lie beyond the tolerance, or in another cell: rounding.
+_ROUNDING = 1e-6
+# First one point of each cell of the first of these shares of the grid size is looked at, then one
+# of each of the second and so on, then every point.
+_LEVELS = (0.2, 0.05)
+# Points a cell below which it is as well to look at all.
+_FEW = 4.0
+# Distances to the centre of a cell are told apart to this share of its squared side.
+_DECIMALS = 6
+# Points whose arrays stay in the processor's cache.
+_POINTS_A_PART = 1 << 14
 
 
 @dataclass(frozen=True)
@@ -57,6 +64,7 @@ def model_key_points(
     points: Points,
     parameters: ModelKeyPoints = ModelKeyPoints(),
     progress: Progress = SILENT,
+    anchor: tuple[float, float] = (0.0, 0.0),
 ) -> np.ndarray:
     """Choose the ground points that a terrain model needs.
 
@@ -73,6 +81,8 @@ def model_key_points(
         Tolerances and size of the grid.
     progress : Progress
         Receives progress.
+    anchor : tuple of float
+        x and y of a corner of cells of the grid in metres.
 
     Returns
     -------
@@ -84,96 +94,113 @@ def model_key_points(
         return chosen
     # From here on in an order of their own.
     order = lowest_of_duplicates(*points)
-    points = points.take(order)
-    keys = np.zeros(points.count, dtype=bool)
-    keys[Cells.over(points, parameters.grid_size).lowest_points(points)] = True
-    keys[hull_corners(points.x, points.y)] = True
+    points = _near_origin(points.take(order), parameters.grid_size, anchor)
+    hull = hull_corners(points.x, points.y)
+    if len(hull) < 3:
+        # Points on one line: no TIN can stand for them.
+        chosen[order] = True
+        return chosen
+    seeds = Cells.over(points, parameters.grid_size).lowest_points(points)
     progress(0.05)
-    _densify(points, keys, parameters, progress.part(0.05, 1.0))
-    chosen[order[keys]] = True
+    keys = _Keys(points, np.union1d(seeds, hull), parameters)
+    for level in _levels(points, seeds, parameters.grid_size):
+        keys.densify(*level)
+    chosen[order[keys.are_keys]] = True
     progress(1.0)
     return chosen
 
 
-def _densify(
-    points: Points, keys: np.ndarray, parameters: ModelKeyPoints, progress: Progress
-) -> None:
-    """Add to `keys`, in place, until no point lies beyond the tolerance."""
-    middle = np.median(points.x), np.median(points.y)
-    x, y = (each + (at - each) * _INWARDS for each, at in zip(points, middle))
-    pending = np.flatnonzero(~keys)
-    beyond = np.zeros(points.count)
-    triangle = np.full(points.count, -1, dtype=np.int64)
-    old = np.empty(0, dtype=np.uint64)
-    first = None
-    while True:
-        vertices = np.flatnonzero(keys)
-        tin = Tin(*points.take(vertices))
-        if not len(tin.triangles):
-            # Points on one line: no TIN can stand for them.
-            keys[:] = True
-            return
-        names = _names(vertices[tin.source[tin.triangles]])
-        pending, stayed = _moved(pending, triangle, beyond, old, names)
-        triangle[stayed] = _renumbered(triangle[stayed], old, names)
-        triangle[pending] = tin.locate(x[pending], y[pending])
-        height = tin.interpolate(x[pending], y[pending], triangle[pending])
-        above = points.z[pending] - height
-        beyond[pending] = np.fmax(
-            above - parameters.tolerance_above, -above - parameters.tolerance_below
-        )
-        # Outside the hull by more than rounding: not known to be within the tolerance.
-        beyond[pending[np.isnan(height)]] = np.inf
-        violating = pending[beyond[pending] > 0.0]
-        if not len(violating):
-            return
-        added = _worst(violating, triangle, beyond)
-        if len(added) < _SMALL_ROUND * len(vertices):
-            added = violating
-        keys[added] = True
-        first = first or len(violating)
-        progress(1.0 - len(violating) / (first + 1))
-        old = names
-        pending = np.flatnonzero(~keys)
+def _near_origin(points: Points, grid_size: float, anchor: tuple[float, float]) -> Points:
+    """Return points moved by whole cells of the grid."""
+    x, y = (
+        values - (at + grid_size * np.round((np.median(values) - at) / grid_size)) + _ROUNDING
+        for values, at in zip(points, anchor)
+    )
+    return Points(x, y, points.z)
 
 
-def _worst(violating: np.ndarray, triangle: np.ndarray, beyond: np.ndarray) -> np.ndarray:
-    """Return of the points in each triangle the one farthest beyond the tolerance."""
-    order = np.lexsort((violating, -beyond[violating], triangle[violating]))
-    inside = triangle[violating[order]]
-    first = np.ones(len(order), dtype=bool)
-    # Those outside of all triangles are in none together.
-    first[1:] = (np.diff(inside) != 0) | (inside[1:] < 0)
-    return violating[order[first]]
+def _levels(
+    points: Points, seeds: np.ndarray, grid_size: float
+) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Yield which points to look at, and for each a point near it that has been looked at."""
+    known, cells = seeds, Cells.over(points, grid_size)
+    for share in _LEVELS:
+        finer = Cells.over(points, grid_size * share)
+        centred = _most_central(points, finer)
+        if points.count < _FEW * len(centred):
+            break
+        yield centred, _of_cells(cells, known)[cells.index[centred]]
+        known, cells = centred, finer
+    yield np.arange(points.count), _of_cells(cells, known)[cells.index]
 
 
-def _names(corners: np.ndarray) -> np.ndarray:
-    """Return a number for each triangle that tells it from the others, whatever its place."""
-    mixed = np.sort(corners, axis=1).astype(np.uint64) + np.uint64(1)
-    names = mixed * _MIX
-    names ^= names >> np.uint64(29)
-    return (names * _MIX[::-1]).sum(axis=1, dtype=np.uint64)
+def _of_cells(cells: Cells, points: np.ndarray) -> np.ndarray:
+    """Return for each cell the one of some points that lies in it."""
+    found = np.zeros(cells.rows * cells.columns, dtype=np.int32)
+    found[cells.index[points]] = points
+    return found
 
 
-def _moved(
-    pending: np.ndarray,
-    triangle: np.ndarray,
-    beyond: np.ndarray,
-    old: np.ndarray,
-    names: np.ndarray,
-) -> tuple[np.ndarray, np.ndarray]:
-    """Part points into those to look at and those whose triangle is still there and was good."""
-    if not len(old):
-        return pending, pending[:0]
-    still = np.isin(old, names)
-    stays = (triangle[pending] >= 0) & (beyond[pending] <= 0.0)
-    stays &= still[triangle[pending]]
-    return pending[~stays], pending[stays]
+def _most_central(points: Points, cells: Cells) -> np.ndarray:
+    """Return which point of each cell is the nearest to its centre."""
+    x, y = ((each / cells.size) % 1.0 - 0.5 for each in points[:2])
+    distance = np.round(x * x + y * y, _DECIMALS)
+    return first_of_each(
+        cells.index, cells.rows * cells.columns, distance, points.z, points.x, points.y
+    )
 
 
-def _renumbered(triangle: np.ndarray, old: np.ndarray, names: np.ndarray) -> np.ndarray:
-    """Return what number triangles of the round before have now."""
-    if not len(triangle):
-        return triangle
-    order = np.argsort(names)
-    return order[np.searchsorted(names, old[triangle], sorter=order)]
+class _Keys:
+    """Chosen points and their TIN."""
+
+    def __init__(self, points: Points, seeds: np.ndarray, parameters: ModelKeyPoints) -> None:
+        self._points, self._parameters = points, parameters
+        self._tin = GrowingTin(points.take(seeds))
+        self.are_keys = np.zeros(points.count, dtype=bool)
+        self.are_keys[seeds] = True
+        # Of each point that has been looked at.
+        self._triangle = np.zeros(points.count, dtype=np.int32)
+        self._triangle[seeds] = self._tin.triangles_of_vertices()
+        self._beyond = np.zeros(points.count, dtype=np.float32)
+
+    def densify(self, pending: np.ndarray, near: np.ndarray) -> None:
+        """Choose points until none of the pending lies beyond the tolerance."""
+        points, triangle = self._points, self._triangle
+        triangle[pending] = triangle[near]
+        look = pending
+        rounds = 0
+        while True:
+            self._look_at(look)
+            violating = pending[self._beyond[pending] > _ROUNDING]
+            rounds += 1
+            if DEBUG: print(rounds, len(look), len(violating), self._tin.vertices.count)
+            if not len(violating):
+                return
+            x, y = points.x[violating], points.y[violating]
+            worst = violating[
+                first_of_each(
+                    triangle[violating], self._tin.count, -self._beyond[violating], x, y
+                )
+            ]
+            added, changed = self._tin.add(
+                points.take(worst), triangle[worst], self._beyond[worst]
+            )
+            self.are_keys[worst[added]] = True
+            look = pending[changed[triangle[pending]]]
+
+    def _look_at(self, which: np.ndarray) -> None:
+        """Find triangle and distance beyond the tolerance of points."""
+
+        def look(part: slice) -> None:
+            some = which[part]
+            triangle = self._triangle[some]
+            height = self._tin.heights(self._points.x[some], self._points.y[some], triangle)
+            above = self._points.z[some] - height
+            self._triangle[some] = triangle
+            self._beyond[some] = np.fmax(
+                above - self._parameters.tolerance_above,
+                -above - self._parameters.tolerance_below,
+            )
+
+        over_parts(look, len(which), _POINTS_A_PART, SILENT)
+DEBUG=False
