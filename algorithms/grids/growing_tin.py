@@ -14,6 +14,7 @@ _ROUNDING = 1e-12
 _ON_EDGE = 1e-10
 # Twice the area, in m2, by which a query may lie outside an edge and count as on it: rounding.
 _OUTSIDE = 1e-11
+_STEPS = 6
 # Edges are flipped, and walks go on, until nothing is left to do: long before, unless rounding
 # makes them go round and round.
 _MOST_STEPS = 1000
@@ -116,23 +117,24 @@ class GrowingTin:
         numpy.ndarray of float64, shape (q,)
             Linear in each triangle.
         """
-        heights = np.empty(len(x))
+        heights = np.full(len(x), np.nan)
         which, here = np.arange(len(x)), triangle
-        for step in range(_MOST_STEPS):
+        for _ in range(_STEPS):
             corners = [self.corners.take(3 * here + k) for k in range(3)]
             areas = self._opposite_areas(x, y, corners)
             lowest = np.minimum(np.minimum(areas[0], areas[1]), areas[2])
             is_outside = lowest < -_OUTSIDE
             go = np.flatnonzero(is_outside)
             into = self._next_triangle(here[go], [each[go] for each in areas])
-            is_outside[go[into < 0]] = step == _MOST_STEPS - 1
+            is_outside[go[into < 0]] = False
             stay = np.flatnonzero(~is_outside)
             found = self._interpolated([e[stay] for e in corners], [e[stay] for e in areas])
             heights[which[stay]], triangle[which[stay]] = found, here[stay]
             go, here = go[into >= 0], into[into >= 0]
             if not len(go):
-                break
+                return heights
             which, x, y = which[go], x[go], y[go]
+        triangle[which] = here
         return heights
 
     def _opposite_areas(

@@ -10,7 +10,7 @@ import numpy as np
 from ..core.parameters import ParameterSet, parameter
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
-from ..core.threads import over_parts
+from ..core.threads import in_threads, over_parts
 from .cells import Cells, first_of_each
 from .growing_tin import GrowingTin
 from .tin import hull_corners, lowest_of_duplicates
@@ -24,8 +24,13 @@ _LEVELS = (0.2, 0.05)
 _FEW = 4.0
 # Distances to the centre of a cell are told apart to this share of its squared side.
 _DECIMALS = 6
+# Factors that mix the bits of numbers.
+_MIX = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F], dtype=np.uint64)
+_TURNS = 8
+_BITS = 20
+_SHIFT = np.uint64(64 - _BITS)
 # Points whose arrays stay in the processor's cache.
-_POINTS_A_PART = 1 << 14
+_POINTS_A_PART = 1 << 16
 
 
 @dataclass(frozen=True)
@@ -93,9 +98,9 @@ def model_key_points(
     if not points.count:
         return chosen
     # From here on in an order of their own.
-    order = lowest_of_duplicates(*points)
+    order = _lowest_of_places(points)
     points = _near_origin(points.take(order), parameters.grid_size, anchor)
-    hull = hull_corners(points.x, points.y)
+    hull = _hull_corners(points)
     if len(hull) < 3:
         # Points on one line: no TIN can stand for them.
         chosen[order] = True
@@ -108,6 +113,56 @@ def model_key_points(
     chosen[order[keys.are_keys]] = True
     progress(1.0)
     return chosen
+
+
+def _lowest_of_places(points: Points) -> np.ndarray:
+    """Return the indices of the points below which there is no other at the same place."""
+    # Numbers that are the same for the same place, and hardly ever for two.
+    number = np.empty(points.count, dtype=np.uint64)
+
+    def mix(part: slice) -> None:
+        mixed = (points.x[part] + 0.0).view(np.uint64) * _MIX[0]
+        mixed ^= mixed >> np.uint64(31)
+        mixed += (points.y[part] + 0.0).view(np.uint64)
+        number[part] = mixed * _MIX[1]
+
+    over_parts(mix, points.count, _POINTS_A_PART, SILENT)
+    ordered = np.sort(number)
+    ordered = ordered[1:][ordered[1:] == ordered[:-1]]
+    is_several = np.zeros(1 << _BITS, dtype=bool)
+    is_several[ordered >> _SHIFT] = True
+    some = np.flatnonzero(is_several[number >> _SHIFT])
+    kept = np.ones(points.count, dtype=bool)
+    kept[some] = False
+    kept[some[lowest_of_duplicates(*points.take(some))]] = True
+    return np.flatnonzero(kept)
+
+
+def _hull_corners(points: Points) -> np.ndarray:
+    """Return which points are the corners of the convex hull, or the two ends of a line."""
+    directions = [(np.cos(turn), np.sin(turn)) for turn in np.arange(_TURNS) * np.pi / _TURNS]
+
+    def ends(direction: tuple[float, float]) -> list[int]:
+        along = points.x * direction[0]
+        along += points.y * direction[1]
+        return [along.argmin(), along.argmax()]
+
+    corners = np.unique(in_threads(ends, directions))
+    corners = corners[hull_corners(points.x[corners], points.y[corners])]
+    is_outer = np.ones(points.count, dtype=bool)
+    if len(corners) > 2:
+        x, y = points.x[corners], points.y[corners]
+        edges = list(zip(x, y, np.roll(x, -1) - x, np.roll(y, -1) - y))
+
+        def look(part: slice) -> None:
+            outer = is_outer[part]
+            outer[:] = False
+            for at_x, at_y, to_x, to_y in edges:
+                outer |= (points.y[part] - at_y) * to_x - (points.x[part] - at_x) * to_y <= 0.0
+
+        over_parts(look, points.count, _POINTS_A_PART, SILENT)
+    outer = np.flatnonzero(is_outer)
+    return outer[hull_corners(points.x[outer], points.y[outer])]
 
 
 def _near_origin(points: Points, grid_size: float, anchor: tuple[float, float]) -> Points:
@@ -191,6 +246,11 @@ class _Keys:
     def _look_at(self, which: np.ndarray) -> None:
         """Find triangle and distance beyond the tolerance of points."""
 
+        while len(which):
+            self._walk(which)
+            which = which[np.isnan(self._beyond[which])]
+
+    def _walk(self, which):
         def look(part: slice) -> None:
             some = which[part]
             triangle = self._triangle[some]
