@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..core.points import Points
+from ..core.threads import parts_of
 from .tin import Tin
 
 # Share of the sum of the terms of a determinant that may be rounding.
@@ -15,6 +16,7 @@ _ON_EDGE = 1e-10
 # Twice the area, in m2, by which a query may lie outside an edge and count as on it: rounding.
 _OUTSIDE = 1e-11
 _STEPS = 6
+_EDGES_A_PART = 1 << 15
 # Edges are flipped, and walks go on, until nothing is left to do: long before, unless rounding
 # makes them go round and round.
 _MOST_STEPS = 1000
@@ -136,6 +138,26 @@ class GrowingTin:
             which, x, y = which[go], x[go], y[go]
         triangle[which] = here
         return heights
+
+    def ambiguous_edges(self) -> np.ndarray:
+        """Return which half-edges (3 * t,) might as well be flipped: four vertices on a circle."""
+        ambiguous = np.zeros(len(self.twins), dtype=bool)
+        for part in parts_of(len(self.twins), _EDGES_A_PART):
+            twins = self.twins[part]
+            edges = part.start + np.flatnonzero(twins > np.arange(part.start, part.stop))
+            _, equal, is_convex = self._circles(self._quadrangles(edges))
+            edges = edges[equal[is_convex[equal]]]
+            ambiguous[edges] = ambiguous[self.twins[edges]] = True
+        return ambiguous
+
+    def flipped_heights(self, x: np.ndarray, y: np.ndarray, edges: np.ndarray) -> np.ndarray:
+        """Return the heights (q,) of queries beside half-edges if these were flipped."""
+        p, b, c, q = self._quadrangles(edges)
+        vertices = self.vertices
+        to_x, to_y = vertices.x[q] - vertices.x[p], vertices.y[q] - vertices.y[p]
+        is_left = to_x * (y - vertices.y[p]) - to_y * (x - vertices.x[p]) > 0.0
+        corners = [p, np.where(is_left, q, b), np.where(is_left, c, q)]
+        return self._interpolated(corners, self._opposite_areas(x, y, corners))
 
     def _opposite_areas(
         self, x: np.ndarray, y: np.ndarray, corners: list[np.ndarray]
@@ -279,25 +301,26 @@ class GrowingTin:
     def _are_wrong(self, edges: np.ndarray) -> np.ndarray:
         """Return which half-edges (n,) are to be flipped."""
         wrong = self.twins[edges] >= 0
-        p, b, c, q = corners = self._quadrangles(edges[wrong])
+        corners = self._quadrangles(edges[wrong])
+        inside, equal, is_convex = self._circles(corners)
+        x, y = (np.rint(each[corners[:, equal]] * _STEPS_A_METRE) for each in self.vertices[:2])
+        westernmost = np.lexsort((y, x), axis=0)[0]
+        inside[equal] = (westernmost == 0) | (westernmost == 3)
+        wrong[wrong] = inside & is_convex
+        return wrong
+
+    def _circles(self, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return of quadrangles (4, n) whether the fourth corner lies inside the circle of the
+        others, which of them have all four on it, and whether the other diagonal lies within.
+        """
         x, y = (values[corners] for values in self.vertices[:2])
         bx, by, cx, cy, qx, qy = (each[k] - each[0] for k in (1, 2, 3) for each in (x, y))
         p_b_q, p_q_c = bx * qy - by * qx, qx * cy - qy * cx
-        terms = np.stack(
-            (
-                (qx * qx + qy * qy) * (bx * cy - by * cx),
-                (cx * cx + cy * cy) * -p_b_q,
-                (bx * bx + by * by) * -p_q_c,
-            )
-        )
-        total, rounding = terms.sum(axis=0), _ROUNDING * np.abs(terms).sum(axis=0)
-        flips = total < -rounding
-        equal = np.flatnonzero(np.abs(total) <= rounding)
-        places = (np.rint(each[:, equal] * _STEPS_A_METRE) for each in (y, x))
-        westernmost = np.lexsort(tuple(places), axis=0)[0]
-        flips[equal] = (westernmost == 0) | (westernmost == 3)
-        wrong[wrong] = flips & (p_b_q > 0.0) & (p_q_c > 0.0)
-        return wrong
+        one = (qx * qx + qy * qy) * (bx * cy - by * cx)
+        two, three = (cx * cx + cy * cy) * -p_b_q, (bx * bx + by * by) * -p_q_c
+        total = one + two + three
+        rounding = _ROUNDING * (np.abs(one) + np.abs(two) + np.abs(three))
+        return total < -rounding, np.flatnonzero(np.abs(total) <= rounding), (p_b_q > 0.0) & (p_q_c > 0.0)
 
     def _quadrangles(self, edges: np.ndarray) -> np.ndarray:
         """Return the corners (4, n) of the two triangles at inner half-edges, counterclockwise.

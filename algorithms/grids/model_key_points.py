@@ -17,11 +17,10 @@ from .tin import hull_corners, lowest_of_duplicates
 
 # Metres by which a point may lie beyond the tolerance, or in another cell: rounding.
 _ROUNDING = 1e-6
-# First one point of each cell of the first of these shares of the grid size is looked at, then one
-# of each of the second and so on, then every point.
-_LEVELS = (0.2, 0.05)
-# Points a cell below which it is as well to look at all.
-_FEW = 4.0
+# First one point of each cell of the first of these sizes in metres is looked at, then one of each
+# of the second, then every point.
+_LEVELS = (4.0, 1.0)
+_MOST_CELLS = 1e8
 # Distances to the centre of a cell are told apart to this share of its squared side.
 _DECIMALS = 6
 # Factors that mix the bits of numbers.
@@ -29,6 +28,8 @@ _MIX = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F], dtype=np.uint64)
 _TURNS = 8
 _BITS = 20
 _SHIFT = np.uint64(64 - _BITS)
+# Reach: cells of the grid, and at least so many metres.
+_REACH, _LEAST_REACH = 4.0, 40.0
 # Points whose arrays stay in the processor's cache.
 _POINTS_A_PART = 1 << 16
 
@@ -105,9 +106,11 @@ def model_key_points(
         # Points on one line: no TIN can stand for them.
         chosen[order] = True
         return chosen
-    seeds = Cells.over(points, parameters.grid_size).lowest_points(points)
+    cells = Cells.over(points, parameters.grid_size)
+    seeds = cells.lowest_points(points)
     progress(0.05)
-    keys = _Keys(points, np.union1d(seeds, hull), parameters)
+    border = _outermost(points, cells)
+    keys = _Keys(points, np.unique(np.concatenate((seeds, hull, border))), parameters)
     for level in _levels(points, seeds, parameters.grid_size):
         keys.densify(*level)
     chosen[order[keys.are_keys]] = True
@@ -165,6 +168,19 @@ def _hull_corners(points: Points) -> np.ndarray:
     return outer[hull_corners(points.x[outer], points.y[outer])]
 
 
+def _outermost(points: Points, cells: Cells) -> np.ndarray:
+    """Return of each cell beside an empty one the point that is the nearest to that."""
+    occupied = np.pad(cells.occupied, 1)
+    found = []
+    for axis, values in ((1, points.x), (0, points.y)):
+        for sign in (1, -1):
+            beside = np.roll(occupied, sign, axis)[1:-1, 1:-1]
+            some = np.flatnonzero(~beside.ravel()[cells.index])
+            other = points[axis]
+            found.append(some[first_of_each(cells.index[some], beside.size, sign * values[some], other[some])])
+    return np.concatenate(found)
+
+
 def _near_origin(points: Points, grid_size: float, anchor: tuple[float, float]) -> Points:
     """Return points moved by whole cells of the grid."""
     x, y = (
@@ -179,13 +195,13 @@ def _levels(
 ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     """Yield which points to look at, and for each a point near it that has been looked at."""
     known, cells = seeds, Cells.over(points, grid_size)
-    for share in _LEVELS:
-        finer = Cells.over(points, grid_size * share)
-        centred = _most_central(points, finer)
-        if points.count < _FEW * len(centred):
-            break
-        yield centred, _of_cells(cells, known)[cells.index[centred]]
-        known, cells = centred, finer
+    spread = float(np.ptp(points.x)) * float(np.ptp(points.y))
+    for size in _LEVELS:
+        if size < grid_size and spread < _MOST_CELLS * size**2:
+            finer = Cells.over(points, size)
+            centred = _most_central(points, finer)
+            yield centred, _of_cells(cells, known)[cells.index[centred]]
+            known, cells = centred, finer
     yield np.arange(points.count), _of_cells(cells, known)[cells.index]
 
 
@@ -200,9 +216,12 @@ def _most_central(points: Points, cells: Cells) -> np.ndarray:
     """Return which point of each cell is the nearest to its centre."""
     x, y = ((each / cells.size) % 1.0 - 0.5 for each in points[:2])
     distance = np.round(x * x + y * y, _DECIMALS)
-    return first_of_each(
-        cells.index, cells.rows * cells.columns, distance, points.z, points.x, points.y
-    )
+    index, count = cells.index, cells.rows * cells.columns
+    if count > points.count:
+        # Mostly empty: only those with points get a number.
+        occupied, index = np.unique(index, return_inverse=True)
+        count = len(occupied)
+    return first_of_each(index, count, distance, points.z, points.x, points.y)
 
 
 class _Keys:
@@ -229,6 +248,8 @@ class _Keys:
             violating = pending[self._beyond[pending] > _ROUNDING]
             rounds += 1
             if DEBUG: print(rounds, len(look), len(violating), self._tin.vertices.count)
+            if not len(violating) and len(pending) == points.count:
+                violating = self._ambiguous(pending)
             if not len(violating):
                 return
             x, y = points.x[violating], points.y[violating]
@@ -243,6 +264,23 @@ class _Keys:
             self.are_keys[worst[added]] = True
             look = pending[changed[triangle[pending]]]
 
+    def _ambiguous(self, pending: np.ndarray) -> np.ndarray:
+        """Return which points lie beyond the tolerance of a TIN that is as good."""
+        edges = self._tin.ambiguous_edges()
+        some = pending[edges.reshape(-1, 3).any(axis=1)[self._triangle[pending]]]
+        for k in range(3):
+            beside = some[edges[3 * self._triangle[some] + k]]
+            at = self._points.x[beside], self._points.y[beside]
+            height = self._tin.flipped_heights(*at, 3 * self._triangle[beside] + k)
+            beyond = self._over(self._points.z[beside] - height)
+            self._beyond[beside] = np.maximum(self._beyond[beside], beyond)
+        return some[self._beyond[some] > _ROUNDING]
+
+    def _over(self, above: np.ndarray) -> np.ndarray:
+        """Return how far beyond the tolerance points are that lie above the TIN."""
+        lowest, highest = self._parameters.tolerance_below, self._parameters.tolerance_above
+        return np.maximum(above - highest, -above - lowest)
+
     def _look_at(self, which: np.ndarray) -> None:
         """Find triangle and distance beyond the tolerance of points."""
 
@@ -255,12 +293,8 @@ class _Keys:
             some = which[part]
             triangle = self._triangle[some]
             height = self._tin.heights(self._points.x[some], self._points.y[some], triangle)
-            above = self._points.z[some] - height
             self._triangle[some] = triangle
-            self._beyond[some] = np.fmax(
-                above - self._parameters.tolerance_above,
-                -above - self._parameters.tolerance_below,
-            )
+            self._beyond[some] = self._over(self._points.z[some] - height)
 
         over_parts(look, len(which), _POINTS_A_PART, SILENT)
 DEBUG=False
