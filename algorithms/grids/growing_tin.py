@@ -15,10 +15,11 @@ _ROUNDING = 1e-12
 _ON_EDGE = 1e-10
 # Twice the area, in m2, by which a query may lie outside an edge and count as on it: rounding.
 _OUTSIDE = 1e-11
+# Triangles that a query walks through at once. Those that are left are better asked for together.
 _STEPS = 6
+# Edges whose arrays stay in the processor's cache.
 _EDGES_A_PART = 1 << 15
-# Edges are flipped, and walks go on, until nothing is left to do: long before, unless rounding
-# makes them go round and round.
+# Edges are flipped until all are right: long before, unless rounding makes them go round and round.
 _MOST_STEPS = 1000
 # Steps of a metre to which coordinates are compared where four vertices lie on one circle.
 _STEPS_A_METRE = 1e5
@@ -112,12 +113,12 @@ class GrowingTin:
         x, y : numpy.ndarray of float64, shape (q,)
             Queries.
         triangle : numpy.ndarray of int32, shape (q,)
-            A triangle near each; changed, in place, to the one that holds it.
+            A triangle near each; changed, in place, to the one that holds it, or to a nearer one.
 
         Returns
         -------
         numpy.ndarray of float64, shape (q,)
-            Linear in each triangle.
+            Linear in each triangle; NaN where it is farther away, and to be asked for again.
         """
         heights = np.full(len(x), np.nan)
         which, here = np.arange(len(x)), triangle
@@ -176,11 +177,16 @@ class GrowingTin:
 
     def _next_triangle(self, triangle: np.ndarray, areas: list[np.ndarray]) -> np.ndarray:
         """Return the neighbour of each triangle towards a place; -1 for none but beyond the hull."""
-        lowest, into = np.full(len(triangle), -_OUTSIDE), np.full(len(triangle), -1, dtype=np.int32)
+        lowest = np.minimum(areas[0], areas[1])
+        worst = np.where(areas[2] < lowest, 2, areas[1] < areas[0])
+        twin = self.twins.take(3 * triangle + worst)
+        into = twin // 3
+        # Rounding, beyond the hull; or another edge lies between as well.
+        hull = np.flatnonzero(twin < 0)
         for k in range(3):
-            twin = self.twins.take(3 * triangle + k)
-            better = (areas[k] < lowest) & (twin >= 0)
-            lowest[better], into[better] = areas[k][better], twin[better] // 3
+            twin = self.twins[3 * triangle[hull] + k]
+            inner = (twin >= 0) & (areas[k][hull] < -_OUTSIDE)
+            into[hull[inner]] = twin[inner] // 3
         return into
 
     def _nearest_edge(self, points: Points, triangle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -205,7 +211,6 @@ class GrowingTin:
         others = number[self.twins[edge[some]] // 3]
         some, others = some[others >= 0], others[others >= 0]
         first = rank[some] > rank[others]
-        # Of two equally far beyond, that in the west or south.
         equal = rank[some] == rank[others]
         first |= equal & (triangle[some] < triangle[others])
         apart[np.where(first, others, some)] = False
@@ -310,8 +315,8 @@ class GrowingTin:
         return wrong
 
     def _circles(self, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return of quadrangles (4, n) whether the fourth corner lies inside the circle of the
-        others, which of them have all four on it, and whether the other diagonal lies within.
+        """Return of quadrangles (4, n) whether the fourth corner lies in the circle of the others,
+        which of them have all four on one circle, and whether the other diagonal lies inside.
         """
         x, y = (values[corners] for values in self.vertices[:2])
         bx, by, cx, cy, qx, qy = (each[k] - each[0] for k in (1, 2, 3) for each in (x, y))
@@ -320,12 +325,14 @@ class GrowingTin:
         two, three = (cx * cx + cy * cy) * -p_b_q, (bx * bx + by * by) * -p_q_c
         total = one + two + three
         rounding = _ROUNDING * (np.abs(one) + np.abs(two) + np.abs(three))
-        return total < -rounding, np.flatnonzero(np.abs(total) <= rounding), (p_b_q > 0.0) & (p_q_c > 0.0)
+        equal = np.flatnonzero(np.abs(total) <= rounding)
+        return total < -rounding, equal, (p_b_q > 0.0) & (p_q_c > 0.0)
 
     def _quadrangles(self, edges: np.ndarray) -> np.ndarray:
-        """Return the corners (4, n) of the two triangles at inner half-edges, counterclockwise.
+        """Return the corners (4, n) of the two triangles at inner half-edges.
 
-        The edge joins the second to the third... 
+        The edge runs from the second to the third; the first lies to its left, the fourth to its
+        right.
         """
         t, k = np.divmod(edges, 3)
         at = np.stack((edges, 3 * t + (k + 1) % 3, 3 * t + (k + 2) % 3, self.twins[edges]))

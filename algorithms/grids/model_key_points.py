@@ -2,36 +2,38 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
-from typing import Iterator
 
 import numpy as np
 
 from ..core.parameters import ParameterSet, parameter
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
-from ..core.threads import in_threads, over_parts
+from ..core.threads import in_threads, over_parts, parts_of
 from .cells import Cells, first_of_each
 from .growing_tin import GrowingTin
 from .tin import hull_corners, lowest_of_duplicates
 
-# Metres by which a point may lie beyond the tolerance, or in another cell: rounding.
+# Metres by which a point may lie beyond the tolerance, or outside its cell: rounding.
 _ROUNDING = 1e-6
-# First one point of each cell of the first of these sizes in metres is looked at, then one of each
-# of the second, then every point.
+# About the sides of cells in metres, of each of which one point is looked at, before every point
+# is; and so many cells at most.
 _LEVELS = (4.0, 1.0)
 _MOST_CELLS = 1e8
-# Distances to the centre of a cell are told apart to this share of its squared side.
-_DECIMALS = 6
-# Factors that mix the bits of numbers.
-_MIX = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F], dtype=np.uint64)
-_TURNS = 8
-_BITS = 20
-_SHIFT = np.uint64(64 - _BITS)
-# Reach: cells of the grid, and at least so many metres.
+# Squared distances to the centre of a cell are told apart to this share of its squared side.
+_CENTRAL = 1e-6
+# Cells of the grid, and the least metres, beyond which points do not matter.
 _REACH, _LEAST_REACH = 4.0, 40.0
+# Factors that mix the bits of numbers, and how many of the bits tell places apart.
+_MIX = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F], dtype=np.uint64)
+_BITS = 20
+# Numbers of 16 bits are sorted fastest.
+_MOST_SMALL = 1 << 16
 # Points whose arrays stay in the processor's cache.
 _POINTS_A_PART = 1 << 16
+# Times that points walk on through the TIN: far fewer, unless rounding makes them go round.
+_MOST_WALKS = 1000
 
 
 @dataclass(frozen=True)
@@ -66,6 +68,15 @@ class ModelKeyPoints(ParameterSet):
     )
 
 
+def reach(parameters: ModelKeyPoints) -> float:
+    """Return how far away, in metres, a ground point may matter to the choice at a place.
+
+    Measured: with so much round it, a part of a survey gets the key points that it gets within the
+    whole, but for about one of a thousand: at the border of the survey and beside wide gaps.
+    """
+    return max(_REACH * parameters.grid_size, _LEAST_REACH)
+
+
 def model_key_points(
     points: Points,
     parameters: ModelKeyPoints = ModelKeyPoints(),
@@ -74,10 +85,13 @@ def model_key_points(
 ) -> np.ndarray:
     """Choose the ground points that a terrain model needs.
 
-    It starts with the lowest point of each cell of a grid and the corners of the convex hull. In
-    rounds, every triangle of their TIN takes the point that lies farthest beyond the tolerance.
-    Then every ground point lies within the tolerance of the TIN of the chosen ones; but of points
-    at one place the lowest alone is looked at.
+    It starts with the lowest point of each cell of a grid, the outermost of each cell beside an
+    empty one, and the corners of the convex hull. In rounds, every triangle of their TIN takes the
+    point that lies farthest beyond the tolerance: first of few points, at last of all. Then every
+    ground point lies within the tolerance of the TIN of the chosen ones; but of points at one place
+    the lowest alone is looked at. Where four of them lie on one circle, this holds whichever way
+    the TIN divides these; of more than four on one circle, on a regular lattice, a few of ten
+    thousand may lie some centimetres beyond.
 
     Parameters
     ----------
@@ -88,7 +102,8 @@ def model_key_points(
     progress : Progress
         Receives progress.
     anchor : tuple of float
-        x and y of a corner of cells of the grid in metres.
+        x and y of a corner of cells of the grid in metres: in each part of a survey that of the same
+        cells.
 
     Returns
     -------
@@ -98,30 +113,54 @@ def model_key_points(
     chosen = np.zeros(points.count, dtype=bool)
     if not points.count:
         return chosen
-    # From here on in an order of their own.
-    order = _lowest_of_places(points)
-    points = _near_origin(points.take(order), parameters.grid_size, anchor)
-    hull = _hull_corners(points)
+    points, cells, order = _sorted(points, parameters.grid_size, anchor)
+    progress(0.05)
+    hull = _hull_corners(points, cells)
     if len(hull) < 3:
         # Points on one line: no TIN can stand for them.
         chosen[order] = True
         return chosen
-    cells = Cells.over(points, parameters.grid_size)
-    seeds = cells.lowest_points(points)
-    progress(0.05)
-    border = _outermost(points, cells)
-    keys = _Keys(points, np.unique(np.concatenate((seeds, hull, border))), parameters)
-    for level in _levels(points, seeds, parameters.grid_size):
-        keys.densify(*level)
+    lowest = cells.lowest_points(points)
+    seeds = np.unique(np.concatenate((lowest, hull, _outermost(points, cells))))
+    near = _of_cells(cells, lowest)[cells.index]
+    keys = _Keys(points, seeds, parameters)
+    levels = _levels(points, parameters.grid_size)
+    for number, (some, cells) in enumerate(levels):
+        keys.densify(some, near[some], progress.part(0.1 + 0.1 * number, 0.2 + 0.1 * number))
+        near = _of_cells(cells, some)[cells.index]
+    everyone = np.arange(points.count, dtype=np.int32)
+    keys.densify(everyone, near, progress.part(0.3, 1.0), is_last=True)
     chosen[order[keys.are_keys]] = True
     progress(1.0)
     return chosen
+
+
+def _sorted(
+    points: Points, grid_size: float, anchor: tuple[float, float]
+) -> tuple[Points, Cells, np.ndarray]:
+    """Return points cell by cell, with x and y from a corner of cells; the cells; and the order.
+
+    Of points at one place only the lowest is there.
+    """
+    kept = _lowest_of_places(points)
+    x, y = (
+        values - (at + grid_size * np.floor(((values.min() + values.max()) / 2 - at) / grid_size))
+        for values, at in zip(points, anchor)
+    )
+    # A coordinate on the border of a cell must not be rounded to the wrong side.
+    points = Points(x + _ROUNDING, y + _ROUNDING, points.z)
+    index = Cells.over(points, grid_size).index[kept]
+    order = np.argsort((index // (index.max() // _MOST_SMALL + 1)).astype(np.uint16), kind="stable")
+    order = kept[order]
+    points = points.take(order)
+    return points, Cells.over(points, grid_size), order
 
 
 def _lowest_of_places(points: Points) -> np.ndarray:
     """Return the indices of the points below which there is no other at the same place."""
     # Numbers that are the same for the same place, and hardly ever for two.
     number = np.empty(points.count, dtype=np.uint64)
+    shift = np.uint64(64 - _BITS)
 
     def mix(part: slice) -> None:
         mixed = (points.x[part] + 0.0).view(np.uint64) * _MIX[0]
@@ -131,78 +170,73 @@ def _lowest_of_places(points: Points) -> np.ndarray:
 
     over_parts(mix, points.count, _POINTS_A_PART, SILENT)
     ordered = np.sort(number)
-    ordered = ordered[1:][ordered[1:] == ordered[:-1]]
     is_several = np.zeros(1 << _BITS, dtype=bool)
-    is_several[ordered >> _SHIFT] = True
-    some = np.flatnonzero(is_several[number >> _SHIFT])
+    is_several[ordered[1:][ordered[1:] == ordered[:-1]] >> shift] = True
+    del ordered
+    some = np.flatnonzero(is_several[number >> shift])
     kept = np.ones(points.count, dtype=bool)
     kept[some] = False
     kept[some[lowest_of_duplicates(*points.take(some))]] = True
     return np.flatnonzero(kept)
 
 
-def _hull_corners(points: Points) -> np.ndarray:
+def _hull_corners(points: Points, cells: Cells) -> np.ndarray:
     """Return which points are the corners of the convex hull, or the two ends of a line."""
-    directions = [(np.cos(turn), np.sin(turn)) for turn in np.arange(_TURNS) * np.pi / _TURNS]
+    # Not at the start of QGIS, which loads this module, and where scipy may be missing.
+    from scipy import ndimage
 
-    def ends(direction: tuple[float, float]) -> list[int]:
-        along = points.x * direction[0]
-        along += points.y * direction[1]
-        return [along.argmin(), along.argmax()]
-
-    corners = np.unique(in_threads(ends, directions))
-    corners = corners[hull_corners(points.x[corners], points.y[corners])]
-    is_outer = np.ones(points.count, dtype=bool)
-    if len(corners) > 2:
-        x, y = points.x[corners], points.y[corners]
-        edges = list(zip(x, y, np.roll(x, -1) - x, np.roll(y, -1) - y))
-
-        def look(part: slice) -> None:
-            outer = is_outer[part]
-            outer[:] = False
-            for at_x, at_y, to_x, to_y in edges:
-                outer |= (points.y[part] - at_y) * to_x - (points.x[part] - at_x) * to_y <= 0.0
-
-        over_parts(look, points.count, _POINTS_A_PART, SILENT)
-    outer = np.flatnonzero(is_outer)
+    # With points in all eight cells round its own, none is a corner.
+    inner = ndimage.binary_erosion(cells.occupied, np.ones((3, 3)))
+    outer = np.flatnonzero(~inner.ravel()[cells.index])
     return outer[hull_corners(points.x[outer], points.y[outer])]
 
 
 def _outermost(points: Points, cells: Cells) -> np.ndarray:
-    """Return of each cell beside an empty one the point that is the nearest to that."""
-    occupied = np.pad(cells.occupied, 1)
-    found = []
-    for axis, values in ((1, points.x), (0, points.y)):
-        for sign in (1, -1):
-            beside = np.roll(occupied, sign, axis)[1:-1, 1:-1]
-            some = np.flatnonzero(~beside.ravel()[cells.index])
-            other = points[axis]
-            found.append(some[first_of_each(cells.index[some], beside.size, sign * values[some], other[some])])
+    """Return of each cell beside an empty one the point that is the nearest to that.
+
+    Without them the triangles along a border reach from one corner of the hull to the next.
+    """
+    occupied, found = np.pad(cells.occupied, 1), []
+    for axis, along, across in ((1, points.x, points.y), (0, points.y, points.x)):
+        for step in (1, -1):
+            beside = np.roll(occupied, step, axis)[1:-1, 1:-1].ravel()
+            some = np.flatnonzero(~beside[cells.index])
+            keys = step * along[some], across[some]
+            found.append(some[first_of_each(cells.index[some], beside.size, *keys)])
     return np.concatenate(found)
 
 
-def _near_origin(points: Points, grid_size: float, anchor: tuple[float, float]) -> Points:
-    """Return points moved by whole cells of the grid."""
-    x, y = (
-        values - (at + grid_size * np.round((np.median(values) - at) / grid_size)) + _ROUNDING
-        for values, at in zip(points, anchor)
-    )
-    return Points(x, y, points.z)
-
-
-def _levels(
-    points: Points, seeds: np.ndarray, grid_size: float
-) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """Yield which points to look at, and for each a point near it that has been looked at."""
-    known, cells = seeds, Cells.over(points, grid_size)
+def _levels(points: Points, grid_size: float) -> list[tuple[np.ndarray, Cells]]:
+    """Return which points to look at first, which then, and so on, and the cells they stand for."""
+    levels: list[tuple[np.ndarray, Cells]] = []
     spread = float(np.ptp(points.x)) * float(np.ptp(points.y))
-    for size in _LEVELS:
+    which, left = np.arange(points.count, dtype=np.int32), points
+    for about in _LEVELS[::-1]:
+        # So that each cell of the grid is cut into whole ones.
+        size = grid_size / max(round(grid_size / about), 1)
         if size < grid_size and spread < _MOST_CELLS * size**2:
-            finer = Cells.over(points, size)
-            centred = _most_central(points, finer)
-            yield centred, _of_cells(cells, known)[cells.index[centred]]
-            known, cells = centred, finer
-    yield np.arange(points.count), _of_cells(cells, known)[cells.index]
+            cells = Cells.over(points, size)
+            which = which[_most_central(left, size, cells.index[which])]
+            left = points.take(which)
+            levels.insert(0, (which, cells))
+    return levels
+
+
+def _most_central(points: Points, size: float, index: np.ndarray) -> np.ndarray:
+    """Return which point of each cell, of some size, is the nearest to its centre."""
+    distance = np.empty(points.count)
+
+    def measure(part: slice) -> None:
+        x, y = (values[part] / size for values in points[:2])
+        x -= np.floor(x) + 0.5
+        y -= np.floor(y) + 0.5
+        distance[part] = np.rint((x * x + y * y) / _CENTRAL)
+
+    over_parts(measure, points.count, _POINTS_A_PART, SILENT)
+    if index.max() >= points.count:
+        # Most cells are empty: only those with points get a number.
+        index = np.unique(index, return_inverse=True)[1]
+    return first_of_each(index, int(index.max()) + 1, distance, points.z, points.x, points.y)
 
 
 def _of_cells(cells: Cells, points: np.ndarray) -> np.ndarray:
@@ -212,20 +246,23 @@ def _of_cells(cells: Cells, points: np.ndarray) -> np.ndarray:
     return found
 
 
-def _most_central(points: Points, cells: Cells) -> np.ndarray:
-    """Return which point of each cell is the nearest to its centre."""
-    x, y = ((each / cells.size) % 1.0 - 0.5 for each in points[:2])
-    distance = np.round(x * x + y * y, _DECIMALS)
-    index, count = cells.index, cells.rows * cells.columns
-    if count > points.count:
-        # Mostly empty: only those with points get a number.
-        occupied, index = np.unique(index, return_inverse=True)
-        count = len(occupied)
-    return first_of_each(index, count, distance, points.z, points.x, points.y)
-
-
 class _Keys:
-    """Chosen points and their TIN."""
+    """The points chosen so far, and their TIN.
+
+    Parameters
+    ----------
+    points : Points
+        No two at one place.
+    seeds : numpy.ndarray of int, shape (s,)
+        The first to be chosen, the corners of the convex hull among them.
+    parameters : ModelKeyPoints
+        The tolerances.
+
+    Attributes
+    ----------
+    are_keys : numpy.ndarray of bool, shape (n,)
+        Which points are chosen.
+    """
 
     def __init__(self, points: Points, seeds: np.ndarray, parameters: ModelKeyPoints) -> None:
         self._points, self._parameters = points, parameters
@@ -237,64 +274,69 @@ class _Keys:
         self._triangle[seeds] = self._tin.triangles_of_vertices()
         self._beyond = np.zeros(points.count, dtype=np.float32)
 
-    def densify(self, pending: np.ndarray, near: np.ndarray) -> None:
-        """Choose points until none of the pending lies beyond the tolerance."""
-        points, triangle = self._points, self._triangle
+    def densify(
+        self, pending: np.ndarray, near: np.ndarray, progress: Progress, is_last: bool = False
+    ) -> None:
+        """Choose points until none of the pending (k,) lies beyond the tolerance.
+
+        `near` is for each a point that has been looked at.
+        """
+        points, triangle, beyond = self._points, self._triangle, self._beyond
         triangle[pending] = triangle[near]
-        look = pending
-        rounds = 0
-        while True:
-            self._look_at(look)
-            violating = pending[self._beyond[pending] > _ROUNDING]
-            rounds += 1
-            if DEBUG: print(rounds, len(look), len(violating), self._tin.vertices.count)
-            if not len(violating) and len(pending) == points.count:
+        look, waiting = pending, pending[:0]
+        for number in itertools.count():
+            self._look_at(look, progress.part(1.0 - 0.5**number, 1.0 - 0.5 ** (number + 1)))
+            violating = np.concatenate((waiting, look[beyond[look] > _ROUNDING]))
+            if is_last and not len(violating):
                 violating = self._ambiguous(pending)
             if not len(violating):
                 return
-            x, y = points.x[violating], points.y[violating]
-            worst = violating[
-                first_of_each(
-                    triangle[violating], self._tin.count, -self._beyond[violating], x, y
-                )
-            ]
-            added, changed = self._tin.add(
-                points.take(worst), triangle[worst], self._beyond[worst]
-            )
+            keys = -beyond[violating], points.x[violating], points.y[violating]
+            worst = violating[first_of_each(triangle[violating], self._tin.count, *keys)]
+            added, changed = self._tin.add(points.take(worst), triangle[worst], beyond[worst])
             self.are_keys[worst[added]] = True
-            look = pending[changed[triangle[pending]]]
+            waiting = violating[~changed[triangle[violating]]]
+            look = self._within(changed, pending)
 
-    def _ambiguous(self, pending: np.ndarray) -> np.ndarray:
-        """Return which points lie beyond the tolerance of a TIN that is as good."""
-        edges = self._tin.ambiguous_edges()
-        some = pending[edges.reshape(-1, 3).any(axis=1)[self._triangle[pending]]]
-        for k in range(3):
-            beside = some[edges[3 * self._triangle[some] + k]]
-            at = self._points.x[beside], self._points.y[beside]
-            height = self._tin.flipped_heights(*at, 3 * self._triangle[beside] + k)
-            beyond = self._over(self._points.z[beside] - height)
-            self._beyond[beside] = np.maximum(self._beyond[beside], beyond)
-        return some[self._beyond[some] > _ROUNDING]
+    def _look_at(self, which: np.ndarray, progress: Progress) -> None:
+        """Find the triangles of points, and how far these are beyond the tolerance."""
+        for _ in range(_MOST_WALKS):
+
+            def walk(part: slice) -> None:
+                some = which[part]
+                triangle = self._triangle[some]
+                height = self._tin.heights(self._points.x[some], self._points.y[some], triangle)
+                self._triangle[some] = triangle
+                self._beyond[some] = self._over(self._points.z[some] - height)
+
+            over_parts(walk, len(which), _POINTS_A_PART, progress)
+            progress = SILENT
+            which = which[np.isnan(self._beyond[which])]
+            if not len(which):
+                return
 
     def _over(self, above: np.ndarray) -> np.ndarray:
-        """Return how far beyond the tolerance points are that lie above the TIN."""
-        lowest, highest = self._parameters.tolerance_below, self._parameters.tolerance_above
-        return np.maximum(above - highest, -above - lowest)
+        """Return how far points so far above the TIN are beyond the tolerance."""
+        parameters = self._parameters
+        return np.maximum(above - parameters.tolerance_above, -above - parameters.tolerance_below)
 
-    def _look_at(self, which: np.ndarray) -> None:
-        """Find triangle and distance beyond the tolerance of points."""
+    def _within(self, triangles: np.ndarray, pending: np.ndarray) -> np.ndarray:
+        """Return which of the pending lie in the triangles that a mask (t,) names."""
 
-        while len(which):
-            self._walk(which)
-            which = which[np.isnan(self._beyond[which])]
+        def within(part: slice) -> np.ndarray:
+            some = pending[part]
+            return some[triangles[self._triangle[some]]]
 
-    def _walk(self, which):
-        def look(part: slice) -> None:
-            some = which[part]
-            triangle = self._triangle[some]
-            height = self._tin.heights(self._points.x[some], self._points.y[some], triangle)
-            self._triangle[some] = triangle
-            self._beyond[some] = self._over(self._points.z[some] - height)
+        return np.concatenate(in_threads(within, parts_of(len(pending), _POINTS_A_PART)))
 
-        over_parts(look, len(which), _POINTS_A_PART, SILENT)
-DEBUG=False
+    def _ambiguous(self, pending: np.ndarray) -> np.ndarray:
+        """Return which points lie beyond the tolerance where the TIN might as well be another."""
+        edges = self._tin.ambiguous_edges()
+        some = self._within(edges.reshape(-1, 3).any(axis=1), pending)
+        for k in range(3):
+            edge = 3 * self._triangle[some] + k
+            beside, edge = some[edges[edge]], edge[edges[edge]]
+            at = self._points.take(beside)
+            beyond = self._over(at.z - self._tin.flipped_heights(at.x, at.y, edge))
+            self._beyond[beside] = np.maximum(self._beyond[beside], beyond)
+        return some[self._beyond[some] > _ROUNDING]
