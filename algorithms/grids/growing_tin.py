@@ -176,7 +176,7 @@ class GrowingTin:
             return height / (weights[0] + weights[1] + weights[2])
 
     def _next_triangle(self, triangle: np.ndarray, areas: list[np.ndarray]) -> np.ndarray:
-        """Return the neighbour of each triangle towards a place; -1 for none but beyond the hull."""
+        """Return the neighbour of each triangle towards a place outside; -1 for none."""
         lowest = np.minimum(areas[0], areas[1])
         worst = np.where(areas[2] < lowest, 2, areas[1] < areas[0])
         twin = self.twins.take(3 * triangle + worst)
@@ -190,7 +190,7 @@ class GrowingTin:
         return into
 
     def _nearest_edge(self, points: Points, triangle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return for each point the half-edge of its triangle next to it, and if it lies on that."""
+        """Return the half-edge of its triangle next to each point, and if it lies on that."""
         corners = [self.corners[3 * triangle + k] for k in range(3)]
         areas = np.stack(self._opposite_areas(points.x, points.y, corners))
         x, y = (np.stack([values[each] for each in corners]) for values in self.vertices[:2])

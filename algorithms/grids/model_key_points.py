@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -102,8 +103,7 @@ def model_key_points(
     progress : Progress
         Receives progress.
     anchor : tuple of float
-        x and y of a corner of cells of the grid in metres: in each part of a survey that of the same
-        cells.
+        x and y of a corner of cells of the grid in metres; the same cells in each part of a survey.
 
     Returns
     -------
@@ -301,19 +301,17 @@ class _Keys:
     def _look_at(self, which: np.ndarray, progress: Progress) -> None:
         """Find the triangles of points, and how far these are beyond the tolerance."""
         for _ in range(_MOST_WALKS):
-
-            def walk(part: slice) -> None:
-                some = which[part]
-                triangle = self._triangle[some]
-                height = self._tin.heights(self._points.x[some], self._points.y[some], triangle)
-                self._triangle[some] = triangle
-                self._beyond[some] = self._over(self._points.z[some] - height)
-
-            over_parts(walk, len(which), _POINTS_A_PART, progress)
-            progress = SILENT
-            which = which[np.isnan(self._beyond[which])]
+            over_parts(partial(self._walk, which), len(which), _POINTS_A_PART, progress)
+            which, progress = which[np.isnan(self._beyond[which])], SILENT
             if not len(which):
                 return
+
+    def _walk(self, which: np.ndarray, part: slice) -> None:
+        some = which[part]
+        triangle = self._triangle[some]
+        height = self._tin.heights(self._points.x[some], self._points.y[some], triangle)
+        self._triangle[some] = triangle
+        self._beyond[some] = self._over(self._points.z[some] - height)
 
     def _over(self, above: np.ndarray) -> np.ndarray:
         """Return how far points so far above the TIN are beyond the tolerance."""

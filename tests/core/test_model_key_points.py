@@ -1,11 +1,13 @@
 """Model key points: every ground point within the tolerance of their TIN, with few of them."""
 
+import itertools
+
 import numpy as np
 import pytest
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints, model_key_points
+from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints, model_key_points, reach
 from bare_earth.algorithms.grids.tin import Tin
 from benchmarks.scenes.simple import scatter
 
@@ -72,6 +74,63 @@ def test_points_on_a_regular_grid_with_straight_borders():
     keys = model_key_points(points)
     assert np.abs(_residuals(points, keys)).max() <= 0.15 + 1e-6
     assert np.count_nonzero(keys) < points.count / 2
+
+
+def test_on_a_lattice_it_does_not_matter_which_diagonals_the_tin_has():
+    x, y = (each.ravel() for each in np.meshgrid(np.arange(0.0, 60.0), np.arange(0.0, 40.0)))
+    noise = np.random.default_rng(5).normal(0.0, 0.02, len(x))
+    points = Points(x, y, np.sin(x / 7) + np.cos(y / 5) + noise)
+    keys = model_key_points(points)
+    mirrored = Points(-x, y, points.z)
+    for each in (points, mirrored):
+        assert np.abs(_residuals(each, keys)).max() <= 0.15 + 1e-6
+
+
+def _parts(points, side, parameters):
+    """Return the key points of square parts, each chosen with its surroundings and origin."""
+    keys, width = np.zeros(points.count, dtype=bool), reach(parameters)
+    for row, column in itertools.product(range(3), range(3)):
+        west, south = column * side, row * side
+        x, y = points.x - west, points.y - south
+        seen = np.flatnonzero(np.maximum(abs(x - side / 2), abs(y - side / 2)) < side / 2 + width)
+        own = (np.floor(x[seen] / side) == 0) & (np.floor(y[seen] / side) == 0)
+        part = Points(x[seen], y[seen], points.z[seen])
+        chosen = model_key_points(part, parameters, anchor=(-west, -south))
+        keys[seen[own & chosen]] = True
+    return keys
+
+
+@pytest.mark.parametrize("grid_size", [7.0, 10.0])
+def test_a_part_with_its_surroundings_has_the_key_points_of_the_whole(grid_size):
+    points, parameters = _hills(300.0), ModelKeyPoints(grid_size=grid_size)
+    whole, parts = model_key_points(points, parameters), _parts(points, 100.0, parameters)
+    differ = np.flatnonzero(whole != parts)
+    assert len(differ) <= 0.001 * np.count_nonzero(whole)
+    # What differs lies at the border of the survey.
+    inwards = np.minimum(points.x, points.y), 300.0 - np.maximum(points.x, points.y)
+    assert np.minimum(*inwards)[differ].max(initial=0.0) < grid_size
+
+
+def test_key_points_of_parts_keep_the_tolerance_together():
+    points, parameters = _hills(300.0), ModelKeyPoints()
+    residuals = _residuals(points, _parts(points, 100.0, parameters))
+    assert np.count_nonzero(np.isnan(residuals)) == 0
+    assert np.abs(residuals).max() <= 0.15 + 1e-6
+
+
+def test_the_grid_begins_where_it_is_said_to():
+    points, parameters = _hills(60.0), ModelKeyPoints(50.0, 50.0, 10.0)
+    keys = model_key_points(points, parameters, anchor=(1234.0, -3.0))
+    moved = Points(points.x - 4.0, points.y + 3.0, points.z)
+    assert np.array_equal(model_key_points(moved, parameters), keys)
+    assert not np.array_equal(model_key_points(points, parameters), keys)
+
+
+def test_a_gap_wider_than_the_grid_keeps_the_tolerance():
+    points = _hills(200.0, density=0.5)
+    points = points.take(np.hypot(points.x - 100.0, points.y - 80.0) > 60.0)
+    keys = model_key_points(points)
+    assert np.abs(_residuals(points, keys)).max() <= 0.15 + 1e-6
 
 
 def test_of_points_at_one_place_the_lowest_counts():
