@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -149,11 +149,11 @@ def _sorted(
     )
     # A coordinate on the border of a cell must not be rounded to the wrong side.
     points = Points(x + _ROUNDING, y + _ROUNDING, points.z)
-    index = Cells.over(points, grid_size).index[kept]
+    cells = Cells.over(points, grid_size)
+    index = cells.index[kept]
     order = np.argsort((index // (index.max() // _MOST_SMALL + 1)).astype(np.uint16), kind="stable")
-    order = kept[order]
-    points = points.take(order)
-    return points, Cells.over(points, grid_size), order
+    kept, index = kept[order], index[order]
+    return points.take(kept), replace(cells, index=index), kept
 
 
 def _lowest_of_places(points: Points) -> np.ndarray:
