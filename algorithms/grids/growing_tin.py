@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..core.points import Points
-from ..core.threads import parts_of
+from ..core.progress import SILENT
+from ..core.threads import in_threads, over_parts, parts_of
 from .tin import Tin
 
 # Share of the sum of the terms of a determinant that may be rounding.
@@ -143,12 +144,16 @@ class GrowingTin:
     def ambiguous_edges(self) -> np.ndarray:
         """Return which half-edges (3 * t,) might as well be flipped: four vertices on a circle."""
         ambiguous = np.zeros(len(self.twins), dtype=bool)
-        for part in parts_of(len(self.twins), _EDGES_A_PART):
-            twins = self.twins[part]
-            edges = part.start + np.flatnonzero(twins > np.arange(part.start, part.stop))
+
+        def look(part: slice) -> None:
+            # Each edge from one of its sides.
+            edges = np.arange(part.start, part.stop)
+            edges = edges[self.twins[part] > edges]
             _, equal, is_convex = self._circles(self._quadrangles(edges))
             edges = edges[equal[is_convex[equal]]]
             ambiguous[edges] = ambiguous[self.twins[edges]] = True
+
+        over_parts(look, len(ambiguous), _EDGES_A_PART, SILENT)
         return ambiguous
 
     def flipped_heights(self, x: np.ndarray, y: np.ndarray, edges: np.ndarray) -> np.ndarray:
@@ -272,7 +277,9 @@ class GrowingTin:
         """
         owner = np.zeros(self.count, dtype=np.int64)
         for _ in range(_MOST_STEPS):
-            edges = edges[self._are_wrong(edges)]
+            parts = [edges[part] for part in parts_of(len(edges), _EDGES_A_PART)]
+            wrong = in_threads(self._are_wrong, parts)
+            edges = np.concatenate([each[some] for each, some in zip(parts, wrong)] or [edges])
             if not len(edges):
                 return
             # A triangle takes part in one flip at a time: that which is written last.
@@ -318,7 +325,7 @@ class GrowingTin:
         """Return of quadrangles (4, n) whether the fourth corner lies in the circle of the others,
         which of them have all four on one circle, and whether the other diagonal lies inside.
         """
-        x, y = (values[corners] for values in self.vertices[:2])
+        x, y = (values.take(corners) for values in self.vertices[:2])
         bx, by, cx, cy, qx, qy = (each[k] - each[0] for k in (1, 2, 3) for each in (x, y))
         p_b_q, p_q_c = bx * qy - by * qx, qx * cy - qy * cx
         one = (qx * qx + qy * qy) * (bx * cy - by * cx)
@@ -336,7 +343,7 @@ class GrowingTin:
         """
         t, k = np.divmod(edges, 3)
         at = np.stack((edges, 3 * t + (k + 1) % 3, 3 * t + (k + 2) % 3, self.twins[edges]))
-        return self.corners[at]
+        return self.corners.take(at)
 
 
 def _without_flat(tin: Tin) -> tuple[np.ndarray, np.ndarray]:

@@ -308,10 +308,10 @@ class _Keys:
 
     def _walk(self, which: np.ndarray, part: slice) -> None:
         some = which[part]
-        triangle = self._triangle[some]
-        height = self._tin.heights(self._points.x[some], self._points.y[some], triangle)
+        x, y, z = (each.take(some) for each in self._points)
+        triangle = self._triangle.take(some)
+        self._beyond[some] = self._over(z - self._tin.heights(x, y, triangle))
         self._triangle[some] = triangle
-        self._beyond[some] = self._over(self._points.z[some] - height)
 
     def _over(self, above: np.ndarray) -> np.ndarray:
         """Return how far points so far above the TIN are beyond the tolerance."""
@@ -323,7 +323,7 @@ class _Keys:
 
         def within(part: slice) -> np.ndarray:
             some = pending[part]
-            return some[triangles[self._triangle[some]]]
+            return some[triangles.take(self._triangle.take(some))]
 
         return np.concatenate(in_threads(within, parts_of(len(pending), _POINTS_A_PART)))
 
