@@ -286,9 +286,9 @@ class _Keys:
         look, waiting = pending, pending[:0]
         for number in itertools.count():
             self._look_at(look, progress.part(1.0 - 0.5**number, 1.0 - 0.5 ** (number + 1)))
-            violating = np.concatenate((waiting, look[beyond[look] > _ROUNDING]))
+            violating = np.concatenate((waiting, self._violating(look)))
             if is_last and not len(violating):
-                violating = self._ambiguous(pending)
+                violating = self._violating(self._ambiguous(pending))
             if not len(violating):
                 return
             keys = -beyond[violating], points.x[violating], points.y[violating]
@@ -318,6 +318,11 @@ class _Keys:
         parameters = self._parameters
         return np.maximum(above - parameters.tolerance_above, -above - parameters.tolerance_below)
 
+    def _violating(self, which: np.ndarray) -> np.ndarray:
+        """Return which of some points lie beyond the tolerance."""
+        # By rounding, a vertex may seem to lie in a triangle of others that has no area.
+        return which[(self._beyond[which] > _ROUNDING) & ~self.are_keys[which]]
+
     def _within(self, triangles: np.ndarray, pending: np.ndarray) -> np.ndarray:
         """Return which of the pending lie in the triangles that a mask (t,) names."""
 
@@ -328,7 +333,10 @@ class _Keys:
         return np.concatenate(in_threads(within, parts_of(len(pending), _POINTS_A_PART)))
 
     def _ambiguous(self, pending: np.ndarray) -> np.ndarray:
-        """Return which points lie beyond the tolerance where the TIN might as well be another."""
+        """Measure how far points are beyond the tolerance where the TIN might as well be another.
+
+        Returns which they are.
+        """
         edges = self._tin.ambiguous_edges()
         some = self._within(edges.reshape(-1, 3).any(axis=1), pending)
         for k in range(3):
@@ -337,4 +345,4 @@ class _Keys:
             at = self._points.take(beside)
             beyond = self._over(at.z - self._tin.flipped_heights(at.x, at.y, edge))
             self._beyond[beside] = np.maximum(self._beyond[beside], beyond)
-        return some[self._beyond[some] > _ROUNDING]
+        return some

@@ -7,6 +7,7 @@ import pytest
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.core.threads import may_use
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints, model_key_points, reach
 from bare_earth.algorithms.grids.tin import Tin
 from benchmarks.scenes.simple import scatter
@@ -61,11 +62,13 @@ def test_a_looser_tolerance_keeps_fewer():
     assert counts == sorted(counts, reverse=True) and counts[0] > 4 * counts[-1]
 
 
-def test_the_order_of_the_points_does_not_matter():
+def test_neither_the_order_of_the_points_nor_the_threads_matter():
     points = _hills(60.0)
     mixed = np.random.default_rng(2).permutation(points.count)
     keys = model_key_points(points)
     assert np.array_equal(model_key_points(points.take(mixed)), keys[mixed])
+    with may_use(3):
+        assert np.array_equal(model_key_points(points), keys)
 
 
 def test_points_on_a_regular_grid_with_straight_borders():
@@ -140,6 +143,17 @@ def test_of_points_at_one_place_the_lowest_counts():
     keys = model_key_points(points)
     assert not keys[-50:].any()
     assert np.abs(_residuals(points, keys)[:-50]).max() <= 0.15 + 1e-6
+
+
+def test_points_on_lines_that_are_straight_but_for_rounding_come_to_an_end():
+    random = np.random.default_rng(18)
+    x = random.uniform(0.0, 10.0, 360)
+    y = 2.0 * x + 5.0 * random.integers(0, 2, len(x))
+    keys = model_key_points(
+        Points(x + 5e5, y, random.normal(size=len(x))),
+        ModelKeyPoints(tolerance_above=0.0, tolerance_below=0.0, grid_size=100.0),
+    )
+    assert 0.9 * len(keys) < np.count_nonzero(keys) <= len(keys)
 
 
 @pytest.mark.parametrize("count", [0, 1, 2, 3, 40])
