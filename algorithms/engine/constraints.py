@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Iterator, Sequence
 
@@ -10,7 +10,7 @@ import numpy as np
 
 from ..core.points import Frame, Points
 from ..core.progress import SILENT, Progress
-from ..grids.lines import along, falling, inside_grid
+from ..grids.lines import NearPlaces, along, falling, inside_grid, squares, two_sided
 from ..las.cloud import PointCloud, survey_frame
 from ..las.lasfile import LasFile
 from ..las.reading import read_parts
@@ -23,9 +23,10 @@ _NEAR = 10.0
 _LEVEL = 10.0
 # Metres between the points that hold the level inside of a border, and along a river.
 _INSIDE, _STATION = 10.0, 5.0
+# Metres beyond the points of a block to which lines are followed.
+_BEYOND = 20.0
 # Places on a line for each cell of the lattice in which points are thinned: it crosses none unseen.
 _PER_CELL = 4.0
-_SHIFT = 32
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,8 +36,8 @@ class Constraints:
     Attributes
     ----------
     breaklines : tuple of numpy.ndarray of float64, shape (n, 3)
-        Lines that no triangle crosses: edges of walls, dykes, terraces. Where z is NaN, a line has
-        the height of the nearest ground point.
+        Lines that no triangle crosses: edges of walls, dykes, terraces. Where z is NaN, the terrain
+        on each side of a line has the height of the nearest ground point on that side.
     water : tuple of polygon
         Water, as in `Area`: flattened to one level.
     rivers : tuple of numpy.ndarray of float64, shape (n, 3)
@@ -62,17 +63,18 @@ class FixedTerrain:
 
     Attributes
     ----------
-    vertices : numpy.ndarray of float64, shape (n, 3)
-        Metres, in the frame of the survey.
+    edges, inside : numpy.ndarray of float64, shape (n, 3)
+        Places along lines and borders, and inside of water: metres, in the frame of the survey.
     excluded : Area or None
         Where points are no ground.
     cell : float
         Side in metres of the cells in which points are thinned.
     """
 
-    vertices: np.ndarray = field(default_factory=lambda: np.zeros((0, 3)))
-    excluded: Area | None = None
-    cell: float = 0.5
+    edges: np.ndarray
+    inside: np.ndarray
+    excluded: Area | None
+    cell: float
 
     def is_ground(self, part: PointCloud, ground: np.ndarray) -> np.ndarray:
         """Return which of the ground points of a part stay; boolean, shape (n,)."""
@@ -82,11 +84,11 @@ class FixedTerrain:
 
     def added_to(
         self, points: Points, ground: np.ndarray, corner: tuple[float, float]
-    ) -> tuple[Points, np.ndarray, int]:
-        """Return points with the vertices near them, which of all are ground, and how many came.
+    ) -> tuple[Points, np.ndarray, np.ndarray]:
+        """Return points with the vertices near them.
 
-        Ground points that share a cell of the lattice with a vertex are no longer ground: else
-        they could stand for it.
+        Ground points that share a cell of the lattice with a vertex are no longer ground: they may
+        lie on the other side of a line.
 
         Parameters
         ----------
@@ -96,25 +98,33 @@ class FixedTerrain:
             Which are ground.
         corner : tuple of float
             x and y in the frame of the survey.
+
+        Returns
+        -------
+        points : Points
+            All, the vertices last.
+        ground, edges : numpy.ndarray of bool, shape (n + m,)
+            Which of them are ground, and which of these lie on lines.
         """
-        if not len(self.vertices) or not points.count:
-            return points, ground, 0
-        low = np.array([points.x.min(), points.y.min()]) + corner
-        high = np.array([points.x.max(), points.y.max()]) + corner
-        inside = ((self.vertices[:, :2] >= low) & (self.vertices[:, :2] <= high)).all(axis=1)
-        some = self.vertices[inside]
-        if not len(some):
-            return points, ground, 0
-        codes = _codes(points.x + corner[0], points.y + corner[1], self.cell)
+        low = np.array([points.x.min(), points.y.min()]) + corner - _BEYOND
+        high = np.array([points.x.max(), points.y.max()]) + corner + _BEYOND
+        edges, inside = (
+            each[((each[:, :2] >= low) & (each[:, :2] <= high)).all(axis=1)]
+            for each in (self.edges, self.inside)
+        )
+        some = np.concatenate((edges, inside)) - (*corner, 0.0)
+        codes = squares(points.x + corner[0], points.y + corner[1], self.cell)
         stays = ground & ~np.isin(codes, self._taken)
-        columns = (some[:, 0] - corner[0], some[:, 1] - corner[1], some[:, 2])
-        together = Points(*(np.concatenate(pair) for pair in zip(points, columns)))
-        return together, np.concatenate((stays, np.ones(len(some), dtype=bool))), len(some)
+        together = Points(*(np.concatenate(pair) for pair in zip(points, some.T)))
+        are_edges = np.zeros(together.count, dtype=bool)
+        are_edges[points.count : points.count + len(edges)] = True
+        return together, np.pad(stays, (0, len(some)), constant_values=True), are_edges
 
     @cached_property
     def _taken(self) -> np.ndarray:
         """The cells of the lattice that hold a vertex."""
-        return np.unique(_codes(*self.vertices[:, :2].T, self.cell))
+        vertices = np.concatenate((self.edges, self.inside))
+        return np.unique(squares(*vertices[:, :2].T, self.cell))
 
 
 def fixed_terrain(
@@ -149,9 +159,14 @@ def fixed_terrain(
     if not constraints.any:
         return None
     shapes = _Shapes(constraints, files, ground, cell / _PER_CELL, progress)
-    vertices = np.concatenate([np.zeros((0, 3)), *shapes.breaklines(), *shapes.water()])
-    excluded = (*constraints.no_ground, *constraints.water)
-    return FixedTerrain(vertices, Area(None, excluded) if excluded else None, cell)
+    borders, insides = zip(*shapes.water()) if constraints.water else ((), ())
+    none, excluded = np.zeros((0, 3)), (*constraints.no_ground, *constraints.water)
+    return FixedTerrain(
+        np.concatenate([none, *shapes.breaklines(), *borders]),
+        np.concatenate([none, *insides]),
+        Area(None, excluded) if excluded else None,
+        cell,
+    )
 
 
 class _Shapes:
@@ -181,23 +196,27 @@ class _Shapes:
             for polygon in self._waters
         ]
         self._ground = _ground_near([*self._lines, *self._borders], files, ground, frame, progress)
+        if self._waters:
+            # What lies in water is no bank.
+            water = Area(None, tuple(tuple(ring[:, :2] for ring in each) for each in self._waters))
+            self._ground = self._ground[~water.contains(*self._ground[:, :2].T)]
 
     def breaklines(self) -> Iterator[np.ndarray]:
         """Yield the vertices of each breakline."""
         lost = 0
         for line in self._lines:
-            line, unknown = line.copy(), np.isnan(line[:, 2])
-            line[unknown, 2] = self._heights(line[unknown])
-            known = ~np.isnan(line[:, 2])
-            lost += not known.any()
-            yield line[known]
+            unknown = np.isnan(line[:, 2])
+            sides = two_sided(line, self._ground, _NEAR)[np.tile(unknown, 2)]
+            sides = sides[~np.isnan(sides[:, 2])]
+            lost += bool(unknown.all()) and not len(sides)
+            yield np.concatenate((line[~unknown], sides))
         if lost:
             self._progress.warning(
                 f"{lost:,} breaklines have no z, and no ground within {_NEAR:g} m: left out."
             )
 
-    def water(self) -> Iterator[np.ndarray]:
-        """Yield the vertices of each water, its border and points inside."""
+    def water(self) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """Yield the vertices of each water: those of its border, and some inside."""
         rivers = [
             along(line * ([self._frame.horizontal_unit] * 2 + [1.0]), _STATION)[:, :2]
             for line in self._constraints.rivers
@@ -207,6 +226,7 @@ class _Shapes:
             heights = self._heights(border)
             if np.isnan(heights).all():
                 dry += 1
+                yield np.zeros((0, 3)), np.zeros((0, 3))
                 continue
             area = Area(None, (tuple(ring[:, :2] for ring in polygon),))
             inside = inside_grid(area.bounds, _INSIDE)
@@ -218,7 +238,8 @@ class _Shapes:
             )
             if len(line) > 1:
                 levels = falling(line, border[:, :2], heights, places, _LEVEL)
-            yield np.column_stack((places, levels))
+            vertices = np.column_stack((places, levels))
+            yield vertices[: len(border)], vertices[len(border) :]
         if dry:
             self._progress.warning(
                 f"{dry:,} waters have no ground within {_NEAR:g} m of their border: they are not"
@@ -248,21 +269,13 @@ def _ground_near(
     """Return the ground points in the cells of lines and those round them, shape (n, 3)."""
     if not lines:
         return np.zeros((0, 3))
-    x, y = np.concatenate(lines)[:, :2].T
-    steps = [(i * _NEAR, k * _NEAR) for i in (-1, 0, 1) for k in (-1, 0, 1)]
-    wanted = np.unique(np.concatenate([_codes(x + i, y + k, _NEAR) for i, k in steps]))
+    wanted = NearPlaces(*np.concatenate(lines)[:, :2].T, _NEAR)
     found, tally = [np.zeros((0, 3))], GroundTally()
     for number, las in enumerate(files):
         part = progress.part(number / len(files), (number + 1) / len(files))
         for some in read_parts(las, part.quiet()):
             which = np.flatnonzero(ground.of(some, tally))
             places = some.places(which, frame)
-            near = which[np.isin(_codes(*places, _NEAR), wanted)]
+            near = which[wanted.of(*places)]
             found.append(np.column_stack(some.points(near, frame)))
     return np.concatenate(found)
-
-
-def _codes(x: np.ndarray, y: np.ndarray, cell: float) -> np.ndarray:
-    """Return one number for the cell of each place."""
-    column, row = (np.floor(each / cell).astype(np.int64) for each in (x, y))
-    return (row << _SHIFT) + column

@@ -169,7 +169,9 @@ class MakeRasters(Step):
         if not self.request.needs_terrain:
             ground = nothing
         if self.fixed is not None:
-            ground = self.fixed.is_ground(part, ground)
+            stays = self.fixed.is_ground(part, ground)
+            tally.excluded += int(np.count_nonzero(ground & ~stays))
+            ground = stays
         if self.covers_ground:
             return Marks(ground, ground, nothing)
         shown = ground | (~np.isin(part.classification, NOISE) & ~part.withheld)
@@ -183,6 +185,10 @@ class MakeRasters(Step):
         """Refuse a file that has nothing to make the rasters of."""
         if self.request.needs_terrain:
             self.ground.check(tally, path)
+            if tally.ground == tally.excluded:
+                raise BareEarthError(
+                    f"All ground points of {path} lie in water, or where there is to be no ground."
+                )
         if self.request.needs_surface and not tally.top:
             raise BareEarthError(
                 f"{path} has no first returns to make a surface of. Take all returns instead."
@@ -214,9 +220,12 @@ class RasterTally(GroundTally):
     ----------
     top : int
         Points of the surface.
+    excluded : int
+        Points of the ground that lie where there is to be none.
     """
 
     top: int = 0
+    excluded: int = 0
 
 
 def _job_of(
@@ -230,10 +239,12 @@ def _job_of(
         if not (is_only and are_all):
             core = block.holds(contents.points, corner)
         points, ground, top = contents.points, contents.known, contents.wanted
-        if step.fixed is not None:
-            points, ground, more = step.fixed.added_to(points, ground, corner)
-            top, core = (np.pad(each, (0, more)) for each in (top, core))
-        return step.request.step.of(points, ground, top, core, corner, block.box, progress)
+        edges = None
+        if step.fixed is not None and points.count:
+            points, ground, edges = step.fixed.added_to(points, ground, corner)
+            top, core = (np.pad(each, (0, points.count - len(each))) for each in (top, core))
+        marks = ground, top, core
+        return step.request.step.of(points, *marks, corner, block.box, edges, progress)
 
     return job
 
