@@ -10,7 +10,7 @@ from qgis.core import QgsProcessingParameterRasterDestination as Raster
 
 from ...algorithms.products.assessment import AssessmentOptions, assess_files
 from .base import BareEarthAlgorithm, command_line
-from .inputs import PointCloudInput, source_path
+from .inputs import PointCloudInput, name_of, source_path
 
 _INPUTS = {
     "CLASSIFIED": ("Classified point cloud", "Its class 2 counts as ground, all others do not."),
@@ -58,6 +58,7 @@ class AssessAlgorithm(BareEarthAlgorithm):
     def prepare(self, parameters, context, progress):
         """Find the files."""
         self._files = [source_path(self, parameters, name, context) for name in _INPUTS]
+        self.subject = name_of(self._files[0])
 
     def compute(self, parameters, context, progress):
         """Compare them."""

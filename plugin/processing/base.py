@@ -20,6 +20,7 @@ from ...algorithms.core.errors import BareEarthError, Cancelled
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.las.backends import install_hint, missing_packages
 from .. import compat
+from ..styles import layers
 from .feedback import FeedbackProgress
 from .fields import field_of, help_of, parameters_of, title_of
 from .outputs import do_not_load
@@ -44,9 +45,13 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         Its page in the folder docs.
     cancelled : str
         What the log says after a cancel.
+    run_name : str
+        What the group of its layers is called after the name of the input; the title if empty.
+    subject : str
+        The name of the input; `prepare` sets it.
     """
 
-    identifier = title = section = summary = about = page = ""
+    identifier = title = section = summary = about = page = run_name = subject = ""
     cancelled = "Cancelled; nothing was written."
     keywords: tuple[str, ...] = ()
 
@@ -95,6 +100,10 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         if not compat.can_load(path):
             do_not_load(context, [path])
         return path
+
+    def show(self, path: str, look: layers.Look) -> None:
+        """Say how the layer of a file is to look, if it is loaded; rasters have a look already."""
+        self._looks[path] = look
 
     # From here on, what QGIS asks.
 
@@ -183,6 +192,9 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         """Run `prepare`."""
         with _errors_for_qgis():
             self.prepare(parameters, context, FeedbackProgress(feedback))
+        self._looks: dict[str, layers.Look] = {}
+        name = f"{self.subject}: {self.run_name or self.title}" if self.subject else self.title
+        self._group = layers.free_name(context, name)
         return True
 
     def processAlgorithm(
@@ -202,7 +214,18 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         finally:
             if not results:
                 do_not_load(context, set(context.layersToLoadOnCompletion()) - before)
+        self._arrange(results, context)
         return results
+
+    def _arrange(self, results: dict[str, Any], context: QgsProcessingContext) -> None:
+        """See to names, colours and places of the layers."""
+        looks, labels = {}, {}
+        for name in filter(self.parameterDefinition, results):
+            labels[results[name]] = self.parameterDefinition(name).description()
+            if name in layers.RASTERS:
+                looks[results[name]] = layers.RASTERS[name]
+        looks.update(self._looks)
+        layers.arrange(context, looks, labels, self.subject or self.title, self._group)
 
 
 @contextlib.contextmanager

@@ -14,10 +14,25 @@ from ...algorithms.filters import METHODS
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
 from .. import compat
+from ..styles import clouds, layers, rasters
 from .base import BareEarthAlgorithm, command_line
 from .feedback import FeedbackProgress
-from .inputs import AREA_FIELDS, PointCloudInput, add_area, area_of, ignored_filter, source_path
-from .outputs import ClassStyle, add_rasters, point_cloud_formats, raster_files, raster_paths, style
+from .inputs import (
+    AREA_FIELDS,
+    PointCloudInput,
+    add_area,
+    area_of,
+    ignored_filter,
+    name_of,
+    source_path,
+)
+from .outputs import (
+    add_rasters,
+    load_class_raster,
+    point_cloud_formats,
+    raster_files,
+    raster_paths,
+)
 
 
 class ClassificationAlgorithm(BareEarthAlgorithm):
@@ -31,6 +46,11 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
 
     method = ""
     section = "Ground classification"
+
+    @property
+    def run_name(self) -> str:
+        """Return what the group of the layers is called."""
+        return METHODS[self.method].label
 
     def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
         """Return the method's parameters, then those that all methods share."""
@@ -70,6 +90,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         self._source = source_path(self, parameters, "INPUT", context)
         if ignored_filter(self, parameters, "INPUT", context):
             progress.warning("The layer's filter is not applied: all points are read.")
+        self.subject = name_of(self._source)
         self._area = area_of(self, parameters, context, self._source)
 
     def compute(
@@ -89,17 +110,24 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         command = command_line("classify", [str(self._source), output], chosen, options)
         progress.command(" ".join([command, *self._area_options(progress)]))
         files = raster_files(paths)
-        rasters = files.dtm, files.hillshade
         *policy, wanted, resources = chosen
+        _, selection, terrain = policy
+        relief = files.dtm, files.hillshade
         summary = classify_file(
-            self._source, Path(output), *policy, *rasters, progress, self._area, resources, wanted
+            self._source, Path(output), *policy, *relief, progress, self._area, resources, wanted
         )
         ground, count = summary.area_ground_count, summary.area_count
         place = " in the area" if self._area else ""
         progress.info(f"{ground:,} of {count:,} points{place} are ground ({ground / count:.1%}).")
         if not compat.can_load(output):
             progress.info(f"This QGIS cannot show such a file as a layer. It is at {output}.")
-        style(context, output, ClassStyle(summary.class_counts))
+        self.show(output, layers.cloud("classes", clouds.by_class(summary.class_counts)))
+        if any(map(context.willLoadLayerOnCompletion, paths.values())):
+            if not compat.can_load(output):
+                cell, ground_class = terrain.dtm_cell_size, selection.to_class
+                picture = load_class_raster(output, ground_class, cell, context, progress)
+                look = rasters.classes(clouds.categories_of(summary.class_counts))
+                self.show(picture, layers.cloud("classes", look))
         return {
             "OUTPUT": output,
             **paths,

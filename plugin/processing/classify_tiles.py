@@ -14,8 +14,9 @@ from ...algorithms.engine.rasters import RasterRequest
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
 from .. import compat
+from ..styles import clouds, layers
 from .base import BareEarthAlgorithm, command_line
-from .inputs import FOLDER_HELP, add_clouds, clouds_of
+from .inputs import FOLDER_HELP, add_clouds, clouds_of, name_of
 from .outputs import add_rasters, raster_files, raster_paths
 
 _NUMBERS = {
@@ -49,7 +50,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         self.add_declared()
         self.addParameter(Folder("OUTPUT_FOLDER", "Folder of the classified point clouds"))
         self.addParameter(File("OUTPUT_VPC", "Virtual point cloud", "*.vpc", None, True, False))
-        add_rasters(self, ("DTM", "HILLSHADE"), "")
+        add_rasters(self, ("DTM", "HILLSHADE"))
         for name, label in _NUMBERS.items():
             self.addOutput(Number(name, label))
 
@@ -58,13 +59,18 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         super().check(parameters, context)
         clouds_of(self, parameters, context)
 
+    def prepare(self, parameters, context, progress):
+        """Find the files."""
+        self._sources = clouds_of(self, parameters, context)
+        self.subject = name_of(self._sources[0]) + (" and others" if self._sources[1:] else "")
+
     def compute(self, parameters, context, progress):
         """Classify the files."""
         from ...algorithms.engine.tiles import VPC_NAME, classify_tiles
         from ...algorithms.engine.workers import Threads
 
         method, *policy, terrain, resources = chosen = self.chosen(parameters, context)
-        sources = clouds_of(self, parameters, context)
+        sources = self._sources
         folder = Path(self.parameterAsFileOutput(parameters, "OUTPUT_FOLDER", context))
         vpc = self.parameterAsFileOutput(parameters, "OUTPUT_VPC", context) or folder / VPC_NAME
         paths = raster_paths(self, parameters, context)
@@ -75,5 +81,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         summary = classify_tiles(*given, Threads(resources), rasters=rasters)
         progress.info(f"{summary.text}.")
         compat.load_virtual_point_cloud(str(vpc), "Classified", context)
+        classes = clouds.usual_classes(policy[0].to_class)
+        self.show(str(vpc), layers.cloud("classes", clouds.by_class(classes)))
         results = {name: getattr(summary, name.lower()) for name in _NUMBERS}
         return {"OUTPUT_FOLDER": str(folder), "OUTPUT_VPC": str(vpc), **paths, **results}

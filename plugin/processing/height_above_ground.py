@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ...algorithms.engine.output import HEIGHT_DIMENSION
 from ...algorithms.engine.products import GroundClasses, HeightOutput, write_height_above_ground
+from ..styles import clouds, layers
 from .base import command_line
 from .products import ProductAlgorithm
 
@@ -49,4 +51,7 @@ class HeightAboveGroundAlgorithm(ProductAlgorithm):
             f"Heights above ground are {summary.minimum:.2f} to {summary.maximum:.2f}"
             f" {summary.unit}."
         )
+        attribute = "Z" if chosen[1].output_as == "z" else HEIGHT_DIMENSION
+        look = clouds.by_height(attribute, summary.maximum)
+        self.show(output, layers.cloud("height above ground", look))
         return {"OUTPUT": output, **self.numbers_of(summary)}

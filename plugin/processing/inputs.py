@@ -108,6 +108,13 @@ def source_path(
     return _path_of(layer)
 
 
+def name_of(path: Path) -> str:
+    """Return the name of a file, or folder, without what says its format."""
+    suffixes = (".copc.laz", ".las", ".laz", ".vpc", ".txt", ".tif", ".tiff")
+    known = (each for each in suffixes if path.name.lower().endswith(each))
+    return path.name[: -len(next(known, "")) or None]
+
+
 def add_clouds(algorithm: QgsProcessingAlgorithm) -> None:
     """Add fields for many files to a dialog: as a list, or as a folder."""
     files = QgsProcessingParameterMultipleLayers("INPUT", _FILES_LABEL, compat.FILES, None, True)

@@ -9,7 +9,7 @@ from qgis.core import QgsProcessingContext, QgsProcessingOutputNumber
 from .. import compat
 from .base import BareEarthAlgorithm
 from .feedback import FeedbackProgress
-from .inputs import PointCloudInput, ignored_filter, source_path
+from .inputs import PointCloudInput, ignored_filter, name_of, source_path
 from .outputs import point_cloud_formats
 
 
@@ -56,6 +56,7 @@ class ProductAlgorithm(BareEarthAlgorithm):
     ) -> None:
         """Find the input's file."""
         self.source = source_path(self, parameters, "INPUT", context)
+        self.subject = name_of(self.source)
         if ignored_filter(self, parameters, "INPUT", context):
             progress.warning("The layer's filter is not applied: all points are read.")
 
