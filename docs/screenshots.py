@@ -108,7 +108,8 @@ def show_maps(tile: Path, folder: Path) -> None:
     suffix = "." + provider.defaultPointCloudFileExtension()
     cloud = str(folder / f"ground{suffix}")
     rasters = {
-        each: str(folder / f"{each}.tif") for each in ("DTM", "HILLSHADE", "DSM", "CHM", "CONFIDENCE")
+        each: str(folder / f"{each}.tif")
+        for each in ("DTM", "HILLSHADE", "DSM", "CHM", "CONFIDENCE")
     }
     two = {each: rasters[each] for each in ("DTM", "HILLSHADE")}
     show_map(ALGORITHM, {"INPUT": str(tile)}, {"OUTPUT": cloud, **two}, "map")

@@ -122,12 +122,12 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         if not compat.can_load(output):
             progress.info(f"This QGIS cannot show such a file as a layer. It is at {output}.")
         self.show(output, layers.cloud("classes", clouds.by_class(summary.class_counts)))
-        if any(map(context.willLoadLayerOnCompletion, paths.values())):
-            if not compat.can_load(output):
-                cell, ground_class = terrain.dtm_cell_size, selection.to_class
-                picture = load_class_raster(output, ground_class, cell, context, progress)
-                look = rasters.classes(clouds.categories_of(summary.class_counts))
-                self.show(picture, layers.cloud("classes", look))
+        is_seen = any(map(context.willLoadLayerOnCompletion, paths.values()))
+        if is_seen and not compat.can_load(output):
+            cell, ground_class = terrain.dtm_cell_size, selection.to_class
+            picture = load_class_raster(output, ground_class, cell, context, progress)
+            look = rasters.classes(clouds.categories_of(summary.class_counts))
+            self.show(picture, layers.cloud("classes", look))
         return {
             "OUTPUT": output,
             **paths,

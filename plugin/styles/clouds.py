@@ -22,7 +22,9 @@ from . import ramps
 _GROUND = 2
 # Brown of the ground, light enough for a hillshade below; QGIS's is dark. What says no more than
 # "not ground" is faint.
-_COLOURS = {0: "#8c9aa5b1", 1: "#8c9aa5b1", _GROUND: "#d2a368", 8: "#8f5a1e"}
+_COLOURS = {
+    0: "#8c9aa5b1", 1: "#8c9aa5b1", _GROUND: "#d2a368", 6: "#d9736a", 8: "#8f5a1e", 9: "#5fb4e5",
+}  # fmt: skip
 _METRES, _LEAST_MM, _MOST_MM = 0.6, 0.8, 2.0
 # Millimetres between points below which no more are drawn: more than QGIS's 0.3 show as holes.
 _SCREEN_ERROR = 0.15
@@ -64,8 +66,7 @@ def by_class(classes: Iterable[int]) -> Callable[[QgsPointCloudLayer], None]:
         renderer = QgsPointCloudClassifiedRenderer()
         renderer.setAttribute("Classification")
         categories = [
-            QgsPointCloudCategory(value, colour, label)
-            for value, (label, colour) in wanted.items()
+            QgsPointCloudCategory(value, colour, label) for value, (label, colour) in wanted.items()
         ]
         renderer.setCategories(categories)
         _scale(renderer)

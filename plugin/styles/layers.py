@@ -87,10 +87,15 @@ def arrange(
     """
     looks = {path: look for path, look in looks.items() if context.willLoadLayerOnCompletion(path)}
     shown = max((look.hides for look in looks.values()), default=0)
+    named = {
+        path
+        for path in set(looks) & set(labels)
+        if context.layerToLoadOnCompletionDetails(path).name not in ("", labels[path])
+    }
     for path, look in looks.items():
         details = context.layerToLoadOnCompletionDetails(path)
-        is_named = path in labels and details.name not in ("", labels[path])
-        place = "" if is_named or len(looks) == 1 else group
+        is_named = path in named
+        place = "" if is_named or len(looks) - len(named) < 2 else group
         if not is_named:
             details.name, details.forceName = f"{subject}: {look.title}", True
         is_native = hasattr(details, "groupName")  # 3.32
