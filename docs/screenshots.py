@@ -113,6 +113,9 @@ def show_maps(tile: Path, folder: Path) -> None:
     }
     two = {each: rasters[each] for each in ("DTM", "HILLSHADE")}
     show_map(ALGORITHM, {"INPUT": str(tile)}, {"OUTPUT": cloud, **two}, "map")
+    lines = {"CONTOURS": str(folder / "contours.gpkg"), "RELIEF": str(folder / "relief.tif")}
+    whole = {"OUTPUT": str(folder / f"cloud{suffix}"), **rasters, **lines}
+    show_map("bareearth:pointcloudtoterrain", {"INPUT": str(tile)}, whole, "map-one-step")
     show_map("bareearth:terrainmodel", {"INPUT": cloud}, rasters, "map-terrain")
     for each in ("CHM", "DSM", "CONFIDENCE"):
         few = {"HILLSHADE": rasters["HILLSHADE"], each: rasters[each]}

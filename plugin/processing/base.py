@@ -6,13 +6,14 @@ import contextlib
 import os
 import shlex
 from html import escape
-from typing import Any, Iterator
+from typing import Any, Iterator, Mapping
 
 from qgis.core import (
     QgsProcessingAlgorithm,
     QgsProcessingContext,
     QgsProcessingException,
     QgsProcessingFeedback,
+    QgsProcessingOutputNumber,
 )
 from qgis.PyQt.QtGui import QIcon
 
@@ -48,7 +49,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
     run_name : str
         What the group of its layers is called after the name of the input; the title if empty.
     subject : str
-        The name of the input; `prepare` sets it.
+        The name of the input; `find_inputs` sets it.
     """
 
     identifier = title = section = summary = about = page = run_name = subject = ""
@@ -68,6 +69,9 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         """Do the work, in whatever thread, and return the outputs."""
         raise NotImplementedError
 
+    def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
+        """Find the input files, and name the run after them; raise BareEarthError if not there."""
+
     def prepare(
         self,
         parameters: dict[str, Any],
@@ -75,10 +79,12 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         progress: FeedbackProgress,
     ) -> None:
         """Read from the project what `compute` needs; runs in the main thread."""
+        self.find_inputs(parameters, context)
 
     def check(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
         """Refuse values, before anything runs, by raising BareEarthError."""
         self.chosen(parameters, context)
+        self.find_inputs(parameters, context)
 
     def chosen(
         self, parameters: dict[str, Any], context: QgsProcessingContext
@@ -91,6 +97,11 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         for declared in self.parameter_sets():
             for each in declared.declarations():
                 self.addParameter(field_of(each))
+
+    def add_numbers(self, numbers: Mapping[str, str]) -> None:
+        """Add results that are numbers, by their names, with their labels."""
+        for name, label in numbers.items():
+            self.addOutput(QgsProcessingOutputNumber(name, label))
 
     def point_cloud_destination(
         self, parameters: dict[str, Any], name: str, context: QgsProcessingContext

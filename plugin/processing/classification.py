@@ -13,9 +13,8 @@ from ...algorithms.engine.output import Output
 from ...algorithms.filters import METHODS
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
-from .. import compat
-from ..styles import clouds, layers, rasters
 from .base import BareEarthAlgorithm, command_line
+from .classified import show_classified
 from .feedback import FeedbackProgress
 from .inputs import (
     AREA_FIELDS,
@@ -27,9 +26,8 @@ from .inputs import (
     source_path,
 )
 from .outputs import (
+    add_cloud,
     add_rasters,
-    load_class_raster,
-    point_cloud_formats,
     raster_files,
     raster_paths,
 )
@@ -61,9 +59,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         self.addParameter(PointCloudInput("INPUT", "Point cloud"))
         self.add_declared()
         add_area(self)
-        self.addParameter(
-            compat.point_cloud_output("OUTPUT", "Classified point cloud", point_cloud_formats())
-        )
+        add_cloud(self, "Classified point cloud")
         add_rasters(self, ("DTM", "HILLSHADE"))
         self.addOutput(QgsProcessingOutputNumber("POINT_COUNT", "Points"))
         self.addOutput(QgsProcessingOutputNumber("AREA_COUNT", "Points in the area"))
@@ -75,10 +71,10 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         area = [f"<b>{label}</b>: {text}" for label, text in AREA_FIELDS.values()]
         return "\n".join([super().shortHelpString(), *area])
 
-    def check(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
-        """Refuse values that are not allowed, and an input that is not there."""
-        super().check(parameters, context)
-        source_path(self, parameters, "INPUT", context)
+    def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
+        """Find the input's file."""
+        self._source = source_path(self, parameters, "INPUT", context)
+        self.subject = name_of(self._source)
 
     def prepare(
         self,
@@ -86,11 +82,10 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> None:
-        """Find the input's file, and read the area."""
-        self._source = source_path(self, parameters, "INPUT", context)
+        """Find the input, and read the area."""
+        super().prepare(parameters, context, progress)
         if ignored_filter(self, parameters, "INPUT", context):
             progress.warning("The layer's filter is not applied: all points are read.")
-        self.subject = name_of(self._source)
         self._area = area_of(self, parameters, context, self._source)
 
     def compute(
@@ -119,15 +114,9 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         ground, count = summary.area_ground_count, summary.area_count
         place = " in the area" if self._area else ""
         progress.info(f"{ground:,} of {count:,} points{place} are ground ({ground / count:.1%}).")
-        if not compat.can_load(output):
-            progress.info(f"This QGIS cannot show such a file as a layer. It is at {output}.")
-        self.show(output, layers.cloud("classes", clouds.by_class(summary.class_counts)))
-        is_seen = any(map(context.willLoadLayerOnCompletion, paths.values()))
-        if is_seen and not compat.can_load(output):
-            cell, ground_class = terrain.dtm_cell_size, selection.to_class
-            picture = load_class_raster(output, ground_class, cell, context, progress)
-            look = rasters.classes(clouds.categories_of(summary.class_counts))
-            self.show(picture, layers.cloud("classes", look))
+        classes, ground_class = summary.class_counts, selection.to_class
+        cell = terrain.dtm_cell_size
+        show_classified(self, output, classes, ground_class, cell, context, progress)
         return {
             "OUTPUT": output,
             **paths,

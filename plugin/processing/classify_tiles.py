@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from qgis.core import QgsProcessingOutputNumber as Number
 from qgis.core import QgsProcessingParameterFileDestination as File
 from qgis.core import QgsProcessingParameterFolderDestination as Folder
 
@@ -13,10 +12,9 @@ from ...algorithms.engine.options import TileInput, TileMethod, TileOutput
 from ...algorithms.engine.rasters import RasterRequest
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
-from .. import compat
-from ..styles import clouds, layers
 from .base import BareEarthAlgorithm, command_line
-from .inputs import FOLDER_HELP, add_clouds, clouds_of, name_of
+from .classified import show_classified
+from .inputs import FOLDER_HELP, add_clouds, clouds_of, names_of
 from .outputs import add_rasters, raster_files, raster_paths
 
 _NUMBERS = {
@@ -51,18 +49,12 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         self.addParameter(Folder("OUTPUT_FOLDER", "Folder of the classified point clouds"))
         self.addParameter(File("OUTPUT_VPC", "Virtual point cloud", "*.vpc", None, True, False))
         add_rasters(self, ("DTM", "HILLSHADE"))
-        for name, label in _NUMBERS.items():
-            self.addOutput(Number(name, label))
+        self.add_numbers(_NUMBERS)
 
-    def check(self, parameters, context):
-        """Refuse values that are not allowed, and files that are not there."""
-        super().check(parameters, context)
-        clouds_of(self, parameters, context)
-
-    def prepare(self, parameters, context, progress):
+    def find_inputs(self, parameters, context):
         """Find the files."""
         self._sources = clouds_of(self, parameters, context)
-        self.subject = name_of(self._sources[0]) + (" and others" if self._sources[1:] else "")
+        self.subject = names_of(self._sources)
 
     def compute(self, parameters, context, progress):
         """Classify the files."""
@@ -80,8 +72,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         rasters = RasterRequest(raster_files(paths), terrain)
         summary = classify_tiles(*given, Threads(resources), rasters=rasters)
         progress.info(f"{summary.text}.")
-        compat.load_virtual_point_cloud(str(vpc), "Classified", context)
-        classes = clouds.usual_classes(policy[0].to_class)
-        self.show(str(vpc), layers.cloud("classes", clouds.by_class(classes)))
+        ground_class, cell = policy[0].to_class, terrain.dtm_cell_size
+        show_classified(self, str(vpc), (), ground_class, cell, context, progress)
         results = {name: getattr(summary, name.lower()) for name in _NUMBERS}
         return {"OUTPUT_FOLDER": str(folder), "OUTPUT_VPC": str(vpc), **paths, **results}

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ...algorithms.engine.output import HEIGHT_DIMENSION
 from ...algorithms.engine.products import GroundClasses, HeightOutput, write_height_above_ground
-from ..styles import clouds, layers
+from ..styles import layers
 from .base import command_line
 from .products import ProductAlgorithm
 
@@ -52,6 +52,5 @@ class HeightAboveGroundAlgorithm(ProductAlgorithm):
             f" {summary.unit}."
         )
         attribute = "Z" if chosen[1].output_as == "z" else HEIGHT_DIMENSION
-        look = clouds.by_height(attribute, summary.maximum)
-        self.show(output, layers.cloud("height above ground", look))
+        self.show(output, layers.heights(attribute, summary.maximum))
         return {"OUTPUT": output, **self.numbers_of(summary)}

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ...algorithms.engine.products import GroundClasses, KeyPointMark, write_key_points
 from ...algorithms.grids.model_key_points import ModelKeyPoints
-from ..styles import clouds, layers
+from ..styles import layers
 from .base import command_line
 from .products import ProductAlgorithm
 
@@ -49,5 +49,5 @@ class ModelKeyPointsAlgorithm(ProductAlgorithm):
             f"{summary.key_point_count:,} of {summary.ground_count:,} ground points are key points"
             f" ({summary.key_point_count / summary.ground_count:.1%})."
         )
-        self.show(output, layers.cloud("key points", clouds.by_class(summary.class_counts)))
+        self.show(output, layers.classes(summary.class_counts, "key points"))
         return {"OUTPUT": output, **self.numbers_of(summary)}

@@ -8,37 +8,46 @@ from typing import Any, Iterable, Sequence
 from qgis.core import (
     QgsProcessingAlgorithm,
     QgsProcessingContext,
+    QgsProcessingParameterDefinition,
     QgsProcessingParameterRasterDestination,
-    QgsProcessingUtils,
 )
 
 from ...algorithms.engine.rasters import RasterFiles
 from ...algorithms.las.backends import WRITING_COPC, missing_packages
 from .. import compat
-from .feedback import FeedbackProgress
 
 # Name and label of each raster that can be made.
-_RASTERS = {
+RASTERS = {
     "DTM": "Terrain model (DTM)",
     "DSM": "Surface model (DSM)",
     "CHM": "Canopy height (CHM)",
     "HILLSHADE": "Hillshade",
     "CONFIDENCE": "Confidence of the terrain model",
+    "RELIEF": "Local relief",
 }
+_MODELS = ("DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE")
 
 
 def add_rasters(
     algorithm: QgsProcessingAlgorithm,
-    names: Sequence[str] = tuple(_RASTERS),
+    names: Sequence[str] = _MODELS,
     default: Sequence[str] = ("DTM", "HILLSHADE"),
 ) -> None:
     """Add fields for rasters, of which none has to be made; some are made by default."""
     for name in names:
         algorithm.addParameter(
             QgsProcessingParameterRasterDestination(
-                name, _RASTERS[name], None, True, name in default
+                name, RASTERS[name], None, True, name in default
             )
         )
+
+
+def add_cloud(algorithm: QgsProcessingAlgorithm, label: str, optional: bool = False) -> None:
+    """Add the field of a point cloud to be made."""
+    field = compat.point_cloud_output("OUTPUT", label, point_cloud_formats())
+    if optional:
+        field.setFlags(field.flags() | QgsProcessingParameterDefinition.Flag.FlagOptional)
+    algorithm.addParameter(field)
 
 
 def raster_paths(
@@ -48,7 +57,7 @@ def raster_paths(
 ) -> dict[str, str]:
     """Return the paths of the rasters that are wanted, by the names of their fields."""
     paths = {}
-    for name in _RASTERS:
+    for name in RASTERS:
         if algorithm.parameterDefinition(name) is not None:
             path = algorithm.parameterAsOutputLayer(parameters, name, context)
             if path:
@@ -58,7 +67,8 @@ def raster_paths(
 
 def raster_files(paths: dict[str, str]) -> RasterFiles:
     """Return the same for the classifier."""
-    return RasterFiles(**{name.lower(): Path(path) for name, path in paths.items()})
+    given = {name.lower(): Path(path) for name, path in paths.items() if name in _MODELS}
+    return RasterFiles(**given)
 
 
 def point_cloud_formats() -> list[str]:
@@ -71,31 +81,6 @@ def point_cloud_formats() -> list[str]:
     if compat.can_load("x.copc.laz") and not compat.can_load("x.laz"):
         return ["copc.laz", "laz", "las"]
     return ["laz", "las", "copc.laz"]
-
-
-def load_class_raster(
-    source: str,
-    ground_class: int,
-    cell_size: float,
-    context: QgsProcessingContext,
-    progress: FeedbackProgress,
-) -> str:
-    """Make a raster of the classes of a file that this QGIS cannot show, and have it loaded.
-
-    Returns
-    -------
-    str
-        Its temporary file.
-    """
-    # Reads files, which takes packages that QGIS may lack.
-    from ...algorithms.products.class_raster import write_class_raster
-
-    path = QgsProcessingUtils.generateTempFilename("classes.tif")
-    write_class_raster(Path(source), Path(path), cell_size, ground_class, progress)
-    hint = QgsProcessingUtils.LayerHint.Raster
-    details = QgsProcessingContext.LayerDetails("classes", context.project(), "classes", hint)
-    context.addLayerToLoadOnCompletion(path, details)
-    return path
 
 
 def do_not_load(context: QgsProcessingContext, paths: Iterable[str]) -> None:

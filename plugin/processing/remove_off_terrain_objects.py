@@ -47,7 +47,7 @@ class RemoveOffTerrainObjectsAlgorithm(BareEarthAlgorithm):
         self.addOutput(QgsProcessingOutputNumber("CELL_COUNT", "Cells with a height"))
         self.addOutput(QgsProcessingOutputNumber("REMOVED_COUNT", "Cells of objects"))
 
-    def prepare(self, parameters, context, progress):
+    def find_inputs(self, parameters, context):
         """Find the input's file."""
         layer = self.parameterAsRasterLayer(parameters, "INPUT", context)
         if layer is None or layer.providerType() != "gdal":

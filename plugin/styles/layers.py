@@ -12,11 +12,15 @@ from qgis.core import (
     QgsProcessingLayerPostProcessorInterface,
 )
 
-from . import rasters, vectors
+from . import clouds, rasters, vectors
 
 # QGIS calls them after the algorithm is gone, and owns the C++ half of each: one for each layer,
 # and a reference here that keeps the Python half.
 _KEPT: list[QgsProcessingLayerPostProcessorInterface] = []
+
+
+# What a classified cloud hides; the terrain is shown first where that is what was asked for.
+CLOUD, BELOW_TERRAIN = 6, 4
 
 
 class Look(NamedTuple):
@@ -50,16 +54,30 @@ CANOPY = Look("canopy height", 3, rasters.canopy, 3)
 RELIEF = Look("local relief", 4, rasters.local_relief, 2)
 CONFIDENCE = Look("confidence", 5, rasters.confidence, 1)
 ERRORS = Look("errors", 6, rasters.errors, 1)
-CONTOURS = Look("contour lines", 9, vectors.contours)
 RASTERS = {
     "DTM": TERRAIN, "DSM": SURFACE, "CHM": CANOPY, "HILLSHADE": HILLSHADE,
-    "CONFIDENCE": CONFIDENCE, "RELIEF": RELIEF, "ERROR_MAP": ERRORS, "CONTOURS": CONTOURS,
+    "CONFIDENCE": CONFIDENCE, "RELIEF": RELIEF, "ERROR_MAP": ERRORS,
 }  # fmt: skip
 
 
-def cloud(title: str, dress: Callable[[Any], None], hides: int = 6) -> Look:
-    """Return what a point cloud is, or a raster of its classes."""
-    return Look(title, 7, dress, hides)
+def classes(values: Iterable[int], title: str = "classes", hides: int = CLOUD) -> Look:
+    """Return what a cloud of such classes is."""
+    return Look(title, 7, clouds.by_class(values), hides)
+
+
+def class_raster(values: Iterable[int], hides: int = CLOUD) -> Look:
+    """Return what a raster of such classes is."""
+    return Look("classes", 7, rasters.classes(clouds.categories_of(values)), hides)
+
+
+def heights(attribute: str, highest: float) -> Look:
+    """Return what a cloud is with such an attribute of heights, up to the highest."""
+    return Look("height above ground", 7, clouds.by_height(attribute, highest), CLOUD)
+
+
+def contours(interval: float) -> Look:
+    """Return what contour lines are."""
+    return Look("contour lines", 8, vectors.contours(interval))
 
 
 def arrange(

@@ -2,18 +2,27 @@
 
 from __future__ import annotations
 
+from typing import Callable
+
 from qgis.core import QgsLineSymbol, QgsRuleBasedRenderer, QgsVectorLayer
 
-_THIN = {"line_color": "110,72,36,150", "line_width": "0.15"}
-_THICK = {"line_color": "110,72,36,220", "line_width": "0.4"}
+from ...algorithms.products.contours import INDEX
+
+_THIN = {"line_color": "110,72,36,130", "line_width": "0.15"}
+_THICK = {"line_color": "110,72,36,220", "line_width": "0.35"}
 
 
-def contours(layer: QgsVectorLayer) -> None:
-    """Draw lines in brown, those that are marked as index contours thicker."""
-    root = QgsRuleBasedRenderer.Rule(None)
-    for properties, rule, label in (
-        (_THICK, '"IS_INDEX" = 1', "Index contour"), (_THIN, '"IS_INDEX" = 0', "Contour"),
-    ):  # fmt: skip
-        symbol = QgsLineSymbol.createSimple(properties)
-        root.appendChild(QgsRuleBasedRenderer.Rule(symbol, 0, 0, rule, label))
-    layer.setRenderer(QgsRuleBasedRenderer(root))
+def contours(interval: float) -> Callable[[QgsVectorLayer], None]:
+    """Return what draws contour lines in brown, each fifth of them thicker."""
+
+    def dress(layer: QgsVectorLayer) -> None:
+        root = QgsRuleBasedRenderer.Rule(None)
+        rule = f'round("ELEV" / {interval!r}) % {INDEX} = 0'
+        for properties, words in ((_THICK, f"Each {INDEX * interval:g}"), (_THIN, f"{interval:g}")):
+            symbol = QgsLineSymbol.createSimple(properties)
+            each = QgsRuleBasedRenderer.Rule(symbol, 0, 0, rule, words)
+            root.appendChild(each)
+            rule = "ELSE"
+        layer.setRenderer(QgsRuleBasedRenderer(root))
+
+    return dress
