@@ -18,13 +18,14 @@ from qgis.core import (
 from qgis.PyQt.QtGui import QIcon
 
 from ...algorithms.core.errors import BareEarthError, Cancelled
-from ...algorithms.core.parameters import ParameterSet
+from ...algorithms.core.parameters import Declaration, ParameterSet
 from ...algorithms.las.backends import install_hint, missing_packages
 from .. import compat
 from ..styles import layers
 from .feedback import FeedbackProgress
 from .fields import field_of, help_of, parameters_of, title_of
 from .outputs import do_not_load
+from .presets import presets_of
 
 _PAGES = "https://github.com/bare-earth/bare-earth/blob/main/docs"
 
@@ -48,6 +49,9 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         What the log says after a cancel.
     run_name : str
         What the group of its layers is called after the name of the input; the title if empty.
+    shown : tuple of str or None
+        The declared parameters that the dialog shows at once, the others being advanced; None for
+        all but those that are declared so.
     subject : str
         The name of the input; `find_inputs` sets it.
     """
@@ -55,6 +59,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
     identifier = title = section = summary = about = page = run_name = subject = ""
     cancelled = "Cancelled; nothing was written."
     keywords: tuple[str, ...] = ()
+    shown: tuple[str, ...] | None = None
 
     def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
         """Return the declared parameters, in the order of the dialog."""
@@ -94,9 +99,16 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
 
     def add_declared(self) -> None:
         """Add the fields of the declared parameters to the dialog."""
-        for declared in self.parameter_sets():
-            for each in declared.declarations():
-                self.addParameter(field_of(each))
+        for each in self._declarations():
+            self.addParameter(field_of(each, self._is_shown(each)))
+
+    def _declarations(self) -> list[Declaration]:
+        sets = self.parameter_sets()
+        return [each for declared in sets for each in declared.declarations()]
+
+    def _is_shown(self, declaration: Declaration) -> bool:
+        is_among = self.shown is None or declaration.name in self.shown
+        return is_among and not declaration.advanced
 
     def add_numbers(self, numbers: Mapping[str, str]) -> None:
         """Add results that are numbers, by their names, with their labels."""
@@ -147,13 +159,15 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         return f"{_PAGES}/{self.page}.md"
 
     def shortHelpString(self) -> str:
-        """Return the help: what it does, and a paragraph on each declared parameter."""
-        paragraphs = [
-            f"<b>{escape(title_of(each))}</b>: {escape(help_of(each))}"
-            for declared in self.parameter_sets()
-            for each in declared.declarations()
-        ]
-        return "\n".join([self.about, *paragraphs])
+        """Return the help: what it does, and on each parameter a paragraph, as in the dialog."""
+        # What the dialog folds away comes last there, too.
+        ordered = sorted(self._declarations(), key=lambda each: not self._is_shown(each))
+        paragraphs = [self.about]
+        for each in ordered:
+            paragraphs.append(f"<b>{_plain(title_of(each))}</b>: {_plain(help_of(each))}")
+            if each.name == "preset":
+                paragraphs.append(presets_of(self.parameter_sets()))
+        return "\n".join(paragraphs)
 
     def createInstance(self) -> BareEarthAlgorithm:
         """Return another instance."""
@@ -237,6 +251,11 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
                 looks[results[name]] = layers.RASTERS[name]
         looks.update(self._looks)
         layers.arrange(context, looks, labels, self.subject or self.title, self._group)
+
+
+def _plain(text: str) -> str:
+    """Return a text for a page; quotes stay, as `qgis_process help` shows them as they are."""
+    return escape(text, quote=False)
 
 
 @contextlib.contextmanager

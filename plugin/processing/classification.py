@@ -46,6 +46,11 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
     section = "Ground classification"
 
     @property
+    def shown(self) -> tuple[str, ...]:
+        """Return the parameters that matter: preset, size of the largest object, cell size."""
+        return "preset", METHODS[self.method].size_parameter, "dtm_cell_size"
+
+    @property
     def run_name(self) -> str:
         """Return what the group of the layers is called."""
         return METHODS[self.method].label

@@ -34,6 +34,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         "Classifies the ground points of many files, each as if all were one, and writes each anew"
         " under its name. A virtual point cloud (.vpc) lists the results.\n"
     ) + FOLDER_HELP
+    shown = "method", "preset"
     keywords = (
         "lidar", "point cloud", "las", "laz", "copc", "vpc", "tiles", "batch", "survey", "folder",
         "ground", "bare earth", "classification", "classify", "filter", "terrain")  # fmt: skip

@@ -232,6 +232,8 @@ def add_area(algorithm: QgsProcessingAlgorithm) -> None:
     )
     for field in fields:
         field.setHelp(AREA_FIELDS[field.name()][1])
+        if field.name() == "BOUNDARY":
+            field.setFlags(field.flags() | compat.ADVANCED)
         algorithm.addParameter(field)
 
 

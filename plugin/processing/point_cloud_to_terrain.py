@@ -30,6 +30,7 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         "Finds the ground of a raw lidar point cloud and makes maps of it, of which any may be left"
         f" out. Local relief shows small features. Lengths are metres.\n{SURVEY_HELP}"
     )
+    shown = "method", "preset", "dtm_cell_size"
     keywords = (
         "lidar", "las", "laz", "copc", "vpc", "ground", "bare earth", "dtm", "dem", "dsm", "chm",
         "hillshade", "relief", "contours", "smrf", "pmf", "csf", "lasground", "ground filter",

@@ -29,6 +29,7 @@ class TerrainModelAlgorithm(ProductAlgorithm):
         "hillshade", "relief", "raster", "rasterize", "interpolate", "tin", "elevation",
     )  # fmt: skip
     page, run_name = "terrain-model", "terrain and surface"
+    shown = "dtm_cell_size", "max_edge"
     numbers = (("GROUND_COUNT", "Ground points"), ("SURFACE_COUNT", "Points of the surface"))
 
     def parameter_sets(self):
