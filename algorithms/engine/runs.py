@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Iterable, Union
+from typing import Any, Iterable, Sequence, Union
 
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
@@ -146,7 +146,7 @@ def terrain(
     return rasters_of_files(paths, request, progress, workers)
 
 
-def is_one_file(paths: list[Path]) -> bool:
+def is_one_file(paths: Sequence[Path]) -> bool:
     """Return whether inputs are one point cloud file, not a folder or a list of several."""
     return len(paths) == 1 and not paths[0].is_dir() and is_cloud(paths[0])
 
