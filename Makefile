@@ -1,5 +1,5 @@
 # The set-up is all in tools/environment: it makes what is missing, below build/.
-.PHONY: help demo test test-core lint test-qgis zip clean
+.PHONY: help demo test test-core lint test-qgis package clean
 
 help:  ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /  \1\t/p' Makefile | expand -t 14
@@ -19,10 +19,8 @@ lint:  ## check the style, and what plugins.qgis.org checks
 test-qgis:  ## test the plugin in the real QGIS
 	@tools/test qgis
 
-zip:  ## pack the last commit as dist/bare_earth.zip, to install in QGIS
-	@mkdir -p dist
-	@git diff --quiet HEAD || echo "Changes that are not committed are left out."
-	git archive --format=zip --prefix=bare_earth/ --output=dist/bare_earth.zip HEAD
+package:  ## pack the last commit, with laspy, as dist/bare_earth-X.Y.Z.zip, to install in QGIS
+	@tools/environment package
 
 clean:  ## remove what these made
 	rm -rf build dist demo-output bare_earth.egg-info

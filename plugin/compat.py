@@ -20,6 +20,11 @@ from qgis.core import (
     QgsRasterLayer,
 )
 
+try:  # Qt 6 has it there
+    from qgis.PyQt.QtGui import QAction as QAction
+except ImportError:
+    from qgis.PyQt.QtWidgets import QAction as QAction
+
 # From 3.36 on the enumerations are those of `Qgis`; the old names are on their way out.
 if hasattr(Qgis, "ProcessingParameterFlag"):
     ADVANCED = Qgis.ProcessingParameterFlag.Advanced

@@ -101,7 +101,8 @@ def _classify(options: argparse.Namespace) -> int:
 
 def _area_of(options: argparse.Namespace) -> Area | None:
     """Return the area of the options, or None if they name none."""
-    from ..survey.area import Area, read_boundary
+    from ..survey.area import Area
+    from ..survey.vector_files import read_boundary
 
     if options.extent is None and options.boundary is None:
         return None

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
-from ..grids.model_key_points import ModelKeyPoints, model_key_points
+from ..grids.model_key_points import ModelKeyPoints, model_key_points, reach
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
 from ..las.records import check_class
@@ -23,8 +23,6 @@ from .ground import over_blocks
 from .memory import Resources
 from .steps import Marks, PointResult, PointStep, Room
 
-# Cells of the grid round a block in which ground points matter for its key points.
-_CELLS = 5.0
 # What a store keeps of ground points that are key points, and of the others.
 _KEY, _OTHER = 1, 2
 
@@ -117,7 +115,7 @@ class FindKeyPoints(PointStep):
     @property
     def blocks(self) -> Blocks:
         """The blocks in which key points are found."""
-        return Blocks.of(_CELLS * self.parameters.grid_size)
+        return Blocks.of(reach(self.parameters))
 
     def tally(self) -> GroundTally:
         """Return what `marks` counts in."""
@@ -213,7 +211,9 @@ def _job_of(
             core &= block.holds(contents.points, blocks.corner(block))
         keys = np.zeros(len(core), dtype=bool)
         if core.any():
-            keys = model_key_points(contents.points, parameters, progress)
+            # The grid belongs to the CRS, not to the block.
+            anchor = tuple(-each for each in blocks.corner(block))
+            keys = model_key_points(contents.points, parameters, progress, anchor)
         return _Found(contents.positions[core], keys[core])
 
     return job

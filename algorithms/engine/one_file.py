@@ -251,10 +251,11 @@ def rasters_of_file(
     Cancelled
         If the user asked to stop; no output is left behind.
     """
-    step, resources = request.raster_step, request.resources.now()
+    resources = request.resources.now()
     beside = next(iter(request.rasters.wanted.values()))
     with may_use(resources.thread_count), contextlib.ExitStack() as outputs:
-        las, first = open_las(source), progress.part(0.0, 0.2)
+        las, first = open_las(source), progress.part(0.1, 0.2)
+        step = request.raster_step([las], progress.part(0.0, 0.1))
         points = FilePoints.opened(las, beside, resources, False, first)
         outputs.enter_context(points)
         parts = points.parts(progress.part(0.2, 0.3))

@@ -25,6 +25,7 @@ from ..rasters.writing import Rows, check_raster_output, write_geotiff
 from ..survey.ground_classes import GroundClasses, GroundTally
 from ..survey.selection import NOISE
 from .blocks import Block, Blocks, Store
+from .constraints import FixedTerrain
 from .ground import over_blocks
 from .memory import Resources
 from .mosaic import Mosaic, Piece, gathered_strips
@@ -143,11 +144,14 @@ class MakeRasters(Step):
         Which points are ground.
     covers_ground : bool
         Whether the rasters reach as far as the ground does, not as all points but noise.
+    fixed : FixedTerrain or None
+        What is known of the terrain besides.
     """
 
     request: RasterRequest = field(default_factory=RasterRequest)
     ground: GroundClasses = field(default_factory=GroundClasses)
     covers_ground: bool = False
+    fixed: FixedTerrain | None = None
 
     @property
     def blocks(self) -> Blocks:
@@ -164,6 +168,10 @@ class MakeRasters(Step):
         ground = self.ground.of(part, tally)
         if not self.request.needs_terrain:
             ground = nothing
+        if self.fixed is not None:
+            stays = self.fixed.is_ground(part, ground)
+            tally.excluded += int(np.count_nonzero(ground & ~stays))
+            ground = stays
         if self.covers_ground:
             return Marks(ground, ground, nothing)
         shown = ground | (~np.isin(part.classification, NOISE) & ~part.withheld)
@@ -177,6 +185,10 @@ class MakeRasters(Step):
         """Refuse a file that has nothing to make the rasters of."""
         if self.request.needs_terrain:
             self.ground.check(tally, path)
+            if tally.ground == tally.excluded:
+                raise BareEarthError(
+                    f"All ground points of {path} lie in water, or where there is to be no ground."
+                )
         if self.request.needs_surface and not tally.top:
             raise BareEarthError(
                 f"{path} has no first returns to make a surface of. Take all returns instead."
@@ -193,7 +205,7 @@ class MakeRasters(Step):
         made = {}
         if len(store.leaves.counts):
             # The only block of all need not be looked at for what lies in it.
-            job_of = partial(_job_of, store, self.blocks, self.request.step, is_wanted is None)
+            job_of = partial(_job_of, store, self, is_wanted is None)
             jobs = over_blocks(store, self.blocks, job_of, resources, progress, is_wanted)
             for number, result in jobs:
                 made[number] = result
@@ -208,21 +220,31 @@ class RasterTally(GroundTally):
     ----------
     top : int
         Points of the surface.
+    excluded : int
+        Points of the ground that lie where there is to be none.
     """
 
     top: int = 0
+    excluded: int = 0
 
 
 def _job_of(
-    store: Store, blocks: Blocks, step: RasterStep, are_all: bool, block: Block, is_only: bool
+    store: Store, step: MakeRasters, are_all: bool, block: Block, is_only: bool
 ) -> Callable[[Progress], BlockRasters]:
+    blocks = step.blocks
+
     def job(progress: Progress) -> BlockRasters:
         contents, corner = blocks.contents(block, store), blocks.corner(block)
         core = np.ones(contents.points.count, dtype=bool)
         if not (is_only and are_all):
             core = block.holds(contents.points, corner)
-        marks = contents.known, contents.wanted, core
-        return step.of(contents.points, *marks, corner, block.box, progress)
+        points, ground, top = contents.points, contents.known, contents.wanted
+        edges = None
+        if step.fixed is not None and points.count:
+            points, ground, edges = step.fixed.added_to(points, ground, corner)
+            top, core = (np.pad(each, (0, points.count - len(each))) for each in (top, core))
+        marks = ground, top, core
+        return step.request.step.of(points, *marks, corner, block.box, edges, progress)
 
     return job
 

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass, field
-from typing import Any, Iterable, TypeVar
+from typing import Any, Iterable, Sequence, TypeVar
 
 from ..core.parameters import ParameterSet
+from ..core.progress import Progress
 from ..filters import DEFAULT_METHOD, METHODS
+from ..grids.dense_surface import VERTICES_A_SIDE
 from ..grids.model_key_points import ModelKeyPoints
+from ..las.lasfile import LasFile
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import TerrainModel
 from ..survey.area import Area
 from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
+from .constraints import Constraints, fixed_terrain
 from .heights import HeightOutput, MeasureHeights
 from .key_points import FindKeyPoints, KeyPointMark
 from .labelling import LabelGround
@@ -167,14 +171,19 @@ class TerrainRequest(Request):
         Which points are ground.
     terrain, surface : TerrainModel, SurfaceModel
         Cell size, light, gaps, and which points make the surface.
+    constraints : Constraints
+        Breaklines, water, and where there is no ground.
     """
 
     rasters: RasterFiles = field(default_factory=RasterFiles)
     ground: GroundClasses = field(default_factory=GroundClasses)
     terrain: TerrainModel = field(default_factory=TerrainModel)
     surface: SurfaceModel = field(default_factory=SurfaceModel)
+    constraints: Constraints = field(default_factory=Constraints)
 
-    @property
-    def raster_step(self) -> MakeRasters:
-        """What makes the rasters."""
-        return MakeRasters(RasterRequest(self.rasters, self.terrain, self.surface), self.ground)
+    def raster_step(self, files: Sequence[LasFile], progress: Progress) -> MakeRasters:
+        """Return what makes the rasters of some files, which may be read for it."""
+        request, ground = RasterRequest(self.rasters, self.terrain, self.surface), self.ground
+        cell = self.terrain.dtm_cell_size / VERTICES_A_SIDE
+        fixed = fixed_terrain(self.constraints, files, ground, cell, progress)
+        return MakeRasters(request, ground, fixed=fixed)

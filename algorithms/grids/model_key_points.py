@@ -2,23 +2,39 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import itertools
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from ..core.parameters import ParameterSet, parameter
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
-from .cells import Cells
-from .tin import Tin, hull_corners, lowest_of_duplicates
+from ..core.threads import in_threads, over_parts, parts_of
+from .cells import Cells, first_of_each
+from .growing_tin import GrowingTin
+from .tin import hull_corners, lowest_of_duplicates
 
-# Where a round would add so small a share of vertices it adds all points beyond the tolerance
-# instead of one a triangle: another triangulation for each few of them is not worth it.
-_SMALL_ROUND = 0.005
-# Share of the way to the middle of the survey by which queries on the hull are moved inside it.
-_INWARDS = 1e-9
-# Of triangles, factors that mix the numbers of their corners into one number.
-_MIX = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], dtype=np.uint64)
+# Metres by which a point may lie beyond the tolerance, or outside its cell: rounding.
+_ROUNDING = 1e-6
+# About the sides of cells in metres, of each of which one point is looked at, before every point
+# is; and so many cells at most.
+_LEVELS = (4.0, 1.0)
+_MOST_CELLS = 1e8
+# Squared distances to the centre of a cell are told apart to this share of its squared side.
+_CENTRAL = 1e-6
+# Cells of the grid, and the least metres, beyond which points do not matter.
+_REACH, _LEAST_REACH = 4.0, 40.0
+# Factors that mix the bits of numbers, and how many of the bits tell places apart.
+_MIX = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F], dtype=np.uint64)
+_BITS = 20
+# Numbers of 16 bits are sorted fastest.
+_MOST_SMALL = 1 << 16
+# Points whose arrays stay in the processor's cache.
+_POINTS_A_PART = 1 << 16
+# Times that points walk on through the TIN: far fewer, unless rounding makes them go round.
+_MOST_WALKS = 1000
 
 
 @dataclass(frozen=True)
@@ -53,17 +69,30 @@ class ModelKeyPoints(ParameterSet):
     )
 
 
+def reach(parameters: ModelKeyPoints) -> float:
+    """Return how far away, in metres, a ground point may matter to the choice at a place.
+
+    Measured: with so much round it, a part of a survey gets the key points that it gets within the
+    whole, but for about one of a thousand: at the border of the survey and beside wide gaps.
+    """
+    return max(_REACH * parameters.grid_size, _LEAST_REACH)
+
+
 def model_key_points(
     points: Points,
     parameters: ModelKeyPoints = ModelKeyPoints(),
     progress: Progress = SILENT,
+    anchor: tuple[float, float] = (0.0, 0.0),
 ) -> np.ndarray:
     """Choose the ground points that a terrain model needs.
 
-    It starts with the lowest point of each cell of a grid and the corners of the convex hull. In
-    rounds, every triangle of their TIN takes the point that lies farthest beyond the tolerance.
-    Then every ground point lies within the tolerance of the TIN of the chosen ones; but of points
-    at one place the lowest alone is looked at.
+    It starts with the lowest point of each cell of a grid, the outermost of each cell beside an
+    empty one, and the corners of the convex hull. In rounds, every triangle of their TIN takes the
+    point that lies farthest beyond the tolerance: first of few points, at last of all. Then every
+    ground point lies within the tolerance of the TIN of the chosen ones; but of points at one place
+    the lowest alone is looked at. Where four of them lie on one circle, this holds whichever way
+    the TIN divides these; of more than four on one circle, on a regular lattice, a few of ten
+    thousand may lie some centimetres beyond.
 
     Parameters
     ----------
@@ -73,6 +102,8 @@ def model_key_points(
         Tolerances and size of the grid.
     progress : Progress
         Receives progress.
+    anchor : tuple of float
+        x and y of a corner of cells of the grid in metres; the same cells in each part of a survey.
 
     Returns
     -------
@@ -82,98 +113,236 @@ def model_key_points(
     chosen = np.zeros(points.count, dtype=bool)
     if not points.count:
         return chosen
-    # From here on in an order of their own.
-    order = lowest_of_duplicates(*points)
-    points = points.take(order)
-    keys = np.zeros(points.count, dtype=bool)
-    keys[Cells.over(points, parameters.grid_size).lowest_points(points)] = True
-    keys[hull_corners(points.x, points.y)] = True
+    points, cells, order = _sorted(points, parameters.grid_size, anchor)
     progress(0.05)
-    _densify(points, keys, parameters, progress.part(0.05, 1.0))
-    chosen[order[keys]] = True
+    hull = _hull_corners(points, cells)
+    if len(hull) < 3:
+        # Points on one line: no TIN can stand for them.
+        chosen[order] = True
+        return chosen
+    lowest = cells.lowest_points(points)
+    seeds = np.unique(np.concatenate((lowest, hull, _outermost(points, cells))))
+    near = _of_cells(cells, lowest)[cells.index]
+    keys = _Keys(points, seeds, parameters)
+    levels = _levels(points, parameters.grid_size)
+    for number, (some, cells) in enumerate(levels):
+        keys.densify(some, near[some], progress.part(0.1 + 0.1 * number, 0.2 + 0.1 * number))
+        near = _of_cells(cells, some)[cells.index]
+    everyone = np.arange(points.count, dtype=np.int32)
+    keys.densify(everyone, near, progress.part(0.3, 1.0), is_last=True)
+    chosen[order[keys.are_keys]] = True
     progress(1.0)
     return chosen
 
 
-def _densify(
-    points: Points, keys: np.ndarray, parameters: ModelKeyPoints, progress: Progress
-) -> None:
-    """Add to `keys`, in place, until no point lies beyond the tolerance."""
-    middle = np.median(points.x), np.median(points.y)
-    x, y = (each + (at - each) * _INWARDS for each, at in zip(points, middle))
-    pending = np.flatnonzero(~keys)
-    beyond = np.zeros(points.count)
-    triangle = np.full(points.count, -1, dtype=np.int64)
-    old = np.empty(0, dtype=np.uint64)
-    first = None
-    while True:
-        vertices = np.flatnonzero(keys)
-        tin = Tin(*points.take(vertices))
-        if not len(tin.triangles):
-            # Points on one line: no TIN can stand for them.
-            keys[:] = True
-            return
-        names = _names(vertices[tin.source[tin.triangles]])
-        pending, stayed = _moved(pending, triangle, beyond, old, names)
-        triangle[stayed] = _renumbered(triangle[stayed], old, names)
-        triangle[pending] = tin.locate(x[pending], y[pending])
-        height = tin.interpolate(x[pending], y[pending], triangle[pending])
-        above = points.z[pending] - height
-        beyond[pending] = np.fmax(
-            above - parameters.tolerance_above, -above - parameters.tolerance_below
-        )
-        # Outside the hull by more than rounding: not known to be within the tolerance.
-        beyond[pending[np.isnan(height)]] = np.inf
-        violating = pending[beyond[pending] > 0.0]
-        if not len(violating):
-            return
-        added = _worst(violating, triangle, beyond)
-        if len(added) < _SMALL_ROUND * len(vertices):
-            added = violating
-        keys[added] = True
-        first = first or len(violating)
-        progress(1.0 - len(violating) / (first + 1))
-        old = names
-        pending = np.flatnonzero(~keys)
+def _sorted(
+    points: Points, grid_size: float, anchor: tuple[float, float]
+) -> tuple[Points, Cells, np.ndarray]:
+    """Return points cell by cell, with x and y from a corner of cells; the cells; and the order.
+
+    Of points at one place only the lowest is there.
+    """
+    kept = _lowest_of_places(points)
+    x, y = (
+        values - (at + grid_size * np.floor(((values.min() + values.max()) / 2 - at) / grid_size))
+        for values, at in zip(points, anchor)
+    )
+    # A coordinate on the border of a cell must not be rounded to the wrong side.
+    points = Points(x + _ROUNDING, y + _ROUNDING, points.z)
+    cells = Cells.over(points, grid_size)
+    index = cells.index[kept]
+    order = np.argsort((index // (index.max() // _MOST_SMALL + 1)).astype(np.uint16), kind="stable")
+    kept, index = kept[order], index[order]
+    return points.take(kept), replace(cells, index=index), kept
 
 
-def _worst(violating: np.ndarray, triangle: np.ndarray, beyond: np.ndarray) -> np.ndarray:
-    """Return of the points in each triangle the one farthest beyond the tolerance."""
-    order = np.lexsort((violating, -beyond[violating], triangle[violating]))
-    inside = triangle[violating[order]]
-    first = np.ones(len(order), dtype=bool)
-    # Those outside of all triangles are in none together.
-    first[1:] = (np.diff(inside) != 0) | (inside[1:] < 0)
-    return violating[order[first]]
+def _lowest_of_places(points: Points) -> np.ndarray:
+    """Return the indices of the points below which there is no other at the same place."""
+    # Numbers that are the same for the same place, and hardly ever for two.
+    number = np.empty(points.count, dtype=np.uint64)
+    shift = np.uint64(64 - _BITS)
+
+    def mix(part: slice) -> None:
+        mixed = (points.x[part] + 0.0).view(np.uint64) * _MIX[0]
+        mixed ^= mixed >> np.uint64(31)
+        mixed += (points.y[part] + 0.0).view(np.uint64)
+        number[part] = mixed * _MIX[1]
+
+    over_parts(mix, points.count, _POINTS_A_PART, SILENT)
+    ordered = np.sort(number)
+    is_several = np.zeros(1 << _BITS, dtype=bool)
+    is_several[ordered[1:][ordered[1:] == ordered[:-1]] >> shift] = True
+    del ordered
+    some = np.flatnonzero(is_several[number >> shift])
+    kept = np.ones(points.count, dtype=bool)
+    kept[some] = False
+    kept[some[lowest_of_duplicates(*points.take(some))]] = True
+    return np.flatnonzero(kept)
 
 
-def _names(corners: np.ndarray) -> np.ndarray:
-    """Return a number for each triangle that tells it from the others, whatever its place."""
-    mixed = np.sort(corners, axis=1).astype(np.uint64) + np.uint64(1)
-    names = mixed * _MIX
-    names ^= names >> np.uint64(29)
-    return (names * _MIX[::-1]).sum(axis=1, dtype=np.uint64)
+def _hull_corners(points: Points, cells: Cells) -> np.ndarray:
+    """Return which points are the corners of the convex hull, or the two ends of a line."""
+    # Not at the start of QGIS, which loads this module, and where scipy may be missing.
+    from scipy import ndimage
+
+    # With points in all eight cells round its own, none is a corner.
+    inner = ndimage.binary_erosion(cells.occupied, np.ones((3, 3)))
+    outer = np.flatnonzero(~inner.ravel()[cells.index])
+    return outer[hull_corners(points.x[outer], points.y[outer])]
 
 
-def _moved(
-    pending: np.ndarray,
-    triangle: np.ndarray,
-    beyond: np.ndarray,
-    old: np.ndarray,
-    names: np.ndarray,
-) -> tuple[np.ndarray, np.ndarray]:
-    """Part points into those to look at and those whose triangle is still there and was good."""
-    if not len(old):
-        return pending, pending[:0]
-    still = np.isin(old, names)
-    stays = (triangle[pending] >= 0) & (beyond[pending] <= 0.0)
-    stays &= still[triangle[pending]]
-    return pending[~stays], pending[stays]
+def _outermost(points: Points, cells: Cells) -> np.ndarray:
+    """Return of each cell beside an empty one the point that is the nearest to that.
+
+    Without them the triangles along a border reach from one corner of the hull to the next.
+    """
+    occupied, found = np.pad(cells.occupied, 1), []
+    for axis, along, across in ((1, points.x, points.y), (0, points.y, points.x)):
+        for step in (1, -1):
+            beside = np.roll(occupied, step, axis)[1:-1, 1:-1].ravel()
+            some = np.flatnonzero(~beside[cells.index])
+            keys = step * along[some], across[some]
+            found.append(some[first_of_each(cells.index[some], beside.size, *keys)])
+    return np.concatenate(found)
 
 
-def _renumbered(triangle: np.ndarray, old: np.ndarray, names: np.ndarray) -> np.ndarray:
-    """Return what number triangles of the round before have now."""
-    if not len(triangle):
-        return triangle
-    order = np.argsort(names)
-    return order[np.searchsorted(names, old[triangle], sorter=order)]
+def _levels(points: Points, grid_size: float) -> list[tuple[np.ndarray, Cells]]:
+    """Return which points to look at first, which then, and so on, and the cells they stand for."""
+    levels: list[tuple[np.ndarray, Cells]] = []
+    spread = float(np.ptp(points.x)) * float(np.ptp(points.y))
+    which, left = np.arange(points.count, dtype=np.int32), points
+    for about in _LEVELS[::-1]:
+        # So that each cell of the grid is cut into whole ones.
+        size = grid_size / max(round(grid_size / about), 1)
+        if size < grid_size and spread < _MOST_CELLS * size**2:
+            cells = Cells.over(points, size)
+            which = which[_most_central(left, size, cells.index[which])]
+            left = points.take(which)
+            levels.insert(0, (which, cells))
+    return levels
+
+
+def _most_central(points: Points, size: float, index: np.ndarray) -> np.ndarray:
+    """Return which point of each cell, of some size, is the nearest to its centre."""
+    distance = np.empty(points.count)
+
+    def measure(part: slice) -> None:
+        x, y = (values[part] / size for values in points[:2])
+        x -= np.floor(x) + 0.5
+        y -= np.floor(y) + 0.5
+        distance[part] = np.rint((x * x + y * y) / _CENTRAL)
+
+    over_parts(measure, points.count, _POINTS_A_PART, SILENT)
+    if index.max() >= points.count:
+        # Most cells are empty: only those with points get a number.
+        index = np.unique(index, return_inverse=True)[1]
+    return first_of_each(index, int(index.max()) + 1, distance, points.z, points.x, points.y)
+
+
+def _of_cells(cells: Cells, points: np.ndarray) -> np.ndarray:
+    """Return for each cell the one of some points that lies in it."""
+    found = np.zeros(cells.rows * cells.columns, dtype=np.int32)
+    found[cells.index[points]] = points
+    return found
+
+
+class _Keys:
+    """The points chosen so far, and their TIN.
+
+    Parameters
+    ----------
+    points : Points
+        No two at one place.
+    seeds : numpy.ndarray of int, shape (s,)
+        The first to be chosen, the corners of the convex hull among them.
+    parameters : ModelKeyPoints
+        The tolerances.
+
+    Attributes
+    ----------
+    are_keys : numpy.ndarray of bool, shape (n,)
+        Which points are chosen.
+    """
+
+    def __init__(self, points: Points, seeds: np.ndarray, parameters: ModelKeyPoints) -> None:
+        self._points, self._parameters = points, parameters
+        self._tin = GrowingTin(points.take(seeds))
+        self.are_keys = np.zeros(points.count, dtype=bool)
+        self.are_keys[seeds] = True
+        # Of each point that has been looked at.
+        self._triangle = np.zeros(points.count, dtype=np.int32)
+        self._triangle[seeds] = self._tin.triangles_of_vertices()
+        self._beyond = np.zeros(points.count, dtype=np.float32)
+
+    def densify(
+        self, pending: np.ndarray, near: np.ndarray, progress: Progress, is_last: bool = False
+    ) -> None:
+        """Choose points until none of the pending (k,) lies beyond the tolerance.
+
+        `near` is for each a point that has been looked at.
+        """
+        points, triangle, beyond = self._points, self._triangle, self._beyond
+        triangle[pending] = triangle[near]
+        look, waiting = pending, pending[:0]
+        for number in itertools.count():
+            self._look_at(look, progress.part(1.0 - 0.5**number, 1.0 - 0.5 ** (number + 1)))
+            violating = np.concatenate((waiting, self._violating(look)))
+            if is_last and not len(violating):
+                violating = self._violating(self._ambiguous(pending))
+            if not len(violating):
+                return
+            keys = -beyond[violating], points.x[violating], points.y[violating]
+            worst = violating[first_of_each(triangle[violating], self._tin.count, *keys)]
+            added, changed = self._tin.add(points.take(worst), triangle[worst], beyond[worst])
+            self.are_keys[worst[added]] = True
+            waiting = violating[~changed[triangle[violating]]]
+            look = self._within(changed, pending)
+
+    def _look_at(self, which: np.ndarray, progress: Progress) -> None:
+        """Find the triangles of points, and how far these are beyond the tolerance."""
+        for _ in range(_MOST_WALKS):
+            over_parts(partial(self._walk, which), len(which), _POINTS_A_PART, progress)
+            which, progress = which[np.isnan(self._beyond[which])], SILENT
+            if not len(which):
+                return
+
+    def _walk(self, which: np.ndarray, part: slice) -> None:
+        some = which[part]
+        x, y, z = (each.take(some) for each in self._points)
+        triangle = self._triangle.take(some)
+        self._beyond[some] = self._over(z - self._tin.heights(x, y, triangle))
+        self._triangle[some] = triangle
+
+    def _over(self, above: np.ndarray) -> np.ndarray:
+        """Return how far points so far above the TIN are beyond the tolerance."""
+        parameters = self._parameters
+        return np.maximum(above - parameters.tolerance_above, -above - parameters.tolerance_below)
+
+    def _violating(self, which: np.ndarray) -> np.ndarray:
+        """Return which of some points lie beyond the tolerance."""
+        # By rounding, a vertex may seem to lie in a triangle of others that has no area.
+        return which[(self._beyond[which] > _ROUNDING) & ~self.are_keys[which]]
+
+    def _within(self, triangles: np.ndarray, pending: np.ndarray) -> np.ndarray:
+        """Return which of the pending lie in the triangles that a mask (t,) names."""
+
+        def within(part: slice) -> np.ndarray:
+            some = pending[part]
+            return some[triangles.take(self._triangle.take(some))]
+
+        return np.concatenate(in_threads(within, parts_of(len(pending), _POINTS_A_PART)))
+
+    def _ambiguous(self, pending: np.ndarray) -> np.ndarray:
+        """Measure how far points are beyond the tolerance where the TIN might as well be another.
+
+        Returns which they are.
+        """
+        edges = self._tin.ambiguous_edges()
+        some = self._within(edges.reshape(-1, 3).any(axis=1), pending)
+        for k in range(3):
+            edge = 3 * self._triangle[some] + k
+            beside, edge = some[edges[edge]], edge[edges[edge]]
+            at = self._points.take(beside)
+            beyond = self._over(at.z - self._tin.flipped_heights(at.x, at.y, edge))
+            self._beyond[beside] = np.maximum(self._beyond[beside], beyond)
+        return some

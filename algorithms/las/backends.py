@@ -6,8 +6,8 @@ Nothing is imported here, so that the plugin can ask in every QGIS.
 from __future__ import annotations
 
 import importlib.util
+import shutil
 import sys
-import sysconfig
 from pathlib import Path
 from typing import Iterable
 
@@ -16,6 +16,8 @@ from ..core.errors import BareEarthError
 READING = ("laspy", "lazrs")
 WRITING_COPC = ("lazrs",)
 
+# Every Flatpak has it.
+_FLATPAK = Path("/.flatpak-info")
 _PURPOSES = {
     "laspy": "reading point clouds",
     "lazrs": "reading and writing .laz and .copc.laz files",
@@ -45,34 +47,52 @@ def require(*packages: str) -> None:
     missing = missing_packages(packages)
     if missing:
         purpose = _PURPOSES.get(missing[0], "this")
+        lacking = "QGIS does not have yet" if _inside_qgis() else "Python does not have"
         raise BareEarthError(
-            f"{purpose[0].upper()}{purpose[1:]} needs {' and '.join(missing)}, which this Python"
-            f" does not have. {install_hint(missing)}"
+            f"{purpose[0].upper()}{purpose[1:]} needs {' and '.join(missing)}, which this"
+            f" {lacking}. {install_hint(missing)}"
         )
 
 
 def install_hint(packages: Iterable[str]) -> str:
-    """Return a sentence with the command that installs `packages` for the Python at hand.
+    """Return a sentence that says how to get `packages` for the Python at hand.
 
-    Inside QGIS the command keeps pip away from numpy, of which QGIS has its own.
+    Inside QGIS the plugin gets lazrs and brings laspy along. numpy and scipy are those of the build
+    of QGIS, and come from where it came.
     """
-    names = " ".join(packages)
+    missing = list(packages)
     if not _inside_qgis():
-        return f"Install with: {_quoted(sys.executable)} -m pip install {names}"
+        command = f"{_quoted(sys.executable)} -m pip install {' '.join(missing)}"
+        return f"Install with: {command}"
+    if missing == ["lazrs"]:
+        return "Choose Plugins > Bare Earth > LAZ support in the QGIS window to get it."
+    if "laspy" in missing:
+        return "Install the plugin from its zip, which holds laspy; a clone does not."
+    return _command_of_the_build(missing)
+
+
+def _command_of_the_build(packages: list[str]) -> str:
+    """Return the command that adds packages to this build of QGIS."""
+    names, debs = " ".join(packages), " ".join(f"python3-{each}" for each in packages)
     if sys.platform == "win32":
+        command = f"osgeo4w-setup -q -k -P {debs.replace(' ', ',')}"
         return (
-            f"Open the OSGeo4W Shell from the Windows start menu, type"
-            f" 'python -m pip install --no-deps {names}' and start QGIS anew."
+            f"Open the OSGeo4W Shell from the Windows start menu, type '{command}' and start QGIS"
+            " anew."
         )
     if sys.platform == "darwin":
-        return (
-            f"In the Terminal, type '/Applications/QGIS.app/Contents/MacOS/bin/python3 -m pip"
-            f" install --no-deps {names}' and start QGIS anew."
-        )
-    flags = "--user --no-deps"
-    if (Path(sysconfig.get_path("stdlib")) / "EXTERNALLY-MANAGED").exists():
-        flags += " --break-system-packages"
-    return f"In a terminal, type 'python3 -m pip install {flags} {names}' and start QGIS anew."
+        program = Path(sys.executable).parent
+        # The bundles of QGIS 3.44 and later, and those before.
+        pythons = [program / "python", program / "bin" / "python3"]
+        python = next((each for each in pythons if each.is_file()), pythons[0])
+        command = f"{_quoted(str(python))} -m pip install --user --no-deps {names}"
+    elif _FLATPAK.exists():
+        command = f"flatpak run --devel --command=pip3 org.qgis.qgis install {names} --user"
+    else:
+        managers = ("apt-get", "dnf", "zypper")
+        found = next((each for each in managers if shutil.which(each)), "apt-get")
+        command = f"sudo {found} install {debs}"
+    return f"In a terminal, type '{command}' and start QGIS anew."
 
 
 def _inside_qgis() -> bool:

@@ -36,7 +36,7 @@ from .lasfile import (
     Vlr,
     new_vlr,
 )
-from .records import LazRecordWriter, copy_range, laszip_vlr
+from .records import LazRecordWriter, column, copy_range, laszip_vlr
 from .sources import open_source
 
 # A node takes one point for each cell of a grid of so many cells along each side, ...
@@ -279,13 +279,7 @@ def _gather(numbers: np.ndarray) -> np.ndarray:
 
 
 def _integers(records: np.ndarray, axis: int) -> np.ndarray:
-    return _column(records, 4 * axis, "<i4")
-
-
-def _column(records: np.ndarray, start: int, kind: str) -> np.ndarray:
-    """Return the field at a byte of each record, as a view that may be written to."""
-    kind = np.dtype(kind)
-    return records[:, start : start + kind.itemsize].view(kind)[:, 0]
+    return column(records, 4 * axis, "<i4")
 
 
 def _extent(
@@ -330,7 +324,7 @@ def _modernise(old: np.ndarray, new: np.ndarray, point_format: int) -> None:
     new[:, 15] = (old[:, 15] >> 5) | (bits & 0xC0)
     new[:, 17] = old[:, 17]  # user data
     angles = old[:, 16].view(np.int8) / _ANGLE_UNIT
-    _column(new, 18, "<i2")[:] = np.rint(angles)
+    column(new, 18, "<i2")[:] = np.rint(angles)
     new[:, 20:22] = old[:, 18:20]  # point source
     if point_format in _GPS_TIMES:
         start = _GPS_TIMES[point_format]
@@ -420,7 +414,7 @@ def _header(
 def _statistics(layout: LasFile, records: np.ndarray) -> _Statistics:
     coordinates = [_integers(records, axis) for axis in range(3)]
     returns = np.bincount(records[:, 14] & 0x0F, minlength=16)[1:16]
-    times = _column(records, 22, "<f8")
+    times = column(records, 22, "<f8")
     # Damaged times must not make the whole range useless.
     smallest = float(times.min(where=np.isfinite(times), initial=np.inf))
     largest = float(times.max(where=np.isfinite(times), initial=-np.inf))

@@ -12,7 +12,7 @@ from ..core.progress import paced
 from .extrabytes import ExtraDimension, place_dimension
 from .header_edits import with_count, with_z_range
 from .lasfile import LasFile
-from .records import MOST_KEPT, check_class, named, read_records
+from .records import MOST_KEPT, check_class, column, named, read_records
 
 
 @dataclass(frozen=True)
@@ -164,9 +164,8 @@ class EditedFile:
         if self._changes.z is not None:
             points["Z"] = self._changes.z[part]
         if self._place is not None:
-            end = self._place.start + self._place.kind.itemsize
-            column = records[:, self._place.start : end].view(self._place.kind)
-            column[:, 0] = self._changes.extra.values[part]
+            added = column(records, self._place.start, self._place.kind)
+            added[:] = self._changes.extra.values[part]
         if self._changes.key_points is not None:
             flags = self._changes.key_points[part]
             points["key_point"] = np.where(flags < 0, points["key_point"], flags)

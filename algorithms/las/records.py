@@ -122,6 +122,13 @@ def named(layout: LasFile, records: np.ndarray) -> laspy.PackedPointRecord:
     return laspy.PackedPointRecord.from_buffer(records, point_type)
 
 
+def column(records: np.ndarray, start: int, kind: str | np.dtype) -> np.ndarray:
+    """Return the field at a byte of each record, as a view that may be written to."""
+    # numpy before 1.23 cannot view a few columns in another type, but it can view whole rows.
+    row = {"names": ["field"], "formats": [kind], "offsets": [start]}
+    return records.view(np.dtype({**row, "itemsize": records.shape[1]}))["field"][:, 0]
+
+
 def set_classes(layout: LasFile, records: np.ndarray, classes: np.ndarray) -> None:
     """Write classes into the bytes of points; flags in the same byte stay.
 

@@ -15,6 +15,7 @@ from ..grids.cell_window import CellWindow
 from ..grids.cells import first_of_each
 from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
 from ..grids.morphology import within_square
+from .terrain_edges import follow_edges
 
 # Edges of the triangles that a block makes itself, in metres and in cells: those over wider gaps
 # need points from farther away than a block sees, and are made when all blocks are there.
@@ -93,6 +94,7 @@ class RasterStep:
         core: np.ndarray,
         corner: tuple[float, float],
         box: Box,
+        edges: np.ndarray | None = None,
         progress: Progress = SILENT,
     ) -> BlockRasters:
         """Return the rasters of a block.
@@ -107,6 +109,8 @@ class RasterStep:
             x and y in the frame of the survey.
         box : tuple of float
             The block, in the frame of the survey.
+        edges : numpy.ndarray of bool, shape (n,), optional
+            Which ground points lie on lines that no triangle may cross.
         progress : Progress
             Receives progress.
         """
@@ -118,6 +122,9 @@ class RasterStep:
             terrain = self._terrain(
                 points.take(ground), inside, window, corner, progress.part(0.0, 0.6)
             )
+            if edges is not None and edges.any() and terrain[0].size:
+                some = points.take(ground), edges[ground]
+                follow_edges(terrain[0], window, self.cell, *some, corner)
         if self.surface:
             surface = self._surface(
                 points.take(top), core[top], window, corner, progress.part(0.6, 1.0)

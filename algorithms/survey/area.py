@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-import json
-import re
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any, Iterable, Iterator
 
 import numpy as np
 
@@ -14,12 +10,9 @@ from ..core.errors import BareEarthError
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
-from ..las.sources import read_text
 
 # Sorted at once: not so many that memory grows, nor so few that the loop over edges counts.
 _POINTS_A_STEP = 1 << 21
-_WKT_POLYGON = re.compile(r"\b(MULTI)?POLYGON\s*(?:ZM|Z|M)?\s*(?=\()", re.IGNORECASE)
-_WKT_PART = re.compile(r"[()]|[^()]+")
 
 Polygon = tuple[np.ndarray, ...]
 
@@ -113,90 +106,6 @@ def box_in_words(box: Box) -> str:
     """Return from where to where a box reaches."""
     west, south, east, north = box
     return f"x {west:.10g} to {east:.10g}, y {south:.10g} to {north:.10g}"
-
-
-def read_boundary(path: Path) -> tuple[Polygon, ...]:
-    """Read polygons from a GeoJSON or WKT file; what else it holds is left out.
-
-    Parameters
-    ----------
-    path : Path
-        A .geojson, .json or .wkt file.
-
-    Raises
-    ------
-    BareEarthError
-        If it cannot be read as such, or holds no polygon.
-    """
-    path = Path(path)
-    readers = {".geojson": _of_geojson, ".json": _of_geojson, ".wkt": _of_wkt}
-    reader = readers.get(path.suffix.lower())
-    if reader is None:
-        raise BareEarthError(
-            f"{path} is not a boundary that can be read. Give GeoJSON (.geojson, .json) or WKT"
-            " (.wkt); 'ogr2ogr -f GeoJSON -t_srs CRS_OF_THE_POINTS boundary.geojson FILE' converts"
-            " other formats."
-        )
-    try:
-        text = read_text(path)
-    except UnicodeDecodeError:
-        raise BareEarthError(f"{path} is not a text file. Give GeoJSON or WKT.") from None
-    try:
-        polygons = tuple(_polygon(rings) for rings in reader(text))
-    except (ValueError, TypeError, KeyError, IndexError, AttributeError, RecursionError) as error:
-        kind = "WKT" if reader is _of_wkt else "GeoJSON"
-        raise BareEarthError(f"{path} is not valid {kind}: {_one_line(error)}.") from error
-    if not any(map(len, polygons)):
-        raise BareEarthError(f"{path} holds no polygon. Give one that does.")
-    return polygons
-
-
-def _one_line(error: Exception) -> str:
-    return " ".join(str(error).split()).rstrip(".") or type(error).__name__
-
-
-def _polygon(rings: Iterable[Any]) -> Polygon:
-    polygon = []
-    for ring in rings:
-        corners = np.array([(float(corner[0]), float(corner[1])) for corner in ring])
-        if len(corners):
-            polygon.append(corners)
-    return tuple(polygon)
-
-
-def _of_geojson(text: str) -> Iterator[Any]:
-    """Yield the coordinates of each polygon of a GeoJSON text."""
-    nodes = [json.loads(text)]
-    while nodes:
-        node = nodes.pop()
-        if node is None:  # a feature without geometry
-            continue
-        kind = node["type"]
-        if kind == "Polygon":
-            yield node["coordinates"]
-        elif kind == "MultiPolygon":
-            yield from node["coordinates"]
-        elif kind == "Feature":
-            nodes.append(node["geometry"])
-        elif kind in ("FeatureCollection", "GeometryCollection"):
-            nodes += node["features" if kind == "FeatureCollection" else "geometries"]
-
-
-def _of_wkt(text: str) -> Iterator[Any]:
-    """Yield the rings of each polygon of a text that holds WKT."""
-    for match in _WKT_POLYGON.finditer(text):
-        depth, depth_of_rings, rings = 0, 3 if match[1] else 2, []
-        for part in _WKT_PART.findall(text, match.end()):
-            depth += {"(": 1, ")": -1}.get(part, 0)
-            if depth == depth_of_rings and part not in "()":
-                rings.append([corner.split() for corner in part.split(",")])
-            elif part == ")" and depth == depth_of_rings - 2:
-                yield rings
-                rings = []
-            if depth == 0:
-                break
-        if depth:
-            raise ValueError("a parenthesis is not closed")
 
 
 def _bounds(polygon: Polygon) -> Box:

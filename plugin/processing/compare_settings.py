@@ -11,7 +11,7 @@ from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.trial_options import TrialOptions
 from ...algorithms.survey.collection import find_files
 from .base import BareEarthAlgorithm, command_line
-from .inputs import PointCloudInput, area_of, source_path
+from .inputs import PointCloudInput, area_of, name_of, source_path
 
 _EXTENT_HELP = (
     "The window that is classified, such as the map's extent; at most 1,000 m wide, and quick up to"
@@ -49,14 +49,14 @@ class CompareSettingsAlgorithm(BareEarthAlgorithm):
         self.add_declared()
         self.addParameter(File("OUTPUT", "Comparison of settings", "HTML files (*.html)"))
 
-    def check(self, parameters, context):
-        """Refuse values that are not allowed, and an input that is not there."""
-        super().check(parameters, context)
-        source_path(self, parameters, "INPUT", context)
+    def find_inputs(self, parameters, context):
+        """Find the input."""
+        self._source = source_path(self, parameters, "INPUT", context)
+        self.subject = name_of(self._source)
 
     def prepare(self, parameters, context, progress):
-        """Find the input, and read the window in the CRS of its points."""
-        self._source = source_path(self, parameters, "INPUT", context)
+        """Read the window in the CRS of the points, too."""
+        super().prepare(parameters, context, progress)
         (first, *_) = find_files([self._source])
         self._window = area_of(self, parameters, context, first).box
 

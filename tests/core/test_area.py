@@ -8,7 +8,8 @@ from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.survey import area as area_module
-from bare_earth.algorithms.survey.area import Area, read_boundary
+from bare_earth.algorithms.survey.area import Area
+from bare_earth.algorithms.survey.vector_files import read_boundary
 
 SQUARE = [(0, 0), (10, 0), (10, 10), (0, 10), (0, 0)]
 HOLE = [(4, 4), (4, 6), (6, 6), (6, 4), (4, 4)]

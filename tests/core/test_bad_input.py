@@ -206,16 +206,27 @@ def test_all_missing_packages_are_told_at_once(monkeypatch):
         require("laspy", "lazrs")
 
 
+def test_inside_qgis_the_menu_is_named_for_lazrs(las, monkeypatch):
+    monkeypatch.setattr(backends, "_inside_qgis", lambda: True)
+    without(monkeypatch, "lazrs")
+    with pytest.raises(BareEarthError, match="Plugins > Bare Earth > LAZ support") as caught:
+        read_cloud(las.make("in.laz"))
+    assert "pip" not in str(caught.value)
+
+
 @pytest.mark.parametrize(
-    ("platform", "words"),
+    ("platform", "flatpak", "words"),
     [
-        ("win32", "OSGeo4W Shell"),
-        ("darwin", "QGIS.app"),
-        ("linux", "python3 -m pip install --user"),
+        ("win32", False, "'osgeo4w-setup -q -k -P python3-numpy,python3-scipy'"),
+        ("darwin", False, "python -m pip install --user --no-deps numpy scipy'"),
+        ("linux", False, "install python3-numpy python3-scipy'"),
+        ("linux", True, "--command=pip3 org.qgis.qgis install numpy scipy --user'"),
     ],
 )
-def test_inside_qgis_pip_is_kept_away_from_numpy(monkeypatch, platform, words):
+def test_inside_qgis_numpy_and_scipy_come_from_where_it_came(
+    monkeypatch, tmp_path, platform, flatpak, words
+):
     monkeypatch.setattr(backends, "_inside_qgis", lambda: True)
     monkeypatch.setattr(sys, "platform", platform)
-    hint = install_hint(["laspy", "lazrs"])
-    assert words in hint and "--no-deps" in hint and "laspy lazrs" in hint
+    monkeypatch.setattr(backends, "_FLATPAK", tmp_path if flatpak else tmp_path / "missing")
+    assert words in install_hint(["numpy", "scipy"])

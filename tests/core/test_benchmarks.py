@@ -73,6 +73,7 @@ class Broken:
         raise RuntimeError("no licence")
 
 
+@pytest.mark.long
 def test_the_whole_benchmark_writes_the_page(folder, capsys, monkeypatch):
     monkeypatch.setattr(accuracy, "DENSE_TILE", "")  # for time's sake
     kinds = {name: KINDS[name] for name in ("drone_50", "dense_canopy")}

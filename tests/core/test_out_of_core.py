@@ -89,7 +89,7 @@ def run(source, folder, parameters, resources, *policy, **options):
     ],
 )
 def test_the_same_bytes_in_memory_and_on_disk(small, las, tmp_path, parameters, selection, area):
-    source = write(tmp_path / "in.las", 7000)
+    source = write(tmp_path / "in.las", 4000)
     heard = las.Heard(), las.Heard()
     results = [
         run(

@@ -1,9 +1,10 @@
 """What QGIS, plugins.qgis.org and pip read of the package."""
 
 import configparser
-import io
 import re
+import shutil
 import subprocess
+import sys
 import zipfile
 from pathlib import Path
 
@@ -22,23 +23,26 @@ def metadata():
     return parser["general"]
 
 
+def make_package(folder):
+    """Run what `make package` runs; return the zip, and what was said."""
+    done = subprocess.run(
+        [sys.executable, ROOT / "tools" / "package.py", folder], capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    (file,) = folder.iterdir()
+    return file, done.stdout
+
+
 @pytest.fixture(scope="module")
-def names():
-    """Return the names in the zip that `make zip` makes of the last commit."""
-    # safe.directory: a clone may belong to another user than the one who runs the tests.
-    command = ["git", "-c", f"safe.directory={ROOT}", "-C", str(ROOT), "archive"]
-    try:
-        done = subprocess.run(
-            [*command, "--format=zip", "--prefix=bare_earth/", "HEAD"],
-            capture_output=True,
-            check=False,
-        )
-    except FileNotFoundError:
-        pytest.skip("there is no git")
-    if not (ROOT / ".git").exists():
-        pytest.skip("this is no git checkout")
-    assert done.returncode == 0, done.stderr.decode()
-    return zipfile.ZipFile(io.BytesIO(done.stdout)).namelist()
+def package(tmp_path_factory):
+    if not (ROOT / ".git").exists() or not shutil.which("git"):
+        pytest.skip("this is no git checkout, or there is no git")
+    return make_package(tmp_path_factory.mktemp("package"))
+
+
+@pytest.fixture(scope="module")
+def names(package):
+    return zipfile.ZipFile(package[0]).namelist()
 
 
 def test_metadata_has_what_qgis_and_its_plugin_site_require(metadata):
@@ -85,15 +89,63 @@ def test_pip_gets_every_package_of_the_classifier():
 
 def test_the_zip_holds_one_folder_with_what_qgis_needs(names):
     assert {name.split("/")[0] for name in names} == {"bare_earth"}
-    needed = "__init__.py metadata.txt LICENSE README.md requirements.txt plugin/plugin.py"
+    needed = (
+        "__init__.py metadata.txt LICENSE README.md requirements.txt plugin/plugin.py"
+        " algorithms/engine/runs.py packages/laspy/__init__.py"
+    )
     for name in needed.split():
         assert f"bare_earth/{name}" in names, name
-    assert "bare_earth/algorithms/engine/runs.py" in names
+    # The installer of QGIS takes the name of the plugin from the first.
+    assert names[0] == "bare_earth/"
 
 
 def test_the_zip_holds_nothing_else(names):
     top = {name.split("/")[1] for name in names if name.count("/") > 1}
-    assert top <= {"algorithms", "plugin", "docs"}
+    assert top <= {"algorithms", "plugin", "docs", "packages"}
     for name in names:
-        # The site refuses hidden files, caches and compiled code.
-        assert not re.search(r"(^|/)(\.|__MACOSX|__pycache__)|\.(pyc|so|dll|exe|ui~)$", name), name
+        # The site refuses hidden files (but for the settings of its own check), caches and
+        # compiled code.
+        hidden = re.search(r"(^|/)(\.|__MACOSX|__pycache__)", name)
+        assert not hidden or name == "bare_earth/.bandit", name
+        assert not re.search(r"\.(pyc|so|dll|dylib|exe|bat|sh|ui~)$", name), name
+
+
+def test_laspy_travels_in_the_version_that_is_pinned_with_its_licence(names, package):
+    pinned = re.search(r"laspy==([\d.]+)", (ROOT / "bundled.txt").read_text()).group(1)
+    folder = f"bare_earth/packages/laspy-{pinned}.dist-info"
+    archive = zipfile.ZipFile(package[0])
+    assert b"Redistribution and use" in archive.read(f"{folder}/licenses/LICENSE.txt")
+    metadata = archive.read(f"{folder}/METADATA").decode()
+    # It runs in all that the plugin promises, and needs nothing that QGIS lacks.
+    assert "Requires-Python: >=3.9\n" in metadata
+    needs = [line for line in metadata.splitlines() if line.startswith("Requires-Dist")]
+    assert [line for line in needs if "extra ==" not in line] == ["Requires-Dist: numpy"]
+
+
+def test_the_zip_has_the_same_bytes_each_time(package, tmp_path):
+    assert make_package(tmp_path)[0].read_bytes() == package[0].read_bytes()
+
+
+def test_what_is_to_be_set_before_publishing_is_told(package, metadata):
+    file, said = package
+    assert file.name == f"bare_earth-{metadata['version']}.zip"
+    assert str(file) in said
+    for key in ("email", "homepage", "repository", "tracker"):
+        assert f"{key}={metadata[key]}" in said
+
+
+def test_the_check_of_the_plugin_site_is_clean(package, tmp_path):
+    zipfile.ZipFile(package[0]).extractall(tmp_path)
+    # It looks for the settings in what it checks; no file of ours is exempt.
+    done = subprocess.run(
+        [sys.executable, "-m", "bandit", "--quiet", "--recursive", tmp_path, "--format", "csv"],
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stdout
+    assert (tmp_path / "bare_earth" / ".bandit").read_text() == "[bandit]\nexclude: packages\n"
+    assert not [
+        path
+        for path in (tmp_path / "bare_earth").rglob("packages")
+        if path.parent.name != "bare_earth"
+    ]

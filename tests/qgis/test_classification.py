@@ -243,7 +243,7 @@ def test_a_missing_decompressor_is_told(algorithm, scene, out, context, log, mon
     assert algorithm.provider().supportedOutputPointCloudLayerExtensions() == ["las"]
     _, done = algorithm.run(everything(scene, out, ".las"), context, log)
     assert not done
-    assert "needs lazrs" in log.text and "pip install" in log.text
+    assert "needs lazrs" in log.text and "Plugins > Bare Earth > LAZ support" in log.text
     assert os.listdir(out) == []
 
 

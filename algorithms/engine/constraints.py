@@ -1,0 +1,281 @@
+"""What a terrain model must respect: breaklines, water, and places where there is no ground."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Iterator, Sequence
+
+import numpy as np
+
+from ..core.points import Frame, Points
+from ..core.progress import SILENT, Progress
+from ..grids.lines import NearPlaces, along, falling, inside_grid, squares, two_sided
+from ..las.cloud import PointCloud, survey_frame
+from ..las.lasfile import LasFile
+from ..las.reading import read_parts
+from ..survey.area import Area, Polygon
+from ..survey.ground_classes import GroundClasses, GroundTally
+
+# Metres from a line or a border within which ground points say how high it lies.
+_NEAR = 10.0
+# The level of water is that below which this share of the ground along its border lies: banks rise.
+_LEVEL = 10.0
+# Metres between the points that hold the level inside of a border, and along a river.
+_INSIDE, _STATION = 10.0, 5.0
+# Metres beyond the points of a block to which lines are followed.
+_BEYOND = 20.0
+# Places on a line for each cell of the lattice in which points are thinned: it crosses none unseen.
+_PER_CELL = 4.0
+
+
+@dataclass(frozen=True, eq=False)
+class Constraints:
+    """What the user knows of the terrain, in coordinates of the CRS.
+
+    Attributes
+    ----------
+    breaklines : tuple of numpy.ndarray of float64, shape (n, 3)
+        Lines that no triangle crosses: edges of walls, dykes, terraces. Where z is NaN, the terrain
+        on each side of a line has the height of the nearest ground point on that side.
+    water : tuple of polygon
+        Water, as in `Area`: flattened to one level.
+    rivers : tuple of numpy.ndarray of float64, shape (n, 3)
+        Lines along which water falls, in either direction; z is not used.
+    no_ground : tuple of polygon
+        Where no point is ground, such as bridges and roofs.
+    """
+
+    breaklines: tuple[np.ndarray, ...] = ()
+    water: tuple[Polygon, ...] = ()
+    rivers: tuple[np.ndarray, ...] = ()
+    no_ground: tuple[Polygon, ...] = ()
+
+    @property
+    def any(self) -> bool:
+        """Whether there are any."""
+        return bool(self.breaklines or self.water or self.no_ground)
+
+
+@dataclass(frozen=True, eq=False)
+class FixedTerrain:
+    """Constraints as vertices of the terrain.
+
+    Attributes
+    ----------
+    edges, inside : numpy.ndarray of float64, shape (n, 3)
+        Places along lines and borders, and inside of water: metres, in the frame of the survey.
+    excluded : Area or None
+        Where points are no ground.
+    cell : float
+        Side in metres of the cells in which points are thinned.
+    """
+
+    edges: np.ndarray
+    inside: np.ndarray
+    excluded: Area | None
+    cell: float
+
+    def is_ground(self, part: PointCloud, ground: np.ndarray) -> np.ndarray:
+        """Return which of the ground points of a part stay; boolean, shape (n,)."""
+        if self.excluded is None or not ground.any():
+            return ground
+        return ground & ~self.excluded.of(part)
+
+    def added_to(
+        self, points: Points, ground: np.ndarray, corner: tuple[float, float]
+    ) -> tuple[Points, np.ndarray, np.ndarray]:
+        """Return points with the vertices near them.
+
+        Ground points that share a cell of the lattice with a vertex are no longer ground: they may
+        lie on the other side of a line.
+
+        Parameters
+        ----------
+        points : Points
+            Relative to a corner.
+        ground : numpy.ndarray of bool, shape (n,)
+            Which are ground.
+        corner : tuple of float
+            x and y in the frame of the survey.
+
+        Returns
+        -------
+        points : Points
+            All, the vertices last.
+        ground, edges : numpy.ndarray of bool, shape (n + m,)
+            Which of them are ground, and which of these lie on lines.
+        """
+        low = np.array([points.x.min(), points.y.min()]) + corner - _BEYOND
+        high = np.array([points.x.max(), points.y.max()]) + corner + _BEYOND
+        edges, inside = (
+            each[((each[:, :2] >= low) & (each[:, :2] <= high)).all(axis=1)]
+            for each in (self.edges, self.inside)
+        )
+        some = np.concatenate((edges, inside)) - (*corner, 0.0)
+        codes = squares(points.x + corner[0], points.y + corner[1], self.cell)
+        stays = ground & ~np.isin(codes, self._taken)
+        together = Points(*(np.concatenate(pair) for pair in zip(points, some.T)))
+        are_edges = np.zeros(together.count, dtype=bool)
+        are_edges[points.count : points.count + len(edges)] = True
+        return together, np.pad(stays, (0, len(some)), constant_values=True), are_edges
+
+    @cached_property
+    def _taken(self) -> np.ndarray:
+        """The cells of the lattice that hold a vertex."""
+        vertices = np.concatenate((self.edges, self.inside))
+        return np.unique(squares(*vertices[:, :2].T, self.cell))
+
+
+def fixed_terrain(
+    constraints: Constraints,
+    files: Sequence[LasFile],
+    ground: GroundClasses,
+    cell: float,
+    progress: Progress = SILENT,
+) -> FixedTerrain | None:
+    """Return constraints as vertices; heights that they lack are those of the ground near them.
+
+    Parameters
+    ----------
+    constraints : Constraints
+        What is known.
+    files : sequence of LasFile
+        The survey. It is read once for the ground near lines and water.
+    ground : GroundClasses
+        Which points are ground.
+    cell : float
+        Side in metres of the cells in which points are thinned.
+    progress : Progress
+        Told what cannot be used.
+
+    Raises
+    ------
+    BareEarthError
+        If a file cannot be read.
+    Cancelled
+        If the user asked to stop.
+    """
+    if not constraints.any:
+        return None
+    shapes = _Shapes(constraints, files, ground, cell / _PER_CELL, progress)
+    borders, insides = zip(*shapes.water()) if constraints.water else ((), ())
+    none, excluded = np.zeros((0, 3)), (*constraints.no_ground, *constraints.water)
+    return FixedTerrain(
+        np.concatenate([none, *shapes.breaklines(), *borders]),
+        np.concatenate([none, *insides]),
+        Area(None, excluded) if excluded else None,
+        cell,
+    )
+
+
+class _Shapes:
+    """Lines and water in metres of the survey, and the ground near them."""
+
+    def __init__(
+        self,
+        constraints: Constraints,
+        files: Sequence[LasFile],
+        ground: GroundClasses,
+        step: float,
+        progress: Progress,
+    ) -> None:
+        self._constraints, self._step, self._progress = constraints, step, progress
+        first = next(read_parts(files[0]))
+        self._frame = frame = survey_frame(first.crs)
+        unit = frame.horizontal_unit
+        self._lines = [
+            along(line * (unit, unit, frame.vertical_unit), step) for line in constraints.breaklines
+        ]
+        self._waters = [
+            tuple(np.column_stack((ring * unit, np.zeros(len(ring)))) for ring in polygon)
+            for polygon in constraints.water
+        ]
+        self._borders = [
+            np.concatenate([along(ring, step, is_closed=True) for ring in polygon])
+            for polygon in self._waters
+        ]
+        self._ground = _ground_near([*self._lines, *self._borders], files, ground, frame, progress)
+        if self._waters:
+            # What lies in water is no bank.
+            water = Area(None, tuple(tuple(ring[:, :2] for ring in each) for each in self._waters))
+            self._ground = self._ground[~water.contains(*self._ground[:, :2].T)]
+
+    def breaklines(self) -> Iterator[np.ndarray]:
+        """Yield the vertices of each breakline."""
+        lost = 0
+        for line in self._lines:
+            unknown = np.isnan(line[:, 2])
+            sides = two_sided(line, self._ground, _NEAR)[np.tile(unknown, 2)]
+            sides = sides[~np.isnan(sides[:, 2])]
+            lost += bool(unknown.all()) and not len(sides)
+            yield np.concatenate((line[~unknown], sides))
+        if lost:
+            self._progress.warning(
+                f"{lost:,} breaklines have no z, and no ground within {_NEAR:g} m: left out."
+            )
+
+    def water(self) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """Yield the vertices of each water: those of its border, and some inside."""
+        rivers = [
+            along(line * ([self._frame.horizontal_unit] * 2 + [1.0]), _STATION)[:, :2]
+            for line in self._constraints.rivers
+        ]
+        dry = 0
+        for polygon, border in zip(self._waters, self._borders):
+            heights = self._heights(border)
+            if np.isnan(heights).all():
+                dry += 1
+                yield np.zeros((0, 3)), np.zeros((0, 3))
+                continue
+            area = Area(None, (tuple(ring[:, :2] for ring in polygon),))
+            inside = inside_grid(area.bounds, _INSIDE)
+            inside = inside[area.contains(*inside.T)]
+            places = np.concatenate((border[:, :2], inside))
+            levels = np.full(len(places), np.nanpercentile(heights, _LEVEL))
+            line = np.concatenate(
+                [np.zeros((0, 2)), *(each[area.contains(*each.T)] for each in rivers)]
+            )
+            if len(line) > 1:
+                levels = falling(line, border[:, :2], heights, places, _LEVEL)
+            vertices = np.column_stack((places, levels))
+            yield vertices[: len(border)], vertices[len(border) :]
+        if dry:
+            self._progress.warning(
+                f"{dry:,} waters have no ground within {_NEAR:g} m of their border: they are not"
+                " flattened, and nothing in them is ground."
+            )
+
+    def _heights(self, places: np.ndarray) -> np.ndarray:
+        """Return the height of the nearest ground point; NaN where none is near."""
+        from scipy.spatial import cKDTree
+
+        heights = np.full(len(places), np.nan)
+        if len(self._ground) and len(places):
+            tree = cKDTree(self._ground[:, :2])
+            far, nearest = tree.query(places[:, :2], distance_upper_bound=_NEAR)
+            found = np.isfinite(far)
+            heights[found] = self._ground[nearest[found], 2]
+        return heights
+
+
+def _ground_near(
+    lines: Sequence[np.ndarray],
+    files: Sequence[LasFile],
+    ground: GroundClasses,
+    frame: Frame,
+    progress: Progress,
+) -> np.ndarray:
+    """Return the ground points in the cells of lines and those round them, shape (n, 3)."""
+    if not lines:
+        return np.zeros((0, 3))
+    wanted = NearPlaces(*np.concatenate(lines)[:, :2].T, _NEAR)
+    found, tally = [np.zeros((0, 3))], GroundTally()
+    for number, las in enumerate(files):
+        part = progress.part(number / len(files), (number + 1) / len(files))
+        for some in read_parts(las, part.quiet()):
+            which = np.flatnonzero(ground.of(some, tally))
+            places = some.places(which, frame)
+            near = which[wanted.of(*places)]
+            found.append(np.column_stack(some.points(near, frame)))
+    return np.concatenate(found)

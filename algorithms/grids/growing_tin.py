@@ -1,0 +1,375 @@
+"""A TIN that takes more vertices, many at a time, without being triangulated anew."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..core.points import Points
+from ..core.progress import SILENT
+from ..core.threads import in_threads, over_parts, parts_of
+from .tin import Tin
+
+# Share of the sum of the terms of a determinant that may be rounding.
+_ROUNDING = 1e-12
+# Share of the squared length of an edge by which twice the area beside it may differ from 0 where a
+# point lies on the edge.
+_ON_EDGE = 1e-10
+# Twice the area, in m2, by which a query may lie outside an edge and count as on it: rounding.
+_OUTSIDE = 1e-11
+# Triangles that a query walks through at once. Those that are left are better asked for together.
+_STEPS = 6
+# Edges whose arrays stay in the processor's cache.
+_EDGES_A_PART = 1 << 15
+# Edges are flipped until all are right: long before, unless rounding makes them go round and round.
+_MOST_STEPS = 1000
+# Steps of a metre to which coordinates are compared where four vertices lie on one circle.
+_STEPS_A_METRE = 1e5
+
+
+class GrowingTin:
+    """A Delaunay triangulation of vertices, to which more are added within its convex hull.
+
+    A vertex splits the triangle that holds it into three; then edges are flipped until no vertex
+    lies in the circumcircle of a triangle (Lawson 1977). All splits, and all flips that do not
+    touch each other, are done at once. Where four vertices lie on one circle, the edge is the one
+    that ends in the westernmost: so the triangles depend on the vertices only.
+
+    Half-edge `3 * t + k` is the side of triangle `t` opposite to its corner `k`.
+
+    Parameters
+    ----------
+    vertices : Points
+        The first vertices in metres, near the origin; at least three off one line, the corners of
+        the convex hull of all that are going to be added among them. No two at one place.
+
+    Attributes
+    ----------
+    vertices : Points
+        All of them so far, in the order in which they came.
+    corners : numpy.ndarray of int32, shape (3 * t,)
+        The vertex opposite to each half-edge; those of a triangle run counterclockwise.
+    twins : numpy.ndarray of int32, shape (3 * t,)
+        The same edge as a half-edge of the neighbour; -1 on the hull.
+    """
+
+    def __init__(self, vertices: Points) -> None:
+        tin = Tin(*vertices)
+        self.vertices = vertices
+        triangles, neighbours = _without_flat(tin)
+        self.corners = tin.source[triangles].astype(np.int32).ravel()
+        self.twins = _twins(neighbours)
+        self._moved = np.arange(len(self.corners), dtype=np.int32)
+        self._flip(np.arange(len(self.corners)), np.zeros(self.count, dtype=bool))
+
+    @property
+    def count(self) -> int:
+        """Number of triangles."""
+        return len(self.corners) // 3
+
+    def triangles_of_vertices(self) -> np.ndarray:
+        """Return a triangle at each vertex, shape (v,)."""
+        triangle = np.zeros(self.vertices.count, dtype=np.int32)
+        triangle[self.corners] = np.arange(len(self.corners), dtype=np.int32) // 3
+        return triangle
+
+    def add(
+        self, points: Points, triangle: np.ndarray, rank: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Add vertices.
+
+        Parameters
+        ----------
+        points : Points
+            The new vertices, (n,).
+        triangle : numpy.ndarray of int, shape (n,)
+            The triangle that holds each, no two the same.
+        rank : numpy.ndarray of float, shape (n,)
+            The greater, the more it is wanted: of two that lie in neighbouring triangles, one of
+            them on the edge between, only one is added.
+
+        Returns
+        -------
+        added : numpy.ndarray of bool, shape (n,)
+            Which of them were added.
+        changed : numpy.ndarray of bool, shape (t,)
+            Which triangles are others than before.
+        """
+        edge, is_on_edge = self._nearest_edge(points, triangle)
+        added = self._apart(triangle, edge, is_on_edge, rank)
+        triangle, edge, is_on_edge = triangle[added], edge[added], is_on_edge[added]
+        first = self.vertices.count
+        self.vertices = self.vertices.and_also(points.take(added))
+        on_hull = is_on_edge & (self.twins[edge] < 0)
+        edges = self._split(triangle, edge, on_hull, np.arange(first, self.vertices.count))
+        changed = np.zeros(self.count, dtype=bool)
+        changed[edges // 3] = True
+        self._flip(edges, changed)
+        return added, changed
+
+    def heights(self, x: np.ndarray, y: np.ndarray, triangle: np.ndarray) -> np.ndarray:
+        """Return the heights of the surface at queries within the hull.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray of float64, shape (q,)
+            Queries.
+        triangle : numpy.ndarray of int32, shape (q,)
+            A triangle near each; changed, in place, to the one that holds it, or to a nearer one.
+
+        Returns
+        -------
+        numpy.ndarray of float64, shape (q,)
+            Linear in each triangle; NaN where it is farther away, and to be asked for again.
+        """
+        heights = np.full(len(x), np.nan)
+        which, here = np.arange(len(x)), triangle
+        for _ in range(_STEPS):
+            corners = [self.corners.take(3 * here + k) for k in range(3)]
+            areas = self._opposite_areas(x, y, corners)
+            lowest = np.minimum(np.minimum(areas[0], areas[1]), areas[2])
+            is_outside = lowest < -_OUTSIDE
+            go = np.flatnonzero(is_outside)
+            into = self._next_triangle(here[go], [each[go] for each in areas])
+            is_outside[go[into < 0]] = False
+            stay = np.flatnonzero(~is_outside)
+            found = self._interpolated([e[stay] for e in corners], [e[stay] for e in areas])
+            heights[which[stay]], triangle[which[stay]] = found, here[stay]
+            go, here = go[into >= 0], into[into >= 0]
+            if not len(go):
+                return heights
+            which, x, y = which[go], x[go], y[go]
+        triangle[which] = here
+        return heights
+
+    def ambiguous_edges(self) -> np.ndarray:
+        """Return which half-edges (3 * t,) might as well be flipped: four vertices on a circle."""
+        ambiguous = np.zeros(len(self.twins), dtype=bool)
+
+        def look(part: slice) -> None:
+            # Each edge from one of its sides.
+            edges = np.arange(part.start, part.stop)
+            edges = edges[self.twins[part] > edges]
+            _, equal, is_convex = self._circles(self._quadrangles(edges))
+            edges = edges[equal[is_convex[equal]]]
+            ambiguous[edges] = ambiguous[self.twins[edges]] = True
+
+        over_parts(look, len(ambiguous), _EDGES_A_PART, SILENT)
+        return ambiguous
+
+    def flipped_heights(self, x: np.ndarray, y: np.ndarray, edges: np.ndarray) -> np.ndarray:
+        """Return the heights (q,) of queries beside half-edges if these were flipped."""
+        p, b, c, q = self._quadrangles(edges)
+        vertices = self.vertices
+        to_x, to_y = vertices.x[q] - vertices.x[p], vertices.y[q] - vertices.y[p]
+        is_left = to_x * (y - vertices.y[p]) - to_y * (x - vertices.x[p]) > 0.0
+        corners = [p, np.where(is_left, q, b), np.where(is_left, c, q)]
+        return self._interpolated(corners, self._opposite_areas(x, y, corners))
+
+    def _opposite_areas(
+        self, x: np.ndarray, y: np.ndarray, corners: list[np.ndarray]
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return twice the signed area between each place and the edge opposite to each corner."""
+        ax, bx, cx = (self.vertices.x.take(each) - x for each in corners)
+        ay, by, cy = (self.vertices.y.take(each) - y for each in corners)
+        return bx * cy - by * cx, cx * ay - cy * ax, ax * by - ay * bx
+
+    def _interpolated(self, corners: list[np.ndarray], areas: list[np.ndarray]) -> np.ndarray:
+        # Places may lie outside by rounding: nothing is extrapolated.
+        weights = [np.maximum(each, 0.0) for each in areas]
+        height = sum(each * self.vertices.z.take(at) for each, at in zip(weights, corners))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return height / (weights[0] + weights[1] + weights[2])
+
+    def _next_triangle(self, triangle: np.ndarray, areas: list[np.ndarray]) -> np.ndarray:
+        """Return the neighbour of each triangle towards a place outside; -1 for none."""
+        lowest = np.minimum(areas[0], areas[1])
+        worst = np.where(areas[2] < lowest, 2, areas[1] < areas[0])
+        twin = self.twins.take(3 * triangle + worst)
+        into = twin // 3
+        # Rounding, beyond the hull; or another edge lies between as well.
+        hull = np.flatnonzero(twin < 0)
+        for k in range(3):
+            twin = self.twins[3 * triangle[hull] + k]
+            inner = (twin >= 0) & (areas[k][hull] < -_OUTSIDE)
+            into[hull[inner]] = twin[inner] // 3
+        return into
+
+    def _nearest_edge(self, points: Points, triangle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the half-edge of its triangle next to each point, and if it lies on that."""
+        corners = [self.corners[3 * triangle + k] for k in range(3)]
+        areas = np.stack(self._opposite_areas(points.x, points.y, corners))
+        x, y = (np.stack([values[each] for each in corners]) for values in self.vertices[:2])
+        squared = (x - np.roll(x, -1, axis=0)) ** 2 + (y - np.roll(y, -1, axis=0)) ** 2
+        # Of the edge from corner k + 1 to k + 2, that is opposite to corner k.
+        share = areas / np.roll(squared, -1, axis=0)
+        nearest = share.argmin(axis=0)
+        return 3 * triangle + nearest, share.min(axis=0) <= _ON_EDGE
+
+    def _apart(
+        self, triangle: np.ndarray, edge: np.ndarray, is_on_edge: np.ndarray, rank: np.ndarray
+    ) -> np.ndarray:
+        """Return which new vertices can be added together; boolean, shape (n,)."""
+        apart = np.ones(len(triangle), dtype=bool)
+        number = np.full(self.count, -1, dtype=np.int64)
+        number[triangle] = np.arange(len(triangle))
+        some = np.flatnonzero(is_on_edge & (self.twins[edge] >= 0))
+        others = number[self.twins[edge[some]] // 3]
+        some, others = some[others >= 0], others[others >= 0]
+        first = rank[some] > rank[others]
+        equal = rank[some] == rank[others]
+        first |= equal & (triangle[some] < triangle[others])
+        apart[np.where(first, others, some)] = False
+        return apart
+
+    def _split(
+        self, triangle: np.ndarray, edge: np.ndarray, on_hull: np.ndarray, vertex: np.ndarray
+    ) -> np.ndarray:
+        """Split triangles at vertices within them or on the hull; return the edges round them."""
+        inner = np.flatnonzero(~on_hull)
+        second = self.count + np.arange(len(triangle), dtype=np.int32)
+        parts = np.stack((triangle, second, triangle))
+        parts[2, inner] = second[-1] + 1 + np.arange(len(inner))
+        # On the hull, in two: its edge is then opposite to the first corner, in both.
+        turn = np.where(on_hull, edge % 3, 0)
+        outer = np.stack([3 * triangle + (turn + k) % 3 for k in range(3)])
+        old = self.corners[outer]
+        self._grow(len(triangle) + len(inner))
+        for part in parts:
+            for k in range(3):
+                self.corners[3 * part + k] = old[k]
+        self.corners[3 * parts[0, inner]] = vertex[inner]
+        self.corners[3 * parts[1:] + [[1], [2]]] = vertex
+        edges = 3 * parts + [[0], [1], [2]]
+        self._move(outer.ravel(), edges.ravel())
+        self._join(3 * parts[0, inner] + 1, 3 * parts[1, inner])
+        self._join(3 * parts[0, inner] + 2, 3 * parts[2, inner])
+        self._join(3 * parts[1] + 2, 3 * parts[2] + 1)
+        return edges.ravel()
+
+    def _grow(self, count: int) -> None:
+        """Make room for more triangles."""
+        self.corners = np.append(self.corners, np.zeros(3 * count, dtype=np.int32))
+        self.twins = np.append(self.twins, np.full(3 * count, -1, dtype=np.int32))
+        self._moved = np.arange(len(self.corners), dtype=np.int32)
+
+    def _move(self, before: np.ndarray, after: np.ndarray) -> None:
+        """Renumber half-edges, for themselves and for their twins."""
+        self._moved[before] = after
+        twins = self.twins[before]
+        twins = np.where(twins < 0, -1, self._moved[twins])
+        self._moved[before] = before
+        self.twins[after] = twins
+        self.twins[twins[twins >= 0]] = after[twins >= 0]
+
+    def _join(self, one: np.ndarray, other: np.ndarray) -> None:
+        """Make half-edges twins."""
+        self.twins[one], self.twins[other] = other, one
+
+    def _flip(self, edges: np.ndarray, changed: np.ndarray) -> None:
+        """Flip edges, and those round them, until no circumcircle holds a vertex.
+
+        Parameters
+        ----------
+        edges : numpy.ndarray of int, shape (n,)
+            Half-edges to look at.
+        changed : numpy.ndarray of bool, shape (t,)
+            Triangles with a flipped edge are set in it.
+        """
+        owner = np.zeros(self.count, dtype=np.int64)
+        for _ in range(_MOST_STEPS):
+            parts = [edges[part] for part in parts_of(len(edges), _EDGES_A_PART)]
+            wrong = in_threads(self._are_wrong, parts)
+            edges = np.concatenate([each[some] for each, some in zip(parts, wrong)] or [edges])
+            if not len(edges):
+                return
+            # A triangle takes part in one flip at a time: that which is written last.
+            pair = np.column_stack((edges, self.twins[edges])) // 3
+            numbers = np.arange(len(edges))
+            owner[pair.ravel()] = np.repeat(numbers, 2)
+            now = (owner[pair] == numbers[:, None]).all(axis=1)
+            edges = self._flipped(edges[now], edges[~now])
+            changed[pair[now].ravel()] = True
+
+    def _flipped(self, edges: np.ndarray, later: np.ndarray) -> np.ndarray:
+        """Flip half-edges of which no two touch a triangle; return the edges to look at next.
+
+        `later` are others; what they are now is returned as well.
+        """
+        t, k = np.divmod(edges, 3)
+        u, j = np.divmod(self.twins[edges], 3)
+        p, q = self.corners[edges], self.corners[3 * u + j]
+        at = [3 * t + (k + 1) % 3, 3 * t + (k + 2) % 3, 3 * u + (j + 1) % 3, 3 * u + (j + 2) % 3]
+        b, c = self.corners[at[0]], self.corners[at[1]]
+        before = np.concatenate(at)
+        after = np.concatenate((3 * u, 3 * t + 2, 3 * t, 3 * u + 2))
+        self._moved[before] = after
+        later = self._moved[later]
+        self._move(before, after)
+        for k, (one, other) in enumerate(((p, q), (b, c), (q, p))):
+            self.corners[3 * t + k], self.corners[3 * u + k] = one, other
+        self._join(3 * t + 1, 3 * u + 1)
+        return np.concatenate((after, later))
+
+    def _are_wrong(self, edges: np.ndarray) -> np.ndarray:
+        """Return which half-edges (n,) are to be flipped."""
+        wrong = self.twins[edges] >= 0
+        corners = self._quadrangles(edges[wrong])
+        inside, equal, is_convex = self._circles(corners)
+        x, y = (np.rint(each[corners[:, equal]] * _STEPS_A_METRE) for each in self.vertices[:2])
+        westernmost = np.lexsort((y, x), axis=0)[0]
+        inside[equal] = (westernmost == 0) | (westernmost == 3)
+        wrong[wrong] = inside & is_convex
+        return wrong
+
+    def _circles(self, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return of quadrangles (4, n) whether the fourth corner lies in the circle of the others,
+        which of them have all four on one circle, and whether the other diagonal lies inside.
+        """
+        x, y = (values.take(corners) for values in self.vertices[:2])
+        bx, by, cx, cy, qx, qy = (each[k] - each[0] for k in (1, 2, 3) for each in (x, y))
+        p_b_q, p_q_c = bx * qy - by * qx, qx * cy - qy * cx
+        one = (qx * qx + qy * qy) * (bx * cy - by * cx)
+        two, three = (cx * cx + cy * cy) * -p_b_q, (bx * bx + by * by) * -p_q_c
+        total = one + two + three
+        rounding = _ROUNDING * (np.abs(one) + np.abs(two) + np.abs(three))
+        equal = np.flatnonzero(np.abs(total) <= rounding)
+        return total < -rounding, equal, (p_b_q > 0.0) & (p_q_c > 0.0)
+
+    def _quadrangles(self, edges: np.ndarray) -> np.ndarray:
+        """Return the corners (4, n) of the two triangles at inner half-edges.
+
+        The edge runs from the second to the third; the first lies to its left, the fourth to its
+        right.
+        """
+        t, k = np.divmod(edges, 3)
+        at = np.stack((edges, 3 * t + (k + 1) % 3, 3 * t + (k + 2) % 3, self.twins[edges]))
+        return self.corners.take(at)
+
+
+def _without_flat(tin: Tin) -> tuple[np.ndarray, np.ndarray]:
+    """Return triangles and neighbours without those on the hull that have no area."""
+    x, y = tin.x[tin.triangles], tin.y[tin.triangles]
+    ux, uy, vx, vy = (each[:, k] - each[:, 0] for k in (1, 2) for each in (x, y))
+    longest = np.maximum(np.maximum(ux**2 + uy**2, vx**2 + vy**2), (ux - vx) ** 2 + (uy - vy) ** 2)
+    flat = ux * vy - uy * vx <= _ON_EDGE * longest
+    kept, neighbours = np.ones(len(flat), dtype=bool), tin.neighbours.copy()
+    while True:
+        peeled = kept & flat & (neighbours < 0).any(axis=1)
+        if not peeled.any():
+            break
+        kept &= ~peeled
+        neighbours[(neighbours >= 0) & peeled[neighbours]] = -1
+    number = np.where(kept, np.cumsum(kept) - 1, -1)
+    neighbours = np.where(neighbours < 0, -1, number[neighbours])
+    return tin.triangles[kept], neighbours[kept]
+
+
+def _twins(neighbours: np.ndarray) -> np.ndarray:
+    """Return the twin of each half-edge from the neighbours (t, 3) of triangles."""
+    own = np.arange(len(neighbours), dtype=np.int32)[:, None]
+    twins = np.full(neighbours.shape, -1, dtype=np.int32)
+    for k in range(3):
+        back = neighbours[neighbours[:, k]] == own
+        twins[:, k] = 3 * neighbours[:, k] + back.argmax(axis=1)
+    twins[neighbours < 0] = -1
+    return twins.ravel()

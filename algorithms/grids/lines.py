@@ -1,0 +1,182 @@
+"""Lines as points: places along them, and the level of water that falls along one."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..core.points import Box
+
+# Stations to each side of one along a river that say how high the water is there.
+_STATIONS = 5
+
+_SHIFT = 32
+# Points near a place on a line among which one is looked for on each side of it.
+_NEAREST = 16
+# Metres from a line to the places on each side of it.
+_BESIDE = 0.01
+
+
+class NearPlaces:
+    """The squares that hold any of some places, and those round them.
+
+    Parameters
+    ----------
+    x, y : numpy.ndarray of float64, shape (n,)
+        The places.
+    side : float
+        Side of a square: what is no farther from a place lies in one of the squares.
+    """
+
+    def __init__(self, x: np.ndarray, y: np.ndarray, side: float) -> None:
+        steps = [(i * side, k * side) for i in (-1, 0, 1) for k in (-1, 0, 1)]
+        codes = [np.unique(squares(x + i, y + k, side)) for i, k in steps]
+        self._side, self._codes = side, np.unique(np.concatenate(codes))
+
+    def of(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Return which places lie in the squares; boolean, shape (q,)."""
+        return np.isin(squares(x, y, self._side), self._codes)
+
+
+def squares(x: np.ndarray, y: np.ndarray, side: float) -> np.ndarray:
+    """Return one number for the square that holds each place; int64, shape (n,)."""
+    column, row = (np.floor(each / side).astype(np.int64) for each in (x, y))
+    return (row << _SHIFT) + column
+
+
+def along(line: np.ndarray, step: float, is_closed: bool = False) -> np.ndarray:
+    """Return places along a line, its corners among them, no farther apart than a step.
+
+    Parameters
+    ----------
+    line : numpy.ndarray of float64, shape (n, 3)
+        x, y and z of its corners.
+    step : float
+        In the unit of x and y.
+    is_closed : bool
+        Whether the line goes back from its end to its beginning.
+
+    Returns
+    -------
+    numpy.ndarray of float64, shape (m, 3)
+        z lies on the line as well; NaN between corners of which one has none.
+
+    Examples
+    --------
+    >>> along(np.array([[0.0, 0.0, 1.0], [2.0, 0.0, 3.0]]), 1.0).tolist()
+    [[0.0, 0.0, 1.0], [1.0, 0.0, 2.0], [2.0, 0.0, 3.0]]
+    """
+    if is_closed and len(line) and not np.array_equal(line[0, :2], line[-1, :2]):
+        line = np.concatenate((line, line[:1]))
+    if len(line) < 2:
+        return line
+    lengths = np.hypot(*np.diff(line[:, :2], axis=0).T)
+    counts = np.maximum(np.ceil(lengths / step), 1).astype(np.int64)
+    segment = np.repeat(np.arange(len(counts)), counts)
+    first = np.cumsum(counts) - counts
+    share = (np.arange(len(segment)) - first[segment]) / counts[segment]
+    start, end = line[segment], line[segment + 1]
+    return np.concatenate((start + share[:, None] * (end - start), line[-1:]))
+
+
+def two_sided(line: np.ndarray, points: np.ndarray, reach: float) -> np.ndarray:
+    """Return places on both sides of a line, with the height of the nearest point on that side.
+
+    Parameters
+    ----------
+    line : numpy.ndarray of float64, shape (n, 3)
+        Places along the line; z is not used.
+    points : numpy.ndarray of float64, shape (m, 3)
+        Points of the terrain.
+    reach : float
+        In the unit of x and y: points farther away do not count.
+
+    Returns
+    -------
+    numpy.ndarray of float64, shape (2 n, 3)
+        Those on the left, then those on the right, a little beside the line. z is NaN where there
+        is no point on either side; where there is one on one side only, it counts for both.
+    """
+    from scipy.spatial import cKDTree
+
+    across = np.zeros((len(line), 2))
+    if len(line) > 1:
+        along_x, along_y = (np.gradient(line[:, axis]) for axis in (0, 1))
+        length = np.maximum(np.hypot(along_x, along_y), 1e-12)
+        across = np.column_stack((-along_y, along_x)) / length[:, None]
+    heights = np.full((2, len(line)), np.nan)
+    if len(points) and len(line):
+        count = min(_NEAREST, len(points))
+        far, which = cKDTree(points[:, :2]).query(
+            line[:, :2], list(range(1, count + 1)), distance_upper_bound=reach
+        )
+        near = np.isfinite(far)
+        which = np.where(near, which, 0)
+        side = ((points[which, :2] - line[:, None, :2]) * across[:, None]).sum(axis=2)
+        for number, there in enumerate((near & (side > 0.0), near & (side <= 0.0))):
+            first = np.argmax(there, axis=1)
+            found = points[which[np.arange(len(line)), first], 2]
+            heights[number] = np.where(there.any(axis=1), found, np.nan)
+        heights = np.where(np.isnan(heights), heights[::-1], heights)
+    places = [line[:, :2] + sign * _BESIDE * across for sign in (1.0, -1.0)]
+    return np.column_stack((np.concatenate(places), heights.ravel()))
+
+
+def inside_grid(box: Box, step: float) -> np.ndarray:
+    """Return places of a grid in a box whose lines are multiples of a step, shape (n, 2)."""
+    west, south, east, north = box
+    x, y = (
+        np.arange(np.ceil(low / step), np.floor(high / step) + 1) * step
+        for low, high in ((west, east), (south, north))
+    )
+    return np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+
+
+def falling(
+    line: np.ndarray,
+    border: np.ndarray,
+    heights: np.ndarray,
+    places: np.ndarray,
+    percentile: float,
+) -> np.ndarray:
+    """Return the level of water at some places, which falls along a line and nowhere rises.
+
+    Parameters
+    ----------
+    line : numpy.ndarray of float64, shape (n, 2)
+        Stations along the river, in order, up or down.
+    border : numpy.ndarray of float64, shape (m, 2)
+        Places on its banks.
+    heights : numpy.ndarray of float64, shape (m,)
+        Heights of the ground there; NaN where it is not known, but not everywhere.
+    places : numpy.ndarray of float64, shape (k, 2)
+        Where the level is wanted.
+    percentile : float
+        The level at a station is this percentile of the heights of the banks beside it.
+
+    Returns
+    -------
+    numpy.ndarray of float64, shape (k,)
+    """
+    from scipy.spatial import cKDTree
+
+    tree, known = cKDTree(line), ~np.isnan(heights)
+    station, heights = tree.query(border[known])[1], heights[known]
+    order = np.argsort(station, kind="stable")
+    station, heights = station[order], heights[order]
+    every = np.arange(len(line))
+    # Without the usual fall: else the lowest of the banks beside a station is the one downstream.
+    slope = np.polyfit(station, heights, 1)[0] if np.ptp(station) else 0.0
+    heights = heights - slope * station
+    firsts = np.searchsorted(station, every - _STATIONS)
+    lasts = np.searchsorted(station, every + _STATIONS, side="right")
+    filled = np.flatnonzero(lasts > firsts)
+    levels = np.array(
+        [np.percentile(heights[firsts[each] : lasts[each]], percentile) for each in filled]
+    )
+    levels = np.interp(every, filled, levels) + slope * every
+    half = max(len(line) // 2, 1)
+    if levels[:half].mean() >= levels[-half:].mean():
+        levels = np.minimum.accumulate(levels)
+    else:
+        levels = np.minimum.accumulate(levels[::-1])[::-1]
+    return levels[tree.query(places)[1]]

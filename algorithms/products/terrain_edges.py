@@ -1,0 +1,64 @@
+"""The terrain beside lines that no triangle may cross."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..core.points import Points
+from ..grids.cell_window import CellWindow
+from ..grids.cells import spacing
+from ..grids.lines import NearPlaces
+from ..grids.morphology import within_square
+from ..grids.tin import Tin
+
+# Beside a line, as far as so many cells, and so many times as far as ground points lie apart, the
+# terrain is the TIN of all points: not thinned, so that two lines close together stay two.
+_CELLS, _SPACINGS = 3.0, 3.0
+
+
+def follow_edges(
+    heights: np.ndarray,
+    window: CellWindow,
+    cell: float,
+    points: Points,
+    edges: np.ndarray,
+    corner: tuple[float, float],
+) -> None:
+    """Replace the heights of cells near lines by those of the TIN of all points there, in place.
+
+    Parameters
+    ----------
+    heights : numpy.ndarray of float, shape (rows, columns)
+        Heights of the terrain in metres.
+    window : CellWindow
+        Their cells.
+    cell : float
+        Side of a cell in metres.
+    points : Points
+        Ground points, and vertices along the lines, relative to `corner`.
+    edges : numpy.ndarray of bool, shape (n,)
+        Which are vertices along the lines.
+    corner : tuple of float
+        x and y in the frame of the survey.
+    """
+    reach = max(_CELLS * cell, _SPACINGS * spacing(points.take(~edges)))
+    lines = points.take(edges)
+    wide = math.ceil(reach / cell)
+    row, column = window.wider(wide).places(lines.x, lines.y, corner, cell)
+    touched = np.zeros((window.rows + 2 * wide, window.columns + 2 * wide), dtype=bool)
+    inside = (row >= 0) & (row < touched.shape[0]) & (column >= 0) & (column < touched.shape[1])
+    touched[row[inside], column[inside]] = True
+    near = within_square(np.maximum, touched, wide)[wide:-wide, wide:-wide]
+    row, column = np.nonzero(near)
+    if not len(row):
+        return
+    some = points.take(edges | NearPlaces(lines.x, lines.y, 2.0 * reach).of(points.x, points.y))
+    x, y = (
+        (first + at + 0.5) * cell - by
+        for first, at, by in zip((window.column, window.row), (column, row), corner)
+    )
+    found = Tin(*some).interpolate(x, y)
+    known = ~np.isnan(found)
+    heights[row[known], column[known]] = found[known]

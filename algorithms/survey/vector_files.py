@@ -1,0 +1,147 @@
+"""Reading polygons and lines from GeoJSON and WKT files."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from typing import Any, Callable, Iterator, TypeVar
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..las.sources import read_text
+from .area import Polygon
+
+_Shape = TypeVar("_Shape")
+
+_WKT_PART = re.compile(r"[()]|[^()]+")
+# A line is a single run of corners, a polygon a list of runs, its rings.
+_DEPTHS = {"LineString": 1, "Polygon": 2}
+
+
+def read_boundary(path: Path) -> tuple[Polygon, ...]:
+    """Read polygons from a GeoJSON or WKT file; what else it holds is left out.
+
+    Parameters
+    ----------
+    path : Path
+        A .geojson, .json or .wkt file.
+
+    Returns
+    -------
+    tuple of tuple of numpy.ndarray of float64, shape (n, 2)
+        The rings of each polygon.
+
+    Raises
+    ------
+    BareEarthError
+        If it cannot be read as such, or holds no polygon.
+    """
+    return _shapes(path, "Polygon", _polygon)
+
+
+def read_lines(path: Path) -> tuple[np.ndarray, ...]:
+    """Read lines from a GeoJSON or WKT file; what else it holds is left out.
+
+    Parameters
+    ----------
+    path : Path
+        A .geojson, .json or .wkt file.
+
+    Returns
+    -------
+    tuple of numpy.ndarray of float64, shape (n, 3)
+        x, y and z of the corners of each line; NaN for z where the file has none.
+
+    Raises
+    ------
+    BareEarthError
+        If it cannot be read as such, or holds no line.
+    """
+    return _shapes(path, "LineString", _line)
+
+
+def _shapes(path: Path, kind: str, made: Callable[[Any], _Shape]) -> tuple[_Shape, ...]:
+    """Return what is made of the coordinates of each geometry of a kind."""
+    path, what = Path(path), "polygon" if kind == "Polygon" else "line"
+    suffix = path.suffix.lower()
+    if suffix not in (".geojson", ".json", ".wkt"):
+        raise BareEarthError(
+            f"{path} is not a {'boundary' if what == 'polygon' else 'file of lines'} that can be"
+            " read. Give GeoJSON (.geojson, .json) or WKT (.wkt); 'ogr2ogr -f GeoJSON -t_srs"
+            " CRS_OF_THE_POINTS boundary.geojson FILE' converts other formats."
+        )
+    try:
+        text = read_text(path)
+    except UnicodeDecodeError:
+        raise BareEarthError(f"{path} is not a text file. Give GeoJSON or WKT.") from None
+    try:
+        found = _of_wkt(text, kind) if suffix == ".wkt" else _of_geojson(text, kind)
+        shapes = tuple(made(each) for each in found)
+    except (ValueError, TypeError, KeyError, IndexError, AttributeError, RecursionError) as error:
+        name = "WKT" if suffix == ".wkt" else "GeoJSON"
+        raise BareEarthError(f"{path} is not valid {name}: {_one_line(error)}.") from error
+    if not any(map(len, shapes)):
+        raise BareEarthError(f"{path} holds no {what}. Give one that does.")
+    return shapes
+
+
+def _one_line(error: Exception) -> str:
+    return " ".join(str(error).split()).rstrip(".") or type(error).__name__
+
+
+def _polygon(rings: Any) -> Polygon:
+    polygon = []
+    for ring in rings:
+        corners = np.array([(float(corner[0]), float(corner[1])) for corner in ring])
+        if len(corners):
+            polygon.append(corners)
+    return tuple(polygon)
+
+
+def _line(corners: Any) -> np.ndarray:
+    rows = [[float(each) for each in corner[:3]] for corner in corners]
+    line = np.array([row + [np.nan] * (3 - len(row)) for row in rows]).reshape(-1, 3)
+    if not np.isfinite(line[:, :2]).all():
+        raise ValueError("a corner is not a finite number")
+    return line
+
+
+def _of_geojson(text: str, kind: str) -> Iterator[Any]:
+    """Yield the coordinates of each geometry of a kind in a GeoJSON text."""
+    nodes = [json.loads(text)]
+    while nodes:
+        node = nodes.pop()
+        if node is None:  # a feature without geometry
+            continue
+        name = node["type"]
+        if name == kind:
+            yield node["coordinates"]
+        elif name == f"Multi{kind}":
+            yield from node["coordinates"]
+        elif name == "Feature":
+            nodes.append(node["geometry"])
+        elif name in ("FeatureCollection", "GeometryCollection"):
+            nodes += node["features" if name == "FeatureCollection" else "geometries"]
+
+
+def _of_wkt(text: str, kind: str) -> Iterator[Any]:
+    """Yield the coordinates of each geometry of a kind in a text that holds WKT."""
+    name = rf"\b(MULTI)?{kind.upper()}\s*(?:ZM|Z|M)?\s*(?=\()"
+    for match in re.finditer(name, text, re.IGNORECASE):
+        # In how many parentheses the corners stand, and a whole geometry.
+        corners_at = _DEPTHS[kind] + bool(match[1])
+        whole_at = corners_at - _DEPTHS[kind]
+        depth, runs = 0, []
+        for part in _WKT_PART.findall(text, match.end()):
+            depth += {"(": 1, ")": -1}.get(part, 0)
+            if depth == corners_at and part not in "()":
+                runs.append([corner.split() for corner in part.split(",")])
+            elif part == ")" and depth == whole_at and runs:
+                yield runs if kind == "Polygon" else runs[0]
+                runs = []
+            if depth == 0:
+                break
+        if depth:
+            raise ValueError("a parenthesis is not closed")

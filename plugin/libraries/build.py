@@ -1,0 +1,122 @@
+"""Which compiled packages this Python can load."""
+
+from __future__ import annotations
+
+import platform
+import re
+import sys
+import sysconfig
+from dataclasses import dataclass
+
+# The names that glibc's versions had in wheels before they were numbers.
+_LEGACY_GLIBC = {"1": (2, 5), "2010": (2, 12), "2014": (2, 17)}
+
+
+@dataclass(frozen=True)
+class Build:
+    """A build of Python, as far as compiled packages depend on it.
+
+    Attributes
+    ----------
+    python : tuple of int
+        Version of Python, as (3, 11).
+    system : {"linux", "macosx", "win"} or other
+        Kind of operating system, as wheels call it.
+    machine : str
+        Processor, as wheels call it: "x86_64", "arm64", "amd64".
+    version : tuple of int
+        Version of glibc in Linux, of the system in macOS; (0, 0) where there is none.
+    """
+
+    python: tuple[int, int]
+    system: str
+    machine: str
+    version: tuple[int, int] = (0, 0)
+
+    @classmethod
+    def here(cls) -> Build:
+        """Return the build that runs this."""
+        system, _, machine = sysconfig.get_platform().partition("-")
+        version = "0.0"
+        if system == "macosx":
+            # The platform says "universal2" where both processors are served.
+            machine, version = platform.machine(), platform.mac_ver()[0]
+        elif system == "linux":
+            version = platform.libc_ver()[1]
+        numbers = [int(each) for each in re.findall(r"\d+", version)[:2]]
+        return cls(sys.version_info[:2], system, machine, (*numbers, 0, 0)[:2])
+
+    @property
+    def name(self) -> str:
+        """Return a short name that differs where compiled packages do.
+
+        Examples
+        --------
+        >>> Build((3, 11), "linux", "x86_64").name
+        'cp311-linux_x86_64'
+        """
+        # The platform of 32-bit Windows is "win32", without a processor.
+        return "-".join([self._python, "_".join(filter(None, [self.system, self.machine]))])
+
+    @property
+    def wheels(self) -> str:
+        """Say in words what wheels must be for: "cp311 and linux_x86_64"."""
+        return self.name.replace("-", " and ", 1)
+
+    @property
+    def _python(self) -> str:
+        return "cp{}{}".format(*self.python)
+
+    def takes(self, tag: str) -> bool:
+        """Return whether a wheel with a tag can be loaded.
+
+        Parameters
+        ----------
+        tag : str
+            Python, ABI and platform, as a file WHEEL says them (PEP 425, 2012; PEP 600, 2019).
+
+        Examples
+        --------
+        >>> here = Build((3, 11), "linux", "x86_64", (2, 36))
+        >>> here.takes("cp311-cp311-manylinux_2_17_x86_64")
+        True
+        >>> here.takes("cp312-cp312-manylinux_2_17_x86_64")
+        False
+        """
+        python, abi, system = (*tag.split("-", 2), "", "", "")[:3]
+        return self._takes_python(python, abi) and (system == "any" or self._takes_system(system))
+
+    def _takes_python(self, python: str, abi: str) -> bool:
+        if abi == "none":
+            return python in ("py3", self._python)
+        if abi == "abi3":
+            # The stable interface of that version, and of all later ones.
+            found = re.fullmatch(r"cp3(\d+)", python)
+            return bool(found) and self.python >= (3, int(found.group(1)))
+        return python == abi == self._python
+
+    def _takes_system(self, system: str) -> bool:
+        if self.system == "linux":
+            return self._takes_linux(system)
+        if self.system == "macosx":
+            found = re.fullmatch(r"macosx_(\d+)_(\d+)_(\w+)", system)
+            if not found or found.group(3) not in (self.machine, "universal2"):
+                return False
+            # Older Pythons are told that every macOS from 11 on is 10.16.
+            version = (99, 0) if self.version == (10, 16) else self.version
+            return (int(found.group(1)), int(found.group(2))) <= version
+        return system == self.name.partition("-")[2]
+
+    def _takes_linux(self, system: str) -> bool:
+        found = re.fullmatch(
+            rf"(linux|musllinux|manylinux)(1|2010|2014|_(\d+)_(\d+))?_{self.machine}", system
+        )
+        if not found:
+            return False
+        kind, legacy = found.group(1), _LEGACY_GLIBC.get(found.group(2) or "")
+        if kind == "linux":
+            return True
+        if kind == "musllinux":  # there is no glibc beside musl
+            return self.version == (0, 0)
+        needed = legacy or (int(found.group(3) or 0), int(found.group(4) or 0))
+        return needed <= self.version

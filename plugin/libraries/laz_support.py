@@ -1,0 +1,113 @@
+"""LAZ support: lazrs in the user's profile, where the Python of QGIS has none."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import tempfile
+from pathlib import Path
+from typing import Callable
+
+from ...algorithms.core.errors import BareEarthError
+from . import folders, pip, wheels
+from .build import Build
+
+PACKAGE = "lazrs"
+REQUIREMENTS = Path(__file__).parents[2] / "requirements.txt"
+
+
+class LazSupport:
+    """Gets lazrs, tells whether it is there, and takes it away.
+
+    Parameters
+    ----------
+    profile : Path
+        The user's profile of QGIS.
+    """
+
+    def __init__(self, profile: Path) -> None:
+        self.folder = folders.profile_folder(profile)
+
+    @property
+    def is_there(self) -> bool:
+        """Whether .laz files can be read, whoever's lazrs it is."""
+        return importlib.util.find_spec(PACKAGE) is not None
+
+    @property
+    def is_ours(self) -> bool:
+        """Whether it is that of the profile, which can be removed here."""
+        spec = importlib.util.find_spec(PACKAGE)
+        return bool(spec and spec.origin and self.folder in Path(spec.origin).parents)
+
+    @property
+    def state(self) -> str:
+        """What there is now, in a sentence."""
+        if not self.is_there:
+            return "Not there yet: .laz and .copc.laz files cannot be read or written."
+        if self.is_ours:
+            return f"Ready. The package lazrs is in {self.folder}"
+        return "Ready. This QGIS has the package lazrs."
+
+    def use(self) -> None:
+        """Let Python find what was got before; costs nothing where there is nothing."""
+        folders.add_to_path(self.folder)
+
+    def get_by_pip(self, run: pip.Run, proxy: str = "") -> None:
+        """Get lazrs from the package index.
+
+        Parameters
+        ----------
+        run : callable
+            Runs a command, see `pip.Run`.
+        proxy : str
+            Address of the proxy to use, or nothing.
+
+        Raises
+        ------
+        BareEarthError
+            If that fails, with the reason; nothing is left then.
+        """
+        self._fill(
+            lambda new, scratch: pip.get_by_pip(
+                REQUIREMENTS, new, scratch, run, proxy, Build.here()
+            )
+        )
+
+    def get_from_wheel(self, wheel: Path) -> None:
+        """Get lazrs from a wheel file.
+
+        Raises
+        ------
+        BareEarthError
+            If the file does not fit, with the reason; nothing is left then.
+        """
+        self._fill(lambda new, _: wheels.unpack(wheel, new, PACKAGE, Build.here()))
+
+    def remove(self) -> str:
+        """Take lazrs out of the profile; return what there is to say about it."""
+        if folders.delete(self.folder):
+            return "Removed."
+        return "Removed; the files that are in use go when QGIS starts next."
+
+    def _fill(self, put: Callable[[Path, Path], None]) -> None:
+        """Let `put` fill a new folder, put it in the place of the present one, and try it."""
+        try:
+            self.folder.parent.mkdir(parents=True, exist_ok=True)
+            with tempfile.TemporaryDirectory(dir=self.folder.parent) as name:
+                new, scratch = Path(name, "new"), Path(name, "scratch")
+                new.mkdir()
+                put(new, scratch)
+                if not folders.replace(self.folder, new):
+                    raise BareEarthError(
+                        "The lazrs that was removed is still in use: start QGIS anew and try again."
+                    )
+        except OSError as error:
+            raise BareEarthError(f"lazrs could not be stored: {error}.") from error
+        self.use()
+        try:
+            importlib.import_module(PACKAGE)
+        except Exception as error:
+            folders.delete(self.folder)
+            raise BareEarthError(
+                f"The lazrs that was got cannot be loaded by this QGIS: {error}."
+            ) from error

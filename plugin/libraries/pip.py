@@ -1,0 +1,155 @@
+"""Getting packages with pip, by the Python that QGIS runs: `sys.executable` may be QGIS itself."""
+
+from __future__ import annotations
+
+import platform
+import sys
+import sysconfig
+from pathlib import Path
+from typing import Callable, Iterator, Mapping, NamedTuple, Sequence
+
+from ...algorithms.core.errors import BareEarthError
+from .build import Build
+
+
+class Finished(NamedTuple):
+    """What a command left: its exit code, and what it wrote."""
+
+    code: int
+    output: str
+
+
+# Runs a command with additional environment variables, and waits for its end.
+Run = Callable[[Sequence[str], Mapping[str, str]], Finished]
+
+_PROBE = (
+    "import platform, sys, sysconfig;"
+    "print(*sys.version_info[:2], sysconfig.get_platform(), platform.machine())"
+)
+# The settings of a user's pip are for another purpose.
+_SETTINGS = {
+    "PIP_USER": "0",
+    "PIP_REQUIRE_VIRTUALENV": "0",
+    "PIP_NO_INPUT": "1",
+    "PIP_DISABLE_PIP_VERSION_CHECK": "1",
+}
+_UNREACHED = (
+    "the package index was not reached: check the connection, and the proxy in Settings > Options"
+    " > Network, or choose a wheel file."
+)
+# What pip writes, and what it means; the first that is found counts.
+_REASONS = {
+    "SOCKS": "pip cannot work through the SOCKS proxy of QGIS's settings: choose a wheel file.",
+    "407 Proxy": "the proxy wants a name and password: give them in Settings > Options > Network.",
+    "CERTIFICATE_VERIFY_FAILED": "the certificate of the package index was not accepted.",
+    "ProxyError": _UNREACHED,
+    "Retrying (": _UNREACHED,
+    "timed out": _UNREACHED,
+    "No space left": "the disk is full.",
+    "Permission denied": "the folder of the profile may not be written to.",
+}
+
+
+def get_by_pip(
+    requirements: Path, folder: Path, scratch: Path, run: Run, proxy: str, build: Build
+) -> None:
+    """Let pip put packages, without what they depend on, into a folder.
+
+    Parameters
+    ----------
+    requirements : Path
+        The list of packages, in pip's words.
+    folder : Path
+        Where they go.
+    scratch : Path
+        A folder for pip itself, where this Python has none.
+    run : Run
+        Runs a command.
+    proxy : str
+        Address of the proxy, or nothing.
+    build : Build
+        The Python that they are for.
+
+    Raises
+    ------
+    BareEarthError
+        If there is no Python to run, no pip to be had, or pip fails; with the reason.
+    """
+    python = find_python(run)
+    settings = dict(_SETTINGS)
+    if proxy:
+        # Not as an argument: every user of the machine could read the password there.
+        settings.update(http_proxy=proxy, https_proxy=proxy)
+    done = run(
+        [
+            *_pip_of(python, scratch, run), "install", "--no-deps", "--only-binary", ":all:",
+            "--no-compile", "--retries", "1", "--timeout", "20", "--target", str(folder),
+            "--requirement", str(requirements),
+        ],
+        settings,
+    )  # fmt: skip
+    if done.code:
+        raise BareEarthError(f"lazrs could not be installed: {_reason(done.output, build)}")
+
+
+def find_python(run: Run) -> str:
+    """Return the path of the interpreter that belongs to this Python.
+
+    Raises
+    ------
+    BareEarthError
+        If there is none beside QGIS.
+    """
+    here = [*sys.version_info[:2], sysconfig.get_platform(), platform.machine()]
+    for path in candidates():
+        done = run([str(path), "-c", _PROBE], {})
+        if done.code == 0 and done.output.split() == [str(each) for each in here]:
+            return str(path)
+    raise BareEarthError(
+        "No Python interpreter was found beside this QGIS, so pip cannot be run: choose a wheel"
+        " file instead."
+    )
+
+
+def candidates() -> Iterator[Path]:
+    """Yield the files that may be this Python's interpreter, the likeliest first."""
+    program, version = Path(sys.executable or "."), "{}.{}".format(*sys.version_info[:2])
+    prefixes = [Path(each) for each in dict.fromkeys([sys.exec_prefix, sys.base_prefix])]
+    if sys.platform == "win32":
+        folders, names = [*prefixes, program.parent], ["python.exe", "python3.exe"]
+    else:
+        folders, names = [each / "bin" for each in prefixes], [f"python{version}", "python3"]
+    if sys.platform == "darwin":
+        # The bundles of QGIS 3.44 and later; and those before.
+        folders = [program.parent, program.parent / "bin", *folders]
+        names.append("python")
+    files = [folder / name for folder in folders for name in names]
+    if program.name.lower().startswith("python"):
+        files.insert(0, program)
+    yield from (each for each in dict.fromkeys(files) if each.is_file())
+
+
+def _pip_of(python: str, scratch: Path, run: Run) -> list[str]:
+    """Return the command that starts pip; where there is none, one that Python brings along."""
+    if run([python, "-m", "pip", "--version"], _SETTINGS).code == 0:
+        return [python, "-m", "pip"]
+    # Below another root, so that it does not come among the packages of QGIS.
+    done = run([python, "-m", "ensurepip", "--root", str(scratch)], _SETTINGS)
+    found = sorted(scratch.rglob("pip/__main__.py"))
+    if done.code or not found:
+        raise BareEarthError(
+            "This Python has neither pip nor ensurepip: install pip for it (in Debian and Ubuntu"
+            " python3-pip), or choose a wheel file."
+        )
+    return [python, str(found[0].parent)]
+
+
+def _reason(output: str, build: Build) -> str:
+    for words, meaning in _REASONS.items():
+        if words in output:
+            return meaning
+    if "No matching distribution" in output:
+        return f"the package index has none for {build.wheels}."
+    lines = [line.strip() for line in output.splitlines() if line.strip()]
+    errors = [line for line in lines if line.startswith("ERROR")]
+    return (errors or lines or ["pip failed without a word"])[-1].rstrip(".") + "."

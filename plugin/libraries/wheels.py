@@ -1,0 +1,114 @@
+"""Wheels that the user chooses: checked, and unzipped without pip."""
+
+from __future__ import annotations
+
+import base64
+import csv
+import hashlib
+import stat
+import zipfile
+import zlib
+from pathlib import Path, PurePosixPath
+
+from ...algorithms.core.errors import BareEarthError
+from .build import Build
+
+_MOST_BYTES = 1 << 26  # unzipped; lazrs has 2 MB
+# What zipfile raises when the file is not a zip, damaged or encrypted.
+_UNREADABLE = (
+    zipfile.BadZipFile, zlib.error, EOFError, KeyError, RuntimeError, UnicodeDecodeError
+)  # fmt: skip
+
+
+def unpack(wheel: Path, folder: Path, package: str, build: Build) -> None:
+    """Unzip a wheel into a folder.
+
+    All that is believed stands inside: the name of the file may have been changed by a browser.
+
+    Parameters
+    ----------
+    wheel : Path
+        The file.
+    folder : Path
+        Where it goes; what it holds stays.
+    package : str
+        The package that it must hold.
+    build : Build
+        The Python that it must be for.
+
+    Raises
+    ------
+    BareEarthError
+        If it is no wheel, of another package, for another Python or system, damaged, or would
+        write anywhere else.
+    """
+    try:
+        with zipfile.ZipFile(wheel) as archive:
+            info = _info_folder(archive, wheel, package)
+            members = [each for each in archive.infolist() if not each.is_dir()]
+            _check_places(members, wheel, (package, f"{package}.libs", info))
+            _check_tags(archive.read(f"{info}/WHEEL").decode(), wheel, build)
+            hashes = _hashes(archive.read(f"{info}/RECORD").decode())
+            for member in members:
+                content = archive.read(member)
+                if member.filename != f"{info}/RECORD":
+                    _check_content(content, hashes.get(member.filename), wheel)
+                target = folder / member.filename
+                target.parent.mkdir(parents=True, exist_ok=True)
+                target.write_bytes(content)
+    except _UNREADABLE as error:
+        raise BareEarthError(f"{wheel.name} is not a wheel, or damaged. Get it anew.") from error
+    except OSError as error:
+        raise BareEarthError(f"{wheel.name} could not be unzipped: {error}.") from error
+
+
+def _info_folder(archive: zipfile.ZipFile, wheel: Path, package: str) -> str:
+    """Return the folder that describes the wheel."""
+    found = {
+        name.partition("/")[0]
+        for name in archive.namelist()
+        if name.partition("/")[0].endswith(".dist-info")
+    }
+    if len(found) != 1:
+        raise BareEarthError(f"{wheel.name} is not a wheel: choose a file with the ending .whl.")
+    info = found.pop()
+    held = info.partition("-")[0]
+    if held != package:
+        raise BareEarthError(f"{wheel.name} holds {held}; a wheel of {package} is needed.")
+    return info
+
+
+def _check_tags(text: str, wheel: Path, build: Build) -> None:
+    tags = [line.partition(":")[2].strip() for line in text.splitlines() if line[:4] == "Tag:"]
+    if not any(build.takes(tag) for tag in tags):
+        raise BareEarthError(
+            f"{wheel.name} is for another Python or system ({', '.join(tags[:1])}); this QGIS"
+            f" needs one for {build.wheels}."
+        )
+
+
+def _check_places(
+    members: list[zipfile.ZipInfo], wheel: Path, folders: tuple[str, str, str]
+) -> None:
+    """Refuse names that lead out of the folder, links, and more than a package can be."""
+    for member in members:
+        parts = PurePosixPath(member.filename).parts
+        odd = "\\" in member.filename or ":" in member.filename or ".." in parts
+        if odd or parts[0] not in folders or stat.S_ISLNK(member.external_attr >> 16):
+            raise BareEarthError(
+                f"{wheel.name} holds {member.filename}, which has no place in a wheel of"
+                f" {folders[0]}. Get it anew."
+            )
+    if sum(member.file_size for member in members) > _MOST_BYTES:
+        raise BareEarthError(f"{wheel.name} is larger than any wheel of {folders[0]}.")
+
+
+def _hashes(record: str) -> dict[str, str]:
+    """Return what a file RECORD says of the files: name, and kind and value of the hash."""
+    return {row[0]: row[1] for row in csv.reader(record.splitlines()) if len(row) > 1}
+
+
+def _check_content(content: bytes, expected: str | None, wheel: Path) -> None:
+    digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
+    if expected != f"sha256={digest}":
+        raise BareEarthError(f"{wheel.name} is damaged: a file differs from its list. Get it anew.")

@@ -1,0 +1,234 @@
+"""Terrain models that respect breaklines, water and places without ground; the truth is known."""
+
+import json
+
+import laspy
+import numpy as np
+import pytest
+from surveys import cut
+
+from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.engine.constraints import Constraints
+from bare_earth.algorithms.engine.rasters import RasterFiles
+from bare_earth.algorithms.engine.requests import TerrainRequest
+from bare_earth.algorithms.engine.runs import terrain
+from bare_earth.algorithms.grids.lines import along
+from bare_earth.algorithms.survey.vector_files import read_lines
+from benchmarks.scenes.simple import scatter
+
+rasterio = pytest.importorskip("rasterio")
+EAST, NORTH = 500_000.0, 5_700_000.0
+SIZE = 120.0
+
+
+def _write(path, x, y, z):
+    las = laspy.LasData(laspy.LasHeader(point_format=6, version="1.4"))
+    las.header.scales, las.header.offsets = (0.001,) * 3, (EAST, NORTH, 0.0)
+    las.x, las.y, las.z = x + EAST, y + NORTH, z
+    las.classification[:] = 2
+    las.return_number[:] = las.number_of_returns[:] = 1
+    las.write(str(path))
+    return path
+
+
+def _raster(source, target, **constraints):
+    request = TerrainRequest(
+        rasters=RasterFiles(dtm=target), constraints=Constraints(**constraints)
+    )
+    terrain(source, request)
+    with rasterio.open(target) as raster:
+        rows, columns = np.mgrid[: raster.height, : raster.width]
+        x, y = (np.reshape(each, rows.shape) for each in raster.xy(rows.ravel(), columns.ravel()))
+        return raster.read(1, masked=True).filled(np.nan), x - EAST, y - NORTH
+
+
+def _square(west, south, east, north):
+    corners = [(west, south), (east, south), (east, north), (west, north)]
+    return (np.add(corners, (EAST, NORTH)),)
+
+
+def _line(*corners):
+    return np.add(corners, (EAST, NORTH, 0.0))
+
+
+@pytest.fixture
+def wall(tmp_path):
+    """A wall of 5 m between two levels, with a point on four square metres."""
+    x, y = scatter(SIZE, 0.25, seed=2)
+    z = np.where(x + 0.2 * y < 70.0, 10.0, 15.0)
+    ends = [(70.0, 0.0), (70.0 - 0.2 * SIZE, SIZE)]
+    lines = [_line(*((x + by, y, z) for x, y in ends)) for by, z in ((-0.02, 10.0), (0.02, 15.0))]
+    return _write(tmp_path / "wall.laz", x, y, z), tuple(lines)
+
+
+def test_no_triangle_crosses_a_breakline(wall, tmp_path):
+    source, lines = wall
+
+    def wrong(**constraints):
+        found, x, y = _raster(source, tmp_path / "dtm.tif", **constraints)
+        truth = np.where(x + 0.2 * y < 70.0, 10.0, 15.0)
+        # But for cells that the wall cuts.
+        away = np.abs(x + 0.2 * y - 70.0) > 0.8
+        return np.nanmean(np.abs(found - truth)[away] > 0.05)
+
+    assert wrong() > 0.01
+    assert wrong(breaklines=lines) == 0.0
+
+
+def test_a_breakline_without_heights_lies_on_the_ground_beside_it(wall, tmp_path):
+    source, lines = wall
+    line = np.column_stack((lines[0][:, :2] + (0.02, 0.0), np.full(2, np.nan)))
+    found, x, y = _raster(source, tmp_path / "dtm.tif", breaklines=(line,))
+    truth = np.where(x + 0.2 * y < 70.0, 10.0, 15.0)
+    away = np.abs(x + 0.2 * y - 70.0) > 0.8
+    assert np.nanmean(np.abs(found - truth)[away] > 0.05) < 0.001
+
+
+@pytest.fixture
+def lake(tmp_path):
+    """A lake whose points are scattered by waves, between banks that rise by a tenth."""
+    x, y = scatter(SIZE, 1.0, seed=4)
+    away = np.maximum(np.abs(x - 60.0), np.abs(y - 60.0)) - 30.0
+    z = 20.0 + 0.1 * np.maximum(away, 0.0)
+    waves = np.random.default_rng(1).normal(0.0, 0.6, len(x))
+    return _write(tmp_path / "lake.laz", x, y, np.where(away < 0.0, z + waves, z))
+
+
+def test_a_lake_is_flat_at_the_level_of_its_banks(lake, tmp_path):
+    shore = _square(30.0, 30.0, 90.0, 90.0)
+    found, x, y = _raster(lake, tmp_path / "dtm.tif", water=(shore,))
+    inside = np.maximum(np.abs(x - 60.0), np.abs(y - 60.0)) < 29.0
+    assert np.ptp(found[inside]) < 0.001 and abs(found[inside][0] - 20.0) < 0.1
+    plain, *_ = _raster(lake, tmp_path / "plain.tif")
+    assert np.ptp(plain[inside]) > 1.0
+    outside = np.maximum(np.abs(x - 60.0), np.abs(y - 60.0)) > 33.0
+    assert np.allclose(found[outside], plain[outside], atol=0.03, equal_nan=True)
+
+
+def test_an_island_stays(lake, tmp_path):
+    shore = (*_square(30.0, 30.0, 90.0, 90.0), *_square(50.0, 50.0, 70.0, 70.0))
+    found, x, y = _raster(lake, tmp_path / "dtm.tif", water=(shore,))
+    island = np.maximum(np.abs(x - 60.0), np.abs(y - 60.0)) < 9.0
+    assert np.ptp(found[island]) > 0.5
+
+
+@pytest.mark.parametrize("down", [True, False])
+def test_a_river_falls_along_its_line_and_is_level_across(tmp_path, down):
+    x, y = scatter(SIZE, 1.0, seed=5)
+    across = np.abs(y - 60.0)
+    z = 30.0 - 0.05 * x + 0.2 * np.maximum(across - 10.0, 0.0)
+    z = np.where(across < 10.0, z + np.random.default_rng(2).normal(0, 0.5, len(x)), z)
+    source = _write(tmp_path / "river.laz", x, y, z)
+    line = [(1.0, 60.0, 0.0), (SIZE - 1.0, 60.0, 0.0)]
+    river = _line(*(line if down else line[::-1]))
+    bed = _square(1.0, 50.0, SIZE - 1.0, 70.0)
+    found, x, y = _raster(source, tmp_path / "dtm.tif", water=(bed,), rivers=(river,))
+    inside = (np.abs(y - 60.0) < 9.0) & (x > 4.0) & (x < SIZE - 4.0)
+    assert np.nanmax(np.abs(found - (30.0 - 0.05 * x))[inside]) < 0.45
+    middle = found[np.argmin(np.abs(y[:, 0] - 60.0))]
+    middle = middle[(x[0] > 4.0) & (x[0] < SIZE - 4.0)]
+    assert (np.diff(middle) < 0.01).all() and middle[0] - middle[-1] > 4.0
+    columns = found[(np.abs(y[:, 0] - 60.0) < 8.0)][:, 20:100]
+    assert np.nanmax(np.ptp(columns, axis=0)) < 0.6
+
+
+def test_where_there_is_no_ground_the_terrain_is_that_round_about(tmp_path):
+    x, y = scatter(SIZE, 1.0, seed=6)
+    roof = (np.abs(x - 60.0) < 10.0) & (np.abs(y - 60.0) < 10.0)
+    source = _write(tmp_path / "roof.laz", x, y, np.where(roof, 12.0, 5.0))
+    polygon = _square(49.0, 49.0, 71.0, 71.0)
+    found, *_ = _raster(source, tmp_path / "dtm.tif", no_ground=(polygon,))
+    assert np.nanmax(np.abs(found - 5.0)) < 1e-3
+    everywhere = _square(-1.0, -1.0, SIZE + 1, SIZE + 1)
+    with pytest.raises(BareEarthError, match="there is to be no ground"):
+        _raster(source, tmp_path / "none.tif", no_ground=(everywhere,))
+
+
+def test_many_files_give_the_raster_of_one(wall, tmp_path):
+    source, lines = wall
+    las = laspy.read(source)
+    points = np.column_stack((las.X // 10, las.Y // 10, las.Z // 10)).astype(np.int64)
+    cut(tmp_path / "many", points, 6)
+    for path in (tmp_path / "many").iterdir():
+        part = laspy.read(path)
+        part.classification[:] = 2
+        part.write(str(path))
+    cut(tmp_path / "one", points, 2)
+    known = dict(breaklines=lines, water=(_square(10.0, 10.0, 30.0, 30.0),))
+    rasters = []
+    for folder in ("many", "one"):
+        for path in (tmp_path / folder).iterdir():
+            part = laspy.read(path)
+            part.classification[:] = 2
+            part.write(str(path))
+        rasters.append(_raster(tmp_path / folder, tmp_path / f"{folder}.tif", **known)[0])
+    assert np.array_equal(*rasters, equal_nan=True)
+
+
+def test_the_terrain_command_takes_files_of_lines_and_polygons(wall, tmp_path, capsys):
+    source, lines = wall
+    features = [
+        {
+            "type": "Feature",
+            "geometry": {"type": "LineString", "coordinates": line.tolist()},
+            "properties": {},
+        }
+        for line in lines
+    ]
+    collection = {"type": "FeatureCollection", "features": features}
+    (tmp_path / "lines.geojson").write_text(json.dumps(collection))
+    expected, *_ = _raster(source, tmp_path / "expected.tif", breaklines=lines)
+    words = ["terrain", str(source), "--dtm", str(tmp_path / "dtm.tif")]
+    assert main([*words, "--breaklines", str(tmp_path / "lines.geojson")]) == 0
+    with rasterio.open(tmp_path / "dtm.tif") as raster:
+        assert np.array_equal(raster.read(1, masked=True).filled(np.nan), expected, equal_nan=True)
+    assert main([*words, "--water", str(tmp_path / "lines.geojson")]) == 1
+    assert "lines.geojson holds no polygon" in capsys.readouterr().err
+
+
+def test_lines_far_from_any_ground_are_told(wall, tmp_path, las):
+    source, _ = wall
+    line = _line((900.0, 900.0, np.nan), (950.0, 900.0, np.nan))
+    heard = las.Heard()
+    request = TerrainRequest(
+        rasters=RasterFiles(dtm=tmp_path / "dtm.tif"),
+        constraints=Constraints(breaklines=(line,), water=(_square(800.0, 800.0, 850.0, 850.0),)),
+    )
+    terrain(source, request, heard)
+    assert any("1 breaklines have no z" in each for each in heard.warnings)
+    assert any("1 waters have no ground" in each for each in heard.warnings)
+
+
+@pytest.mark.parametrize(
+    ("text", "shapes"),
+    [
+        ("LINESTRING (0 0, 1 1)", [(2, False)]),
+        ("LINESTRING Z (0 0 5, 1 1 6, 2 2 7)", [(3, True)]),
+        ("MULTILINESTRING ((0 0, 1 1), (2 2, 3 3, 4 4))", [(2, False), (3, False)]),
+        ("POINT (1 2)\nLINESTRING (0 0, 1 1)", [(2, False)]),
+    ],
+)
+def test_lines_of_wkt(text, shapes, tmp_path):
+    (tmp_path / "a.wkt").write_text(text)
+    lines = read_lines(tmp_path / "a.wkt")
+    assert [(len(line), bool(np.isfinite(line[:, 2]).all())) for line in lines] == shapes
+
+
+@pytest.mark.parametrize(
+    "text", ["LINESTRING (0 0, 1 nan)", "LINESTRING (0 0, 1", "LINESTRING (0)"]
+)
+def test_lines_that_are_none_are_refused(text, tmp_path):
+    (tmp_path / "a.wkt").write_text(text)
+    with pytest.raises(BareEarthError, match="not valid WKT"):
+        read_lines(tmp_path / "a.wkt")
+
+
+def test_places_along_a_line_are_no_farther_apart_than_the_step():
+    line = np.array([[0.0, 0.0, 0.0], [3.0, 4.0, 10.0], [3.0, 4.0, 10.0], [9.0, 4.0, np.nan]])
+    places = along(line, 0.7)
+    assert np.hypot(*np.diff(places[:, :2], axis=0).T).max() <= 0.7 + 1e-12
+    first = places[:8]
+    assert np.allclose(first[:, 2], 2.0 * np.hypot(first[:, 0], first[:, 1]))
+    ring = along(line[:2], 0.5, is_closed=True)
+    assert np.array_equal(ring[0], ring[-1])

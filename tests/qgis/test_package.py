@@ -1,0 +1,303 @@
+"""The zip of `make package` in the window of a fresh QGIS, installed there by QGIS itself."""
+
+import json
+import os
+import shutil
+import subprocess
+import textwrap
+from pathlib import Path
+
+import laspy
+import pytest
+from support import ALGORITHM, ROOT
+
+PRELUDE = """
+import json, os, sys, time, traceback
+from qgis.core import QgsApplication, QgsSettings
+from qgis.PyQt.QtCore import QCoreApplication
+from qgis.utils import iface, plugins
+answer, given = {}, json.loads(os.environ["GIVEN"])
+
+def wait(until, seconds=60):
+    end = time.monotonic() + seconds
+    while not until() and time.monotonic() < end:
+        QCoreApplication.processEvents()
+        time.sleep(0.02)
+
+def dialog():
+    plugins["bare_earth"].show_laz_support()
+    children = iface.mainWindow().children()
+    return [each for each in children if type(each).__name__ == "LazDialog"][0]
+
+def result(found):
+    wait(lambda: found.result.text())
+    return found.result.text()
+
+def messages():
+    return [each.text() for each in iface.messageBar().items()]
+
+def run(algorithm, **parameters):
+    import processing
+    try:
+        return processing.run(algorithm, parameters)
+    except Exception as error:
+        return str(error)
+
+try:
+    exec(os.environ["STEPS"])
+except Exception:
+    answer["error"] = traceback.format_exc()
+QgsSettings().sync()
+with open(os.environ["ANSWER"], "w") as file:
+    json.dump(answer, file, default=str)
+os._exit(0)
+"""
+SENTENCE = "Plugins > Bare Earth > LAZ support"
+# The wheel of lazrs that tools/environment got.
+WHEELS = next((Path(laspy.__file__).parents[1] / "wheels").glob("lazrs-*.whl")).parent
+
+
+class Qgis:
+    """A QGIS with a profile of its own, and without the packages of these tests."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.profile = folder / "profiles" / "default"
+        for name in ("home", "runtime"):
+            (folder / name).mkdir(mode=0o700, exist_ok=True)
+        foreign = ("PYTHONPATH", "QGIS_PLUGINPATH", "QT_QPA_PLATFORM", "DISPLAY")
+        self._environment = {
+            **{key: value for key, value in os.environ.items() if key not in foreign},
+            "HOME": str(folder / "home"),
+            "XDG_RUNTIME_DIR": str(folder / "runtime"),
+            "QGIS_CUSTOM_CONFIG_PATH": str(folder),
+        }
+
+    def window(self, steps, environment=None, **given):
+        """Run steps in the window; return what they put into `answer`."""
+        script, file = self.folder / "steps.py", self.folder / "answer.json"
+        script.write_text(PRELUDE, encoding="utf-8")
+        file.unlink(missing_ok=True)
+        given = {key: str(value) for key, value in given.items()}
+        settings = {
+            "STEPS": textwrap.dedent(steps), "GIVEN": json.dumps(given), "ANSWER": str(file),
+            **(environment or {}),
+        }  # fmt: skip
+        done = subprocess.run(
+            ["xvfb-run", "-a", "qgis", "--nologo", "--noversioncheck", "--code", str(script)],
+            env={**self._environment, **settings},
+            capture_output=True,
+            text=True,
+            timeout=300,
+        )
+        assert file.exists(), done.stdout[-2000:] + done.stderr[-2000:]
+        answer = json.loads(file.read_text(encoding="utf-8"))
+        assert "error" not in answer, answer["error"]
+        return answer
+
+    def process(self, source, target):
+        """Classify by qgis_process."""
+        # In Debian 12 the wrapper of this name adds an option that it then does not know.
+        program = shutil.which("qgis_process.bin") or shutil.which("qgis_process")
+        return subprocess.run(
+            [program, "run", ALGORITHM, "--", f"INPUT={source}", f"OUTPUT={target}"],
+            env={**self._environment, "QT_QPA_PLATFORM": "offscreen"},
+            capture_output=True,
+            text=True,
+            timeout=300,
+        )
+
+
+@pytest.fixture(scope="session")
+def package(tmp_path_factory):
+    if not (ROOT / ".git").exists():
+        pytest.skip("this is no git checkout")
+    folder = tmp_path_factory.mktemp("package")
+    environment = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
+    subprocess.run([ROOT / "tools" / "environment", "package", folder], env=environment, check=True)
+    (file,) = folder.iterdir()
+    return file
+
+
+@pytest.fixture(scope="session")
+def fresh(package, tmp_path_factory):
+    """A QGIS in which nothing was done but to install the zip, and what its window said."""
+    qgis = Qgis(tmp_path_factory.mktemp("fresh"))
+    answer = qgis.window(
+        """
+        import pyplugin_installer
+        pyplugin_installer.instance().installFromZipFile(given["zip"])
+        menus = [each for each in iface.pluginMenu().actions() if each.text() == "Bare Earth"]
+        answer["menu"] = [each.text() for each in menus[0].menu().actions()]
+        answer["messages"] = messages()
+        registry = QgsApplication.processingRegistry()
+        answer["algorithms"] = len(registry.providerById("bareearth").algorithms())
+        import laspy
+        answer["laspy"] = laspy.__file__
+        """,
+        zip=package,
+    )
+    return qgis, answer
+
+
+@pytest.fixture
+def qgis(fresh, tmp_path):
+    """A copy of that QGIS, to be changed."""
+    shutil.copytree(fresh[0].folder, tmp_path / "qgis", dirs_exist_ok=True)
+    return Qgis(tmp_path / "qgis")
+
+
+@pytest.fixture
+def clouds(tmp_path):
+    from support import Scene
+
+    return Scene(tmp_path, ".las"), Scene(tmp_path, ".laz")
+
+
+def ground_of(path):
+    return int((laspy.read(path).classification == 2).sum())
+
+
+def test_qgis_installs_the_zip(fresh):
+    qgis, answer = fresh
+    assert answer["menu"] == ["LAZ support…"]
+    assert answer["algorithms"] >= 9
+    assert Path(answer["laspy"]) == (
+        qgis.profile / "python" / "plugins" / "bare_earth" / "packages" / "laspy" / "__init__.py"
+    )
+    assert len([each for each in answer["messages"] if ".laz" in each]) == 1
+
+
+def test_of_laz_support_is_told_once(qgis):
+    assert not qgis.window("answer['messages'] = messages()")["messages"]
+
+
+def test_las_works_from_the_zip_alone_and_laz_is_told(qgis, clouds, tmp_path):
+    plain, packed = clouds
+    done = qgis.process(plain.path, tmp_path / "out.las")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert ground_of(tmp_path / "out.las") == pytest.approx(plain.ground_count, rel=0.01)
+    done = qgis.process(packed.path, tmp_path / "out2.las")
+    assert done.returncode != 0 and SENTENCE in done.stdout + done.stderr
+    assert not (tmp_path / "out2.las").exists()
+
+
+def test_a_wheel_file_gives_laz_support_without_a_restart(qgis, clouds, tmp_path):
+    _, packed = clouds
+    answer = qgis.window(
+        """
+        target = given["folder"] + "/window.laz"
+        answer["before"] = run(given["algorithm"], INPUT=given["cloud"], OUTPUT=target)
+        found = dialog()
+        answer["enabled"] = [found.get.isEnabled(), found.remove.isEnabled()]
+        found.get_from_wheel(given["wheel"])
+        answer["busy"] = found.busy.isVisible()
+        answer["result"] = result(found)
+        answer["state"] = found.state.text()
+        answer["after"] = run(given["algorithm"], INPUT=given["cloud"], OUTPUT=target)
+        """,
+        wheel=next(WHEELS.iterdir()), cloud=packed.path, folder=tmp_path, algorithm=ALGORITHM,
+    )  # fmt: skip
+    assert SENTENCE in answer["before"]
+    assert answer["enabled"] == [True, False] and answer["busy"]
+    assert answer["result"] == "Done; no restart is needed."
+    assert answer["state"].startswith("Ready") and str(qgis.profile) in answer["state"]
+    assert answer["after"]["GROUND_COUNT"] == ground_of(tmp_path / "window.laz") > 0
+    # The next start, and qgis_process, have it as well.
+    done = qgis.process(packed.path, tmp_path / "process.laz")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert (tmp_path / "process.laz").read_bytes() == (tmp_path / "window.laz").read_bytes()
+
+
+def test_laz_support_is_removed_and_got_again(qgis, clouds, tmp_path):
+    answer = qgis.window(
+        """
+        found = dialog()
+        found.get_from_wheel(given["wheel"])
+        result(found)
+        import lazrs
+        answer["file"] = lazrs.__file__
+        found.remove.click()
+        answer["removed"] = [found.result.text(), found.state.text()]
+        target = given["folder"] + "/out.las"
+        answer["without"] = run(given["algorithm"], INPUT=given["cloud"], OUTPUT=target)
+        found.get_from_wheel(given["wheel"])
+        answer["again"] = [found.result.text(), result(found)]
+        answer["with"] = run(given["algorithm"], INPUT=given["cloud"], OUTPUT=target)
+        found.remove.click()
+        """,
+        wheel=next(WHEELS.iterdir()), cloud=clouds[1].path, folder=tmp_path, algorithm=ALGORITHM,
+    )  # fmt: skip
+    assert qgis.profile / "bare_earth" in Path(answer["file"]).parents
+    assert answer["removed"][0] == "Removed." and answer["removed"][1].startswith("Not there")
+    assert SENTENCE in answer["without"]
+    assert answer["again"] == ["", "Done; no restart is needed."]
+    assert answer["with"]["GROUND_COUNT"] > 0
+    assert not list((qgis.profile / "bare_earth" / "packages").iterdir())
+
+
+def test_a_wheel_for_another_python_is_refused(qgis, tmp_path):
+    wheel = tmp_path / "lazrs.whl"
+    wheel.write_bytes(b"no wheel")
+    answer = qgis.window(
+        """
+        found = dialog()
+        found.get_from_wheel(given["wheel"])
+        answer["result"] = result(found)
+        """,
+        wheel=wheel,
+    )
+    assert answer["result"] == "lazrs.whl is not a wheel, or damaged. Get it anew."
+
+
+def test_pip_gets_it_or_the_reason_is_told(qgis, tmp_path):
+    steps = """
+        found = dialog()
+        found.get.click()
+        answer["result"] = result(found)
+        answer["state"] = found.state.text()
+        """
+    has_pip = subprocess.run(["/usr/bin/python3", "-m", "pip", "--version"]).returncode == 0
+    nothing = {"PIP_NO_INDEX": "1", "PIP_FIND_LINKS": str(tmp_path), "PIP_CONFIG_FILE": os.devnull}
+    answer = qgis.window(steps, nothing)
+    expected = "the package index has none for cp3" if has_pip else "neither pip nor ensurepip"
+    assert expected in answer["result"] and answer["state"].startswith("Not there")
+    if has_pip:
+        answer = qgis.window(steps, {**nothing, "PIP_FIND_LINKS": str(WHEELS)})
+        assert answer["result"] == "Done; no restart is needed."
+        assert answer["state"].startswith("Ready")
+
+
+def test_the_proxy_of_qgis_is_that_of_pip(qgis):
+    answer = qgis.window(
+        """
+        from bare_earth.plugin.laz_dialog import proxy_address
+        from qgis.core import QgsNetworkAccessManager
+        answer["none"] = proxy_address()
+        for key, value in given.items():
+            QgsSettings().setValue(f"proxy/{key}", value)
+        QgsSettings().setValue("proxy/proxyEnabled", True)
+        QgsNetworkAccessManager.instance().setupDefaultProxyAndCache()
+        answer["proxy"] = proxy_address()
+        """,
+        proxyType="HttpProxy", proxyHost="proxy.invalid", proxyPort=3128, proxyUser="me",
+        proxyPassword="a@b",
+    )  # fmt: skip
+    assert answer == {"none": "", "proxy": "http://me:a%40b@proxy.invalid:3128"}
+
+
+@pytest.mark.parametrize("package_name", ["scipy", "numpy"])
+def test_where_numpy_or_scipy_is_missing_the_window_says_how_to_add_it(qgis, package_name):
+    answer = qgis.window(
+        """
+        from qgis.utils import startPlugin, unloadPlugin, loadPlugin
+        unloadPlugin("bare_earth")
+        sys.modules[given["name"]] = None
+        answer["started"] = loadPlugin("bare_earth") and startPlugin("bare_earth")
+        answer["messages"] = messages()
+        """,
+        name=package_name,
+    )
+    (message,) = answer["messages"]
+    assert answer["started"]
+    assert f"no {package_name}" in message and f"install python3-{package_name}" in message
