@@ -15,6 +15,8 @@ from qgis.core import (
 )
 from support import Log, write_scene
 
+from bare_earth.algorithms.engine.trial_options import SETTINGS
+
 ALGORITHM = "bareearth:comparesettings"
 WINDOW = QgsRectangle(500_010, 5_700_010, 500_070, 5_700_070)
 UTM = QgsCoordinateReferenceSystem.fromEpsgId(25832)
@@ -60,8 +62,13 @@ def test_the_window_is_transformed_to_the_crs_of_the_points(
     assert extent == pytest.approx([500_010, 5_700_010, 500_070, 5_700_070], abs=2)
 
 
-@pytest.mark.parametrize("given", ["slope:town,slope:flat", ["slope:town", "slope:flat"]])
-def test_settings_are_a_list_or_names_with_commas(registry, parameters, context, log, given):
+NUMBERS = [list(SETTINGS).index(each) for each in ("slope:town", "slope:flat")]
+
+
+@pytest.mark.parametrize(
+    "given", ["slope:town,slope:flat", ["slope:town", "slope:flat"], NUMBERS], ids=str
+)
+def test_settings_are_names_or_numbers_of_the_list(registry, parameters, context, log, given):
     parameters["SETTINGS"] = given
     _, done = registry.createAlgorithmById(ALGORITHM).run(parameters, context, log)
     assert done, log.text
