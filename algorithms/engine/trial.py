@@ -108,7 +108,8 @@ def compare_settings(
         labelled = []
         for number, setting in enumerate(settings):
             done = (0.4 + 0.4 * (number + step) / len(settings) for step in (0, 1))
-            labelled.append(points.labelled(setting, resources, progress.part(*done)))
+            part = progress.part(*done)
+            labelled.append(points.labelled(setting, resources, part, is_first=number == 0))
         found = _page(paths, points, points.outcomes(labelled), options, (context, reach))
         html = found.html()
     with replacing(page) as temporary:

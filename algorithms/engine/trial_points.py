@@ -95,7 +95,9 @@ class TrialPoints:
         x1, y1, x2, y2 = ((each - start) * unit for each, start in zip(ends, corner))
         return Line((x1, y1), (x2, y2))
 
-    def labelled(self, setting: Setting, resources: Resources, progress: Progress) -> Labelled:
+    def labelled(
+        self, setting: Setting, resources: Resources, progress: Progress, is_first: bool = True
+    ) -> Labelled:
         """Classify the points with a setting.
 
         Parameters
@@ -106,6 +108,8 @@ class TrialPoints:
             Threads and memory.
         progress : Progress
             Receives progress and messages; a warning if there is no ground.
+        is_first : bool
+            Whether what is the same with all settings is told.
 
         Raises
         ------
@@ -117,7 +121,8 @@ class TrialPoints:
         step = LabelGround(setting.parameters)
         tally = step.tally()
         files = [SurveyFile(cloud, *step.marks(cloud, tally)) for cloud in self.clouds]
-        step.tell(tally, self.clouds[0].path, progress)
+        step.tell(tally, self.clouds[0].path, progress if is_first else progress.quiet())
+        progress.info(f"{setting.label}:")
         frame = survey_frame(self.crs)
         store = MemoryPoints(files, frame, step.blocks, progress.part(0.0, 0.1), step.kind)
         try:

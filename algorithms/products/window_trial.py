@@ -11,9 +11,10 @@ from ..core.points import Points
 from ..filters.shared.confidence import confidence
 from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
 
-# Pixels along the longer side of the terrain, at most, and the sides in metres that they may have.
+# Pixels along the longer side of the terrain, at most, and the sides in metres that they may have,
+# but for whole metres.
 _MOST_CELLS = 300
-_CELL_SIZES = (0.25, 0.5, 1.0, 2.0, 5.0)
+_CELL_SIZES = (0.25, 0.5)
 # Half the width in metres of the strip along a profile: so wide that points are dense enough.
 _POINTS_A_METRE, _NARROWEST, _WIDEST = 8.0, 0.5, 3.0
 # Metres round the window in which points matter for the confidence in it.
@@ -42,7 +43,7 @@ class Window(NamedTuple):
     def cell_size(self) -> float:
         """Side in metres of the cells of the terrain."""
         least = max(self.width, self.height) / _MOST_CELLS
-        return next((each for each in _CELL_SIZES if each >= least), math.ceil(least))
+        return next((each for each in _CELL_SIZES if each >= least), float(math.ceil(least)))
 
     @property
     def shape(self) -> tuple[int, int]:
