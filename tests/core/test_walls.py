@@ -43,12 +43,12 @@ def _name(path):
     return path.relative_to(ROOT).as_posix()
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def _tree(path):
     return ast.parse(path.read_text(encoding="utf-8"))
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def _imports(path):
     """Return the modules that a file imports anywhere; those of the package as ".algorithms..."."""
     package = path.relative_to(ROOT).parts[:-1]
