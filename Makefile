@@ -1,5 +1,5 @@
 # The set-up is all in tools/environment: it makes what is missing, below build/.
-.PHONY: help demo test test-core lint test-qgis zip clean
+.PHONY: help demo test test-core test-long lint test-qgis coverage zip clean
 
 help:  ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /  \1\t/p' Makefile | expand -t 14
@@ -13,11 +13,17 @@ test:  ## run all that follows, installing a QGIS if there is none
 test-core:  ## test the classifier, without QGIS
 	@tools/test core
 
-lint:  ## check the style, and what plugins.qgis.org checks
+test-long:  ## run the tests that test-core leaves out, for they take long
+	@tools/test long
+
+lint:  ## check the style, the types, and what plugins.qgis.org checks
 	@tools/test lint
 
 test-qgis:  ## test the plugin in the real QGIS
 	@tools/test qgis
+
+coverage:  ## tell which lines no test runs, those of the plugin in the real QGIS
+	@tools/test coverage
 
 zip:  ## pack the last commit as dist/bare_earth.zip, to install in QGIS
 	@mkdir -p dist
