@@ -31,7 +31,7 @@ def _info(options: argparse.Namespace) -> int:
 
 
 def _add_assess(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..products.assessment import AssessmentOptions
+    from ..products.comparison import AssessmentOptions
 
     parser.add_argument("classified", metavar="CLASSIFIED", type=Path, help="the classified file")
     parser.add_argument("reference", metavar="REFERENCE", type=Path, help="the reference")

@@ -15,6 +15,7 @@ from ..products.contours import Contours, write_contours
 from ..products.local_relief import LocalRelief, write_local_relief
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import TerrainModel
+from ..survey.collection import is_one_file
 from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
 from .many_files import classify_files
@@ -22,7 +23,7 @@ from .one_file import classify_file
 from .options import TileOutput
 from .rasters import RasterFiles
 from .requests import ClassifyRequest, Request, TerrainRequest
-from .runs import is_one_file, terrain
+from .runs import terrain
 
 # The longest first: each ends as the one after it does.
 _FORMATS = ("copc.laz", "laz", "las")
@@ -146,10 +147,10 @@ def make_maps(
         maps = TerrainRequest.of(sets, rasters=rasters)
         made = terrain([summary.cloud], maps, progress.part(0.6, 0.95))
         summary = summary._replace(columns=made.columns, rows=made.rows)
-        if files.relief:
+        if files.relief and rasters.dtm:
             part = progress.part(0.95, 0.97)
             write_local_relief(rasters.dtm, files.relief, request.relief, part)
-        if files.contours:
+        if files.contours and rasters.dtm:
             part = progress.part(0.97, 1.0)
             interval = write_contours(rasters.dtm, files.contours, request.contours, part)
             summary = summary._replace(contour_interval=interval)

@@ -359,7 +359,7 @@ def _names(tiles: list[Tile]) -> str:
 
 def _tell_of_twins(tiles: list[Tile], progress: Progress) -> None:
     """Warn of tiles that look like the same points twice: LAZ and COPC of it, or copies."""
-    seen: dict[tuple, Tile] = {}
+    seen: dict[tuple[float, ...], Tile] = {}
     for tile in tiles:
         key = tile.count, *(round(each, 2) for each in (*tile.minimum, *tile.maximum))
         twin = seen.setdefault(key, tile)

@@ -30,8 +30,8 @@ _MODELS = ("DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE")
 
 def add_rasters(
     algorithm: QgsProcessingAlgorithm,
-    names: Sequence[str] = _MODELS,
-    default: Sequence[str] = ("DTM", "HILLSHADE"),
+    names: Iterable[str] = _MODELS,
+    default: Iterable[str] = ("DTM", "HILLSHADE"),
 ) -> None:
     """Add fields for rasters, of which none has to be made; some are made by default."""
     for name in names:
