@@ -98,6 +98,7 @@ def show_map(algorithm: str, parameters: dict, outputs: dict[str, str], name: st
     wait(1.0)
     while canvas.isDrawing():
         wait(0.5)
+    wait(3.0)  # the last layers are put together
     save(window, name, QSize(800, 560))
     project.clear()
     return results
