@@ -24,6 +24,7 @@ from qgis.PyQt.QtCore import QSize, Qt
 from qgis.PyQt.QtWidgets import QSplitter, QWidget
 
 ALGORITHM = "bareearth:tindensification"
+ONE_STEP = "bareearth:pointcloudtoterrain"
 # Few of them are kept in docs/images.
 IMAGES = Path(sys.argv[2]) if len(sys.argv) > 2 else Path(__file__).parent / "images"
 VERSION = ".".join(Qgis.QGIS_VERSION.split(".")[:2])
@@ -46,14 +47,14 @@ def wait(seconds: float) -> None:
         time.sleep(0.02)
 
 
-def show_dialog(tile: Path) -> None:
-    """Picture the dialog with the rare parameters folded away."""
+def show_dialog(tile: Path, name: str, picture: str) -> None:
+    """Picture a dialog with the rare parameters folded away."""
     from processing.gui.AlgorithmDialog import AlgorithmDialog
 
-    algorithm = QgsApplication.processingRegistry().createAlgorithmById(ALGORITHM)
+    algorithm = QgsApplication.processingRegistry().createAlgorithmById(name)
     dialog = AlgorithmDialog(algorithm)
     dialog.setParameters({"INPUT": tile.name})
-    save(dialog, "dialog", QSize(1000, 900))
+    save(dialog, picture, QSize(900, 640))
     dialog.close()
 
 
@@ -97,6 +98,7 @@ def show_map(algorithm: str, parameters: dict, outputs: dict[str, str], name: st
     wait(1.0)
     while canvas.isDrawing():
         wait(0.5)
+    wait(3.0)  # the last layers are put together
     save(window, name, QSize(800, 560))
     project.clear()
     return results
@@ -115,13 +117,14 @@ def show_maps(tile: Path, folder: Path) -> None:
     show_map(ALGORITHM, {"INPUT": str(tile)}, {"OUTPUT": cloud, **two}, "map")
     lines = {"CONTOURS": str(folder / "contours.gpkg"), "RELIEF": str(folder / "relief.tif")}
     whole = {"OUTPUT": str(folder / f"cloud{suffix}"), **rasters, **lines}
-    show_map("bareearth:pointcloudtoterrain", {"INPUT": str(tile)}, whole, "map-one-step")
+    show_map(ONE_STEP, {"INPUT": str(tile)}, whole, "map-one-step")
     show_map("bareearth:terrainmodel", {"INPUT": cloud}, rasters, "map-terrain")
     for each in ("CHM", "DSM", "CONFIDENCE"):
         few = {"HILLSHADE": rasters["HILLSHADE"], each: rasters[each]}
         show_map("bareearth:terrainmodel", {"INPUT": cloud}, few, f"map-{each.lower()}")
-    heights = {"OUTPUT": str(folder / f"heights{suffix}")}
-    show_map("bareearth:heightaboveground", {"INPUT": cloud}, heights, "map-heights")
+    if suffix == ".copc.laz":  # else no cloud can be seen
+        heights = {"OUTPUT": str(folder / f"heights{suffix}")}
+        show_map("bareearth:heightaboveground", {"INPUT": cloud}, heights, "map-heights")
     errors = {"ERROR_MAP": str(folder / "errors.tif")}
     files = {"CLASSIFIED": cloud, "REFERENCE": str(tile)}
     show_map("bareearth:assess", files, errors, "map-errors")
@@ -144,7 +147,8 @@ def main() -> None:
     plugin.initProcessing()
     tile = Path(sys.argv[1])
     IMAGES.mkdir(exist_ok=True)
-    show_dialog(tile)
+    show_dialog(tile, ALGORITHM, "dialog")
+    show_dialog(tile, ONE_STEP, "dialog-one-step")
     with tempfile.TemporaryDirectory() as folder:
         show_maps(tile, Path(folder))
 

@@ -45,9 +45,13 @@ def show_classified(
         As for `layers.Look`.
     """
     classes = list(classes) or clouds.usual_classes(ground_class)
+    is_virtual = cloud.endswith(".vpc")
+    if is_virtual and hides == layers.CLOUD:
+        # Seen from afar it is outlines, through which the terrain is to be seen.
+        hides = 0
     algorithm.show(cloud, layers.classes(classes, hides=hides))
-    if cloud.endswith(".vpc"):
-        compat.load_virtual_point_cloud(cloud, "Classified", context)
+    if is_virtual:
+        compat.load_virtual_point_cloud(cloud, "", context)
         return
     if compat.can_load(cloud):
         return

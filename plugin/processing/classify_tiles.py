@@ -26,7 +26,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
     """Classify ground (many files)."""
 
     identifier, page, section = "classifytiles", "classify-tiles", "Ground classification"
-    title = "Classify ground (many files)"
+    title, run_name = "Classify ground (many files)", "classified files"
     cancelled = "Cancelled; the tiles that are finished stay, and a later run can go on with them."
     summary = "Finds the ground points of the many files of a survey, without seams between them."
     about = (

@@ -27,25 +27,24 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
     title, section, run_name = "Point cloud to terrain", "All in one", "terrain"
     summary = "Makes a map of the terrain of a raw point cloud: classes, models, contours."
     about = (
-        "Finds the ground of a raw lidar point cloud and makes maps of it, of which any may be left"
-        f" out. Local relief shows small features. Lengths are metres.\n{SURVEY_HELP}"
+        "Finds the ground of a raw lidar point cloud and makes maps of it, of which any may be"
+        f" left out. Local relief shows small features. Lengths are metres.\n{SURVEY_HELP}"
     )
     shown = "method", "preset", "dtm_cell_size"
     keywords = (
         "lidar", "las", "laz", "copc", "vpc", "ground", "bare earth", "dtm", "dem", "dsm", "chm",
-        "hillshade", "relief", "contours", "smrf", "pmf", "csf", "lasground", "ground filter",
-    )  # fmt: skip
+        "hillshade", "relief", "contours", "smrf", "pmf", "csf", "lasground", "filter")  # fmt: skip
 
     def parameter_sets(self):
         """Return method, cells, and all that may be left as it is."""
-        products = TerrainModel, Selection, SurfaceModel, Contours, LocalRelief
-        return (TileMethod, *products, Resources)
+        products = TerrainModel, Selection, SurfaceModel, Contours, LocalRelief, Resources
+        return TileMethod, *products
 
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""
         add_survey(self)
         self.add_declared()
-        add_cloud(self, "Classified point cloud", True)
+        add_cloud(self, "Classified point cloud", optional=True)
         add_rasters(self, RASTERS, ("DTM", "HILLSHADE", "DSM", "CHM"))
         self.addParameter(Vector("CONTOURS", "Contour lines", optional=True, createByDefault=False))
         self.add_numbers({"POINT_COUNT": "Points", "GROUND_COUNT": "Ground points"})
@@ -67,13 +66,13 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         files = MapFiles(paths[0], raster_files(results), *paths[1:])
         summary = make_maps(self._sources, files, request, progress)
         progress.info("\n".join(summary.lines))
-        counts = {"POINT_COUNT": summary.point_count, "GROUND_COUNT": summary.ground_count}
         if lines:
             self.show(lines, contours(summary.contour_interval))
             results["CONTOURS"] = lines
         if cloud:
             results["OUTPUT"] = made = str(summary.cloud)
             do_not_load(context, {cloud} - {made})
-            look = summary.class_counts, request.selection.to_class, request.terrain.dtm_cell_size
-            show_classified(self, made, *look, context, progress, BELOW_TERRAIN)
+            how = request.selection.to_class, request.terrain.dtm_cell_size, context, progress
+            show_classified(self, made, summary.class_counts, *how, BELOW_TERRAIN)
+        counts = {"POINT_COUNT": summary.point_count, "GROUND_COUNT": summary.ground_count}
         return {**results, **counts}

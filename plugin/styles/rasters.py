@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import Callable, Mapping
 
+import numpy as np
+from osgeo import gdal
 from qgis.core import (
     QgsBasicNumericFormat,
     QgsColorRampLegendNodeSettings,
@@ -21,8 +23,9 @@ from .. import compat
 from . import ramps
 
 _MULTIPLY = QPainter.CompositionMode.CompositionMode_Multiply
-# Shares of the cells below and above those that the colours spread over, and how many are asked.
-_LOW, _HIGH, _SAMPLE = 0.02, 0.98, 250_000
+# Shares of the cells below and above those that the colours spread over, and how many cells of a
+# row, and rows, are looked at.
+_LOW, _HIGH, _SAMPLE = 0.02, 0.98, 600
 # The light of a hillshade from where it is black to where it is white: level land is nearly white,
 # so that colours over it stay what they are in the legend.
 _DARK, _BRIGHT = 20.0, 210.0
@@ -90,10 +93,17 @@ def classes(categories: Mapping[int, tuple[str, QColor]]) -> Callable[[QgsRaster
 
 
 def _cut(layer: QgsRasterLayer) -> tuple[float, float]:
-    """Return the heights between which all but the few lowest and highest cells lie."""
-    low, high = layer.dataProvider().cumulativeCut(1, _LOW, _HIGH, layer.extent(), _SAMPLE)
-    if not (math.isfinite(low) and math.isfinite(high)):
-        low, high = 0.0, 0.0
+    """Return the heights between which all but the few lowest and highest cells lie.
+
+    QGIS's own asks GDAL for a histogram, which GDAL keeps beside the file: one that takes the place
+    of another would get the limits of that.
+    """
+    raster = gdal.Open(layer.source())
+    band = raster.GetRasterBand(1)
+    size = (min(each, _SAMPLE) for each in (band.XSize, band.YSize))
+    values = band.ReadAsArray(0, 0, band.XSize, band.YSize, *size)
+    values = values[np.isfinite(values) & (values != band.GetNoDataValue())]
+    low, high = np.quantile(values, (_LOW, _HIGH)).tolist() if values.size else (0.0, 0.0)
     # Level land stays of one colour: millimetres of noise are no relief.
     return (low, high) if high - low >= _LEAST_RANGE else (low, low + _LEAST_RANGE)
 

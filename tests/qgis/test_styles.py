@@ -98,9 +98,23 @@ def test_the_colours_of_terrain_fit_its_range_without_the_extremes(tmp_path):
     layer = raster(tmp_path / "dtm.tif", heights)
     rasters.terrain(layer)
     low, high = limits(layer)
-    # QGIS finds them by a histogram of 1000 classes.
-    assert 97.0 < low < 110.0 and 190.0 < high < 204.0
+    assert low == pytest.approx(102.0, abs=0.1) and high == pytest.approx(198.0, abs=0.1)
     assert layer.blendMode() == MULTIPLY
+
+
+def test_a_file_that_takes_the_place_of_another_gets_its_own_colours(tmp_path):
+    for base in (0.0, 1000.0):
+        layer = raster(tmp_path / "dtm.tif", base + np.linspace(0, 100, 10_000).reshape(100, 100))
+        rasters.terrain(layer)
+        # What QGIS does when the user asks for the histogram.
+        layer.dataProvider().cumulativeCut(1, 0.02, 0.98)
+        assert limits(layer)[0] == pytest.approx(base + 2, abs=0.1)
+
+
+def test_a_raster_without_heights_is_coloured_too(tmp_path):
+    layer = raster(tmp_path / "dtm.tif", np.full((10, 10), np.nan))
+    rasters.terrain(layer)
+    assert limits(layer) == (0.0, 0.5)
 
 
 def test_level_land_is_not_coloured_by_its_noise(tmp_path):
