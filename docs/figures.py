@@ -13,6 +13,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+import laspy
 import matplotlib as mpl
 import numpy as np
 import rasterio
@@ -72,8 +73,12 @@ TERRAIN = {
         "drone_50": "drone, 50 pulses/m²",
     },
 }
+PRESET_SCENES = (
+    "hedges", "terraces", "steep_forest", "sea_cliff", "hall_flat", "complex_on_slope",
+    "greenhouses", "dense_canopy",
+)  # fmt: skip
 SEED = 1
-COLOURS = 96
+COLOURS, FEW_COLOURS = 96, 28
 
 
 def main() -> None:
@@ -85,25 +90,28 @@ def main() -> None:
         "slope-filter-steps": slope_filter_steps,
         "grid-minimum-steps": grid_minimum_steps,
     }
+    figures["presets"] = print_presets
     figures |= {f"which-method-{name}": lambda name=name: small_multiples(name) for name in TERRAIN}
     for name, make_figure in figures.items():
         if name.startswith(tuple(sys.argv[1:]) or ("",)):
             make_figure()
 
 
-def save(figure: pyplot.Figure, name: str, dots_per_inch: int = 110) -> None:
+def save(
+    figure: pyplot.Figure, name: str, dots_per_inch: int = 110, colours: int = COLOURS
+) -> None:
     """Save a figure with few colours, which makes it small."""
     target = IMAGES / f"{name}.png"
     figure.savefig(target, dpi=dots_per_inch, metadata={"Software": None})
     pyplot.close(figure)
     with Image.open(target) as image:
-        shrink(image, target)
+        shrink(image, target, colours)
     print(f"{target.name}: {target.stat().st_size // 1000} kB")
 
 
-def shrink(image: Image.Image, target: Path) -> None:
+def shrink(image: Image.Image, target: Path, colours: int = COLOURS) -> None:
     """Save a picture with few colours."""
-    few = image.convert("RGB").quantize(COLOURS, kmeans=2, dither=Image.Dither.NONE)
+    few = image.convert("RGB").quantize(colours, kmeans=2, dither=Image.Dither.NONE)
     few.save(target, optimize=True)
 
 
@@ -130,6 +138,7 @@ def tutorial() -> None:
             with rasterio.open(path) as raster:
                 grids[each] = raster.read(1, masked=True).astype(float).filled(np.nan)
                 extent = raster.bounds[0], raster.bounds[2], raster.bounds[1], raster.bounds[3]
+        raw_points(cloud)
         target = IMAGES / "tutorial-classes.png"
         draw_demo(ground, rasters["dtm"], rasters["hillshade"], target, northing=5_931_196.0)
         with Image.open(target) as image:
@@ -138,6 +147,27 @@ def tutorial() -> None:
             shrink(image, target)
     before_after(grids)
     maps(grids, extent)
+
+
+def raw_points(cloud: Path) -> None:
+    """Draw a cloud as it comes: from above by height, and a strip from the side."""
+    las = laspy.read(cloud)
+    x, y, z = (np.asarray(axis) for axis in (las.x, las.y, las.z))
+    x, y = x - x.min(), y - y.min()
+    figure = pyplot.figure(figsize=(8.2, 3.4), layout="constrained")
+    plan, side = figure.subplots(1, 2, width_ratios=(1.0, 1.7))
+    low, high = np.percentile(z, (0.5, 99.5))
+    order = np.argsort(z)[::3]
+    plan.scatter(
+        x[order], y[order], 0.5, z[order], cmap="viridis", vmin=low, vmax=high, linewidths=0
+    )
+    plan.set(xticks=[], yticks=[], aspect="equal", title="From above, coloured by height")
+    plan.axhline(196.0, color="black", linewidth=0.8, linestyle=(0, (6, 4)))
+    near = np.abs(y - 196.0) < 1.5
+    side.scatter(x[near], z[near], 1.5, OTHER, linewidths=0)
+    side.set(ylim=(low - 4, high + 8), title="From the side, along the dashed line; metres")
+    side.grid(color="#dddddd", linewidth=0.4)
+    save(figure, "tutorial-raw")
 
 
 def before_after(grids: dict[str, np.ndarray]) -> None:
@@ -203,7 +233,7 @@ def small_multiples(group: str) -> None:
             draw_errors(panel, model, model.error(scene, ground))
             score = score_scene(scene, ground, model, with_dtm=False)
             panel.set_title(f"{label}: I {score.type_1:.1f}, II {score.type_2_high:.1f} %")
-    save(figure, f"which-method-{group}", 90)
+    save(figure, f"which-method-{group}", 90, FEW_COLOURS)
 
 
 def draw_errors(panel: pyplot.Axes, model: TrueModel, error: np.ndarray) -> None:
@@ -215,6 +245,21 @@ def draw_errors(panel: pyplot.Axes, model: TrueModel, error: np.ndarray) -> None
     # Errors of less than 0.2 m are not shown; from 1 m on they are so in full colour.
     colours[..., 3] = np.clip((np.abs(np.nan_to_num(error)) - 0.2) / 0.8, 0, 0.9)
     panel.imshow(colours, interpolation="nearest")
+
+
+def print_presets() -> None:
+    """Print the errors of each preset of TIN densification on some scenes as a table."""
+    presets = list(tin_densification.PRESETS)
+    print("| Scene |", " | ".join(f"`{each}`" for each in presets), "|")
+    print("|---" * (len(presets) + 1) + "|")
+    for kind in PRESET_SCENES:
+        scene = make(kind, SEED)
+        row = [kind]
+        for preset in presets:
+            ground = Filter("tin-densification", preset=preset).ground(scene.cloud())
+            score = score_scene(scene, ground, with_dtm=False)
+            row.append(f"{score.type_1:.1f} / {score.type_2_high:.1f}")
+        print("|", " | ".join(row), "|")
 
 
 # What the methods do, in a strip of a scene seen from its side.
