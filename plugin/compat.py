@@ -31,6 +31,7 @@ if hasattr(Qgis, "ProcessingParameterFlag"):
     NUMBER = Qgis.ProcessingNumberParameterType.Double
     INTEGER = Qgis.ProcessingNumberParameterType.Integer
     POLYGONS = Qgis.ProcessingSourceType.VectorPolygon
+    LINES = Qgis.ProcessingSourceType.VectorLine
     FILES = Qgis.ProcessingSourceType.File
     FOLDER = Qgis.ProcessingFileParameterBehavior.Folder
 else:
@@ -38,6 +39,7 @@ else:
     NUMBER = QgsProcessingParameterNumber.Type.Double
     INTEGER = QgsProcessingParameterNumber.Type.Integer
     POLYGONS = QgsProcessing.SourceType.TypeVectorPolygon
+    LINES = QgsProcessing.SourceType.TypeVectorLine
     FILES = QgsProcessing.SourceType.TypeFile
     FOLDER = QgsProcessingParameterFile.Behavior.Folder
 

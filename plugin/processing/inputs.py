@@ -151,7 +151,7 @@ def survey_of(
         If there is none, or one does not exist.
     """
     paths = []
-    if not _is_empty(parameters.get("INPUT")):
+    if not is_empty(parameters.get("INPUT")):
         paths.append(source_path(algorithm, parameters, "INPUT", context))
     folder = algorithm.parameterAsString(parameters, "INPUT_FOLDER", context)
     if folder and not Path(folder).is_dir():
@@ -250,10 +250,10 @@ def area_of(
     BareEarthError
         If they hold no area, or the cloud cannot be read.
     """
-    given = [name for name in AREA_FIELDS if not _is_empty(parameters.get(name))]
+    given = [name for name in AREA_FIELDS if not is_empty(parameters.get(name))]
     if not given:
         return None
-    crs = _crs_of(cloud)
+    crs = crs_of(cloud)
     box, polygons = None, ()
     if "EXTENT" in given:
         extent = algorithm.parameterAsExtent(parameters, "EXTENT", context, crs)
@@ -265,17 +265,18 @@ def area_of(
         request = QgsFeatureRequest().setSubsetOfAttributes([])
         request.setDestinationCrs(crs, context.transformContext())
         geometries = (feature.geometry() for feature in source.getFeatures(request))
-        polygons = tuple(each for geometry in geometries for each in _polygons(geometry))
+        polygons = tuple(each for geometry in geometries for each in polygons_of(geometry))
         if not polygons:
             raise BareEarthError("The boundary holds no polygon. Choose one that does.")
     return Area(box, polygons)
 
 
-def _is_empty(value: Any) -> bool:
+def is_empty(value: Any) -> bool:
+    """Return whether a field holds nothing."""
     return compat.is_null(value) or value == ""
 
 
-def _crs_of(cloud: Path) -> QgsCoordinateReferenceSystem:
+def crs_of(cloud: Path) -> QgsCoordinateReferenceSystem:
     """Return the CRS that a file states; invalid, so that nothing is transformed, if none."""
     crs = read_crs(open_las(cloud))
     if crs.epsg:
@@ -283,7 +284,8 @@ def _crs_of(cloud: Path) -> QgsCoordinateReferenceSystem:
     return QgsCoordinateReferenceSystem.fromWkt(crs.wkt or "")
 
 
-def _polygons(geometry: QgsGeometry) -> Iterator[Polygon]:
+def polygons_of(geometry: QgsGeometry) -> Iterator[Polygon]:
+    """Yield the rings of each polygon."""
     # A copy, with arcs as lines.
     geometry = QgsGeometry(geometry.constGet().segmentize()) if geometry.constGet() else geometry
     if geometry.convertToMultiType():

@@ -8,6 +8,7 @@ from ...algorithms.products.surface_model import SurfaceModel
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.ground_classes import GroundClasses
 from .base import command_line
+from .constraints import CONSTRAINT_HELP, add_constraints, constraints_of
 from .outputs import add_rasters, raster_files, raster_paths
 from .products import ProductAlgorithm
 
@@ -36,12 +37,18 @@ class TerrainModelAlgorithm(ProductAlgorithm):
         """Return ground classes, cells and light, what makes the surface, and what may be used."""
         return GroundClasses, TerrainModel, SurfaceModel, Resources
 
+    def shortHelpString(self):
+        """Return the help, the layers in it."""
+        return "\n".join([super().shortHelpString(), *CONSTRAINT_HELP])
+
     def add_outputs(self):
-        """Add the rasters; none of them has to be made."""
+        """Add what the terrain must respect, and the rasters; none of them has to be made."""
+        add_constraints(self)
         add_rasters(self)
 
     def compute(self, parameters, context, progress):
         """Make those that are wanted."""
+        from ...algorithms.engine.constraints import Constraints
         from ...algorithms.engine.requests import TerrainRequest
         from ...algorithms.engine.runs import terrain
 
@@ -50,7 +57,10 @@ class TerrainModelAlgorithm(ProductAlgorithm):
         if not paths:
             raise BareEarthError("Choose at least one raster to make.")
         progress.command(command_line("terrain", [str(self.source)], chosen, paths))
-        request = TerrainRequest.of(chosen, rasters=raster_files(paths))
+        known = Constraints(**constraints_of(self, parameters, context, self.source))
+        if known.any:
+            progress.info("In the command line the layers are missing: save them as GeoJSON.")
+        request = TerrainRequest.of(chosen, rasters=raster_files(paths), constraints=known)
         summary = terrain(self.source, request, progress)
         progress.info(f"The rasters have {summary.columns:,} x {summary.rows:,} cells.")
         return {**paths, **self.numbers_of(summary)}

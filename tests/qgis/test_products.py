@@ -9,11 +9,14 @@ import pytest
 from osgeo import gdal
 from qgis.core import (
     Qgis,
+    QgsFeature,
+    QgsGeometry,
     QgsPointCloudAttribute,
     QgsPointCloudLayer,
     QgsProcessingException,
     QgsProcessingParameterDefinition,
     QgsProviderRegistry,
+    QgsVectorLayer,
 )
 from support import Log
 
@@ -160,3 +163,41 @@ def test_qgis_knows_the_heights(labelled, out):
     assert layer.isValid()
     heights = layer.attributes().find("HeightAboveGround")[0]
     assert heights.type() == QgsPointCloudAttribute.DataType.Float
+
+
+def test_a_terrain_model_respects_lines_and_polygons(labelled, out):
+    import processing
+
+    las = laspy.read(labelled.path)
+    las.classification[:] = 2  # the building, too
+    las.write(str(labelled.path))
+    x, y = np.asarray(las.x)[~labelled.ground], np.asarray(las.y)[~labelled.ground]
+    west, south, east, north = x.min() - 1, y.min() - 1, x.max() + 1, y.max() + 1
+    ring = f"{west} {south}, {east} {south}, {east} {north}, {west} {north}, {west} {south}"
+    house = _layer("Polygon", f"POLYGON(({ring}))")
+    line = _layer("LineStringZ", f"LINESTRINGZ({west} {south - 9} 150, {east} {south - 9} 150)")
+
+    def heights(**layers):
+        parameters = {"INPUT": str(labelled.path), "DTM": str(out / "dtm.tif"), **layers}
+        processing.run(TERRAIN, parameters)
+        raster = gdal.Open(str(out / "dtm.tif"))
+        left, size, _, top, _, _ = raster.GetGeoTransform()
+        values = raster.ReadAsArray()
+        truth = plane(
+            left + (np.arange(values.shape[1]) + 0.5) * size,
+            (top - (np.arange(values.shape[0]) + 0.5) * size)[:, None],
+        )
+        return np.where(values == raster.GetRasterBand(1).GetNoDataValue(), np.nan, values) - truth
+
+    assert np.nanmax(heights()) > 2.0
+    assert np.nanmax(np.abs(heights(NO_GROUND=house))) < 0.3
+    assert np.nanmax(heights(NO_GROUND=house, BREAKLINES=line)) > 20.0
+
+
+def _layer(kind, wkt):
+    """Return a layer in memory with one feature."""
+    layer = QgsVectorLayer(f"{kind}?crs=EPSG:25832", "layer", "memory")
+    feature = QgsFeature()
+    feature.setGeometry(QgsGeometry.fromWkt(wkt))
+    assert layer.dataProvider().addFeatures([feature])[0]
+    return layer

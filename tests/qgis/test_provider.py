@@ -83,6 +83,7 @@ PARAMETERS = {
         "DTM_CELL_SIZE", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
         "SURFACE_RETURNS", "MAX_EDGE",
         "THREADS", "MEMORY",
+        "BREAKLINES", "WATER", "RIVERS", "NO_GROUND",
         "DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE",
     ],
     "bareearth:comparesettings": [

@@ -1,0 +1,223 @@
+"""Makes the figures of the pages, by the project's own code on generated scenes.
+
+    tools/environment python docs/figures.py            all of them, in about two minutes
+    tools/environment python docs/figures.py slope      those whose names begin so
+
+The same points come of the same seeds, so that the figures are the same on each run.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+import tempfile
+from pathlib import Path
+
+import laspy
+import matplotlib as mpl
+import numpy as np
+import rasterio
+from matplotlib import pyplot
+from PIL import Image
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
+from drawing import ADDED, FEW_COLOURS, IMAGES, LINE, OTHER, save, shade, shrink
+from method_figures import grid_minimum_steps, slope_filter_steps, tin_densification_steps
+
+from bare_earth.algorithms import ClassifyRequest, RasterFiles, TerrainRequest, classify, terrain
+from bare_earth.algorithms.filters.tin_densification.filter import PRESETS
+from bare_earth.algorithms.grids.cells import Cells
+from bare_earth.algorithms.grids.inpaint import inpaint
+from benchmarks.generated import TrueModel, score_scene
+from benchmarks.measure import Filter
+from benchmarks.scenes import make
+from demo.picture import draw as draw_demo
+from demo.scene import write_scene
+
+METHODS = {"tin-densification": "TIN densification", "slope": "slope", "grid-minimum": "grid"}
+# A kind of scene of the reporting seeds, and what a reader calls it.
+TERRAIN = {
+    "land": {
+        "hills": "meadows and shrubs",
+        "terraces": "terraces",
+        "steep_forest": "steep forest",
+        "sea_cliff": "sea cliff",
+    },
+    "built": {
+        "city_blocks": "city blocks",
+        "hillside_village": "village on a slope",
+        "complex_on_slope": "halls on a slope",
+        "stepped_city": "city on levels",
+    },
+    "special": {
+        "dense_canopy": "dense forest",
+        "bridge_over_river": "bridge",
+        "dyke_and_ditch": "dyke and ditches",
+        "drone_50": "drone, 50 pulses/m²",
+    },
+}
+PRESET_SCENES = (
+    "hedges", "terraces", "steep_forest", "sea_cliff", "hall_flat", "complex_on_slope",
+    "greenhouses", "dense_canopy",
+)  # fmt: skip
+SEED = 1
+
+
+def main() -> None:
+    """Make the figures that the command line names, or all."""
+    mpl.rcParams.update({"font.size": 8, "axes.titlesize": 8, "axes.titlelocation": "left"})
+    figures = {
+        "before-after": tutorial,
+        "tin-densification-steps": tin_densification_steps,
+        "slope-filter-steps": slope_filter_steps,
+        "grid-minimum-steps": grid_minimum_steps,
+    }
+    figures["presets"] = print_presets
+    figures |= {f"which-method-{name}": lambda name=name: small_multiples(name) for name in TERRAIN}
+    for name, make_figure in figures.items():
+        if name.startswith(tuple(sys.argv[1:]) or ("",)):
+            make_figure()
+
+
+# The tile of `make demo`, from raw points to maps.
+
+
+def tutorial() -> None:
+    """Draw what the pages on the first run show: the tile before, and what is made of it."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        cloud, truth, ground = (folder / f"{each}.las" for each in ("scene", "truth", "ground"))
+        write_scene(cloud, truth)
+        rasters = {each: folder / f"{each}.tif" for each in ("dtm", "hillshade", "dsm", "chm")}
+        classify(
+            cloud,
+            ground,
+            ClassifyRequest(
+                rasters=RasterFiles(dtm=rasters["dtm"], hillshade=rasters["hillshade"])
+            ),
+        )
+        terrain(ground, TerrainRequest(rasters=RasterFiles(dsm=rasters["dsm"], chm=rasters["chm"])))
+        grids, extent = {}, None
+        for each, path in rasters.items():
+            with rasterio.open(path) as raster:
+                grids[each] = raster.read(1, masked=True).astype(float).filled(np.nan)
+                extent = raster.bounds[0], raster.bounds[2], raster.bounds[1], raster.bounds[3]
+        raw_points(cloud)
+        target = IMAGES / "tutorial-classes.png"
+        draw_demo(ground, rasters["dtm"], rasters["hillshade"], target, northing=5_931_196.0)
+        with Image.open(target) as image:
+            image = image.convert("RGB")
+            image.thumbnail((1000, 1000))
+            shrink(image, target)
+    before_after(grids)
+    maps(grids, extent)
+
+
+def raw_points(cloud: Path) -> None:
+    """Draw a cloud as it comes: from above by height, and a strip from the side."""
+    las = laspy.read(cloud)
+    x, y, z = (np.asarray(axis) for axis in (las.x, las.y, las.z))
+    x, y = x - x.min(), y - y.min()
+    figure = pyplot.figure(figsize=(8.2, 3.4), layout="constrained")
+    plan, side = figure.subplots(1, 2, width_ratios=(1.0, 1.7))
+    low, high = np.percentile(z, (0.5, 99.5))
+    order = np.argsort(z)[::3]
+    plan.scatter(
+        x[order], y[order], 0.5, z[order], cmap="viridis", vmin=low, vmax=high, linewidths=0
+    )
+    plan.set(xticks=[], yticks=[], aspect="equal", title="From above, coloured by height")
+    plan.axhline(196.0, color="black", linewidth=0.8, linestyle=(0, (6, 4)))
+    near = np.abs(y - 196.0) < 1.5
+    side.scatter(x[near], z[near], 1.5, OTHER, linewidths=0)
+    side.set(ylim=(low - 4, high + 8), title="From the side, along the dashed line; metres")
+    side.grid(color="#dddddd", linewidth=0.4)
+    save(figure, "tutorial-raw")
+
+
+def before_after(grids: dict[str, np.ndarray]) -> None:
+    """Draw the surface that the laser met beside the terrain."""
+    figure, axes = pyplot.subplots(1, 2, figsize=(8.2, 4.3), layout="constrained")
+    low, high = np.nanpercentile(grids["dtm"], (1, 99))
+    for panel, name, title in zip(
+        axes, ("dsm", "dtm"), ("Before: what the laser met", "After: the bare earth")
+    ):
+        shade(panel, grids[name])
+        panel.imshow(grids[name], cmap="gist_earth", alpha=0.35, vmin=low - 2, vmax=high + 8)
+        panel.set_title(title, fontsize=10)
+    save(figure, "before-after")
+
+
+def maps(grids: dict[str, np.ndarray], extent: tuple[float, ...]) -> None:
+    """Draw terrain with contours, and canopy height over the hillshade."""
+    figure, axes = pyplot.subplots(1, 2, figsize=(8.2, 4.3), layout="constrained")
+    for panel in axes:
+        shade(panel, grids["dtm"])
+    image = axes[0].imshow(grids["dtm"], cmap="gist_earth", alpha=0.35)
+    figure.colorbar(image, ax=axes[0], shrink=0.7, pad=0.01, label="m").solids.set_alpha(1)
+    levels = np.arange(math.floor(np.nanmin(grids["dtm"])), np.nanmax(grids["dtm"]) + 1, 1.0)
+    thick = np.where(levels % 5 == 0, 0.9, 0.35)
+    axes[0].contour(grids["dtm"], levels=levels, colors="#5b3a1a", linewidths=thick)
+    axes[0].set_title("Terrain model, hillshade and contour lines of 1 m")
+    canopy = np.ma.masked_less(grids["chm"], 0.5)
+    image = axes[1].imshow(canopy, cmap="YlGn", vmin=0, vmax=20)
+    figure.colorbar(image, ax=axes[1], shrink=0.7, pad=0.01, label="m")
+    axes[1].set_title("Canopy height (buildings too) over the hillshade")
+    save(figure, "tutorial-maps")
+
+
+# Small multiples: kinds of terrain, and what each method makes of them.
+
+
+def small_multiples(group: str) -> None:
+    """Draw the surface, the truth, and the terrain of each method with its errors."""
+    kinds = TERRAIN[group]
+    columns = 2 + len(METHODS)
+    figure, axes = pyplot.subplots(
+        len(kinds), columns, figsize=(9.6, 2.12 * len(kinds)), layout="constrained"
+    )
+    for row, (kind, words) in zip(axes, kinds.items()):
+        scene = make(kind, SEED)
+        model = TrueModel.of(scene)
+        first = scene.points.take(scene.return_number == 1)
+        highest = -Cells.over(first, 1.0).minimum(-first.z)
+        shade(row[0], inpaint(highest)[::-1])
+        row[0].set_title(words)
+        shade(row[1], model.heights)
+        row[1].set_title("true terrain")
+        for panel, (method, label) in zip(row[2:], METHODS.items()):
+            ground = Filter(method).ground(scene.cloud())
+            draw_errors(panel, model, model.error(scene, ground))
+            score = score_scene(scene, ground, model, with_dtm=False)
+            panel.set_title(f"{label}: I {score.type_1:.1f}, II {score.type_2_high:.1f} %")
+    save(figure, f"which-method-{group}", 90, FEW_COLOURS)
+
+
+def draw_errors(panel: pyplot.Axes, model: TrueModel, error: np.ndarray) -> None:
+    """Draw a terrain model: red where it is too high, blue where it is too low."""
+    shade(panel, model.heights + error, faint=True)
+    colours = np.zeros((*error.shape, 4))
+    colours[error > 0] = mpl.colors.to_rgba(ADDED)
+    colours[error <= 0] = mpl.colors.to_rgba(LINE)
+    # Errors of less than 0.2 m are not shown; from 1 m on they are so in full colour.
+    colours[..., 3] = np.clip((np.abs(np.nan_to_num(error)) - 0.2) / 0.8, 0, 0.9)
+    panel.imshow(colours, interpolation="nearest")
+
+
+def print_presets() -> None:
+    """Print the errors of each preset of TIN densification on some scenes as a table."""
+    presets = list(PRESETS)
+    print("| Scene |", " | ".join(f"`{each}`" for each in presets), "|")
+    print("|---" * (len(presets) + 1) + "|")
+    for kind in PRESET_SCENES:
+        scene = make(kind, SEED)
+        row = [kind]
+        for preset in presets:
+            ground = Filter("tin-densification", preset=preset).ground(scene.cloud())
+            score = score_scene(scene, ground, with_dtm=False)
+            row.append(f"{score.type_1:.1f} / {score.type_2_high:.1f}")
+        print("|", " | ".join(row), "|")
+
+
+if __name__ == "__main__":
+    main()
