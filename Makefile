@@ -1,5 +1,5 @@
 # The set-up is all in tools/environment: it makes what is missing, below build/.
-.PHONY: help demo test test-core lint test-qgis docs package clean
+.PHONY: help demo test test-core test-long lint test-qgis coverage docs package clean
 
 help:  ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /  \1\t/p' Makefile | expand -t 14
@@ -13,7 +13,10 @@ test:  ## run all that follows, installing a QGIS if there is none
 test-core:  ## test the classifier, without QGIS
 	@tools/test core
 
-lint:  ## check the style, and what plugins.qgis.org checks
+test-long:  ## run the tests that test-core leaves out, for they take long
+	@tools/test long
+
+lint:  ## check the style, the types, and what plugins.qgis.org checks
 	@tools/test lint
 
 test-qgis:  ## test the plugin in the real QGIS
@@ -25,6 +28,9 @@ docs:  ## build the pages as a site, build/site/index.html
 
 package:  ## pack the last commit, with laspy, as dist/bare_earth-X.Y.Z.zip, to install in QGIS
 	@tools/environment package
+
+coverage:  ## tell which lines no test runs, those of the plugin in the real QGIS
+	@tools/test coverage
 
 clean:  ## remove what these made
 	rm -rf build dist demo-output bare_earth.egg-info

@@ -30,6 +30,8 @@ if TYPE_CHECKING:
     from .engine.runs import heights as heights
     from .engine.runs import key_points as key_points
     from .engine.runs import terrain as terrain
+    from .engine.trial import compare_settings as compare_settings
+    from .engine.trial_options import TrialOptions as TrialOptions
     from .filters.grid_minimum.filter import GridMinimum as GridMinimum
     from .filters.slope.filter import SlopeFilter as SlopeFilter
     from .filters.tin_densification.filter import TinDensification as TinDensification
@@ -60,6 +62,8 @@ _MODULES = {
     "heights": "engine.runs",
     "key_points": "engine.runs",
     "terrain": "engine.runs",
+    "compare_settings": "engine.trial",
+    "TrialOptions": "engine.trial_options",
     "GridMinimum": "filters.grid_minimum.filter",
     "SlopeFilter": "filters.slope.filter",
     "TinDensification": "filters.tin_densification.filter",

@@ -1,6 +1,6 @@
-"""Makes the pictures of docs/images: the dialog, and a map of what the algorithm makes.
+"""Makes the pictures of docs/images: the dialog, and maps of what the algorithms make.
 
-    tools/environment qgis /usr/bin/python3 docs/screenshots.py TILE.laz
+    tools/environment qgis /usr/bin/python3 docs/screenshots.py TILE.laz [FOLDER]
 
 It needs the widgets of QGIS but no screen. The names of the pictures hold the version of QGIS.
 """
@@ -24,7 +24,9 @@ from qgis.PyQt.QtCore import QSize, Qt
 from qgis.PyQt.QtWidgets import QSplitter, QWidget
 
 ALGORITHM = "bareearth:tindensification"
-IMAGES = Path(__file__).parent / "images"
+ONE_STEP = "bareearth:pointcloudtoterrain"
+# Few of them are kept in docs/images.
+IMAGES = Path(sys.argv[2]) if len(sys.argv) > 2 else Path(__file__).parent / "images"
 VERSION = ".".join(Qgis.QGIS_VERSION.split(".")[:2])
 
 
@@ -45,50 +47,87 @@ def wait(seconds: float) -> None:
         time.sleep(0.02)
 
 
-def show_dialog(tile: Path) -> None:
-    """Picture the dialog with the rare parameters folded away."""
+def show_dialog(tile: Path, name: str, picture: str) -> None:
+    """Picture a dialog with the rare parameters folded away."""
     from processing.gui.AlgorithmDialog import AlgorithmDialog
 
-    algorithm = QgsApplication.processingRegistry().createAlgorithmById(ALGORITHM)
+    algorithm = QgsApplication.processingRegistry().createAlgorithmById(name)
     dialog = AlgorithmDialog(algorithm)
     dialog.setParameters({"INPUT": tile.name})
-    save(dialog, "dialog", QSize(1000, 900))
+    save(dialog, picture, QSize(900, 640))
     dialog.close()
 
 
-def show_map(tile: Path, folder: Path) -> None:
-    """Classify the tile as the toolbox does, and picture the layers."""
+def show_map(algorithm: str, parameters: dict, outputs: dict[str, str], name: str) -> dict:
+    """Run an algorithm as the toolbox does, and picture its layers; return what it made.
+
+    Parameters
+    ----------
+    algorithm : str
+        Its id.
+    parameters : dict
+        Its inputs.
+    outputs : dict of str to str
+        The files to make, by the names of the fields; all are loaded.
+    name : str
+        Of the picture.
+    """
     import processing
 
     project = QgsProject.instance()
-    provider = QgsApplication.processingRegistry().providerById("bareearth")
-    suffixes = {
-        "HILLSHADE": ".tif",
-        "DTM": ".tif",
-        "OUTPUT": "." + provider.defaultPointCloudFileExtension(),
+    loaded = {
+        each: QgsProcessingOutputLayerDefinition(path, project) for each, path in outputs.items()
     }
-    parameters = {
-        name: QgsProcessingOutputLayerDefinition(str(folder / f"{name.lower()}{suffix}"), project)
-        for name, suffix in suffixes.items()
-    }
-    processing.runAndLoadResults(ALGORITHM, {"INPUT": str(tile), **parameters})
+    results = processing.runAndLoadResults(algorithm, {**parameters, **loaded})
     model = QgsLayerTreeModel(project.layerTreeRoot())
     tree = QgsLayerTreeView()
     tree.setModel(model)
     canvas = QgsMapCanvas()
     canvas.setCanvasColor(Qt.GlobalColor.white)
-    canvas.setLayers(project.layerTreeRoot().layerOrder())
+    root = project.layerTreeRoot()
+    canvas.setLayers([each for each in root.layerOrder() if root.findLayer(each).isVisible()])
     canvas.setExtent(next(iter(project.mapLayers().values())).extent())
     window = QSplitter()
     window.addWidget(tree)
     window.addWidget(canvas)
-    window.setSizes([300, 700])
-    window.resize(1000, 720)
+    window.setSizes([260, 540])
+    window.resize(800, 560)
     window.show()
     wait(1.0)
     canvas.refresh()
-    wait(10.0)
-    save(window, "map", QSize(1000, 720))
+    wait(1.0)
+    while canvas.isDrawing():
+        wait(0.5)
+    wait(3.0)  # the last layers are put together
+    save(window, name, QSize(800, 560))
+    project.clear()
+    return results
+
+
+def show_maps(tile: Path, folder: Path) -> None:
+    """Picture what each algorithm makes of the tile."""
+    provider = QgsApplication.processingRegistry().providerById("bareearth")
+    suffix = "." + provider.defaultPointCloudFileExtension()
+    cloud = str(folder / f"ground{suffix}")
+    rasters = {
+        each: str(folder / f"{each}.tif")
+        for each in ("DTM", "HILLSHADE", "DSM", "CHM", "CONFIDENCE")
+    }
+    two = {each: rasters[each] for each in ("DTM", "HILLSHADE")}
+    show_map(ALGORITHM, {"INPUT": str(tile)}, {"OUTPUT": cloud, **two}, "map")
+    lines = {"CONTOURS": str(folder / "contours.gpkg"), "RELIEF": str(folder / "relief.tif")}
+    whole = {"OUTPUT": str(folder / f"cloud{suffix}"), **rasters, **lines}
+    show_map(ONE_STEP, {"INPUT": str(tile)}, whole, "map-one-step")
+    show_map("bareearth:terrainmodel", {"INPUT": cloud}, rasters, "map-terrain")
+    for each in ("CHM", "DSM", "CONFIDENCE"):
+        few = {"HILLSHADE": rasters["HILLSHADE"], each: rasters[each]}
+        show_map("bareearth:terrainmodel", {"INPUT": cloud}, few, f"map-{each.lower()}")
+    if suffix == ".copc.laz":  # else no cloud can be seen
+        heights = {"OUTPUT": str(folder / f"heights{suffix}")}
+        show_map("bareearth:heightaboveground", {"INPUT": cloud}, heights, "map-heights")
+    errors = {"ERROR_MAP": str(folder / "errors.tif")}
+    files = {"CLASSIFIED": cloud, "REFERENCE": str(tile)}
+    show_map("bareearth:assess", files, errors, "map-errors")
 
 
 def main() -> None:
@@ -108,10 +147,10 @@ def main() -> None:
     plugin.initProcessing()
     tile = Path(sys.argv[1])
     IMAGES.mkdir(exist_ok=True)
-    show_dialog(tile)
+    show_dialog(tile, ALGORITHM, "dialog")
+    show_dialog(tile, ONE_STEP, "dialog-one-step")
     with tempfile.TemporaryDirectory() as folder:
-        show_map(tile, Path(folder))
-        QgsProject.instance().clear()
+        show_maps(tile, Path(folder))
 
 
 if __name__ == "__main__":

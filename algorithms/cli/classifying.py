@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Sequence
 
 from ..core.errors import BareEarthError
 from .command import DONE, Command
-from .options import UsageError, add_inputs, add_json, add_parameters, chosen
+from .options import UsageError, add_extent, add_inputs, add_json, add_parameters, chosen
 from .surveys import (
     add_rasters,
     add_scheduler,
@@ -37,10 +37,7 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
         help="the file to write (.las, .laz or .copc.laz); of many inputs a folder",
     )  # fmt: skip
     add_rasters(parser)
-    parser.add_argument(
-        "--extent", nargs=4, type=float, metavar=("XMIN", "YMIN", "XMAX", "YMAX"),
-        help="of one file, classify only points in this rectangle, in the CRS of the points",
-    )  # fmt: skip
+    add_extent(parser, "of one file, classify only points in this rectangle")
     parser.add_argument(
         "--boundary", metavar="FILE", type=Path,
         help="of one file, classify only points in these polygons (.geojson, .json, .wkt), in the"
@@ -82,7 +79,7 @@ def _classify(options: argparse.Namespace) -> int:
     from ..engine.many_files import classify_files
     from ..engine.one_file import classify_file
     from ..engine.requests import ClassifyRequest
-    from ..engine.runs import is_one_file
+    from ..survey.collection import is_one_file
 
     area = _area_of(options)
     request = ClassifyRequest.of(chosen(options), rasters=rasters_of(options), area=area)

@@ -1,14 +1,15 @@
-"""The commands that write no point cloud: `info` and `assess`."""
+"""The commands that write no point cloud: `info`, `assess` and `compare-settings`."""
 
 from __future__ import annotations
 
 import argparse
 import json
+from dataclasses import asdict
 from pathlib import Path
 from typing import Sequence
 
 from .command import DONE, Command
-from .options import add_input, add_json, add_parameters, chosen
+from .options import add_extent, add_input, add_inputs, add_json, add_parameters, chosen
 from .terminal import Terminal
 
 
@@ -30,7 +31,7 @@ def _info(options: argparse.Namespace) -> int:
 
 
 def _add_assess(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..products.assessment import AssessmentOptions
+    from ..products.comparison import AssessmentOptions
 
     parser.add_argument("classified", metavar="CLASSIFIED", type=Path, help="the classified file")
     parser.add_argument("reference", metavar="REFERENCE", type=Path, help="the reference")
@@ -60,6 +61,31 @@ def _assess(options: argparse.Namespace) -> int:
     return DONE
 
 
+def _add_compare_settings(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
+    from ..engine.memory import Resources
+    from ..engine.trial_options import TrialOptions
+
+    add_inputs(parser)
+    parser.add_argument("page", metavar="PAGE", type=Path, help="the page to write (.html)")
+    add_extent(parser, "the window", required=True)
+    add_json(parser, "the figures ")
+    add_parameters(
+        parser, TrialOptions, Resources, titles=("What is compared", "Threads and memory")
+    )
+
+
+def _compare_settings(options: argparse.Namespace) -> int:
+    from ..engine.trial import compare_settings
+
+    what, resources = chosen(options)
+    with Terminal(options.verbose) as progress:
+        summary = compare_settings(
+            options.input, options.page, options.extent, what, resources, progress
+        )
+    print(json.dumps(asdict(summary)) if options.json else "\n".join(summary.lines()))
+    return DONE
+
+
 COMMANDS = (
     Command(
         "info",
@@ -76,5 +102,14 @@ COMMANDS = (
         " error and kappa, in percent.",
         _add_assess,
         _assess,
+    ),
+    Command(
+        "compare-settings",
+        "try methods and presets on a window, and show them side by side",
+        "Classifies a window of one or many files with each of the settings, and writes a page"
+        " that shows their terrain, a profile and where they differ. No point cloud is written. A"
+        " setting is a method with a preset, such as slope:town.",
+        _add_compare_settings,
+        _compare_settings,
     ),
 )

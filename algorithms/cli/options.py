@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, Sequence
 
 from ..core.errors import BareEarthError
-from ..core.parameters import Declaration, ParameterSet
+from ..core.parameters import Declaration, ParameterSet, shown_value
 
 _NOT_USED = ("none", "automatic")
 
@@ -27,6 +27,14 @@ def add_inputs(parser: argparse.ArgumentParser, first: str = "") -> None:
         "input", metavar="INPUT", type=Path, nargs="+",
         help=first + "files, folders, virtual point clouds (.vpc), or lists of files (.txt): all"
         " are one survey",
+    )  # fmt: skip
+
+
+def add_extent(parser: argparse.ArgumentParser, what: str, required: bool = False) -> None:
+    """Add the option for a rectangle; `what` says what it is for."""
+    parser.add_argument(
+        "--extent", nargs=4, type=float, metavar=("XMIN", "YMIN", "XMAX", "YMAX"),
+        required=required, help=f"{what}, in the CRS of the points",
     )  # fmt: skip
 
 
@@ -73,6 +81,9 @@ def _add_options(parser: Any, declared: type[ParameterSet]) -> None:
             parser.add_argument(flag, action=argparse.BooleanOptionalAction, **words)
         elif each.kind == "choice":
             parser.add_argument(flag, choices=list(each.choices), **words)
+        elif each.kind == "choices":
+            names = {"choices": list(each.choices), "metavar": each.name.upper().rstrip("S")}
+            parser.add_argument(flag, nargs="+", **names, **words)
         elif each.kind in ("numbers", "integers"):
             parser.add_argument(flag, nargs="*", metavar="N", **words)
         else:
@@ -82,7 +93,7 @@ def _add_options(parser: Any, declared: type[ParameterSet]) -> None:
 def _help_of(each: Declaration) -> str:
     default = each.default
     if isinstance(default, tuple):
-        default = " ".join(f"{value:g}" for value in default) or "none"
+        default = " ".join(map(shown_value, default)) or "none"
     unit = f" {each.unit}" if each.unit and default is not None else ""
     words = [each.help, f"(default: {each.empty if default is None else default}{unit})"]
     words[1:1] = [f"{value}: {label}." for value, label in each.choices.items()]

@@ -95,7 +95,7 @@ def _write(options: argparse.Namespace, request: HeightRequest | KeyPointRequest
     """Write classified files anew with what the step of a request finds."""
     from ..engine.many_files import write_files
     from ..engine.one_file import write_points
-    from ..engine.runs import is_one_file
+    from ..survey.collection import is_one_file
 
     if is_one_file(options.input) and not options.scheduler:
         with Terminal(options.verbose) as progress:

@@ -138,7 +138,8 @@ def _remove(temporary: Path) -> None:
     """Remove a temporary file, if it is still there, and hold it no longer."""
     with contextlib.suppress(OSError):
         temporary.unlink()
-    _held.discard(_TEMPORARY.match(temporary.name)[0])
+    if marks := _TEMPORARY.match(temporary.name):
+        _held.discard(marks[0])
 
 
 def _mode_of(target: Path) -> int | None:
@@ -256,7 +257,7 @@ def remove_leftovers(folder: Path, processes: Container[int] | None = None) -> N
                     os.unlink(entry.path)
 
 
-def _is_left(entry: os.DirEntry, marks: re.Match) -> bool:
+def _is_left(entry: os.DirEntry[str], marks: re.Match[str]) -> bool:
     """Return whether nobody writes a temporary file any more."""
     computer, process = marks[1], int(marks[2])
     if computer != _computer():

@@ -36,7 +36,8 @@ class Declaration:
     name : str
         The field's name; upper case in Processing, with hyphens on the command line.
     kind : str
-        ``number``, ``integer``, ``boolean``, ``choice``, ``numbers`` or ``integers`` (lists).
+        ``number``, ``integer``, ``boolean``, ``choice``, ``numbers`` or ``integers`` (lists), or
+        ``choices`` (one or more of them, each once).
     default : object
         The value when none is given; None where the parameter is off by default.
     label, help, unit : str
@@ -45,7 +46,7 @@ class Declaration:
     minimum, maximum : float or None
         Inclusive limits of a number, or of each number of a list.
     choices : mapping of str to str
-        For a choice: each value with its label.
+        For a choice, or several: each value with its label.
     optional : bool
         Whether None is a value.
     advanced : bool
@@ -82,16 +83,25 @@ class Declaration:
         if self.kind == "boolean":
             return bool(value)
         if self.kind == "choice":
-            if value not in self.choices:
-                raise BareEarthError(
-                    f"{self.label} must be one of {', '.join(self.choices)}, not {value}."
-                )
-            return value
+            return self._check_choice(value)
+        if self.kind == "choices":
+            chosen = [value] if isinstance(value, str) else value
+            checked = tuple(dict.fromkeys(map(self._check_choice, chosen)))
+            if not checked:
+                raise BareEarthError(f"{self.label}: choose at least one.")
+            return checked
         if self.kind in ("numbers", "integers"):
             if isinstance(value, (str, bytes)) or not hasattr(value, "__iter__"):
                 raise BareEarthError(f"{self.label} must be a list of numbers, not {value!r}.")
             return tuple(self._check_number(each) for each in value)
         return self._check_number(value)
+
+    def _check_choice(self, value: Any) -> str:
+        if value not in self.choices:
+            raise BareEarthError(
+                f"{self.label} must be one of {', '.join(self.choices)}, not {value}."
+            )
+        return value
 
     def _check_number(self, value: Any) -> float | int:
         try:
@@ -158,6 +168,11 @@ def parameter_of(declared: type[ParameterSet], name: str, **differently: Any) ->
     declaration = next(each for each in declared.declarations() if each.name == name)
     declaration = dataclasses.replace(declaration, **differently)
     return dataclasses.field(default=declaration.default, metadata={_KEY: declaration})
+
+
+def shown_value(value: str | float) -> str:
+    """Return a value of a list as it is typed."""
+    return value if isinstance(value, str) else f"{value:g}"
 
 
 def _kind_of(default: Any) -> str:

@@ -32,8 +32,8 @@ class Frame:
 
     def moved(self, corner: tuple[float, float]) -> Frame:
         """Return the frame whose origin is a place, given in metres of this one."""
-        origin = tuple(at + by / self.horizontal_unit for at, by in zip(self.origin, corner))
-        return replace(self, origin=origin)
+        east, north = (at + by / self.horizontal_unit for at, by in zip(self.origin, corner))
+        return replace(self, origin=(east, north))
 
 
 class Points(NamedTuple):
@@ -54,12 +54,12 @@ class Points(NamedTuple):
     z: np.ndarray
 
     @property
-    def count(self) -> int:
+    def count(self) -> int:  # type: ignore[override]
         """Number of points (`len` of a named tuple counts its fields)."""
         return len(self.x)
 
-    def take(self, which: np.ndarray) -> Points:
-        """Return the points that a boolean mask or an index array names."""
+    def take(self, which: np.ndarray | slice) -> Points:
+        """Return the points that a boolean mask, an index array or a slice names."""
         return Points(self.x[which], self.y[which], self.z[which])
 
     def and_also(self, others: Points) -> Points:

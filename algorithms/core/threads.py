@@ -9,7 +9,7 @@ from __future__ import annotations
 import contextlib
 import os
 import threading
-from typing import Callable, Iterable, Iterator, Sequence, TypeVar
+from typing import Any, Callable, Iterable, Iterator, Sequence, TypeVar
 
 from .progress import SILENT, Progress
 
@@ -98,7 +98,7 @@ class _Shared:
         self._function, self._items = function, items
         self._next = iter(range(len(items)))
         self._lock = threading.Lock()
-        self._results: list = [None] * len(items)
+        self._results: list[Any] = [None] * len(items)
         self._failures: dict[int, BaseException] = {}
 
     def results(self, progress: Progress) -> list[_Result]:

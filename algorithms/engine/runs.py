@@ -7,7 +7,7 @@ from typing import Any, Iterable, Union
 
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
-from ..survey.collection import is_cloud
+from ..survey.collection import is_one_file
 from .many_files import SurveySummary, classify_files, rasters_of_files, write_files
 from .one_file import Summary, classify_file, rasters_of_file, write_points
 from .rasters import RasterSize
@@ -144,11 +144,6 @@ def terrain(
     if is_one_file(paths):
         return rasters_of_file(paths[0], request, progress)
     return rasters_of_files(paths, request, progress, workers)
-
-
-def is_one_file(paths: list[Path]) -> bool:
-    """Return whether inputs are one point cloud file, not a folder or a list of several."""
-    return len(paths) == 1 and not paths[0].is_dir() and is_cloud(paths[0])
 
 
 def _written(

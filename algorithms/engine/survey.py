@@ -13,11 +13,10 @@ from typing import Iterable, Iterator, NamedTuple, Sequence
 
 import numpy as np
 
-from ..core.points import Frame
+from ..core.points import Box, Frame
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud, survey_frame
 from ..las.reading import read_cloud
-from ..survey.area import Box
 from ..survey.collection import Collection, Tile
 from .blocks import Block, Blocks
 from .ground import memory_of_block

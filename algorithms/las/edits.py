@@ -163,7 +163,7 @@ class EditedFile:
         points = named(self.target, records)
         if self._changes.z is not None:
             points["Z"] = self._changes.z[part]
-        if self._place is not None:
+        if self._place is not None and self._changes.extra is not None:
             added = column(records, self._place.start, self._place.kind)
             added[:] = self._changes.extra.values[part]
         if self._changes.key_points is not None:

@@ -219,7 +219,8 @@ class LasFile:
 
     def vlr(self, *key: tuple[str, int]) -> Vlr | Evlr | None:
         """Return the first VLR or EVLR that has one of the keys."""
-        return next((each for each in (*self.vlrs, *self.evlrs) if each.key in key), None)
+        records: tuple[Vlr | Evlr, ...] = (*self.vlrs, *self.evlrs)
+        return next((each for each in records if each.key in key), None)
 
     def check_unchanged(self) -> None:
         """Refuse a file that is another one than when it was opened.

@@ -70,7 +70,8 @@ class Compression(NamedTuple):
         layers = [
             size if kind == _EXTRA_BYTES_14 else LAYERS.get(kind) for kind, size, _ in self.items
         ]
-        return 0 if None in layers else sum(layers)
+        known = [each for each in layers if each is not None]
+        return sum(known) if len(known) == len(layers) else 0
 
     @property
     def record_length(self) -> int:

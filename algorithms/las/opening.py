@@ -78,7 +78,8 @@ def _split_vlrs(block: bytes, count: int) -> tuple[tuple[Vlr, ...], bytes]:
     A record that does not fit, or more records announced than there are, end the list: points can
     be read all the same.
     """
-    vlrs, start = [], 0
+    vlrs: list[Vlr] = []
+    start = 0
     while len(vlrs) < count and start + VLR_HEADER <= len(block):
         end = start + VLR_HEADER + struct.unpack_from("<H", block, start + 20)[0]
         if end > len(block):
@@ -90,7 +91,8 @@ def _split_vlrs(block: bytes, count: int) -> tuple[tuple[Vlr, ...], bytes]:
 
 def _read_evlrs(file: BinaryIO, size: int, header: bytes) -> tuple[tuple[Evlr, ...], int]:
     _, minor = fields.VERSION.get(header)
-    evlrs, waveforms = [], 0
+    evlrs: list[Evlr] = []
+    waveforms = 0
     if minor >= 4:
         start, count = fields.EVLR_START.get(header), fields.EVLR_COUNT.get(header)
         while len(evlrs) < min(count, _MOST_EVLRS):

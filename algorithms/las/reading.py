@@ -276,7 +276,9 @@ def _fill(cloud: PointCloud, where: slice, points: laspy.PackedPointRecord) -> N
     over_parts(copy, len(points), _POINTS_A_PART, SILENT)
 
 
-def _density(cloud: PointCloud, minimum: tuple, maximum: tuple) -> float | None:
+def _density(
+    cloud: PointCloud, minimum: tuple[float, ...], maximum: tuple[float, ...]
+) -> float | None:
     area = (maximum[0] - minimum[0]) * (maximum[1] - minimum[1]) * cloud.crs.horizontal_unit**2
     return None if cloud.crs.is_geographic or area <= 0 else cloud.count / area
 

@@ -108,10 +108,8 @@ class RasterGrid:
     def corner(self) -> tuple[float, float]:
         """X and y of the lower left corner, in local metres."""
         south = self.north - self.rows * self.cell_size
-        return tuple(
-            (each - origin) * self.frame.horizontal_unit
-            for each, origin in zip((self.west, south), self.frame.origin)
-        )
+        (east, north), unit = self.frame.origin, self.frame.horizontal_unit
+        return (self.west - east) * unit, (south - north) * unit
 
     @property
     def x(self) -> np.ndarray:

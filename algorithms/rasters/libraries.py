@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import importlib.util
 from pathlib import Path
-from typing import Callable
+from typing import Any, Callable
 
 from ..core.errors import BareEarthError
 from ..core.files import shown
 
 
-def library(by_gdal: Callable, by_rasterio: Callable, what: str) -> Callable:
+def library(
+    by_gdal: Callable[..., Any], by_rasterio: Callable[..., Any], what: str
+) -> Callable[..., Any]:
     """Return the function for the library that is there; GDAL first, for QGIS."""
     if importlib.util.find_spec("osgeo") is not None:
         return by_gdal
@@ -30,8 +32,9 @@ class GdalErrors:
         What is done to a raster: "read" or "write".
     """
 
-    def __init__(self, gdal, what: str) -> None:
-        self._gdal, self._what, self._texts = gdal, what, []
+    def __init__(self, gdal: Any, what: str) -> None:
+        self._gdal, self._what = gdal, what
+        self._texts: list[str] = []
 
     def __enter__(self) -> GdalErrors:
         self._gdal.PushErrorHandler(self._receive)

@@ -102,6 +102,12 @@ class Area:
         return inside
 
 
+def box_in_words(box: Box) -> str:
+    """Return from where to where a box reaches."""
+    west, south, east, north = box
+    return f"x {west:.10g} to {east:.10g}, y {south:.10g} to {north:.10g}"
+
+
 def _bounds(polygon: Polygon) -> Box:
     corners = np.concatenate(polygon)
     return (*corners.min(axis=0), *corners.max(axis=0))

@@ -7,7 +7,7 @@ import os
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Iterable, Iterator
+from typing import Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -236,6 +236,11 @@ def is_cloud(path: Path) -> bool:
     return path.suffix.lower() in _CLOUDS
 
 
+def is_one_file(paths: Sequence[Path]) -> bool:
+    """Return whether inputs are one point cloud file, not a folder or a list of several."""
+    return len(paths) == 1 and not paths[0].is_dir() and is_cloud(paths[0])
+
+
 def _listed(source: Path) -> list[Path]:
     """Return the paths in a text file; empty lines and those that begin with # are none."""
     try:
@@ -354,7 +359,7 @@ def _names(tiles: list[Tile]) -> str:
 
 def _tell_of_twins(tiles: list[Tile], progress: Progress) -> None:
     """Warn of tiles that look like the same points twice: LAZ and COPC of it, or copies."""
-    seen: dict[tuple, Tile] = {}
+    seen: dict[tuple[float, ...], Tile] = {}
     for tile in tiles:
         key = tile.count, *(round(each, 2) for each in (*tile.minimum, *tile.maximum))
         twin = seen.setdefault(key, tile)

@@ -10,7 +10,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.progress import Progress
 from ..las.cloud import PointCloud
-from .area import Area
+from .area import Area, box_in_words
 from .selection import Selection, Tally
 
 
@@ -98,7 +98,7 @@ class PointChooser:
         """
         if self.area is not None:
             if not tally.inside:
-                wanted, there = _in_words(self.area.bounds), _in_words(tally.bounds)
+                wanted, there = box_in_words(self.area.bounds), box_in_words(tally.bounds)
                 raise BareEarthError(
                     f"No point of {path} lies in the area ({wanted}): the points have"
                     f" {there}. Give the area in the CRS of the points."
@@ -110,8 +110,3 @@ class PointChooser:
                 f"None of the {tally.inside:,} points in the area takes part. Choose"
                 " another area, or other returns or classes."
             )
-
-
-def _in_words(bounds: tuple[float, ...]) -> str:
-    west, south, east, north = bounds
-    return f"x {west:.10g} to {east:.10g}, y {south:.10g} to {north:.10g}"

@@ -64,7 +64,8 @@ def read_window(
     Cancelled
         If the user asked to stop.
     """
-    area = Area(box=tuple(map(float, box)))
+    west, south, east, north = map(float, box)
+    area = Area(box=(west, south, east, north))
     layout = open_las(path)
     require_packages(layout)
     if layout.is_copc:

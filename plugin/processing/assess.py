@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from qgis.core import QgsProcessingOutputNumber as Number
 from qgis.core import QgsProcessingParameterFileDestination as File
 from qgis.core import QgsProcessingParameterRasterDestination as Raster
 
 from ...algorithms.products.assessment import AssessmentOptions, assess_files
 from .base import BareEarthAlgorithm, command_line
-from .inputs import PointCloudInput, source_path
+from .inputs import PointCloudInput, name_of, source_path
 
 _INPUTS = {
     "CLASSIFIED": ("Classified point cloud", "Its class 2 counts as ground, all others do not."),
@@ -47,17 +46,12 @@ class AssessAlgorithm(BareEarthAlgorithm):
         self.add_declared()
         self.addParameter(File("REPORT", "Report", "HTML files (*.html)", None, True, True))
         self.addParameter(Raster("ERROR_MAP", "Error map", None, True, False))
-        for name, label in _NUMBERS.items():
-            self.addOutput(Number(name, label))
+        self.add_numbers(_NUMBERS)
 
-    def check(self, parameters, context):
-        """Refuse values that are not allowed, and files that are not there."""
-        super().check(parameters, context)
-        self.prepare(parameters, context, None)
-
-    def prepare(self, parameters, context, progress):
+    def find_inputs(self, parameters, context):
         """Find the files."""
         self._files = [source_path(self, parameters, name, context) for name in _INPUTS]
+        self.subject = name_of(self._files[0])
 
     def compute(self, parameters, context, progress):
         """Compare them."""

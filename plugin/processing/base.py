@@ -3,26 +3,28 @@
 from __future__ import annotations
 
 import contextlib
-import os
-import shlex
 from html import escape
-from typing import Any, Iterator
+from typing import Any, Iterator, Mapping
 
 from qgis.core import (
     QgsProcessingAlgorithm,
     QgsProcessingContext,
     QgsProcessingException,
     QgsProcessingFeedback,
+    QgsProcessingOutputNumber,
 )
 from qgis.PyQt.QtGui import QIcon
 
+from ...algorithms.core.commands import shell_line
 from ...algorithms.core.errors import BareEarthError, Cancelled
-from ...algorithms.core.parameters import ParameterSet
+from ...algorithms.core.parameters import Declaration, ParameterSet, shown_value
 from ...algorithms.las.backends import install_hint, missing_packages
 from .. import compat
+from ..styles import layers
 from .feedback import FeedbackProgress
 from .fields import field_of, help_of, parameters_of, title_of
 from .outputs import do_not_load
+from .presets import presets_of
 
 _PAGES = "https://github.com/bare-earth/bare-earth/blob/main/docs"
 
@@ -44,11 +46,19 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         Its page in the folder docs.
     cancelled : str
         What the log says after a cancel.
+    run_name : str
+        What the group of its layers is called after the name of the input; the title if empty.
+    shown : tuple of str or None
+        The declared parameters that the dialog shows at once, the others being advanced; None for
+        all but those that are declared so.
+    subject : str
+        The name of the input; `find_inputs` sets it.
     """
 
-    identifier = title = section = summary = about = page = ""
+    identifier = title = section = summary = about = page = run_name = subject = ""
     cancelled = "Cancelled; nothing was written."
     keywords: tuple[str, ...] = ()
+    shown: tuple[str, ...] | None = None
 
     def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
         """Return the declared parameters, in the order of the dialog."""
@@ -63,6 +73,9 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         """Do the work, in whatever thread, and return the outputs."""
         raise NotImplementedError
 
+    def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
+        """Find the input files, and name the run after them; raise BareEarthError if not there."""
+
     def prepare(
         self,
         parameters: dict[str, Any],
@@ -70,10 +83,12 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         progress: FeedbackProgress,
     ) -> None:
         """Read from the project what `compute` needs; runs in the main thread."""
+        self.find_inputs(parameters, context)
 
     def check(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
         """Refuse values, before anything runs, by raising BareEarthError."""
         self.chosen(parameters, context)
+        self.find_inputs(parameters, context)
 
     def chosen(
         self, parameters: dict[str, Any], context: QgsProcessingContext
@@ -83,9 +98,21 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
 
     def add_declared(self) -> None:
         """Add the fields of the declared parameters to the dialog."""
-        for declared in self.parameter_sets():
-            for each in declared.declarations():
-                self.addParameter(field_of(each))
+        for each in self._declarations():
+            self.addParameter(field_of(each, self._is_shown(each)))
+
+    def _declarations(self) -> list[Declaration]:
+        sets = self.parameter_sets()
+        return [each for declared in sets for each in declared.declarations()]
+
+    def _is_shown(self, declaration: Declaration) -> bool:
+        is_among = self.shown is None or declaration.name in self.shown
+        return is_among and not declaration.advanced
+
+    def add_numbers(self, numbers: Mapping[str, str]) -> None:
+        """Add results that are numbers, by their names, with their labels."""
+        for name, label in numbers.items():
+            self.addOutput(QgsProcessingOutputNumber(name, label))
 
     def point_cloud_destination(
         self, parameters: dict[str, Any], name: str, context: QgsProcessingContext
@@ -95,6 +122,10 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         if not compat.can_load(path):
             do_not_load(context, [path])
         return path
+
+    def show(self, path: str, look: layers.Look) -> None:
+        """Say how the layer of a file is to look, if it is loaded; rasters have a look already."""
+        self._looks[path] = look
 
     # From here on, what QGIS asks.
 
@@ -127,13 +158,15 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         return f"{_PAGES}/{self.page}.md"
 
     def shortHelpString(self) -> str:
-        """Return the help: what it does, and a paragraph on each declared parameter."""
-        paragraphs = [
-            f"<b>{escape(title_of(each))}</b>: {escape(help_of(each))}"
-            for declared in self.parameter_sets()
-            for each in declared.declarations()
-        ]
-        return "\n".join([self.about, *paragraphs])
+        """Return the help: what it does, and on each parameter a paragraph, as in the dialog."""
+        # What the dialog folds away comes last there, too.
+        ordered = sorted(self._declarations(), key=lambda each: not self._is_shown(each))
+        paragraphs = [self.about]
+        for each in ordered:
+            paragraphs.append(f"<b>{_plain(title_of(each))}</b>: {_plain(help_of(each))}")
+            if each.name == "preset":
+                paragraphs.append(presets_of(self.parameter_sets()))
+        return "\n".join(paragraphs)
 
     def createInstance(self) -> BareEarthAlgorithm:
         """Return another instance."""
@@ -183,6 +216,9 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         """Run `prepare`."""
         with _errors_for_qgis():
             self.prepare(parameters, context, FeedbackProgress(feedback))
+        self._looks: dict[str, layers.Look] = {}
+        name = f"{self.subject}: {self.run_name or self.title}" if self.subject else self.title
+        self._group = layers.free_name(context, name)
         return True
 
     def processAlgorithm(
@@ -202,7 +238,23 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         finally:
             if not results:
                 do_not_load(context, set(context.layersToLoadOnCompletion()) - before)
+        self._arrange(results, context)
         return results
+
+    def _arrange(self, results: dict[str, Any], context: QgsProcessingContext) -> None:
+        """See to names, colours and places of the layers."""
+        looks, labels = {}, {}
+        for name in filter(self.parameterDefinition, results):
+            labels[results[name]] = self.parameterDefinition(name).description()
+            if name in layers.RASTERS:
+                looks[results[name]] = layers.RASTERS[name]
+        looks.update(self._looks)
+        layers.arrange(context, looks, labels, self.subject or self.title, self._group)
+
+
+def _plain(text: str) -> str:
+    """Return a text for a page; quotes stay, as `qgis_process help` shows them as they are."""
+    return escape(text, quote=False)
 
 
 @contextlib.contextmanager
@@ -240,15 +292,12 @@ def command_line(
             value = getattr(parameters, each.name)
             if value != each.default:
                 words += _option(each.name.replace("_", "-"), value)
-    if os.name == "nt":
-        # Windows knows double quotes only, and file names there hold none.
-        return " ".join(f'"{word}"' if " " in word else word for word in words)
-    return shlex.join(words)
+    return shell_line(words)
 
 
 def _option(name: str, value: Any) -> list[str]:
     if isinstance(value, bool):
         return [f"--{name}" if value else f"--no-{name}"]
     if isinstance(value, tuple):
-        return [f"--{name}", *(f"{each:g}" for each in value)]
+        return [f"--{name}", *map(shown_value, value)]
     return [f"--{name}", "none" if value is None else str(value)]

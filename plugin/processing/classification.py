@@ -13,11 +13,24 @@ from ...algorithms.engine.output import Output
 from ...algorithms.filters import METHODS
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
-from .. import compat
 from .base import BareEarthAlgorithm, command_line
+from .classified import show_classified
 from .feedback import FeedbackProgress
-from .inputs import AREA_FIELDS, PointCloudInput, add_area, area_of, ignored_filter, source_path
-from .outputs import ClassStyle, add_rasters, point_cloud_formats, raster_files, raster_paths, style
+from .inputs import (
+    AREA_FIELDS,
+    PointCloudInput,
+    add_area,
+    area_of,
+    ignored_filter,
+    name_of,
+    source_path,
+)
+from .outputs import (
+    add_cloud,
+    add_rasters,
+    raster_files,
+    raster_paths,
+)
 
 
 class ClassificationAlgorithm(BareEarthAlgorithm):
@@ -32,6 +45,16 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
     method = ""
     section = "Ground classification"
 
+    @property
+    def shown(self) -> tuple[str, ...]:
+        """Return the parameters that matter: preset, size of the largest object, cell size."""
+        return "preset", METHODS[self.method].size_parameter, "dtm_cell_size"
+
+    @property
+    def run_name(self) -> str:
+        """Return what the group of the layers is called."""
+        return METHODS[self.method].label
+
     def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
         """Return the method's parameters, then those that all methods share."""
         return METHODS[self.method].parameters, Selection, TerrainModel, Output, Resources
@@ -41,9 +64,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         self.addParameter(PointCloudInput("INPUT", "Point cloud"))
         self.add_declared()
         add_area(self)
-        self.addParameter(
-            compat.point_cloud_output("OUTPUT", "Classified point cloud", point_cloud_formats())
-        )
+        add_cloud(self, "Classified point cloud")
         add_rasters(self, ("DTM", "HILLSHADE"))
         self.addOutput(QgsProcessingOutputNumber("POINT_COUNT", "Points"))
         self.addOutput(QgsProcessingOutputNumber("AREA_COUNT", "Points in the area"))
@@ -55,10 +76,10 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         area = [f"<b>{label}</b>: {text}" for label, text in AREA_FIELDS.values()]
         return "\n".join([super().shortHelpString(), *area])
 
-    def check(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
-        """Refuse values that are not allowed, and an input that is not there."""
-        super().check(parameters, context)
-        source_path(self, parameters, "INPUT", context)
+    def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
+        """Find the input's file."""
+        self._source = source_path(self, parameters, "INPUT", context)
+        self.subject = name_of(self._source)
 
     def prepare(
         self,
@@ -66,8 +87,8 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> None:
-        """Find the input's file, and read the area."""
-        self._source = source_path(self, parameters, "INPUT", context)
+        """Find the input, and read the area."""
+        super().prepare(parameters, context, progress)
         if ignored_filter(self, parameters, "INPUT", context):
             progress.warning("The layer's filter is not applied: all points are read.")
         self._area = area_of(self, parameters, context, self._source)
@@ -94,9 +115,8 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         ground, count = summary.area_ground_count, summary.area_count
         place = " in the area" if self._area else ""
         progress.info(f"{ground:,} of {count:,} points{place} are ground ({ground / count:.1%}).")
-        if not compat.can_load(output):
-            progress.info(f"This QGIS cannot show such a file as a layer. It is at {output}.")
-        style(context, output, ClassStyle(summary.class_counts))
+        look = summary.class_counts, request.selection.to_class, request.terrain.dtm_cell_size
+        show_classified(self, output, *look, context, progress)
         return {
             "OUTPUT": output,
             **paths,

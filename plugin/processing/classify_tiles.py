@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from qgis.core import QgsProcessingOutputNumber as Number
 from qgis.core import QgsProcessingParameterFileDestination as File
 from qgis.core import QgsProcessingParameterFolderDestination as Folder
 
@@ -12,9 +11,9 @@ from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.options import TileInput, TileMethod, TileOutput
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
-from .. import compat
 from .base import BareEarthAlgorithm, command_line
-from .inputs import FOLDER_HELP, add_clouds, clouds_of
+from .classified import show_classified
+from .inputs import FOLDER_HELP, add_clouds, clouds_of, names_of
 from .outputs import add_rasters, raster_files, raster_paths
 
 _NUMBERS = {
@@ -27,13 +26,14 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
     """Classify ground (many files)."""
 
     identifier, page, section = "classifytiles", "classify-tiles", "Ground classification"
-    title = "Classify ground (many files)"
+    title, run_name = "Classify ground (many files)", "classified files"
     cancelled = "Cancelled; the tiles that are finished stay, and a later run can go on with them."
     summary = "Finds the ground points of the many files of a survey, without seams between them."
     about = (
         "Classifies the ground points of many files, each as if all were one, and writes each anew"
         " under its name. A virtual point cloud (.vpc) lists the results.\n"
     ) + FOLDER_HELP
+    shown = "method", "preset"
     keywords = (
         "lidar", "point cloud", "las", "laz", "copc", "vpc", "tiles", "batch", "survey", "folder",
         "ground", "bare earth", "classification", "classify", "filter", "terrain")  # fmt: skip
@@ -48,14 +48,13 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         self.add_declared()
         self.addParameter(Folder("OUTPUT_FOLDER", "Folder of the classified point clouds"))
         self.addParameter(File("OUTPUT_VPC", "Virtual point cloud", "*.vpc", None, True, False))
-        add_rasters(self, ("DTM", "HILLSHADE"), "")
-        for name, label in _NUMBERS.items():
-            self.addOutput(Number(name, label))
+        add_rasters(self, ("DTM", "HILLSHADE"))
+        self.add_numbers(_NUMBERS)
 
-    def check(self, parameters, context):
-        """Refuse values that are not allowed, and files that are not there."""
-        super().check(parameters, context)
-        clouds_of(self, parameters, context)
+    def find_inputs(self, parameters, context):
+        """Find the files."""
+        self._sources = clouds_of(self, parameters, context)
+        self.subject = names_of(self._sources)
 
     def compute(self, parameters, context, progress):
         """Classify the files."""
@@ -63,7 +62,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         from ...algorithms.engine.requests import ClassifyRequest
 
         chosen = self.chosen(parameters, context)
-        sources = clouds_of(self, parameters, context)
+        sources = self._sources
         folder = Path(self.parameterAsFileOutput(parameters, "OUTPUT_FOLDER", context))
         vpc = self.parameterAsFileOutput(parameters, "OUTPUT_VPC", context)
         paths = raster_paths(self, parameters, context)
@@ -72,6 +71,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         request = ClassifyRequest.of(chosen, rasters=raster_files(paths))
         summary = classify_files(sources, folder, request, progress, vpc=vpc or None)
         progress.info(f"{summary.text}.")
-        compat.load_virtual_point_cloud(summary.vpc, "Classified", context)
+        ground_class, cell = request.selection.to_class, request.terrain.dtm_cell_size
+        show_classified(self, summary.vpc, (), ground_class, cell, context, progress)
         results = {name: getattr(summary, name.lower()) for name in _NUMBERS}
         return {"OUTPUT_FOLDER": str(folder), "OUTPUT_VPC": summary.vpc, **paths, **results}

@@ -10,7 +10,6 @@ from qgis.core import (
     QgsProcessingContext,
     QgsProcessingParameterBoolean,
     QgsProcessingParameterDefinition,
-    QgsProcessingParameterEnum,
     QgsProcessingParameterNumber,
     QgsProcessingParameterString,
 )
@@ -18,19 +17,22 @@ from qgis.core import (
 from ...algorithms.core.errors import BareEarthError
 from ...algorithms.core.parameters import Declaration, ParameterSet
 from .. import compat
+from .choices import ChoiceParameter, value_of, with_labels
 
 _SYMBOLS = {"deg": "°"}
 _LISTS = ("numbers", "integers")
 _FEWEST_DECIMALS = 3
 
 
-def field_of(declaration: Declaration) -> QgsProcessingParameterDefinition:
+def field_of(declaration: Declaration, is_shown: bool = True) -> QgsProcessingParameterDefinition:
     """Return the Processing parameter for a declared one.
 
     Parameters
     ----------
     declaration : Declaration
         What is said of the parameter.
+    is_shown : bool
+        Whether the dialog shows it at once; never if it is advanced.
 
     Returns
     -------
@@ -39,20 +41,25 @@ def field_of(declaration: Declaration) -> QgsProcessingParameterDefinition:
     """
     name, label = declaration.name.upper(), title_of(declaration)
     default, optional = declaration.default, declaration.optional
-    if declaration.kind == "boolean":
+    if declaration.kind == "choices":
+        field = ChoiceParameter(
+            name, label, list(declaration.choices), True, list(default), optional, True
+        )
+    elif declaration.kind == "boolean":
         field = QgsProcessingParameterBoolean(name, label, default, optional)
     elif declaration.kind == "choice":
         # The values themselves, not their places in the list: they stay true in saved models.
-        field = QgsProcessingParameterEnum(
+        field = ChoiceParameter(
             name, label, list(declaration.choices), False, default, optional, True
         )
+        field = with_labels(field, list(declaration.choices.values()))
     elif declaration.kind in _LISTS:
         default = None if default is None else ", ".join(f"{each:g}" for each in default)
         field = QgsProcessingParameterString(name, label, default, False, optional)
     else:
         field = _number_field(declaration, name, label)
     field.setHelp(help_of(declaration))
-    if declaration.advanced:
+    if declaration.advanced or not is_shown:
         field.setFlags(field.flags() | compat.ADVANCED)
     return field
 
@@ -126,8 +133,13 @@ def _value(
         return algorithm.parameterAsBool(parameters, name, context)
     if declaration.kind == "choice":
         if isinstance(given, (str, int)):
-            return given
+            return value_of(given, list(declaration.choices))
         return algorithm.parameterAsEnumString(parameters, name, context) or None
+    if declaration.kind == "choices":
+        several = given.split(",") if isinstance(given, str) else given
+        if isinstance(several, (list, tuple)):
+            return [value_of(each, list(declaration.choices)) for each in several]
+        return algorithm.parameterAsEnumStrings(parameters, name, context)
     if declaration.kind in _LISTS:
         if isinstance(given, (list, tuple)):
             return given

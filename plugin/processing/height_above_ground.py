@@ -6,7 +6,9 @@ from pathlib import Path
 
 from ...algorithms.engine.heights import HeightOutput
 from ...algorithms.engine.memory import Resources
+from ...algorithms.engine.output import HEIGHT_DIMENSION
 from ...algorithms.survey.ground_classes import GroundClasses
+from ..styles import layers
 from .base import command_line
 from .products import ProductAlgorithm
 
@@ -54,4 +56,6 @@ class HeightAboveGroundAlgorithm(ProductAlgorithm):
             f"Heights above ground are {summary.minimum:.2f} to {summary.maximum:.2f}"
             f" {summary.unit}."
         )
+        attribute = "Z" if chosen[1].output_as == "z" else HEIGHT_DIMENSION
+        self.show(output, layers.heights(attribute, summary.maximum))
         return {"OUTPUT": output, **self.numbers_of(summary)}

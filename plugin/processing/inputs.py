@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Iterator
+from typing import Any, Iterator, Sequence
 
 import numpy as np
 from qgis.core import (
@@ -48,6 +48,14 @@ AREA_FIELDS = {
 # Of the fields of `add_clouds`.
 _FILES_LABEL, _FOLDER_LABEL = "Point clouds", "Folder of point clouds"
 _FOLDER_TEXT = "All .las, .laz and .copc.laz files in it are taken, too."
+_CLOUD_TEXT = (
+    "A point cloud layer, a .las, .laz or .copc.laz file, a virtual point cloud (.vpc), or a text"
+    " file (.txt) with a path a line. May be empty if a folder is given."
+)
+SURVEY_HELP = (
+    f"<b>Point cloud</b>: {_CLOUD_TEXT}\n<b>{_FOLDER_LABEL}</b>: {_FOLDER_TEXT} Many files are"
+    " one survey, without seams."
+)
 FOLDER_HELP = (
     f"<b>{_FILES_LABEL}</b>: .las, .laz and .copc.laz files, virtual point clouds (.vpc), or text"
     " files (.txt) with a path a line. May be empty if a folder is given.\n"
@@ -79,6 +87,18 @@ class PointCloudInput(QgsProcessingParameterPointCloudLayer):
         return "Point clouds (*.las *.laz *.LAS *.LAZ);;All files (*.*)"
 
 
+class SurveyInput(PointCloudInput):
+    """The same, or a virtual point cloud, a folder of files, or a list of them."""
+
+    def clone(self) -> SurveyInput:
+        """Return a copy."""
+        return SurveyInput(self)
+
+    def createFileFilter(self) -> str:
+        """Return the file types for the dialog's "..."."""
+        return "Point clouds (*.las *.laz *.vpc *.txt *.LAS *.LAZ);;All files (*.*)"
+
+
 def source_path(
     algorithm: QgsProcessingAlgorithm,
     parameters: dict[str, Any],
@@ -106,6 +126,52 @@ def source_path(
                 f"{text} does not exist. Check the path." if text else "Choose a point cloud."
             )
     return _path_of(layer)
+
+
+def add_survey(algorithm: QgsProcessingAlgorithm) -> None:
+    """Add fields for a point cloud, or a folder of them, to a dialog."""
+    cloud = SurveyInput("INPUT", "Point cloud", None, True)
+    cloud.setHelp(_CLOUD_TEXT)
+    folder = QgsProcessingParameterFile(
+        "INPUT_FOLDER", _FOLDER_LABEL, compat.FOLDER, "", None, True
+    )
+    folder.setHelp(_FOLDER_TEXT)
+    algorithm.addParameter(cloud)
+    algorithm.addParameter(folder)
+
+
+def survey_of(
+    algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], context: QgsProcessingContext
+) -> list[Path]:
+    """Return what the fields of `add_survey` hold.
+
+    Raises
+    ------
+    BareEarthError
+        If there is none, or one does not exist.
+    """
+    paths = []
+    if not _is_empty(parameters.get("INPUT")):
+        paths.append(source_path(algorithm, parameters, "INPUT", context))
+    folder = algorithm.parameterAsString(parameters, "INPUT_FOLDER", context)
+    if folder and not Path(folder).is_dir():
+        raise BareEarthError(f"{folder} is not a folder. Check the path.")
+    paths += [Path(folder)] if folder else []
+    if not paths:
+        raise BareEarthError("Choose a point cloud, or a folder of them.")
+    return paths
+
+
+def name_of(path: Path) -> str:
+    """Return the name of a file, or folder, without what says its format."""
+    suffixes = (".copc.laz", ".las", ".laz", ".vpc", ".txt", ".tif", ".tiff")
+    known = (each for each in suffixes if path.name.lower().endswith(each))
+    return path.name[: -len(next(known, "")) or None]
+
+
+def names_of(paths: Sequence[Path]) -> str:
+    """Return the name of the files of a run."""
+    return name_of(paths[0]) + (" and others" if paths[1:] else "")
 
 
 def add_clouds(algorithm: QgsProcessingAlgorithm) -> None:
@@ -166,6 +232,8 @@ def add_area(algorithm: QgsProcessingAlgorithm) -> None:
     )
     for field in fields:
         field.setHelp(AREA_FIELDS[field.name()][1])
+        if field.name() == "BOUNDARY":
+            field.setFlags(field.flags() | compat.ADVANCED)
         algorithm.addParameter(field)
 
 

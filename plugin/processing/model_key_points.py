@@ -8,8 +8,8 @@ from ...algorithms.engine.key_points import KeyPointMark
 from ...algorithms.engine.memory import Resources
 from ...algorithms.grids.model_key_points import ModelKeyPoints
 from ...algorithms.survey.ground_classes import GroundClasses
+from ..styles import layers
 from .base import command_line
-from .outputs import ClassStyle, style
 from .products import ProductAlgorithm
 
 
@@ -54,5 +54,5 @@ class ModelKeyPointsAlgorithm(ProductAlgorithm):
             f"{summary.key_point_count:,} of {summary.ground_count:,} ground points are key points"
             f" ({summary.key_point_count / summary.ground_count:.1%})."
         )
-        style(context, output, ClassStyle(summary.class_counts))
+        self.show(output, layers.classes(summary.class_counts, "key points"))
         return {"OUTPUT": output, **self.numbers_of(summary)}

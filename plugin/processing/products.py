@@ -9,8 +9,8 @@ from qgis.core import QgsProcessingContext, QgsProcessingOutputNumber
 from .. import compat
 from .base import BareEarthAlgorithm
 from .feedback import FeedbackProgress
-from .inputs import PointCloudInput, ignored_filter, source_path
-from .outputs import point_cloud_formats
+from .inputs import PointCloudInput, ignored_filter, name_of, source_path
+from .outputs import add_cloud
 
 
 class ProductAlgorithm(BareEarthAlgorithm):
@@ -31,9 +31,7 @@ class ProductAlgorithm(BareEarthAlgorithm):
 
     def add_outputs(self) -> None:
         """Add the fields of the files to be made."""
-        self.addParameter(
-            compat.point_cloud_output("OUTPUT", self.cloud_label, point_cloud_formats())
-        )
+        add_cloud(self, self.cloud_label)
 
     def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
         """Declare the fields of the dialog and the results."""
@@ -43,10 +41,10 @@ class ProductAlgorithm(BareEarthAlgorithm):
         for name, label in self.numbers:
             self.addOutput(QgsProcessingOutputNumber(name, label))
 
-    def check(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
-        """Refuse values that are not allowed, and an input that is not there."""
-        super().check(parameters, context)
-        source_path(self, parameters, "INPUT", context)
+    def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
+        """Find the input's file."""
+        self.source = source_path(self, parameters, "INPUT", context)
+        self.subject = name_of(self.source)
 
     def prepare(
         self,
@@ -54,8 +52,8 @@ class ProductAlgorithm(BareEarthAlgorithm):
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> None:
-        """Find the input's file."""
-        self.source = source_path(self, parameters, "INPUT", context)
+        """Find the input, and tell what is ignored."""
+        super().prepare(parameters, context, progress)
         if ignored_filter(self, parameters, "INPUT", context):
             progress.warning("The layer's filter is not applied: all points are read.")
 

@@ -12,8 +12,8 @@ from qgis.core import (
 
 from ...algorithms.core.errors import BareEarthError
 from ...algorithms.products.off_terrain import OffTerrain, remove_objects_file
+from ..styles import layers
 from .base import BareEarthAlgorithm, command_line
-from .outputs import ElevationStyle, style
 
 
 class RemoveOffTerrainObjectsAlgorithm(BareEarthAlgorithm):
@@ -47,12 +47,12 @@ class RemoveOffTerrainObjectsAlgorithm(BareEarthAlgorithm):
         self.addOutput(QgsProcessingOutputNumber("CELL_COUNT", "Cells with a height"))
         self.addOutput(QgsProcessingOutputNumber("REMOVED_COUNT", "Cells of objects"))
 
-    def prepare(self, parameters, context, progress):
+    def find_inputs(self, parameters, context):
         """Find the input's file."""
         layer = self.parameterAsRasterLayer(parameters, "INPUT", context)
         if layer is None or layer.providerType() != "gdal":
             raise BareEarthError("The elevation raster is not a file. Export it as GeoTIFF first.")
-        self._source = layer.source()
+        self._source, self.subject = layer.source(), layer.name()
 
     def compute(self, parameters, context, progress):
         """Remove the objects."""
@@ -62,6 +62,6 @@ class RemoveOffTerrainObjectsAlgorithm(BareEarthAlgorithm):
         progress.command(command_line("remove-off-terrain-objects", files, [chosen], {}))
         removal = remove_objects_file(self._source, Path(output), chosen, progress)
         progress.info(removal.text)
-        style(context, output, ElevationStyle())
+        self.show(output, layers.BARE)
         counts = {"CELL_COUNT": removal.cell_count, "REMOVED_COUNT": removal.removed_count}
         return {"OUTPUT": output, **counts}

@@ -28,7 +28,8 @@ class TerrainModelAlgorithm(ProductAlgorithm):
         "lidar", "point cloud", "las", "laz", "copc", "dtm", "dem", "dsm", "chm", "ndsm", "canopy",
         "hillshade", "relief", "raster", "rasterize", "interpolate", "tin", "elevation",
     )  # fmt: skip
-    page = "terrain-model"
+    page, run_name = "terrain-model", "terrain and surface"
+    shown = "dtm_cell_size", "max_edge"
     numbers = (("GROUND_COUNT", "Ground points"), ("SURFACE_COUNT", "Points of the surface"))
 
     def parameter_sets(self):

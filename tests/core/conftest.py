@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from bare_earth.algorithms.core.progress import Progress
+from bare_earth.algorithms.engine import workers
 
 LENGTHS = (20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67)
 HEADER_SIZES = (227, 227, 227, 235, 375)
@@ -185,6 +186,19 @@ class LasKit:
         path = self.folder / name
         path.write_bytes(las_bytes(compressed=name.endswith(".laz"), **wanted))
         return path
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_setup(item):
+    """Leave long tests out, and tell of it, unless `-m` asks for them."""
+    if item.get_closest_marker("long") and "long" not in item.config.option.markexpr:
+        pytest.skip("long: `make test-long` runs it")
+
+
+@pytest.fixture
+def threads_for_processes(monkeypatch):
+    """Let a command work in threads: a process takes a second of two processors to begin."""
+    monkeypatch.setattr(workers, "Processes", workers.Threads)
 
 
 @pytest.fixture

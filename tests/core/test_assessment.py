@@ -16,6 +16,7 @@ from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.products import report
 from bare_earth.algorithms.products.assessment import assess_files
 from bare_earth.algorithms.products.comparison import AssessmentOptions, Comparison, compare
+from bare_earth.algorithms.products.pictures import png, rgb
 
 
 def test_the_four_figures_of_a_known_confusion():
@@ -135,8 +136,8 @@ def test_the_picture_shows_the_errors_where_they_are(files, tmp_path):
     assert 30 < pixels.shape[0] == pixels.shape[1] <= 41
     # North is up: type I below on the left, type II above on the right, nothing elsewhere.
     part = pixels.shape[0] // 10
-    assert (pixels[-part:, :part] == report._rgb(report._TYPE_1)).all()
-    assert (pixels[:part, -part:] == report._rgb(report._TYPE_2)).all()
+    assert (pixels[-part:, :part] == rgb(report.TYPE_1)).all()
+    assert (pixels[:part, -part:] == rgb(report.TYPE_2)).all()
     coloured = np.ptp(pixels, axis=2) > 0
     assert coloured[-2 * part :, : 2 * part].sum() + coloured[: 2 * part, -2 * part :].sum() == (
         coloured.sum()
@@ -220,7 +221,7 @@ def test_a_large_survey_has_a_picture_of_bounded_size():
 def test_the_png_can_be_read_by_others():
     image = pytest.importorskip("matplotlib.image")
     pixels = np.random.default_rng(1).integers(0, 256, (5, 7, 3)).astype(np.uint8)
-    read = image.imread(io.BytesIO(report.png(pixels)), format="png")
+    read = image.imread(io.BytesIO(png(pixels)), format="png")
     assert np.array_equal(np.rint(read * 255).astype(np.uint8)[..., :3], pixels)
 
 

@@ -9,7 +9,7 @@ from bare_earth.algorithms.core.parameters import Declaration
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.products.comparison import compare
-from benchmarks import accuracy, cache, data, maps, measure, peers, report, tables
+from benchmarks import accuracy, cache, data, maps, measure, peers, report, tables, work
 from benchmarks.measure import Filter
 from benchmarks.scenes import KINDS, make
 from benchmarks.scenes.simple import village
@@ -46,6 +46,7 @@ def folder(tmp_path, monkeypatch):
     monkeypatch.setattr(report, "IMAGES", tmp_path / "images")
     monkeypatch.setattr(report, "PAGE", tmp_path / "accuracy.md")
     monkeypatch.setattr(peers, "PEERS", (Lowest(), Absent()))
+    monkeypatch.setattr(work, "PROCESSES", 1)
     return tmp_path
 
 
@@ -73,6 +74,7 @@ class Broken:
         raise RuntimeError("no licence")
 
 
+@pytest.mark.long
 def test_the_whole_benchmark_writes_the_page(folder, capsys, monkeypatch):
     monkeypatch.setattr(accuracy, "DENSE_TILE", "")  # for time's sake
     kinds = {name: KINDS[name] for name in ("drone_50", "dense_canopy")}

@@ -230,6 +230,7 @@ def test_a_class_that_the_points_cannot_hold_is_refused():
         classify_cloud(cloud_of(points, point_format=0), SlopeFilter(), Selection(bridge_class=64))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("parameters", [TinDensification(), GridMinimum(), SlopeFilter()])
 def test_the_bridges_of_a_real_survey_are_not_ground(parameters):
     cloud = read_cloud(real("real/ign_bridge.laz"))

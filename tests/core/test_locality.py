@@ -42,7 +42,7 @@ def with_stray(cloud, east, north, up):
 @pytest.fixture(scope="module")
 def wide(tmp_path_factory):
     """Return a generated survey that is far wider than what a filter looks at."""
-    integers = strip(45_000, 700.0, 60.0)
+    integers = strip(30_000, 700.0, 50.0)
     return read_cloud(write(tmp_path_factory.mktemp("wide") / "in.las", integers))
 
 
@@ -70,7 +70,10 @@ def test_what_is_cut_off_changes_nothing_farther_away_than_the_filter_looks(para
 
 
 @pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
-@pytest.mark.parametrize("name", ["isprs/samp31.laz", "real/ahn3_urban.laz"])
+@pytest.mark.parametrize(
+    "name",
+    ["isprs/samp31.laz", pytest.param("real/ahn3_urban.laz", marks=pytest.mark.long)],
+)
 def test_crops_and_stray_points_of_real_surveys_change_nothing_far_away(parameters, name):
     cloud = read_cloud(real(name))
     if cloud.count > 500_000:  # half of them are quicker
@@ -97,17 +100,18 @@ def test_files_in_the_west_change_nothing_far_away(parameters, wide, tmp_path):
         classify_tiles([tmp_path / name], tmp_path / f"{name} done", parameters)
     found, whole = (points_of(finished(tmp_path / f"{name} done")) for name in ("some", "all"))
     found, whole = (each[each[:, 0] > 30_000 + 100 * reach] for each in (found, whole))
-    assert len(found) > 12_000 and np.array_equal(found, whole)
+    assert len(found) > 6_000 and np.array_equal(found, whole)
 
 
 @pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
 def test_quartering_crowded_blocks_changes_no_label_of_a_real_survey(parameters):
     cloud, labels = read_cloud(real("isprs/samp11.laz")), []
-    for most in (10_000_000, 10_000):
+    cloud = some(cloud, np.flatnonzero(cloud.x < np.quantile(cloud.x, 0.4)))
+    for most in (10_000_000, 4000):
         blocks = dataclasses.replace(blocks_of(parameters), most_points=most)
         every = SurveyFile(cloud, np.ones(cloud.count, dtype=bool))
         store = MemoryPoints([every], survey_frame(cloud.crs), blocks)
-        assert (len(list(blocks.over(store))) > 1) == (most == 10_000)
+        assert (len(list(blocks.over(store))) > 1) == (most == 4000)
         label_ground(store, parameters, blocks)
         labels.append(store.labels[0])
     assert np.array_equal(*labels)

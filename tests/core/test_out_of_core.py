@@ -89,7 +89,7 @@ def run(source, folder, parameters, resources, *policy, **options):
     ],
 )
 def test_the_same_bytes_in_memory_and_on_disk(small, las, tmp_path, parameters, selection, area):
-    source = write(tmp_path / "in.las", 7000)
+    source = write(tmp_path / "in.las", 4000)
     heard = las.Heard(), las.Heard()
     results = [
         run(
@@ -246,8 +246,9 @@ sys.exit(cli.main(sys.argv[1:]))
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows ends a process without telling it")
-@pytest.mark.parametrize("module", ["ground", "labelling"])
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
+@pytest.mark.parametrize(
+    ("module", "number"), [("ground", signal.SIGTERM), ("labelling", signal.SIGKILL)]
+)
 def test_a_killed_run_leaves_nothing_beside_the_output(module, number, tmp_path):
     # In the middle of the blocks, and when they are about to begin.
     name = "_labels" if module == "ground" else "label_ground"

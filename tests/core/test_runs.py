@@ -46,7 +46,9 @@ def _rows(paths, *names):
     return rows[np.lexsort(rows.T)]
 
 
-def test_classes_rasters_and_heights_of_many_files_in_one_go(survey, tmp_path):
+def test_classes_rasters_and_heights_of_many_files_in_one_go(
+    survey, tmp_path, threads_for_processes
+):
     words = ["--method", "slope", "--height-above-ground"]
     dtm, shade = tmp_path / "dtm.tif", tmp_path / "shade.tif"
     one = ["classify", str(survey), str(tmp_path / "out.laz"), "--dtm", str(tmp_path / "1.tif")]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from benchmarks import accuracy, cache, generated, tables
+from benchmarks import accuracy, cache, generated, tables, work
 from benchmarks.measure import Filter
 from benchmarks.phases import PHASES, Phased, over_samples, shifted
 from benchmarks.scenes import make
@@ -72,6 +72,7 @@ def test_a_scene_is_remembered_whole(tmp_path, monkeypatch):
 
 def test_scenes_are_told_from_the_command_line(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(cache, "FOLDER", tmp_path)
+    monkeypatch.setattr(work, "PROCESSES", 1)
     accuracy.main(["--scenes", "--method", "tin", "--seeds", "tuning", "--kinds", "drone_50"])
     printed = capsys.readouterr().out
     assert "TIN densification, tuning seeds" in printed

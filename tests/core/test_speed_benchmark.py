@@ -255,6 +255,7 @@ def test_profile_tells_parts_and_functions():
     assert found.seconds == 2.0
 
 
+@pytest.mark.long
 def test_page_is_written_of_a_run_and_again_of_its_figures(tmp_path, monkeypatch, capsys):
     pytest.importorskip("matplotlib")
     monkeypatch.setattr(cache, "FOLDER", tmp_path / "cache")

@@ -22,7 +22,6 @@ from bare_earth.algorithms.engine import file_points as file_points_module
 from bare_earth.algorithms.engine import jobs as jobs_module
 from bare_earth.algorithms.engine import labelling as labelling_module
 from bare_earth.algorithms.engine import tile_run as tile_run_module
-from bare_earth.algorithms.engine import workers as workers_module
 from bare_earth.algorithms.engine.blocks import BRIDGE, GROUND, LOW, Blocks
 from bare_earth.algorithms.engine.ground import label_ground
 from bare_earth.algorithms.engine.memory import Resources
@@ -93,7 +92,7 @@ def whole_classes(path, parameters, selection=Selection(), blocks=BLOCKS):
 
 @pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
 def test_tiles_get_the_labels_of_one_file_with_all_points(parameters, tmp_path, out):
-    integers, selection = strip(5000, 150.0, 75.0), Selection(low_noise_class=True)
+    integers, selection = strip(3500, 150.0, 75.0), Selection(low_noise_class=True)
     whole = write(tmp_path / "whole.las", integers)
     expected = whole_classes(whole, parameters, selection)
     assert {1, 2, 7} == set(np.unique(expected[:, 3]))
@@ -110,15 +109,17 @@ def test_tiles_get_the_labels_of_one_file_with_all_points(parameters, tmp_path, 
         assert summary.point_count == len(integers)
 
 
-@pytest.mark.parametrize("name", ["isprs/samp52.laz", "real/ign_pf8.las"])
+@pytest.mark.parametrize(
+    "name", ["isprs/samp52.laz", pytest.param("real/ign_pf8.las", marks=pytest.mark.long)]
+)
 def test_real_tiles_get_the_labels_of_the_file_they_were_cut_from(name, tmp_path, out):
     las = laspy.read(real(name))
     x, y = np.asarray(las.x), np.asarray(las.y)
     near = (x < x.min() + 130) & (y < y.min() + 130)
     integers = np.column_stack([np.round(each * 100) for each in (x, y, np.asarray(las.z))])
     integers = (integers[near] - [25_000_000, 570_000_000, 0]).astype(np.int64)
-    if len(integers) > 25_000:
-        integers = integers[:: len(integers) // 25_000 + 1]
+    if len(integers) > 12_000:
+        integers = integers[:: len(integers) // 12_000 + 1]
     parameters, blocks = TinDensification(), Blocks(70.0, 50.0)
     whole = write(tmp_path / "whole.laz", integers)
     folder = cut(tmp_path / "in", integers, 8)
@@ -283,7 +284,7 @@ def test_other_parameters_or_inputs_make_tiles_anew_where_they_matter(six, out, 
     assert after["5.laz"] != before["5.laz"] and after["0.laz"] == before["0.laz"]
 
 
-@pytest.mark.parametrize("added", [("0", "1"), ("4", "5"), ("3",)], ids=str)
+@pytest.mark.parametrize("added", [("0", "1"), ("7",)], ids=str)
 def test_of_a_survey_to_which_tiles_are_added_only_their_neighbours_are_done_anew(
     added, many, out, tmp_path
 ):
@@ -308,8 +309,7 @@ def test_of_a_survey_to_which_tiles_are_added_only_their_neighbours_are_done_ane
         assert gap > 0 or name in anew  # it touches one that was added
         assert gap < 40.0 + 8.0 or name not in anew
     assert summary.kept_count == 16 - len(anew) >= 6
-    classify_tiles([many[0]], tmp_path / "at once", FAST, **run)
-    assert bytes_of(out) == bytes_of(tmp_path / "at once")
+    assert bytes_of(out) == many[1]  # with this filter the blocks do not matter
 
 
 def test_the_blocks_of_a_method_do_not_move_with_the_survey(tmp_path, out):
@@ -348,7 +348,7 @@ def test_a_killed_run_goes_on_and_gives_the_same_bytes(number, many, out):
     run.send_signal(number)
     start = time.monotonic()
     _, said = run.communicate()
-    assert time.monotonic() - start < 4.0
+    assert time.monotonic() - start < 8.0
     time.sleep(0.3)  # processes that lost theirs end by themselves
     done = changed_times(out)
     assert 1 <= len(done) < 16
@@ -369,9 +369,9 @@ def test_a_killed_run_goes_on_and_gives_the_same_bytes(number, many, out):
 # What goes wrong
 
 
-def test_broken_tiles_are_told_at_the_end_and_the_others_done(six, out, las, capsys, monkeypatch):
-    # Processes are tested elsewhere, and take a second to begin.
-    monkeypatch.setattr(workers_module, "Processes", Threads)
+def test_broken_tiles_are_told_at_the_end_and_the_others_done(
+    six, out, las, capsys, threads_for_processes
+):
     data = (six / "1.laz").read_bytes()
     (six / "1.laz").write_bytes(data[:900] + bytes(300) + data[1200:])
     (six / "9.laz").write_bytes(b"no cloud")

@@ -169,26 +169,26 @@ def test_a_block_gets_the_points_of_its_window_that_take_part(tmp_path, request,
 
 @pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
 def test_labels_do_not_depend_on_threads_order_or_the_cut_into_files(parameters):
-    xyz, random = survey(7000, 150.0, 75.0), np.random.default_rng(7)
-    blocks = Blocks(80.0, 30.0, most_points=2500)
+    xyz, random = survey(4500, 150.0, 75.0), np.random.default_rng(7)
+    blocks = Blocks(80.0, 30.0, most_points=1600)
     (expected,) = labels_of([cloud_of(*xyz)], parameters, blocks)
     assert {0, 1, 2} == set(np.unique(expected)) and 0.4 < (expected == 1).mean() < 0.95
-    for threads, files in ((2, 1), (5, 3)):
-        mixed = random.permutation(len(expected))
-        cuts = np.array_split(mixed, np.sort(random.integers(1, len(mixed), files - 1)))
-        offsets = [tuple(np.subtract(ORIGIN, random.integers(0, 9000, 3))) for _ in cuts]
-        parts = [cloud_of(*(v[cut] for v in xyz), at) for cut, at in zip(cuts, offsets)]
-        for cut, labels in zip(cuts, labels_of(parts, parameters, blocks, threads)):
-            assert np.array_equal(labels, expected[cut])
+    cuts = np.array_split(random.permutation(len(expected)), (1200, 3700))
+    offsets = [tuple(np.subtract(ORIGIN, random.integers(0, 9000, 3))) for _ in cuts]
+    parts = [cloud_of(*(v[cut] for v in xyz), at) for cut, at in zip(cuts, offsets)]
+    for cut, labels in zip(cuts, labels_of(parts, parameters, blocks, threads=5)):
+        assert np.array_equal(labels, expected[cut])
 
 
-@pytest.mark.parametrize("name", ["isprs/samp52.laz", "real/ahn3_urban.laz"])
+@pytest.mark.parametrize(
+    "name", ["isprs/samp52.laz", pytest.param("real/ahn3_urban.laz", marks=pytest.mark.long)]
+)
 def test_real_points_get_the_same_labels_in_any_order_and_number_of_threads(name):
     cloud, random = read_cloud(real(name)), np.random.default_rng(2)
     xyz = [values.astype(np.int64) for values in (cloud.x, cloud.y, cloud.z)]
     near = cloud.x < cloud.x.min() + 250 / cloud.scale[0]
     near &= cloud.y < cloud.y.min() + 250 / cloud.scale[1]
-    keep = np.flatnonzero(near & (random.random(cloud.count) < min(1.0, 100_000 / cloud.count)))
+    keep = np.flatnonzero(near & (random.random(cloud.count) < min(1.0, 50_000 / cloud.count)))
     mixed = random.permutation(keep)
     whole, shuffled = (
         cloud_of(*(each[which] for each in xyz), cloud.offset, cloud.scale[0])
@@ -200,6 +200,7 @@ def test_real_points_get_the_same_labels_in_any_order_and_number_of_threads(name
     assert np.array_equal(found[np.argsort(mixed)], expected[np.argsort(keep)])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
 def test_small_blocks_change_hardly_any_label_of_real_points(parameters):
     cloud = read_cloud(real("real/oregon_conifer.laz"))
@@ -245,15 +246,15 @@ def test_points_that_are_only_context_get_no_label_and_their_blocks_no_filter():
 
 
 @pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
-@pytest.mark.parametrize("east", [-1e6, -300.0, 300.0, 1e6])
-def test_a_stray_point_far_away_changes_nothing_else(parameters, east):
-    x, y, z = survey(8000, 120.0, 90.0)
-    stray = [np.r_[values, at] for values, at in zip((x, y, z), (int(east * 100), 4000, 1000))]
-    found, selected = classify_cloud(cloud_of(*stray), parameters)
-    assert selected.all() and len(found) == 8001
-    assert 0.4 < (found[:-1] == 2).mean() < 0.95
+def test_a_stray_point_far_away_changes_nothing_else(parameters):
+    x, y, z = survey(5000, 120.0, 90.0)
     alone, _ = classify_cloud(cloud_of(x, y, z), parameters)
-    assert np.array_equal(found[:-1], alone)
+    assert 0.4 < (alone == 2).mean() < 0.95
+    for east in (-1e6, -300.0, 300.0, 1e6):
+        stray = [np.r_[values, at] for values, at in zip((x, y, z), (int(east * 100), 4000, 1000))]
+        found, selected = classify_cloud(cloud_of(*stray), parameters)
+        assert selected.all() and len(found) == 5001
+        assert np.array_equal(found[:-1], alone)
 
 
 def watched(monkeypatch, function, reach=20.0):

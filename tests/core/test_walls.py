@@ -1,6 +1,7 @@
 """The walls of the house: who may import whom, and what shipped code must not hold."""
 
 import ast
+import functools
 import subprocess
 import sys
 from pathlib import Path
@@ -42,10 +43,12 @@ def _name(path):
     return path.relative_to(ROOT).as_posix()
 
 
+@functools.cache
 def _tree(path):
     return ast.parse(path.read_text(encoding="utf-8"))
 
 
+@functools.cache
 def _imports(path):
     """Return the modules that a file imports anywhere; those of the package as ".algorithms..."."""
     package = path.relative_to(ROOT).parts[:-1]
@@ -58,7 +61,7 @@ def _imports(path):
             base = ".".join([*above, *([node.module] if node.module else [])])
             base = f".{base}" if node.level else base
             found |= {base, *(f"{base.rstrip('.')}.{each.name}" for each in node.names)}
-    return found
+    return frozenset(found)
 
 
 def _within(modules, *packages):

@@ -62,6 +62,8 @@ def test_the_defaults_of_the_dialog_are_those(example):
         ({"CAREFUL": False}, {"careful": False}),
         ({"CAREFUL": "false"}, {"careful": False}),
         ({"WAY": "down"}, {"way": "down"}),
+        ({"WAY": 1}, {"way": "down"}),  # as qgis_process help counts them
+        ({"WAY": "0"}, {"way": "up"}),
         ({"SIZES": "3, 4.5"}, {"sizes": (3.0, 4.5)}),
         ({"SIZES": [3, 4.5]}, {"sizes": (3.0, 4.5)}),
         ({"CLASSES": "1; 2 3"}, {"classes": (1, 2, 3)}),
@@ -85,7 +87,8 @@ def test_values_arrive(example, values, expected):
         ({"ROUNDS": 2.5}, "Rounds must be a whole number"),
         ({"ROUNDS": 10}, "Rounds must be at most 9"),
         ({"WAY": "left"}, "Way must be one of up, down"),
-        ({"WAY": 1}, "Way must be one of up, down"),
+        ({"WAY": 2}, "Way must be one of up, down"),
+        ({"WAY": "-1"}, "Way must be one of up, down"),
         ({"SIZES": "1, x"}, "Sizes must be a number"),
         ({"CLASSES": "1.5"}, "Classes must be a whole number"),
     ],

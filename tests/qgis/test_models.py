@@ -98,7 +98,7 @@ def test_the_dialog_gives_back_what_is_chosen(algorithm, scene, plugin):
         dialog.close()
     assert values["INPUT"] == str(scene.path)
     assert values["TO_CLASS"] == 9
-    assert "DTM" in values and values.get("HILLSHADE") is None
+    assert "DTM" in values and "HILLSHADE" in values
     assert algorithm.checkParameterValues(values, QgsProcessingContext())[0]
 
 

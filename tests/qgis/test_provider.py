@@ -39,6 +39,14 @@ PARAMETERS = {
         "KEY_POINT_TOLERANCE_ABOVE", "KEY_POINT_TOLERANCE_BELOW", "KEY_POINT_GRID_SIZE",
         *SHARED_PARAMETERS,
     ],
+    "bareearth:pointcloudtoterrain": [
+        "INPUT", "INPUT_FOLDER",
+        "METHOD", "PRESET", "DTM_CELL_SIZE", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
+        "FROM_CLASSES", "SEED_CLASSES", "TO_CLASS", "RETURNS", "OTHERS",
+        "LOW_NOISE_CLASS", "LOW_NOISE_DEPTH", "BRIDGES", "BRIDGE_CLASS",
+        "SURFACE_RETURNS", "MAX_EDGE", "CONTOUR_INTERVAL", "RELIEF_RADIUS", "THREADS", "MEMORY",
+        "OUTPUT", "DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE", "RELIEF", "CONTOURS",
+    ],
     "bareearth:gridminimum": [
         "INPUT",
         "PRESET", "CELL_SIZE", "HEIGHT_THRESHOLDS", "FINAL_HEIGHT", "MAX_OBJECT_SIZE",
@@ -77,6 +85,9 @@ PARAMETERS = {
         "THREADS", "MEMORY",
         "DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE",
     ],
+    "bareearth:comparesettings": [
+        "INPUT", "EXTENT", "SETTINGS", "CONTEXT", "PROFILE", "THREADS", "MEMORY", "OUTPUT",
+    ],
     "bareearth:assess": [
         "CLASSIFIED", "REFERENCE", "GROUND_CLASSES", "IGNORED_CLASSES", "MAP_CELL_SIZE",
         "REPORT", "ERROR_MAP",
@@ -100,6 +111,18 @@ OUTPUTS = {
         "POINT_COUNT",
         "GROUND_COUNT",
     ],
+    "bareearth:pointcloudtoterrain": [
+        "OUTPUT",
+        "DTM",
+        "DSM",
+        "CHM",
+        "HILLSHADE",
+        "CONFIDENCE",
+        "RELIEF",
+        "CONTOURS",
+        "POINT_COUNT",
+        "GROUND_COUNT",
+    ],
     "bareearth:heightaboveground": [
         "OUTPUT",
         "POINT_COUNT",
@@ -117,6 +140,7 @@ OUTPUTS = {
         "GROUND_COUNT",
         "SURFACE_COUNT",
     ],
+    "bareearth:comparesettings": ["OUTPUT"],
     "bareearth:assess": [
         "REPORT",
         "ERROR_MAP",
@@ -183,6 +207,36 @@ def test_numbers_have_ranges_and_names_are_upper_case(each):
             assert parameter.minimum() > -1e6 and parameter.maximum() < 1e6, parameter.name()
         if isinstance(parameter, QgsProcessingParameterEnum):
             assert parameter.usesStaticStrings()
+
+
+def test_a_dialog_shows_eight_fields_at_most(each):
+    advanced = QgsProcessingParameterDefinition.Flag.FlagAdvanced
+    fields = [p for p in each.parameterDefinitions() if not p.flags() & advanced]
+    if each.id() == "bareearth:pointcloudtoterrain":
+        # It is there to make them all, and QGIS cannot fold outputs away.
+        fields = [p for p in fields if not p.isDestination()]
+    assert len(fields) <= 8, [p.name() for p in fields]
+
+
+def test_the_help_has_the_order_of_the_dialog(each):
+    advanced = QgsProcessingParameterDefinition.Flag.FlagAdvanced
+    declared = {d.name.upper() for s in each.parameter_sets() for d in s.declarations()}
+    fields = [p for p in each.parameterDefinitions() if p.name() in declared]
+    fields.sort(key=lambda p: bool(p.flags() & advanced))
+    places = [each.shortHelpString().index(f"<b>{p.description()}</b>") for p in fields]
+    assert places == sorted(places)
+
+
+def test_the_values_of_presets_are_told_before_a_run(algorithm, registry):
+    help_text = algorithm.shortHelpString()
+    row = help_text.partition("<td>Steep or rugged terrain</td>")[2].partition("</tr>")[0]
+    assert re.findall(r">([\d.]+)<", row) == ["30", "25", "2"]
+    assert "<th>Maximum building size [m]</th>" in help_text
+    tables = {"gridminimum": 1, "slopefilter": 1, "classifytiles": 3, "pointcloudtoterrain": 3}
+    for name, count in tables.items():
+        text = registry.createAlgorithmById(f"bareearth:{name}").shortHelpString()
+        assert text.count("<td>Steep or rugged terrain</td>") == count
+    assert "&#x27;" not in help_text and "LiDAR360's" in help_text
 
 
 def test_units_and_rare_parameters(algorithm):
@@ -266,7 +320,7 @@ def test_its_page_holds_every_parameter_with_its_default(each, registry):
             elif isinstance(parameter.default, float):
                 shown = f"{parameter.default:g}{unit}"
             elif isinstance(parameter.default, tuple):
-                shown = str(parameter.default).strip("(,)") + unit
+                shown = ", ".join(map(str, parameter.default)) + unit
             elif parameter.default is not None:
                 shown = str(parameter.default)
             else:

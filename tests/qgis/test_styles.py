@@ -1,15 +1,200 @@
-from qgis.core import QgsPointCloudLayer, QgsProcessingContext, QgsProcessingFeedback
+"""How the layers of a run look, what they are called, and where they are in the tree."""
 
-from bare_earth.plugin.processing.outputs import ClassStyle
+import numpy as np
+import pytest
+from osgeo import gdal
+from qgis.core import (
+    Qgis,
+    QgsLayerTreeGroup,
+    QgsPointCloudLayer,
+    QgsProcessingOutputLayerDefinition,
+    QgsProject,
+    QgsRasterLayer,
+)
+from qgis.PyQt.QtGui import QPainter
+from support import ALGORITHM
+
+from bare_earth.plugin.styles import clouds, rasters
+
+MULTIPLY = QPainter.CompositionMode.CompositionMode_Multiply
+
+
+@pytest.fixture
+def run(context):
+    """Run an algorithm as the toolbox does, all outputs loaded."""
+    import processing
+
+    def run(algorithm, parameters, outputs, name=""):
+        project = QgsProject.instance()
+        loaded = {}
+        for each, path in outputs.items():
+            loaded[each] = QgsProcessingOutputLayerDefinition(str(path), project)
+            loaded[each].destinationName = name
+        return processing.runAndLoadResults(algorithm, {**parameters, **loaded})
+
+    yield run
+    QgsProject.instance().clear()
+
+
+def tree():
+    """Return the groups and layers of the project, from above."""
+    groups = QgsProject.instance().layerTreeRoot().children()
+    return {
+        group.name(): [(each.name(), each.itemVisibilityChecked()) for each in group.children()]
+        for group in groups
+        if isinstance(group, QgsLayerTreeGroup)
+    }
+
+
+def raster(path, values):
+    values = np.asarray(values, dtype=np.float32)
+    made = gdal.GetDriverByName("GTiff").Create(str(path), *values.shape[::-1], 1, gdal.GDT_Float32)
+    made.SetGeoTransform((500_000, 1, 0, 5_700_000, 0, -1))
+    made.GetRasterBand(1).WriteArray(values)
+    made = None
+    return QgsRasterLayer(str(path))
+
+
+def limits(layer):
+    renderer = layer.renderer()
+    return renderer.classificationMin(), renderer.classificationMax()
 
 
 def test_classes_without_a_usual_colour_are_shown_too():
     layer = QgsPointCloudLayer()
-    ClassStyle([26, 2, 200]).postProcessLayer(
-        layer, QgsProcessingContext(), QgsProcessingFeedback()
-    )
+    clouds.by_class([26, 2, 200])(layer)
     categories = layer.renderer().categories()
     assert [(each.value(), each.label()) for each in categories] == [
         (2, "Ground"), (26, "26"), (200, "200"),
     ]  # fmt: skip
     assert len({each.color().name() for each in categories}) == 3
+
+
+def test_ground_is_drawn_in_front_and_what_is_not_classified_is_faint():
+    layer = QgsPointCloudLayer()
+    clouds.by_class([1, 2])(layer)
+    renderer = layer.renderer()
+    colours = {each.value(): each.color() for each in renderer.categories()}
+    assert colours[1].alpha() < colours[2].alpha() == 255
+    assert renderer.pointSizeMapUnitScale().minSizeMMEnabled
+    if Qgis.QGIS_VERSION_INT >= 32600:
+        assert renderer.drawOrder2d() == Qgis.PointCloudDrawOrder.TopToBottom
+
+
+def test_heights_of_a_cloud_have_colours_from_the_ground_up():
+    layer = QgsPointCloudLayer()
+    clouds.by_height("HeightAboveGround", 25.0)(layer)
+    renderer = layer.renderer()
+    assert renderer.attribute() == "HeightAboveGround"
+    assert (renderer.minimum(), renderer.maximum()) == (0.0, 25.0)
+    assert renderer.colorRampShader().colorRampItemList()
+    clouds.by_height("Z", 900.0)(layer)  # a bird
+    assert layer.renderer().maximum() < 100.0
+
+
+def test_the_colours_of_terrain_fit_its_range_without_the_extremes(tmp_path):
+    heights = np.linspace(100.0, 200.0, 10_000).reshape(100, 100)
+    heights[0, 0], heights[-1, -1] = -500.0, 4000.0
+    layer = raster(tmp_path / "dtm.tif", heights)
+    rasters.terrain(layer)
+    low, high = limits(layer)
+    assert low == pytest.approx(102.0, abs=0.1) and high == pytest.approx(198.0, abs=0.1)
+    assert layer.blendMode() == MULTIPLY
+
+
+def test_a_file_that_takes_the_place_of_another_gets_its_own_colours(tmp_path):
+    for base in (0.0, 1000.0):
+        layer = raster(tmp_path / "dtm.tif", base + np.linspace(0, 100, 10_000).reshape(100, 100))
+        rasters.terrain(layer)
+        # What QGIS does when the user asks for the histogram.
+        layer.dataProvider().cumulativeCut(1, 0.02, 0.98)
+        assert limits(layer)[0] == pytest.approx(base + 2, abs=0.1)
+
+
+def test_a_raster_without_heights_is_coloured_too(tmp_path):
+    layer = raster(tmp_path / "dtm.tif", np.full((10, 10), np.nan))
+    rasters.terrain(layer)
+    assert limits(layer) == (0.0, 0.5)
+
+
+def test_level_land_is_not_coloured_by_its_noise(tmp_path):
+    noise = np.random.default_rng(1).normal(0.0, 0.005, (50, 50))
+    layer = raster(tmp_path / "dtm.tif", 10.0 + noise)
+    rasters.terrain(layer)
+    low, high = limits(layer)
+    assert high - low >= 0.5
+
+
+@pytest.mark.parametrize(
+    ("dress", "expected"),
+    [(rasters.confidence, (0.0, 1.0)), (rasters.errors, (0.0, 1.0)), (rasters.canopy, (0.0, None))],
+)
+def test_ranges_that_mean_something_are_kept(tmp_path, dress, expected):
+    layer = raster(tmp_path / "r.tif", np.linspace(0.4, 0.6, 100).reshape(10, 10))
+    dress(layer)
+    assert limits(layer)[0] == expected[0]
+    if expected[1] is not None:
+        assert limits(layer)[1] == expected[1]
+
+
+def test_relief_has_its_middle_at_zero(tmp_path):
+    layer = raster(tmp_path / "r.tif", np.linspace(-1.0, 3.0, 10_000).reshape(100, 100))
+    rasters.local_relief(layer)
+    low, high = limits(layer)
+    assert low == -high < 0
+
+
+def test_a_run_is_a_group_in_a_sensible_order_and_shows_one_theme(run, scene, tmp_path):
+    outputs = {"OUTPUT": tmp_path / "z.copc.laz", "DTM": tmp_path / "b.tif"}
+    outputs["HILLSHADE"] = tmp_path / "a.tif"
+    run(ALGORITHM, {"INPUT": str(scene.path)}, outputs)
+    # Where clouds cannot be seen, a raster of their classes can.
+    expected = [
+        ("scene: classes", True), ("scene: terrain model", False), ("scene: hillshade", True),
+    ]  # fmt: skip
+    assert tree() == {"scene: TIN densification": expected}
+    assert {each.name() for each in QgsProject.instance().mapLayers().values()} == {
+        name for name, _ in expected
+    }
+
+
+def test_two_runs_are_two_groups(run, scene, tmp_path):
+    for folder in ("one", "two"):
+        (tmp_path / folder).mkdir()
+        outputs = {each: tmp_path / folder / f"{each}.tif" for each in ("DTM", "HILLSHADE")}
+        values = {"INPUT": str(scene.path), "OUTPUT": str(tmp_path / folder / "o.las")}
+        run("bareearth:slopefilter", values, outputs)
+    assert set(tree()) == {"scene: Slope filter", "scene: Slope filter (2)"}
+
+
+def test_no_raster_is_bare_and_grey(run, scene, tmp_path):
+    import processing
+
+    ground = str(tmp_path / "ground.laz")
+    processing.run(ALGORITHM, {"INPUT": str(scene.path), "OUTPUT": ground})
+    names = ("DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE")
+    outputs = {each: tmp_path / f"{each}.tif" for each in names}
+    run("bareearth:terrainmodel", {"INPUT": ground}, outputs)
+    layers = {each.name(): each for each in QgsProject.instance().mapLayers().values()}
+    kinds = {name.partition(": ")[2]: each.renderer().type() for name, each in layers.items()}
+    assert kinds.pop("hillshade") == "singlebandgray"
+    assert len(kinds) == 4 and set(kinds.values()) == {"singlebandpseudocolor"}
+    (group,) = tree().values()
+    assert [name.partition(": ")[2] for name, visible in group if visible] == [
+        "terrain model", "hillshade",
+    ]  # fmt: skip
+
+
+def test_a_layer_that_a_model_has_named_keeps_its_name_and_place(run, scene, tmp_path):
+    import processing
+
+    ground = str(tmp_path / "ground.laz")
+    processing.run(ALGORITHM, {"INPUT": str(scene.path), "OUTPUT": ground})
+    outputs = {each: tmp_path / f"{each}.tif" for each in ("DTM", "HILLSHADE")}
+    run("bareearth:terrainmodel", {"INPUT": ground}, outputs, "Mine")
+    assert not tree()
+    layers = QgsProject.instance().mapLayers().values()
+    assert not any(each.name().startswith("ground: ") for each in layers)
+    assert {each.renderer().type() for each in layers} == {
+        "singlebandgray", "singlebandpseudocolor",
+    }  # fmt: skip

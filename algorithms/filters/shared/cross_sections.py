@@ -75,8 +75,8 @@ class Sections(NamedTuple):
         """Their directions in radians, from east to north."""
         return 2.0 * math.pi / _DIRECTIONS * self.direction
 
-    def take(self, which: np.ndarray) -> Sections:
-        """Return those that a mask or an index array names."""
+    def take(self, which: np.ndarray | slice) -> Sections:
+        """Return those that a mask, an index array or a slice names."""
         return Sections(*(each[which] for each in self))
 
     def middles(self, relief: Relief) -> np.ndarray:

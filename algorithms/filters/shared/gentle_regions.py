@@ -6,6 +6,8 @@ dike, a terrace, a plateau with a ramp.
 
 from __future__ import annotations
 
+from typing import Sequence
+
 import numpy as np
 
 from ...grids.trend import Trend
@@ -104,7 +106,11 @@ _Pairs = tuple[np.ndarray, np.ndarray]
 
 
 def _border(
-    region: np.ndarray, up: np.ndarray, from_: np.ndarray, to: np.ndarray, kinds: tuple
+    region: np.ndarray,
+    up: np.ndarray,
+    from_: np.ndarray,
+    to: np.ndarray,
+    kinds: Sequence[np.ndarray],
 ) -> list[_Pairs]:
     """Return, for each kind of step, the pairs of regions that it leads from and to."""
     differ = up[from_] & (region[from_] != region[to])

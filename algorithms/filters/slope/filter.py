@@ -31,8 +31,9 @@ from ..shared.ground_cells import ground_cells
 from ..shared.ground_limits import Tolerance
 from ..shared.lowest_points import LowestPoints
 from ..shared.near_ground import Candidates, near_ground
+from .cell_bounds import Rule
 from .low_clusters import low_clusters
-from .standing_above import Rule, stands_above
+from .standing_above import stands_above
 
 # Metres between points up to which the automatic radius and cells are the least.
 _DENSE = 2.5

@@ -1,0 +1,172 @@
+"""From a raw point cloud to all maps of its terrain, in one step."""
+
+from __future__ import annotations
+
+import tempfile
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import NamedTuple, Sequence
+
+from ..core.files import check_output
+from ..core.parameters import ParameterSet
+from ..core.progress import SILENT, Progress
+from ..filters import DEFAULT_METHOD, METHODS
+from ..products.contours import Contours, write_contours
+from ..products.local_relief import LocalRelief, write_local_relief
+from ..products.surface_model import SurfaceModel
+from ..products.terrain_model import TerrainModel
+from ..survey.collection import is_one_file
+from ..survey.ground_classes import GroundClasses
+from ..survey.selection import Selection
+from .many_files import classify_files
+from .one_file import classify_file
+from .options import TileOutput
+from .rasters import RasterFiles
+from .requests import ClassifyRequest, Request, TerrainRequest
+from .runs import terrain
+
+# The longest first: each ends as the one after it does.
+_FORMATS = ("copc.laz", "laz", "las")
+
+
+class MapFiles(NamedTuple):
+    """What is to be made; None for what is not wanted.
+
+    Attributes
+    ----------
+    cloud : Path or None
+        The classified point cloud. Of many files it is a folder of this name, without its ending.
+    rasters : RasterFiles
+        Terrain, surface and so on.
+    relief, contours : Path or None
+        Local relief, and contour lines.
+    """
+
+    cloud: Path | None
+    rasters: RasterFiles
+    relief: Path | None = None
+    contours: Path | None = None
+
+
+@dataclass(frozen=True)
+class MapRequest(Request):
+    """How it is to be made: the declared parameters of each step."""
+
+    parameters: ParameterSet = field(default_factory=METHODS[DEFAULT_METHOD].parameters)
+    selection: Selection = field(default_factory=Selection)
+    terrain: TerrainModel = field(default_factory=TerrainModel)
+    surface: SurfaceModel = field(default_factory=SurfaceModel)
+    contours: Contours = field(default_factory=Contours)
+    relief: LocalRelief = field(default_factory=LocalRelief)
+
+    @property
+    def classify(self) -> ClassifyRequest:
+        """What to classify."""
+        return ClassifyRequest(
+            self.files, self.tiles, self.resources, self.parameters, self.selection
+        )
+
+
+class MapSummary(NamedTuple):
+    """What was made.
+
+    Attributes
+    ----------
+    cloud : Path
+        The classified file, or the virtual point cloud of them.
+    point_count, ground_count : int
+        Points, and those of the ground.
+    class_counts : dict of int to int
+        Points of each class of a single file; empty for many.
+    columns, rows : int
+        Size of the rasters; 0 where none was wanted.
+    contour_interval : float
+        Height between contour lines; 0 where none were wanted.
+    """
+
+    cloud: Path
+    point_count: int
+    ground_count: int
+    class_counts: dict[int, int]
+    columns: int = 0
+    rows: int = 0
+    contour_interval: float = 0.0
+
+    @property
+    def lines(self) -> list[str]:
+        """The report, as lines of text."""
+        share = self.ground_count / max(self.point_count, 1)
+        text = [f"Points    {self.point_count:>15,}"]
+        text.append(f"Ground    {self.ground_count:>15,}  ({share:.1%})")
+        text += [f"Class {value:>3} {count:>15,}" for value, count in self.class_counts.items()]
+        if self.columns:
+            text.append(f"Rasters of {self.columns:,} x {self.rows:,} cells")
+        return text
+
+
+def make_maps(
+    sources: Sequence[Path], files: MapFiles, request: MapRequest, progress: Progress = SILENT
+) -> MapSummary:
+    """Classify the ground of a point cloud, and make maps of its terrain.
+
+    Parameters
+    ----------
+    sources : sequence of Path
+        A .las, .laz or .copc.laz file; or many, folders of them, virtual point clouds and lists,
+        which are one survey then.
+    files : MapFiles
+        What to make.
+    request : MapRequest
+        How.
+    progress : Progress
+        Receives progress and messages.
+
+    Raises
+    ------
+    BareEarthError
+        If the input cannot be read or has no ground, or an output cannot be written.
+    Cancelled
+        If the user asked to stop.
+    """
+    wanted = [files.cloud, *files.rasters.wanted.values(), files.relief, files.contours]
+    folders = [path.parent for path in wanted if path]
+    with tempfile.TemporaryDirectory(
+        prefix=".bare-earth-", dir=next((each for each in folders if each.is_dir()), None)
+    ) as waiting:
+        cloud = files.cloud or Path(waiting, "cloud.las")
+        rasters = files.rasters
+        for each in filter(None, (files.relief, files.contours)):
+            check_output(each, tuple(sources))
+            rasters = replace(rasters, dtm=rasters.dtm or Path(waiting, "dtm.tif"))
+        rasters.check((*sources, cloud))
+        summary = _classified(sources, cloud, request, progress.part(0.0, 0.6))
+        if not rasters.wanted:
+            return summary
+        ground = GroundClasses((request.selection.to_class,))
+        sets = ground, request.terrain, request.surface, request.resources
+        maps = TerrainRequest.of(sets, rasters=rasters)
+        made = terrain([summary.cloud], maps, progress.part(0.6, 0.95))
+        summary = summary._replace(columns=made.columns, rows=made.rows)
+        if files.relief and rasters.dtm:
+            part = progress.part(0.95, 0.97)
+            write_local_relief(rasters.dtm, files.relief, request.relief, part)
+        if files.contours and rasters.dtm:
+            part = progress.part(0.97, 1.0)
+            interval = write_contours(rasters.dtm, files.contours, request.contours, part)
+            summary = summary._replace(contour_interval=interval)
+        return summary
+
+
+def _classified(
+    sources: Sequence[Path], target: Path, request: MapRequest, progress: Progress
+) -> MapSummary:
+    how = request.classify
+    if is_one_file(sources):
+        one = classify_file(sources[0], target, how, progress)
+        return MapSummary(target, one.point_count, one.ground_count, one.class_counts)
+    name = target.name.lower()
+    kind = next((each for each in _FORMATS if name.endswith(f".{each}")), target.suffix[1:])
+    folder = target.with_name(target.name[: -len(kind) - 1])
+    how = replace(how, tiles=TileOutput(kind if kind in _FORMATS else "same"))
+    many = classify_files(sources, folder, how, progress)
+    return MapSummary(Path(many.vpc), many.point_count, many.ground_count, {})

@@ -1,0 +1,158 @@
+"""Settings tried on a window of a survey before a long run: a page with pictures side by side."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Iterable, Sequence
+
+from ..core.errors import BareEarthError
+from ..core.files import check_output, replacing
+from ..core.points import Box
+from ..core.progress import SILENT, Progress
+from ..core.threads import may_use
+from ..products.profile import Profile, can_be_shown
+from ..products.trial_page import TrialPage
+from ..products.window_trial import Outcome, figures_of, line_across
+from ..survey.area import box_in_words
+from .file_points import fits_in_memory
+from .memory import Resources
+from .trial_commands import commands_for
+from .trial_options import USUAL_CONTEXT, Setting, TrialOptions
+from .trial_points import TrialPoints, read_trial_points
+
+
+@dataclass(frozen=True)
+class TrialSummary:
+    """What a comparison found.
+
+    Attributes
+    ----------
+    page : str
+        The page that was written.
+    read_count, point_count : int
+        Points that were read, and those of them in the window.
+    context : float
+        Metres round the window that were read as well.
+    settings : list of dict
+        What `Figures` and `Commands` say of each setting.
+    """
+
+    page: str
+    read_count: int
+    point_count: int
+    context: float
+    settings: list[dict[str, Any]]
+
+    def lines(self) -> list[str]:
+        """Return the figures as lines of text for a terminal or a log."""
+        wide = max(len(each["name"]) for each in self.settings)
+        return [
+            f"{each['name']:<{wide}}  {each['ground_share']:6.2f} % ground, confidence"
+            f" {each['confidence']:3.0f} %; {each['gained']:,} points more and {each['lost']:,}"
+            " less ground than the first"
+            for each in self.settings
+        ]
+
+
+def compare_settings(
+    sources: Iterable[Path],
+    page: Path,
+    extent: Box,
+    options: TrialOptions = TrialOptions(),
+    resources: Resources = Resources(),
+    progress: Progress = SILENT,
+) -> TrialSummary:
+    """Classify a window of a survey with several settings, and write a page that shows them.
+
+    Only the window and some metres round it are read: of COPC the nodes of the octree that touch
+    it; a LAS or LAZ file is read from beginning to end. No point cloud is written.
+
+    Parameters
+    ----------
+    sources : iterable of Path
+        LAS, LAZ and COPC files, folders of them, virtual point clouds (.vpc) and lists (.txt).
+    page : Path
+        The HTML file to write; it needs no other file.
+    extent : tuple of float
+        The window: smallest x and y, largest x and y in units of the CRS.
+    options : TrialOptions
+        The settings, and how much round the window is read.
+    resources : Resources
+        Threads and memory.
+    progress : Progress
+        Receives progress and messages.
+
+    Raises
+    ------
+    BareEarthError
+        If the window has no points or is too wide, an input cannot be read, or the page cannot be
+        written.
+    Cancelled
+        If the user asked to stop; no page is left behind.
+    """
+    paths, page = [Path(each) for each in sources], Path(page)
+    check_output(page, tuple(paths))
+    if page.suffix.lower() not in (".html", ".htm"):
+        raise BareEarthError(f"Cannot write {page}: the page is HTML, name it .html.")
+    settings, resources = options.chosen, resources.now()
+    reach = max(each.reach for each in settings)
+    context = min(reach, USUAL_CONTEXT) if options.context is None else options.context
+    with may_use(resources.thread_count):
+        points = read_trial_points(paths, extent, context, progress.part(0.0, 0.4))
+        if not fits_in_memory(points.count, resources):
+            raise BareEarthError(
+                f"The window and what lies round it have {points.count:,} points, more than fit"
+                " into the memory that may be used. Choose a smaller one."
+            )
+        labelled = []
+        for number, setting in enumerate(settings):
+            done = (0.4 + 0.4 * (number + step) / len(settings) for step in (0, 1))
+            part = progress.part(*done)
+            labelled.append(points.labelled(setting, resources, part, is_first=number == 0))
+        found = _page(paths, points, points.outcomes(labelled), options, (context, reach))
+        html = found.html()
+    with replacing(page) as temporary:
+        temporary.write_text(html, encoding="utf-8")
+    progress(1.0)
+    told = [{**a._asdict(), **b._asdict()} for a, b in zip(found.figures, found.commands)]
+    return TrialSummary(str(page), points.count, found.figures[0].point_count, context, told)
+
+
+def _page(
+    paths: Sequence[Path],
+    points: TrialPoints,
+    outcomes: Sequence[Outcome],
+    options: TrialOptions,
+    seen: tuple[float, float],
+) -> TrialPage:
+    """Return the page of outcomes; `seen` is how far was read, and how far the methods look."""
+    window, first = points.window, outcomes[0]
+    line = points.line(options.profile) if options.profile else line_across(window, outcomes)
+    profile = Profile.of(window, line, can_be_shown(first.classes, points.withheld))
+    return TrialPage(
+        paths,
+        f"Window: {box_in_words(points.box)} ({window.width:.0f} x {window.height:.0f} m)",
+        _notes(options.chosen, *seen),
+        window,
+        outcomes,
+        [figures_of(window, each, first) for each in outcomes],
+        [commands_for(paths, each) for each in options.chosen],
+        profile,
+    )
+
+
+def _notes(settings: Sequence[Setting], context: float, reach: float) -> list[str]:
+    """Return what must be known to judge the pictures."""
+    notes = [
+        f"{context:g} m round the window were read as well, to judge the points in it.",
+        "All that is not named is at its default, and the classes that the points have now say"
+        " which take part, as in a run on all points.",
+    ]
+    if context < reach:
+        notes[0] += (
+            f" The settings look up to {reach:g} m far: near the edges of the window, beside large"
+            " buildings above all, a run on all points may give other classes. More context makes"
+            " this sure."
+        )
+    return notes

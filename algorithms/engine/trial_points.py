@@ -1,0 +1,210 @@
+"""The points of a window of a survey, read once, and labelled with one setting after the other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import NamedTuple, Sequence
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.points import Box, Points
+from ..core.progress import SILENT, Progress
+from ..core.threads import in_threads
+from ..crs.system import Crs
+from ..las.cloud import PointCloud, survey_frame
+from ..las.crs_records import read_crs
+from ..las.lasfile import LasFile
+from ..las.opening import open_las
+from ..products.window_trial import Line, Outcome, Window, outcome_of
+from ..survey.area import Area, box_in_words
+from ..survey.collection import is_one_file, open_collection
+from ..survey.window import read_window
+from .labelling import LabelGround
+from .memory import Resources
+from .memory_points import MemoryPoints, SurveyFile
+from .trial_options import Setting
+
+# Metres: a wider window is no quick trial any more.
+_WIDEST = 1000.0
+
+
+class Labelled(NamedTuple):
+    """The points as a setting classifies them.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Name and label of the setting.
+    classes : numpy.ndarray of uint8, shape (n,)
+        Classes.
+    ground, selected : numpy.ndarray of bool, shape (n,)
+        Which are ground, and which took part.
+    """
+
+    names: tuple[str, str]
+    classes: np.ndarray
+    ground: np.ndarray
+    selected: np.ndarray
+
+
+@dataclass(frozen=True)
+class TrialPoints:
+    """The points in a window and round it.
+
+    Attributes
+    ----------
+    clouds : tuple of PointCloud
+        Those of each file that has any.
+    crs : Crs
+        That of the survey.
+    box : tuple of float
+        The window, in units of the CRS.
+    """
+
+    clouds: tuple[PointCloud, ...]
+    crs: Crs
+    box: Box
+
+    @property
+    def count(self) -> int:
+        """Number of points."""
+        return sum(cloud.count for cloud in self.clouds)
+
+    @cached_property
+    def window(self) -> Window:
+        """The points as a comparison wants them."""
+        frame = survey_frame(self.crs)
+        west, south, east, north = (each * frame.horizontal_unit for each in self.box)
+        frame, width, height = frame.moved((west, south)), east - west, north - south
+        parts = [cloud.points(slice(None), frame) for cloud in self.clouds]
+        points = Points(*map(np.concatenate, zip(*parts)))
+        inside = np.concatenate([Area(self.box).of(cloud) for cloud in self.clouds])
+        return Window(points, inside, width, height)
+
+    @property
+    def withheld(self) -> np.ndarray:
+        """Which points the producer wants left out; boolean, shape (n,)."""
+        return np.concatenate([cloud.withheld for cloud in self.clouds])
+
+    def line(self, ends: Sequence[float]) -> Line:
+        """Return the line between two places, x1, y1, x2, y2 in units of the CRS."""
+        corner, unit = self.box[:2] * 2, self.crs.horizontal_unit
+        x1, y1, x2, y2 = ((each - start) * unit for each, start in zip(ends, corner))
+        return Line((x1, y1), (x2, y2))
+
+    def labelled(
+        self, setting: Setting, resources: Resources, progress: Progress, is_first: bool = True
+    ) -> Labelled:
+        """Classify the points with a setting.
+
+        Parameters
+        ----------
+        setting : Setting
+            Method and preset.
+        resources : Resources
+            Threads and memory.
+        progress : Progress
+            Receives progress and messages; a warning if there is no ground.
+        is_first : bool
+            Whether what is the same with all settings is told.
+
+        Raises
+        ------
+        BareEarthError
+            If no point takes part, or the CRS is geographic.
+        Cancelled
+            If the user asked to stop.
+        """
+        step = LabelGround(setting.parameters)
+        tally = step.tally()
+        files = [SurveyFile(cloud, *step.marks(cloud, tally)) for cloud in self.clouds]
+        step.tell(tally, self.clouds[0].path, progress if is_first else progress.quiet())
+        progress.info(f"{setting.label}:")
+        frame = survey_frame(self.crs)
+        store = MemoryPoints(files, frame, step.blocks, progress.part(0.0, 0.1), step.kind)
+        try:
+            step.work(store, resources, progress.part(0.1, 1.0))
+        except BareEarthError as error:
+            progress.warning(f"{setting.label}: {error}")
+        classes = np.concatenate(
+            [_classes(step, cloud, labels) for cloud, labels in zip(self.clouds, store.labels)]
+        )
+        ground = classes == step.selection.to_class
+        selected = np.concatenate([file.selected for file in files])
+        return Labelled((setting.name, setting.label), classes, ground, selected)
+
+    def outcomes(self, labelled: Sequence[Labelled]) -> list[Outcome]:
+        """Return what settings make of the window, several at the same time."""
+        window = self.window
+        return in_threads(lambda each: outcome_of(window, *each), labelled)
+
+
+def read_trial_points(
+    paths: Sequence[Path], box: Box, context: float, progress: Progress = SILENT
+) -> TrialPoints:
+    """Read the points in a window and round it.
+
+    Parameters
+    ----------
+    paths : sequence of Path
+        One file, or what makes a survey.
+    box : tuple of float
+        The window: smallest x and y, largest x and y in units of the CRS.
+    context : float
+        Metres round it.
+    progress : Progress
+        Receives progress, and what is odd about the files.
+
+    Raises
+    ------
+    BareEarthError
+        If the window is none, too wide or empty, or a file cannot be read.
+    Cancelled
+        If the user asked to stop.
+    """
+    area = Area(tuple(map(float, box)))
+    if is_one_file(paths):
+        las = open_las(paths[0])
+        files, crs = [las], read_crs(las)
+        extent = (*las.minimum[:2], *las.maximum[:2])
+    else:
+        survey = open_collection(paths, progress=progress.part(0.0, 0.1))
+        crs, extent = survey.crs, survey.box
+        wide = area.buffered_box(context / crs.horizontal_unit)
+        files = [tile.file for tile in survey.touching(wide)]
+    _check_width(area, crs)
+    clouds = _read(files, area.buffered_box(context / crs.horizontal_unit), progress)
+    if not any(area.of(cloud).any() for cloud in clouds):
+        raise BareEarthError(
+            f"No point lies in the window ({box_in_words(area.box)}): the points have"
+            f" {box_in_words(extent)}. Give the window in the CRS of the points."
+        )
+    return TrialPoints(clouds, crs, area.box)
+
+
+def _check_width(area: Area, crs: Crs) -> None:
+    west, south, east, north = area.box
+    widest = max(east - west, north - south) * crs.horizontal_unit
+    if widest > _WIDEST:
+        raise BareEarthError(
+            f"The window is {widest:,.0f} m wide. Choose one of at most {_WIDEST:,.0f} m, such as"
+            " 250 x 250 m: in QGIS, zoom in."
+        )
+
+
+def _read(files: Sequence[LasFile], box: Box, progress: Progress) -> tuple[PointCloud, ...]:
+    clouds = []
+    for number, las in enumerate(files):
+        part = progress.part(number / len(files), (number + 1) / len(files))
+        clouds.append(read_window(las, box, part))
+    return tuple(cloud for cloud in clouds if cloud.count)
+
+
+def _classes(step: LabelGround, cloud: PointCloud, labels: np.ndarray) -> np.ndarray:
+    """Return the classes that follow from the labels of a cloud."""
+    result = step.result(cloud.path, lambda kind: np.empty(cloud.count, dtype=kind))
+    result.add(slice(None), cloud, labels)
+    return result.classification

@@ -1,0 +1,112 @@
+"""Contour lines of a terrain model, by GDAL."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..core.errors import BareEarthError
+from ..core.parameters import ParameterSet, parameter
+from ..core.progress import SILENT, Progress
+from ..rasters.libraries import GdalErrors
+
+# So many lines, or a few more or less, make a map that can be read.
+_LINES = 20
+_STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
+# Less is noise.
+_LEAST = 0.25
+# Each so many lines one is drawn thick.
+INDEX = 5
+# The formats that QGIS offers first, and GDAL's names of them.
+_DRIVERS = {".gpkg": "GPKG", ".shp": "ESRI Shapefile", ".geojson": "GeoJSON", ".fgb": "FlatGeobuf"}
+
+
+@dataclass(frozen=True)
+class Contours(ParameterSet):
+    """How contour lines are drawn."""
+
+    contour_interval: float | None = parameter(
+        None,
+        kind="number",
+        label="Contour interval",
+        minimum=0.001,
+        maximum=10_000.0,
+        advanced=True,
+        empty="automatic",
+        help="The height between contour lines, in the vertical unit of the CRS. Empty: what gives"
+        f" about {_LINES} of them.",
+    )
+
+    def interval(self, low: float, high: float) -> float:
+        """Return the interval for terrain between two heights.
+
+        >>> Contours().interval(130.0, 172.0)
+        2.0
+        >>> Contours(contour_interval=0.3).interval(130.0, 172.0)
+        0.3
+        """
+        if self.contour_interval is not None:
+            return self.contour_interval
+        wanted = max((high - low) / _LINES, _LEAST)
+        power = 10.0 ** math.floor(math.log10(wanted))
+        return min((step * power for step in _STEPS), key=lambda each: abs(each - wanted))
+
+
+def write_contours(
+    source: Path, target: Path, contours: Contours = Contours(), progress: Progress = SILENT
+) -> float:
+    """Write the contour lines of a raster, each with its height in the field ELEV.
+
+    Parameters
+    ----------
+    source : Path
+        The raster of heights.
+    target : Path
+        The file to make: .gpkg, .shp, .geojson or .fgb.
+    contours : Contours
+        How.
+    progress : Progress
+        Receives progress and messages.
+
+    Returns
+    -------
+    float
+        The interval between them.
+
+    Raises
+    ------
+    BareEarthError
+        If GDAL is not there, or cannot write them; nothing is left then.
+    """
+    try:
+        from osgeo import gdal, ogr
+    except ImportError:
+        raise BareEarthError("Contour lines need GDAL with Python, which QGIS has.") from None
+    name = _DRIVERS.get(Path(target).suffix.lower())
+    if name is None:
+        raise BareEarthError(f"{target} is not one of {', '.join(_DRIVERS)}. Name it so.")
+    driver, raster = ogr.GetDriverByName(name), gdal.Open(str(source))
+    band = raster.GetRasterBand(1)
+    interval = contours.interval(*band.ComputeRasterMinMax(False))
+    options = [f"LEVEL_INTERVAL={interval}", "ID_FIELD=0", "ELEV_FIELD=1"]
+    options += [f"NODATA={band.GetNoDataValue()}"] if band.GetNoDataValue() is not None else []
+    with contextlib.ExitStack() as failure:
+        failure.callback(driver.DeleteDataSource, str(target))
+        with GdalErrors(gdal, "write") as errors:
+            made = driver.CreateDataSource(str(target))
+            errors.check(target)
+            lines = made.CreateLayer("contours", raster.GetSpatialRef(), ogr.wkbLineString)
+            lines.CreateField(ogr.FieldDefn("ID", ogr.OFTInteger))
+            lines.CreateField(ogr.FieldDefn("ELEV", ogr.OFTReal))
+            # One transaction: a GeoPackage would commit each line.
+            lines.StartTransaction()
+            gdal.ContourGenerateEx(band, lines, options=options)
+            lines.CommitTransaction()
+            errors.check(target)
+            progress.info(f"{lines.GetFeatureCount():,} contour lines, each {interval:g} of height")
+            lines = made = None
+        progress(1.0)
+        failure.pop_all()
+    return interval

@@ -1,0 +1,112 @@
+"""What the pages that the products write have in common: HTML that needs no other file."""
+
+from __future__ import annotations
+
+import base64
+from html import escape
+
+import numpy as np
+
+from ..core.errors import printable
+from .pictures import Picture, png
+
+# ASPRS (2019): LAS specification 1.4, table 17.
+CLASSES = {
+    0: "never classified", 1: "unclassified", 2: "ground", 3: "low vegetation",
+    4: "medium vegetation", 5: "high vegetation", 6: "building", 7: "low noise",
+    8: "model key point", 9: "water", 10: "rail", 11: "road surface", 12: "overlap",
+    13: "wire guard", 14: "wire conductor", 15: "transmission tower", 16: "wire connector",
+    17: "bridge deck", 18: "high noise",
+}  # fmt: skip
+
+_STYLE = """
+body { font: 15px/1.5 system-ui, sans-serif; color: #222; background: #fff; max-width: 920px;
+       margin: 2em auto; padding: 0 1em; }
+h1 { font-size: 1.6em; } h2 { font-size: 1.2em; margin-top: 2em; }
+table { border-collapse: collapse; } caption { text-align: left; color: #555; }
+th, td { border: 1px solid #bbb; padding: .25em .7em; text-align: right; }
+th { background: #f2f2f2; font-weight: 600; } td.text, th.text { text-align: left; }
+figure { margin: 0; }
+img { width: 100%; image-rendering: pixelated; border: 1px solid #bbb; box-sizing: border-box; }
+.bar { border: 2px solid #222; border-top: 0; height: 6px; }
+.key { display: inline-block; width: 1em; height: 1em; vertical-align: -.15em; margin: 0 .3em 0 1em;
+       border: 1px solid #555; }
+.files { word-break: break-all; }
+"""
+
+
+def page_html(title: str, body: str, style: str = "") -> str:
+    """Return a page.
+
+    Parameters
+    ----------
+    title : str
+        Its title and headline, as plain text.
+    body : str
+        HTML below the headline.
+    style : str
+        CSS beside that of all pages.
+    """
+    from ..core.version import __version__
+
+    title = text(title)
+    return f"""<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width">
+<title>{title}</title>
+<style>{_STYLE}{style}</style>
+</head>
+<body>
+<h1>{title}</h1>
+{body}
+<p>Made by Bare Earth {escape(__version__)}.</p>
+</body>
+</html>
+"""
+
+
+def text(value: object) -> str:
+    """Return something as text that HTML shows as it is."""
+    return escape(printable(str(value)))
+
+
+def data_uri(pixels: np.ndarray) -> str:
+    """Return an address that holds a picture, shape (rows, columns, 3), itself."""
+    return "data:image/png;base64," + base64.b64encode(png(pixels)).decode("ascii")
+
+
+def map_figure(picture: Picture, name: str, caption: str = "") -> str:
+    """Return a map with a bar of scale below it.
+
+    Parameters
+    ----------
+    picture : Picture
+        The map.
+    name : str
+        What is said where pictures cannot be seen, as plain text.
+    caption : str
+        What stands above the map, as plain text.
+    """
+    width = picture.pixels.shape[1] * picture.cell_size
+    length = round_length(width / 4)
+    above = f"<figcaption>{text(caption)}</figcaption>" if caption else ""
+    return f"""{above}<img src="{data_uri(picture.pixels)}" alt="{text(name)}">
+<div class="bar" style="width: {100 * length / width:.2f}%"></div>{length:g} m"""
+
+
+def key(colour: str, meaning: str) -> str:
+    """Return the entry of a colour in a legend."""
+    return f'<span class="key" style="background: {colour}"></span>{text(meaning)}'
+
+
+def round_length(most: float) -> float:
+    """Return the largest of 1, 2, 5, 10, 20 ... that is not larger than `most`."""
+    power = 10.0 ** np.floor(np.log10(most))
+    return float(next(each * power for each in (5, 2, 1) if each * power <= most * (1 + 1e-9)))
+
+
+def percent(value: float) -> str:
+    """Return a share in percent; NaN is none."""
+    return "none" if np.isnan(value) else f"{value:.2f} %"

@@ -1,0 +1,169 @@
+"""Pictures of points for a page: relief, and points that stand out on it."""
+
+from __future__ import annotations
+
+import struct
+import zlib
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..core.points import Points
+from ..grids.hillshade import hillshade
+from ..grids.inpaint import inpaint
+
+LONGEST_SIDE = 900
+# Side of a pixel, in mean distances between points: most pixels are to have one.
+_SPACINGS = 1.2
+# Cells without a point, but next to one, are shaded.
+_GAP = 3
+# A cell with one marked point of many is coloured faintly, but not too faintly to be seen.
+_FAINTEST = 0.55
+_DARKEST = 120
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A map.
+
+    Attributes
+    ----------
+    pixels : numpy.ndarray of uint8, shape (rows, columns, 3)
+        Red, green and blue, from north to south.
+    cell_size : float
+        Side of a pixel in metres.
+    """
+
+    pixels: np.ndarray
+    cell_size: float
+
+
+@dataclass(frozen=True)
+class Relief:
+    """The shaded relief of the highest points.
+
+    Attributes
+    ----------
+    place : numpy.ndarray of int64, shape (n,)
+        The pixel of each point, from north to south and west to east.
+    shade : numpy.ndarray of float64, shape (rows, columns)
+        Grey, 0 to 255; white where no point is near.
+    cell_size : float
+        Side of a pixel in metres.
+    """
+
+    place: np.ndarray
+    shade: np.ndarray
+    cell_size: float
+
+    @classmethod
+    def of(cls, points: Points, longest_side: int = LONGEST_SIDE) -> Relief:
+        """Return the relief of points.
+
+        Parameters
+        ----------
+        points : Points
+            One at least.
+        longest_side : int
+            Pixels along the longer side, at most.
+        """
+        width, height = np.ptp(points.x), np.ptp(points.y)
+        spacing = _SPACINGS * np.sqrt(width * height / points.count)
+        cell = max(spacing, max(width, height) / longest_side) or 1.0
+        shape = int(height / cell) + 1, int(width / cell) + 1
+        column = ((points.x - points.x.min()) / cell).astype(np.int64)
+        row = ((points.y.max() - points.y) / cell).astype(np.int64)
+        place = row * shape[1] + column
+        return cls(place, _shade(place, points.z, shape, cell), float(cell))
+
+    def marked(
+        self,
+        first: np.ndarray,
+        second: np.ndarray,
+        colours: tuple[str, str],
+        counted: np.ndarray | None = None,
+    ) -> Picture:
+        """Return the relief with some points marked on it.
+
+        Parameters
+        ----------
+        first, second : numpy.ndarray of bool, shape (n,)
+            Which points are marked. A pixel takes the colour of the more frequent mark, the
+            stronger the more of its points have one.
+        colours : tuple of str
+            Of the first and the second mark, such as ``#d1157f``.
+        counted : numpy.ndarray of bool, shape (n,), optional
+            Which points the share is of; all if it is not given.
+        """
+        ones, others = self._counts(first), self._counts(second)
+        every = self._counts(np.ones(len(first), dtype=bool) if counted is None else counted)
+        share = (ones + others) / np.maximum(every, 1)
+        weight = np.where(share > 0, _FAINTEST + (1 - _FAINTEST) * share, 0)[..., None]
+        colour = np.where((ones >= others)[..., None], *map(rgb, colours))
+        pixels = weight * colour + (1 - weight) * self.shade[..., None]
+        return Picture(np.rint(pixels).astype(np.uint8), self.cell_size)
+
+    def _counts(self, which: np.ndarray) -> np.ndarray:
+        counts = np.bincount(self.place[which], minlength=self.shade.size)
+        return counts.reshape(self.shade.shape)
+
+
+def _shade(place: np.ndarray, z: np.ndarray, shape: tuple[int, int], cell: float) -> np.ndarray:
+    from scipy import ndimage
+
+    order = np.lexsort((z, place))
+    last = np.append(np.diff(place[order]) != 0, True)
+    heights = np.full(shape, np.nan)
+    heights.ravel()[place[order[last]]] = z[order[last]]
+    near = ndimage.binary_dilation(np.isfinite(heights), np.ones((3, 3)), _GAP)
+    return np.where(near, soft_light(inpaint(heights), cell), 255.0)
+
+
+def soft_light(heights: np.ndarray, cell_size: float) -> np.ndarray:
+    """Return a hillshade without dark tones, on which colours can be told.
+
+    Parameters
+    ----------
+    heights : numpy.ndarray of float64, shape (rows, columns)
+        Metres, from north to south.
+    cell_size : float
+        Metres.
+
+    Returns
+    -------
+    numpy.ndarray of float64, shape (rows, columns)
+    """
+    return _DARKEST + (255 - _DARKEST) * (hillshade(heights, cell_size) / 255.0)
+
+
+def rgb(colour: str) -> tuple[int, ...]:
+    """Return red, green and blue of a colour such as ``#d1157f``."""
+    return tuple(bytes.fromhex(colour[1:]))
+
+
+def png(pixels: np.ndarray) -> bytes:
+    """Return a picture as PNG.
+
+    Parameters
+    ----------
+    pixels : numpy.ndarray of uint8, shape (rows, columns, 3)
+        Red, green and blue.
+
+    References
+    ----------
+    ISO/IEC 15948:2004: Portable Network Graphics, sections 5.3, 11.2.2 and 12.8.
+    """
+    rows, columns, _ = pixels.shape
+
+    def chunk(kind: bytes, data: bytes) -> bytes:
+        check = zlib.crc32(kind + data)
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", check)
+
+    # Every row begins with the number of its filter, 0 for none.
+    lines = np.zeros((rows, 1 + 3 * columns), np.uint8)
+    lines[:, 1:] = pixels.reshape(rows, -1)
+    # Eight bits of each of three colours; the zeros are the only compression, filter and order.
+    header = struct.pack(">IIBBBBB", columns, rows, 8, 2, 0, 0, 0)
+    data = zlib.compress(lines.tobytes(), 6)
+    signature = b"\x89PNG\r\n\x1a\n"
+    return signature + chunk(b"IHDR", header) + chunk(b"IDAT", data) + chunk(b"IEND", b"")

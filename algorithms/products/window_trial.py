@@ -1,0 +1,238 @@
+"""What settings make of the points in a window: terrain, shares, differences, a profile."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple, Sequence
+
+import numpy as np
+
+from ..core.points import Points
+from ..filters.shared.confidence import confidence
+from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
+
+# Pixels along the longer side of the terrain, at most, and the sides in metres that they may have,
+# but for whole metres.
+_MOST_CELLS = 300
+_CELL_SIZES = (0.25, 0.5)
+# Half the width in metres of the strip along a profile: so wide that points are dense enough.
+_POINTS_A_METRE, _NARROWEST, _WIDEST = 8.0, 0.5, 3.0
+# Metres round the window in which points matter for the confidence in it.
+_NEAR = 20.0
+
+
+class Window(NamedTuple):
+    """The points that settings are tried on.
+
+    Attributes
+    ----------
+    points : Points
+        Those in the window and round it, in metres from the lower left corner of the window.
+    inside : numpy.ndarray of bool, shape (n,)
+        Which lie in the window.
+    width, height : float
+        Of the window, in metres.
+    """
+
+    points: Points
+    inside: np.ndarray
+    width: float
+    height: float
+
+    @property
+    def cell_size(self) -> float:
+        """Side in metres of the cells of the terrain."""
+        least = max(self.width, self.height) / _MOST_CELLS
+        return next((each for each in _CELL_SIZES if each >= least), float(math.ceil(least)))
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns of the terrain."""
+        return tuple(math.ceil(side / self.cell_size) for side in (self.height, self.width))
+
+    @property
+    def strip(self) -> float:
+        """Metres to each side of a profile within which points are shown."""
+        density = np.count_nonzero(self.inside) / (self.width * self.height)
+        return min(max(_POINTS_A_METRE / (2.0 * density), _NARROWEST), _WIDEST)
+
+
+class Outcome(NamedTuple):
+    """What one setting made of a window.
+
+    Attributes
+    ----------
+    name, label : str
+        Of the setting, as it is typed and as it is shown.
+    classes : numpy.ndarray of uint8, shape (n,)
+        Classes of all points.
+    ground : numpy.ndarray of bool, shape (n,)
+        Which are ground.
+    terrain : numpy.ndarray of float64, shape (rows, columns)
+        Heights in metres from north to south; NaN where there is none.
+    confidence : float
+        Mean probability in the window that the terrain is right, 0 to 1.
+    """
+
+    name: str
+    label: str
+    classes: np.ndarray
+    ground: np.ndarray
+    terrain: np.ndarray
+    confidence: float
+
+
+def outcome_of(
+    window: Window,
+    names: tuple[str, str],
+    classes: np.ndarray,
+    ground: np.ndarray,
+    selected: np.ndarray,
+) -> Outcome:
+    """Return what the classes of points make of a window.
+
+    Parameters
+    ----------
+    window : Window
+        The points.
+    names : tuple of str
+        Name and label of the setting.
+    classes : numpy.ndarray of uint8, shape (n,)
+        Their classes.
+    ground, selected : numpy.ndarray of bool, shape (n,)
+        Which are ground, and which took part.
+    """
+    terrain = _terrain(window, ground)
+    return Outcome(*names, classes, ground, terrain, _confidence(window, ground, selected))
+
+
+def _terrain(window: Window, ground: np.ndarray) -> np.ndarray:
+    """Return the heights of the terrain, from north to south."""
+    if not ground.any():
+        return np.full(window.shape, np.nan)
+    # One vertex a pixel is enough for a picture, and quicker than the four of a terrain model.
+    surface = DenseSurface(window.points.take(ground), VERTICES_A_SIDE * window.cell_size)
+    y, x = ((np.arange(count) + 0.5) * window.cell_size for count in window.shape)
+    heights = surface.heights(np.tile(x, len(y)), np.repeat(y, len(x)))
+    return heights.reshape(window.shape)[::-1]
+
+
+def _confidence(window: Window, ground: np.ndarray, selected: np.ndarray) -> float:
+    """Return the mean of the cells of 1 m in the window."""
+    x, y, _ = window.points
+    near = (x >= -_NEAR) & (y >= -_NEAR) & (x <= window.width + _NEAR)
+    near &= selected & (y <= window.height + _NEAR)
+    cells, values = confidence(window.points.take(near), ground[near])
+    rows, columns = (
+        slice(max(-first, 0), max(math.ceil(side / cells.size) - first, 0))
+        for first, side in zip(cells.first, (window.height, window.width))
+    )
+    inside = values[rows, columns]
+    return float(inside.mean()) if inside.size else 0.0
+
+
+class Figures(NamedTuple):
+    """One setting in figures, for the points and cells of the window.
+
+    Attributes
+    ----------
+    name, label : str
+        Of the setting.
+    point_count, ground_count : int
+        Points in the window, and those that are ground.
+    ground_share : float
+        The latter in percent of the former.
+    confidence : float
+        Mean, in percent.
+    gained, lost : int
+        Points that are ground but not with the first setting, and the reverse.
+    terrain_difference : float or None
+        Mean absolute difference in metres from the terrain of the first; None without terrain.
+    """
+
+    name: str
+    label: str
+    point_count: int
+    ground_count: int
+    ground_share: float
+    confidence: float
+    gained: int
+    lost: int
+    terrain_difference: float | None
+
+
+def figures_of(window: Window, outcome: Outcome, first: Outcome) -> Figures:
+    """Return the figures of a setting beside those of the first."""
+    ground, before = outcome.ground[window.inside], first.ground[window.inside]
+    apart = np.abs(outcome.terrain - first.terrain)
+    apart = apart[np.isfinite(apart)]
+
+    shared = int(np.count_nonzero(ground & before))
+    ground_count, first_count = (int(np.count_nonzero(each)) for each in (ground, before))
+    return Figures(
+        outcome.name,
+        outcome.label,
+        len(ground),
+        ground_count,
+        100.0 * ground_count / len(ground),
+        100.0 * outcome.confidence,
+        ground_count - shared,
+        first_count - shared,
+        float(apart.mean()) if apart.size else None,
+    )
+
+
+class Line(NamedTuple):
+    """A straight line in metres from the lower left corner of the window."""
+
+    start: tuple[float, float]
+    end: tuple[float, float]
+
+    @property
+    def length(self) -> float:
+        """Metres."""
+        return math.dist(self.start, self.end)
+
+    def along(self, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return how far along the line places lie, and how far to its left, in metres."""
+        east, north = ((last - first) / self.length for first, last in zip(self.start, self.end))
+        x, y = x - self.start[0], y - self.start[1]
+        return x * east + y * north, y * east - x * north
+
+    def cells(self, window: Window) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return distances along the line, and row and column of the terrain's cell at each.
+
+        Only those in the window; they are as far apart as cells are wide.
+        """
+        cell = window.cell_size
+        distance = np.arange(0.0, self.length, cell) + 0.5 * min(cell, self.length)
+        share = distance / self.length
+        column, row = (
+            np.floor((first + share * (last - first)) / cell).astype(np.int64)
+            for first, last in zip(self.start, self.end)
+        )
+        row = window.shape[0] - 1 - row
+        inside = (row >= 0) & (row < window.shape[0]) & (column >= 0) & (column < window.shape[1])
+        return distance[inside], row[inside], column[inside]
+
+
+def line_across(window: Window, outcomes: Sequence[Outcome]) -> Line:
+    """Return a line across the window where terrains differ most; through its middle if nowhere.
+
+    Parameters
+    ----------
+    window : Window
+        The points.
+    outcomes : sequence of Outcome
+        The settings.
+    """
+    first = outcomes[0].terrain
+    apart = sum(np.nan_to_num(np.abs(each.terrain - first)) for each in outcomes)
+    rows, columns = apart.mean(axis=1)[::-1], apart.mean(axis=0)
+    at = window.cell_size * (np.argmax(rows) + 0.5), window.cell_size * (np.argmax(columns) + 0.5)
+    y, x = (min(float(each), side) for each, side in zip(at, (window.height, window.width)))
+    if not apart.any():
+        x, y = window.width / 2.0, window.height / 2.0
+    if rows.max() >= columns.max():
+        return Line((0.0, y), (window.width, y))
+    return Line((x, 0.0), (x, window.height))

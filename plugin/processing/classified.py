@@ -1,0 +1,69 @@
+"""What is seen of a classified point cloud: its points, or what takes their place."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Iterable
+
+from qgis.core import QgsProcessingContext, QgsProcessingUtils
+
+from .. import compat
+from ..styles import clouds, layers
+from .base import BareEarthAlgorithm
+from .feedback import FeedbackProgress
+
+
+def show_classified(
+    algorithm: BareEarthAlgorithm,
+    cloud: str,
+    classes: Iterable[int],
+    ground_class: int,
+    cell_size: float,
+    context: QgsProcessingContext,
+    progress: FeedbackProgress,
+    hides: int = layers.CLOUD,
+) -> None:
+    """Show a classified point cloud, or a raster of its classes where QGIS cannot.
+
+    Parameters
+    ----------
+    algorithm : BareEarthAlgorithm
+        Whose output it is.
+    cloud : str
+        The file; a virtual point cloud if it is of many.
+    classes : iterable of int
+        Its classes; the usual ones if there are none.
+    ground_class : int
+        That of the ground.
+    cell_size : float
+        Side of the cells of the raster in metres.
+    context : QgsProcessingContext
+        What takes the place of the points is made only where other layers are loaded.
+    progress : FeedbackProgress
+        Receives messages.
+    hides : int
+        As for `layers.Look`.
+    """
+    classes = list(classes) or clouds.usual_classes(ground_class)
+    is_virtual = cloud.endswith(".vpc")
+    if is_virtual and hides == layers.CLOUD:
+        # Seen from afar it is outlines, through which the terrain is to be seen.
+        hides = 0
+    algorithm.show(cloud, layers.classes(classes, hides=hides))
+    if is_virtual:
+        compat.load_virtual_point_cloud(cloud, "", context)
+        return
+    if compat.can_load(cloud):
+        return
+    progress.info(f"This QGIS cannot show such a file as a layer. It is at {cloud}.")
+    if not context.layersToLoadOnCompletion():
+        return
+    # Reads files, which takes packages that QGIS may lack when it starts.
+    from ...algorithms.products.class_raster import write_class_raster
+
+    path = QgsProcessingUtils.generateTempFilename("classes.tif")
+    write_class_raster(Path(cloud), Path(path), cell_size, ground_class, progress)
+    hint = QgsProcessingUtils.LayerHint.Raster
+    details = QgsProcessingContext.LayerDetails("classes", context.project(), "classes", hint)
+    context.addLayerToLoadOnCompletion(path, details)
+    algorithm.show(path, layers.class_raster(classes, hides))

@@ -1,0 +1,74 @@
+"""Comparison of methods and presets on a window of a survey, in the toolbox."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from qgis.core import QgsProcessingParameterExtent as Extent
+from qgis.core import QgsProcessingParameterFileDestination as File
+
+from ...algorithms.engine.memory import Resources
+from ...algorithms.engine.trial_options import TrialOptions
+from ...algorithms.survey.collection import find_files
+from .base import BareEarthAlgorithm, command_line
+from .inputs import PointCloudInput, area_of, name_of, source_path
+
+_EXTENT_HELP = (
+    "The window that is classified, such as the map's extent; at most 1,000 m wide, and quick up to"
+    " about 250 x 250 m. It is transformed to the CRS of the points."
+)
+
+
+class CompareSettingsAlgorithm(BareEarthAlgorithm):
+    """Compare settings on a window."""
+
+    identifier, page, section = "comparesettings", "compare-settings", "Quality"
+    title = "Compare settings on a window"
+    summary = "Tries methods and presets on a part of a point cloud, and shows them side by side."
+    about = (
+        "Classifies the points in a window with each of the settings, without writing any point"
+        " cloud, and makes a web page, opened from the Results Viewer: the terrain of each, a"
+        " profile, the share of ground, where they differ, and how to run each on all points. Of"
+        " COPC only the window is read, which takes seconds; a LAS or LAZ file is read as a"
+        " whole.\n"
+        "<b>Point cloud</b>: a layer or a file; a virtual point cloud (.vpc) or a folder, too.\n"
+        f"<b>Window</b>: {_EXTENT_HELP}"
+    )
+    keywords = ("lidar", "las", "laz", "copc", "ground", "preview", "try", "test", "preset",
+                "parameters", "choose", "compare", "profile", "hillshade", "dtm")  # fmt: skip
+
+    def parameter_sets(self):
+        """Return the settings, and what may be used."""
+        return TrialOptions, Resources
+
+    def initAlgorithm(self, configuration=None):
+        """Declare the fields of the dialog and the results."""
+        self.addParameter(PointCloudInput("INPUT", "Point cloud"))
+        self.addParameter(Extent("EXTENT", "Window"))
+        self.parameterDefinition("EXTENT").setHelp(_EXTENT_HELP)
+        self.add_declared()
+        self.addParameter(File("OUTPUT", "Comparison of settings", "HTML files (*.html)"))
+
+    def find_inputs(self, parameters, context):
+        """Find the input."""
+        self._source = source_path(self, parameters, "INPUT", context)
+        self.subject = name_of(self._source)
+
+    def prepare(self, parameters, context, progress):
+        """Read the window in the CRS of the points, too."""
+        super().prepare(parameters, context, progress)
+        (first, *_) = find_files([self._source])
+        self._window = area_of(self, parameters, context, first).box
+
+    def compute(self, parameters, context, progress):
+        """Make the page."""
+        # Not at the start of QGIS.
+        from ...algorithms.engine.trial import compare_settings
+
+        chosen = self.chosen(parameters, context)
+        page = self.parameterAsFileOutput(parameters, "OUTPUT", context)
+        command = command_line("compare-settings", [str(self._source), page], chosen, {})
+        progress.command(" ".join([command, "--extent", *map(repr, self._window)]))
+        sources = [self._source], Path(page), self._window
+        progress.info("\n".join(compare_settings(*sources, *chosen, progress).lines()))
+        return {"OUTPUT": page}

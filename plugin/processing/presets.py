@@ -1,0 +1,61 @@
+"""The values of the presets, to be seen before a run."""
+
+from __future__ import annotations
+
+import dataclasses
+from html import escape
+from typing import Any, Mapping, Sequence
+
+from ...algorithms.core.parameters import ParameterSet
+from ...algorithms.engine.options import TileMethod
+from ...algorithms.filters import METHODS, Method
+from ...algorithms.filters.grid_minimum import filter as grid_minimum
+from ...algorithms.filters.slope import filter as slope
+from ...algorithms.filters.tin_densification import filter as tin_densification
+from .fields import title_of
+
+_PRESETS: dict[str, Mapping[str, Any]] = {
+    "tin-densification": tin_densification.PRESETS,
+    "grid-minimum": grid_minimum.PRESETS,
+    "slope": slope.MANY_SCALES,
+}
+
+
+def presets_of(sets: Sequence[type[ParameterSet]]) -> str:
+    """Return what the presets among some parameters stand for, in HTML; empty if there are none."""
+    methods = [each for each in METHODS.values() if each.parameters in sets or TileMethod in sets]
+    tables = "".join(f"{each.label}:{_table(each)}" for each in methods)
+    return (
+        f"<b>Values of the presets</b>, where they differ and a field is left empty<br/>{tables}"
+        if tables
+        else ""
+    )
+
+
+def _table(method: Method) -> str:
+    declared = {each.name: each for each in method.parameters.declarations()}
+    labels = declared["preset"].choices
+    rows = {name: _values_of(preset) for name, preset in _PRESETS[method.name].items()}
+    # Too many columns do not fit; a classic preset alone, which differs in all, needs none.
+    usual = [row for name, row in rows.items() if name != method.classic]
+    columns = [name for name in declared if len({row.get(name) for row in usual}) > 1]
+    head = "".join(f"<th>{escape(title_of(declared[name]))}</th>" for name in columns)
+    body = "".join(
+        f"<tr><td>{escape(labels[name].partition(' (')[0], quote=False)}</td>"
+        + "".join(f'<td align="right">{_shown(row.get(each))}</td>' for each in columns)
+        + "</tr>"
+        for name, row in rows.items()
+    )
+    table = f'<table border="1" cellspacing="0" cellpadding="2"><tr><th>Preset</th>{head}</tr>'
+    return f"{table}{body}</table>"
+
+
+def _values_of(preset: Any) -> dict[str, Any]:
+    return dataclasses.asdict(preset) if dataclasses.is_dataclass(preset) else preset._asdict()
+
+
+def _shown(value: Any) -> str:
+    if value is None:
+        return ""
+    values = value if isinstance(value, tuple) else (value,)
+    return ", ".join(f"{each:g}" for each in values)

@@ -1,0 +1,178 @@
+"""The layers of a run: what each is, how it looks, its name, and its place in a group of them."""
+
+from __future__ import annotations
+
+from typing import Any, Callable, Iterable, Mapping, NamedTuple
+
+from qgis.core import (
+    QgsLayerTreeGroup,
+    QgsMapLayer,
+    QgsProcessingContext,
+    QgsProcessingFeedback,
+    QgsProcessingLayerPostProcessorInterface,
+)
+
+from . import clouds, rasters, vectors
+
+# QGIS calls them after the algorithm is gone, and owns the C++ half of each: one for each layer,
+# and a reference here that keeps the Python half.
+_KEPT: list[QgsProcessingLayerPostProcessorInterface] = []
+
+
+# What a classified cloud hides; the terrain is shown first where that is what was asked for.
+CLOUD, BELOW_TERRAIN = 6, 4
+
+
+class Look(NamedTuple):
+    """What a layer is.
+
+    Attributes
+    ----------
+    title : str
+        What it is called, after the name of the input.
+    height : int
+        Its place from below: the highest lies on top.
+    dress : callable
+        ``dress(layer)`` gives it its colours, in the main thread.
+    hides : int
+        Of layers that hide each other only the one with the highest of these is shown at first; 0
+        for one that hides nothing.
+    """
+
+    title: str
+    height: int
+    dress: Callable[[Any], None]
+    hides: int = 0
+
+
+HILLSHADE = Look("hillshade", 0, rasters.hillshade)
+TERRAIN = Look("terrain model", 1, rasters.terrain, 5)
+# Alone, over whatever is there.
+BARE = Look("without objects", 1, rasters.surface)
+SURFACE = Look("surface model", 2, rasters.surface, 1)
+CANOPY = Look("canopy height", 3, rasters.canopy, 3)
+RELIEF = Look("local relief", 4, rasters.local_relief, 2)
+CONFIDENCE = Look("confidence", 5, rasters.confidence, 1)
+ERRORS = Look("errors", 6, rasters.errors, 1)
+RASTERS = {
+    "DTM": TERRAIN, "DSM": SURFACE, "CHM": CANOPY, "HILLSHADE": HILLSHADE,
+    "CONFIDENCE": CONFIDENCE, "RELIEF": RELIEF, "ERROR_MAP": ERRORS,
+}  # fmt: skip
+
+
+def classes(values: Iterable[int], title: str = "classes", hides: int = CLOUD) -> Look:
+    """Return what a cloud of such classes is."""
+    return Look(title, 7, clouds.by_class(values), hides)
+
+
+def class_raster(values: Iterable[int], hides: int = CLOUD) -> Look:
+    """Return what a raster of such classes is."""
+    return Look("classes", 7, rasters.classes(clouds.categories_of(values)), hides)
+
+
+def heights(attribute: str, highest: float) -> Look:
+    """Return what a cloud is with such an attribute of heights, up to the highest."""
+    return Look("height above ground", 7, clouds.by_height(attribute, highest), CLOUD)
+
+
+def contours(interval: float) -> Look:
+    """Return what contour lines are."""
+    return Look("contour lines", 8, vectors.contours(interval))
+
+
+def arrange(
+    context: QgsProcessingContext,
+    looks: Mapping[str, Look],
+    labels: Mapping[str, str],
+    subject: str,
+    group: str,
+) -> None:
+    """See that the layers of a run get colours, names, and a group if there are some of them.
+
+    Parameters
+    ----------
+    context : QgsProcessingContext
+        Its layers that QGIS is going to load.
+    looks : mapping of str to Look
+        What they are, by their paths.
+    labels : mapping of str to str
+        The name that QGIS gives each, by the same. One with another name has got it from a model:
+        it keeps it, and goes where the model's layers go.
+    subject : str
+        The name of the input.
+    group : str
+        The name of the group.
+    """
+    looks = {path: look for path, look in looks.items() if context.willLoadLayerOnCompletion(path)}
+    shown = max((look.hides for look in looks.values()), default=0)
+    named = {
+        path
+        for path in set(looks) & set(labels)
+        if context.layerToLoadOnCompletionDetails(path).name not in ("", labels[path])
+    }
+    for path, look in looks.items():
+        details = context.layerToLoadOnCompletionDetails(path)
+        is_named = path in named
+        place = "" if is_named or len(looks) - len(named) < 2 else group
+        if not is_named:
+            details.name, details.forceName = f"{subject}: {look.title}", True
+        is_native = hasattr(details, "groupName")  # 3.32
+        if is_native and place:
+            details.groupName, details.layerSortKey = place, look.height
+        processor = _Show(look, "" if is_native else place, is_named or look.hides in (0, shown))
+        _KEPT.append(processor)
+        details.setPostProcessor(processor)
+
+
+def free_name(context: QgsProcessingContext, name: str) -> str:
+    """Return a name that no group of the project has yet; asked for in the main thread."""
+    if context.project() is None:
+        return name
+    root = context.project().layerTreeRoot()
+    names = (name, *(f"{name} ({number})" for number in range(2, 10_000)))
+    return next((each for each in names if root.findGroup(each) is None), name)
+
+
+class _Show(QgsProcessingLayerPostProcessorInterface):
+    """Gives a layer its look, once it is loaded, and where QGIS does not, its place."""
+
+    def __init__(self, look: Look, group: str, is_visible: bool) -> None:
+        super().__init__()
+        self._look, self._group, self._is_visible = look, group, is_visible
+
+    def postProcessLayer(
+        self, layer: QgsMapLayer, context: QgsProcessingContext, feedback: QgsProcessingFeedback
+    ) -> None:
+        """Do so; called by QGIS in the main thread."""
+        self._look.dress(layer)
+        layer.triggerRepaint()
+        project = context.project() or layer.project()
+        node = project.layerTreeRoot().findLayer(layer.id()) if project else None
+        if node is None:
+            return
+        if self._group:
+            layer.setCustomProperty(_HEIGHT, self._look.height)
+            node = _moved(node, self._group, self._look.height)
+        node.setItemVisibilityChecked(self._is_visible)
+        node.setExpanded(self._is_visible and self._look is not HILLSHADE)
+
+
+_HEIGHT = "bare_earth/height"
+
+
+def _moved(node: Any, name: str, height: int) -> Any:
+    """Move a layer into a group, made beside it if it is not there, and return its new node."""
+    parent = node.parent()
+    if parent.name() == name:
+        return node
+    group = parent.findGroup(name) or parent.insertGroup(0, name)
+    copy = node.clone()
+    group.insertChildNode(_place_in(group, height), copy)
+    parent.removeChildNode(node)
+    return copy
+
+
+def _place_in(group: QgsLayerTreeGroup, height: int) -> int:
+    layers: Iterable[QgsMapLayer] = (each.layer() for each in group.findLayers())
+    heights = [int(each.customProperty(_HEIGHT, 0)) for each in layers]
+    return sum(each > height for each in heights)

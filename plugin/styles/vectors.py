@@ -1,0 +1,28 @@
+"""How contour lines look."""
+
+from __future__ import annotations
+
+from typing import Callable
+
+from qgis.core import QgsLineSymbol, QgsRuleBasedRenderer, QgsVectorLayer
+
+from ...algorithms.products.contours import INDEX
+
+_THIN = {"line_color": "110,72,36,130", "line_width": "0.15"}
+_THICK = {"line_color": "110,72,36,220", "line_width": "0.35"}
+
+
+def contours(interval: float) -> Callable[[QgsVectorLayer], None]:
+    """Return what draws contour lines in brown, each fifth of them thicker."""
+
+    def dress(layer: QgsVectorLayer) -> None:
+        root = QgsRuleBasedRenderer.Rule(None)
+        rule = f'round("ELEV" / {interval!r}) % {INDEX} = 0'
+        for properties, words in ((_THICK, f"Each {INDEX * interval:g}"), (_THIN, f"{interval:g}")):
+            symbol = QgsLineSymbol.createSimple(properties)
+            each = QgsRuleBasedRenderer.Rule(symbol, 0, 0, rule, words)
+            root.appendChild(each)
+            rule = "ELSE"
+        layer.setRenderer(QgsRuleBasedRenderer(root))
+
+    return dress

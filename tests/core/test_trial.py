@@ -1,0 +1,243 @@
+import base64
+import json
+import re
+import shlex
+
+import laspy
+import numpy as np
+import pytest
+from conftest import Heard
+from pyproj import CRS
+from test_assessment import Tags
+
+from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.core.progress import Progress
+from bare_earth.algorithms.engine.trial import compare_settings
+from bare_earth.algorithms.engine.trial_options import SETTINGS, TrialOptions
+from bare_earth.algorithms.las.writing import write_classified
+
+ORIGIN = (500_000.0, 5_700_000.0)
+SIDE = 120.0
+# A hall 30 m wide on a plane: a filter that looks 2 m far takes its roof for ground.
+HALL = (40.0, 70.0, 50.0, 80.0)
+WINDOW = (*(each + 20 for each in ORIGIN), *(each + 100 for each in ORIGIN))
+BOTH = TrialOptions(settings=("tin-densification:automatic", "slope:whitebox"))
+FOOT = 0.3048
+
+
+def scene():
+    """Return x, y, z in metres from the origin, and which points are on the roof."""
+    random = np.random.default_rng(7)
+    x, y = random.uniform(0, SIDE, (2, 60_000))
+    roof = (x > HALL[0]) & (x < HALL[1]) & (y > HALL[2]) & (y < HALL[3])
+    z = 100 + 0.03 * x + np.where(roof, 9.0, 0.0) + random.normal(0, 0.02, len(x))
+    return *(np.round(each, 3) for each in (x, y, z)), roof
+
+
+def write(path, which=slice(None), epsg=25832, unit=1.0):
+    header = laspy.LasHeader(point_format=6, version="1.4")
+    header.scales, header.offsets = (0.001,) * 3, (*ORIGIN, 0.0)
+    if epsg:
+        header.add_crs(CRS.from_epsg(epsg))
+    las = laspy.LasData(header)
+    x, y, z, _ = (each[which] for each in scene())
+    las.x, las.y, las.z = x / unit + ORIGIN[0], y / unit + ORIGIN[1], z / unit
+    las.classification[:] = 1
+    las.return_number[:] = las.number_of_returns[:] = 1
+    las.write(str(path))
+    return path
+
+
+def inside(x, y, box=(20, 20, 100, 100)):
+    return (x >= box[0]) & (x <= box[2]) & (y >= box[1]) & (y <= box[3])
+
+
+@pytest.fixture(scope="module")
+def source(tmp_path_factory):
+    return write(tmp_path_factory.mktemp("trial") / "tile.laz")
+
+
+@pytest.fixture(scope="module")
+def made(source):
+    """The summary of two settings, and the text of their page."""
+    page = source.with_name("page.html")
+    summary = compare_settings([source], page, WINDOW, BOTH)
+    return summary, page.read_text(encoding="utf-8")
+
+
+def test_each_setting_finds_what_it_finds_on_the_whole_file(source, made, tmp_path):
+    x, y, _, _ = scene()
+    for each in made[0].settings:
+        command = shlex.split(each["shell"])
+        command[command.index(str(source)) + 1] = str(tmp_path / "all.laz")
+        assert main(command[1:]) == 0
+        ground = np.asarray(laspy.read(tmp_path / "all.laz").classification) == 2
+        assert each["ground_count"] == np.count_nonzero(ground & inside(x, y))
+        assert each["ground_share"] == pytest.approx(100 * ground[inside(x, y)].mean())
+
+
+def test_the_others_are_compared_with_the_first(made):
+    x, y, _, roof = scene()
+    first, other = made[0].settings
+    assert (first["gained"], first["lost"], first["terrain_difference"]) == (0, 0, 0.0)
+    assert made[0].point_count == first["point_count"] == np.count_nonzero(inside(x, y))
+    # Of the roof the inner part is ground for a filter that looks 2 m far, and 9 m too high.
+    assert 0.5 * roof.sum() < other["gained"] <= roof.sum()
+    share = (HALL[1] - HALL[0]) * (HALL[3] - HALL[2]) / 80**2
+    assert other["terrain_difference"] == pytest.approx(9 * share, rel=0.2)
+    assert 90 < first["confidence"] <= 100
+
+
+def test_the_page_needs_no_other_file_and_shows_all_settings(made):
+    summary, page = made
+    tags = Tags(page)
+    assert tags.open == []
+    pictures = re.findall(r'(?:src|href)="([^"]*)"', page)
+    # Of each setting terrain, differences and the points of the profile.
+    assert len(pictures) == 3 * len(summary.settings)
+    for each in pictures:
+        kind, _, data = each.partition(",")
+        assert kind == "data:image/png;base64" and base64.b64decode(data)[:4] == b"\x89PNG"
+    assert "http" not in page.replace("http://www.w3.org", "")
+    for each in summary.settings:
+        assert each["label"] in tags.texts
+        assert each["shell"] in tags.texts and each["qgis"] in tags.texts
+    assert "processing.run('bareearth:slopefilter', {" in summary.settings[1]["qgis"]
+
+
+def test_the_profile_lies_where_the_terrains_differ_most_or_where_it_is_wanted(
+    source, made, tmp_path
+):
+    texts = Tags(made[1]).texts
+    (about,) = (each for each in texts if each.startswith("The profile runs"))
+    start, end = re.findall(r"(\d+) m east and (\d+) m north", about)
+    numbers = [int(each) for each in (*start, *end)]
+    along_x = numbers[1] == numbers[3]
+    # In metres from the corner of the window, which lies 20 m inside.
+    low, high = HALL[2:] if along_x else HALL[:2]
+    assert low - 20 <= numbers[1 if along_x else 0] <= high - 20
+    options = TrialOptions(BOTH.settings, profile=(*WINDOW[:2], *WINDOW[2:]))
+    compare_settings([source], tmp_path / "p.html", WINDOW, options)
+    page = (tmp_path / "p.html").read_text(encoding="utf-8")
+    assert "from 0 m east and 0 m north" in page and "to 80 m east and 80 m north" in page
+
+
+def figures(summary):
+    return [
+        {name: value for name, value in each.items() if name not in ("shell", "qgis")}
+        for each in summary.settings
+    ]
+
+
+def test_a_survey_of_tiles_and_a_copc_file_give_the_same(source, made, tmp_path):
+    x, *_ = scene()
+    (tmp_path / "tiles").mkdir()
+    write(tmp_path / "tiles" / "west.laz", x < 61.3)
+    write(tmp_path / "tiles" / "east.las", x >= 61.3)
+    tiles = compare_settings([tmp_path / "tiles"], tmp_path / "t.html", WINDOW, BOTH)
+    copc = tmp_path / "tile.copc.laz"
+    write_classified(source, copc, np.ones(len(x), np.uint8))
+    nodes = compare_settings([copc], tmp_path / "c.html", WINDOW, BOTH)
+    for one, other, whole in zip(figures(tiles), figures(nodes), figures(made[0])):
+        assert one == pytest.approx(whole) and other == pytest.approx(whole)
+    # What only single files take is not offered for many.
+    assert tiles.settings[1]["qgis"] == ""
+    assert "bareearth:classifytiles" in tiles.settings[0]["qgis"]
+    assert tiles.settings[0]["shell"].split()[3].endswith("tiles_tin-densification_automatic")
+
+
+def test_feet_are_converted(made, tmp_path):
+    source = write(tmp_path / "feet.laz", epsg=2222, unit=FOOT)  # Arizona East, feet
+    box = [start + metres / FOOT for metres in (20, 100) for start in ORIGIN]
+    summary = compare_settings([source], tmp_path / "feet.html", box, BOTH)
+    assert "(80 x 80 m)" in (tmp_path / "feet.html").read_text(encoding="utf-8")
+    for one, other in zip(figures(summary), figures(made[0])):
+        # Coordinates are rounded otherwise.
+        assert one["ground_count"] == pytest.approx(other["ground_count"], rel=0.005)
+        assert one["terrain_difference"] == pytest.approx(other["terrain_difference"], abs=0.05)
+
+
+def test_the_context_is_told_and_can_be_chosen(source, made, tmp_path):
+    assert made[0].context == 50.0
+    assert "50 m round the window were read" in made[1] and "look up to 180 m far" in made[1]
+    near = TrialOptions(("slope:whitebox",), context=5)
+    summary = compare_settings([source], tmp_path / "p.html", WINDOW, near)
+    x, y, *_ = scene()
+    assert summary.read_count == np.count_nonzero(inside(x, y, (15, 15, 105, 105)))
+    wide = compare_settings([source], tmp_path / "p.html", WINDOW, TrialOptions(context=300))
+    assert wide.read_count == len(x)
+    assert "look up to" not in (tmp_path / "p.html").read_text(encoding="utf-8")
+
+
+def test_a_setting_without_ground_is_shown_as_such(source, tmp_path, monkeypatch):
+    from bare_earth.algorithms.engine import trial_points
+
+    def none(*arguments):
+        raise BareEarthError("No ground was found.")
+
+    monkeypatch.setattr(trial_points.LabelGround, "work", none)
+    heard = Heard()
+    summary = compare_settings([source], tmp_path / "p.html", WINDOW, BOTH, progress=heard)
+    assert [each["ground_count"] for each in summary.settings] == [0, 0]
+    assert summary.settings[1]["terrain_difference"] is None
+    assert "Slope filter, Whitebox" in heard.warnings[-1]
+
+
+@pytest.mark.parametrize(
+    ("window", "says"),
+    [
+        ((0, 0, 100, 100), "No point lies in the window .* the points have x 5"),
+        ((4e5, 57e5, 5e5, 58e5), "100,000 m wide"),
+        ((2, 0, 1, 1), "XMIN below XMAX"),
+    ],
+)
+def test_a_window_that_does_not_do_is_refused(source, tmp_path, window, says):
+    with pytest.raises(BareEarthError, match=says):
+        compare_settings([source], tmp_path / "p.html", window)
+    assert not list(tmp_path.iterdir())
+
+
+def test_values_that_do_not_do_are_refused(source, tmp_path):
+    for wrong, says in (
+        ({"settings": ("slope:moon",)}, "Settings must be one of"),
+        ({"settings": ()}, "choose at least one"),
+        ({"profile": (1, 2, 3)}, "X1 Y1 X2 Y2"),
+        ({"profile": (1, 2, 1, 2)}, "not the same"),
+    ):
+        with pytest.raises(BareEarthError, match=says):
+            TrialOptions(**wrong)
+    assert TrialOptions(("slope:town", "slope:town")).settings == ("slope:town",)
+    with pytest.raises(BareEarthError, match=r"name it \.html"):
+        compare_settings([source], tmp_path / "page.png", WINDOW)
+    with pytest.raises(BareEarthError, match="tile"):
+        compare_settings([source], source, WINDOW)
+
+
+def test_a_cancel_leaves_nothing(source, tmp_path):
+    class Stop(Progress):
+        def report(self, fraction):
+            if fraction > 0.5:
+                raise Cancelled
+
+    with pytest.raises(Cancelled):
+        compare_settings([source], tmp_path / "p.html", WINDOW, BOTH, progress=Stop())
+    assert not list(tmp_path.iterdir())
+
+
+def test_the_command(source, made, tmp_path, capsys):
+    words = ["compare-settings", str(source), str(tmp_path / "page.html"), "--json"]
+    words += ["--extent", *map(str, WINDOW), "--settings", *BOTH.settings]
+    assert main(words) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["settings"] == made[0].settings
+    assert (tmp_path / "page.html").read_text(encoding="utf-8") == made[1]
+    assert main([*words[:-1], "slope:moon"]) == 2
+    assert "slope:moon" in capsys.readouterr().err
+
+
+def test_every_preset_of_every_method_is_a_setting():
+    assert {"tin-densification:lidar360", "grid-minimum:paper", "slope:whitebox"} < set(SETTINGS)
+    for name, setting in SETTINGS.items():
+        assert setting.parameters.preset == setting.preset
+        assert name == f"{setting.method.name}:{setting.preset}"

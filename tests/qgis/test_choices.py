@@ -1,0 +1,72 @@
+"""Choices in dialogs show labels, and give ids."""
+
+import pytest
+from qgis.core import QgsApplication, QgsProcessingContext
+from qgis.PyQt.QtWidgets import QComboBox
+
+TIN = "bareearth:tindensification"
+
+
+@pytest.fixture
+def dialog(plugin):
+    from processing.gui.AlgorithmDialog import AlgorithmDialog
+
+    made = []
+
+    def dialog(name=TIN):
+        made.append(AlgorithmDialog(QgsApplication.processingRegistry().createAlgorithmById(name)))
+        return made[-1]
+
+    yield dialog
+    for each in made:
+        each.close()
+
+
+def box_of(dialog, text):
+    boxes = dialog.findChildren(QComboBox)
+    return next(each for each in boxes if each.findText(text) >= 0)
+
+
+def test_labels_are_shown_and_ids_given(dialog, scene):
+    dialog = dialog()
+    dialog.setParameters({"INPUT": str(scene.path)})
+    box = box_of(dialog, "Steep or rugged terrain")
+    assert box.findText("steep") < 0 and box.currentText() == "Automatic"
+    box.setCurrentIndex(box.findText("Steep or rugged terrain"))
+    values = dialog.createProcessingParameters()
+    assert values["PRESET"] == "steep" and values["RETURNS"] == "last"
+
+
+@pytest.mark.parametrize("given", ["hilly", 2, "2"])
+def test_values_of_a_run_before_are_chosen(dialog, scene, given):
+    dialog = dialog()
+    dialog.setParameters({"INPUT": str(scene.path), "PRESET": given})
+    assert box_of(dialog, "Automatic").currentText() == "Hilly land, forest"
+    assert dialog.createProcessingParameters()["PRESET"] == "hilly"
+
+
+def test_the_table_of_batch_mode_has_labels_too(plugin):
+    from processing.gui.BatchAlgorithmDialog import BatchAlgorithmDialog
+
+    algorithm = QgsApplication.processingRegistry().createAlgorithmById(TIN)
+    dialog = BatchAlgorithmDialog(algorithm)
+    assert box_of(dialog, "Steep or rugged terrain").currentText() == "Automatic"
+    dialog.close()
+
+
+@pytest.mark.parametrize("value", ["steep", 3, "3"])
+def test_numbers_of_the_list_are_accepted(algorithm, value, scene, tmp_path):
+    field = algorithm.parameterDefinition("PRESET")
+    context = QgsProcessingContext()
+    assert field.checkValueIsAcceptable(value, context)
+    assert field.clone().checkValueIsAcceptable(value, context)
+    values = {"INPUT": str(scene.path), "OUTPUT": str(tmp_path / "o.las"), "PRESET": value}
+    assert algorithm.checkParameterValues(values, context) == (True, "")
+    assert algorithm.chosen(values, context)[0].preset == "steep"
+
+
+@pytest.mark.parametrize("value", ["steeper", 7, "99", -1])
+def test_others_are_not(algorithm, value):
+    assert not algorithm.parameterDefinition("PRESET").checkValueIsAcceptable(
+        value, QgsProcessingContext()
+    )

@@ -1,0 +1,150 @@
+"""From a point cloud to all maps of its terrain, in the toolbox."""
+
+import json
+import os
+import shutil
+import subprocess
+
+import laspy
+import numpy as np
+import pytest
+from osgeo import gdal, ogr
+from qgis.core import QgsProcessingException, QgsProcessingOutputLayerDefinition, QgsProject
+from support import Log, write_scene
+
+ALL_IN_ONE = "bareearth:pointcloudtoterrain"
+RASTERS = ("DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE", "RELIEF")
+
+
+def everything(folder):
+    paths = {name: str(folder / f"{name.lower()}.tif") for name in RASTERS}
+    return {
+        "OUTPUT": str(folder / "ground.laz"), **paths, "CONTOURS": str(folder / "lines.gpkg")
+    }  # fmt: skip
+
+
+def band(path):
+    values = gdal.Open(path).ReadAsArray().astype(float)
+    return np.where(values == -9999, np.nan, values)
+
+
+def test_a_file_becomes_all_maps(scene, tmp_path):
+    import processing
+
+    outputs = everything(tmp_path)
+    log = Log()
+    results = processing.run(
+        ALL_IN_ONE, {"INPUT": str(scene.path), **outputs, "CONTOUR_INTERVAL": 0.5}, feedback=log
+    )
+    assert {name: results[name] for name in outputs} == outputs
+    assert results["POINT_COUNT"] == scene.count
+    assert results["GROUND_COUNT"] == scene.ground_count
+    assert np.array_equal(laspy.read(outputs["OUTPUT"]).classification == 2, scene.ground)
+    # The scene is a plane with a roof 12 m above its foot.
+    terrain, canopy = band(outputs["DTM"]), band(outputs["CHM"])
+    assert np.nanmin(terrain) > 99.9 and np.nanmax(terrain) < 106.0
+    assert np.nanmax(canopy) > 7.0
+    assert np.nanmax(np.abs(band(outputs["RELIEF"])[20:60, 20:60])) < 0.05
+    opened = ogr.Open(outputs["CONTOURS"])
+    lines = opened[0]
+    heights = sorted({each.GetField("ELEV") for each in lines})
+    assert heights == [100.5 + 0.5 * step for step in range(11)] and lines.GetSpatialRef()
+    assert f"Ground    {scene.ground_count:>15,}" in log.text
+    assert not [each for each in os.listdir(tmp_path) if each.startswith(".") or "aux" in each]
+
+
+def test_every_output_may_be_left_out(scene, tmp_path):
+    import processing
+
+    for name, path in everything(tmp_path).items():
+        if name != "CONTOURS":
+            results = processing.run(ALL_IN_ONE, {"INPUT": str(scene.path), name: path})
+            assert set(results) == {name, "POINT_COUNT", "GROUND_COUNT"}
+            os.remove(path)
+    lines = str(tmp_path / "lines.geojson")
+    results = processing.run(ALL_IN_ONE, {"INPUT": str(scene.path), "CONTOURS": lines})
+    assert results["CONTOURS"] == lines
+    assert sorted(os.listdir(tmp_path)) == ["lines.geojson", scene.path.name]
+
+
+@pytest.mark.parametrize("how", ["folder", "input", "list"])
+def test_a_folder_is_one_survey(tmp_path, how):
+    import processing
+
+    tiles, out = tmp_path / "tiles", tmp_path / "out"
+    tiles.mkdir(), out.mkdir()
+    ground = [
+        write_scene(tiles / f"{place}.laz", origin=(500_000.0 + 80 * place, 5_700_000.0))
+        for place in range(2)
+    ]
+    (tmp_path / "list.txt").write_text(f"{tiles}\n")
+    inputs = {
+        "folder": {"INPUT_FOLDER": str(tiles)},
+        "input": {"INPUT": str(tiles)},
+        "list": {"INPUT": str(tmp_path / "list.txt")},
+    }
+    results = processing.run(ALL_IN_ONE, {**inputs[how], **everything(out)})
+    assert results["OUTPUT"] == str(out / "ground" / "classified.vpc")
+    assert results["GROUND_COUNT"] == sum(map(np.count_nonzero, ground))
+    names = [each for each in sorted(os.listdir(out / "ground")) if each[0] != "."]
+    assert names == ["0.laz", "1.laz", "classified.vpc"]
+    assert band(results["DTM"]).shape[1] >= 159
+
+
+def test_layers_are_styled_and_the_terrain_is_shown(scene, tmp_path, context):
+    import processing
+
+    project = QgsProject.instance()
+    outputs = {
+        name: QgsProcessingOutputLayerDefinition(path, project)
+        for name, path in everything(tmp_path).items()
+    }
+    processing.runAndLoadResults(ALL_IN_ONE, {"INPUT": str(scene.path), **outputs})
+    (group,) = project.layerTreeRoot().children()
+    assert group.name() == "scene: terrain"
+    titles = [each.name().partition(": ")[2] for each in group.children()]
+    assert titles == [
+        "contour lines", "classes", "confidence", "local relief", "canopy height",
+        "surface model", "terrain model", "hillshade",
+    ]  # fmt: skip
+    shown = [title for title, each in zip(titles, group.children()) if each.isVisible()]
+    assert shown == ["contour lines", "terrain model", "hillshade"]
+
+
+def test_without_an_input_it_says_what_to_do(algorithm, registry, context):
+    one = registry.createAlgorithmById(ALL_IN_ONE)
+    possible, text = one.checkParameterValues({}, context)
+    assert not possible and text == "Choose a point cloud, or a folder of them."
+    possible, text = one.checkParameterValues({"INPUT": "/nowhere.laz"}, context)
+    assert not possible and "does not exist" in text
+
+
+def test_a_format_that_lines_cannot_have_leaves_nothing(scene, tmp_path):
+    import processing
+
+    wrong = {"INPUT": str(scene.path), "CONTOURS": str(tmp_path / "lines.docx")}
+    with pytest.raises(QgsProcessingException, match="gpkg"):
+        processing.run(ALL_IN_ONE, wrong)
+    assert os.listdir(tmp_path) == [scene.path.name]
+
+
+def test_it_is_the_first_of_the_toolbox(registry):
+    provider = registry.providerById("bareearth")
+    groups = sorted({each.group() for each in provider.algorithms()})
+    first = [each.id() for each in provider.algorithms() if each.group() == groups[0]]
+    assert first == [ALL_IN_ONE]
+
+
+def test_by_qgis_process(scene, tmp_path):
+    environment = {**os.environ, "HOME": str(tmp_path), "QGIS_CUSTOM_CONFIG_PATH": str(tmp_path)}
+    program = shutil.which("qgis_process.bin") or shutil.which("qgis_process")
+    subprocess.run([program, "plugins", "enable", "bare_earth"], env=environment, check=True)
+    paths = {"INPUT": str(scene.path), "DTM": str(tmp_path / "d.tif"), "METHOD": "grid-minimum"}
+    words = [f"{name}={value}" for name, value in paths.items()]
+    done = subprocess.run(
+        [program, "--json", "run", ALL_IN_ONE, "--", *words],
+        env=environment, capture_output=True, text=True,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    results = json.loads(done.stdout[done.stdout.index("{") :])["results"]
+    assert results["DTM"] == paths["DTM"] and results["POINT_COUNT"] == scene.count
