@@ -11,7 +11,7 @@ from typing import Callable, Iterator, Sequence
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import check_distinct, replacing
+from ..core.files import check_distinct
 from ..core.points import Frame
 from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
@@ -21,7 +21,7 @@ from ..products.raster_block import BlockRasters, RasterStep
 from ..products.surface_model import SurfaceModel, canopy_height
 from ..products.terrain_model import TerrainModel
 from ..rasters.geotiff import NODATA, RasterGrid
-from ..rasters.writing import Rows, check_raster_output, write_geotiff
+from ..rasters.writing import Rows, check_raster_output, replacing_raster, write_geotiff
 from ..survey.ground_classes import GroundClasses, GroundTally
 from ..survey.selection import NOISE
 from .blocks import Block, Blocks, Store
@@ -290,7 +290,7 @@ def write_rasters(
     for number, (name, path) in enumerate(files.items()):
         part = progress.part(0.3 + 0.7 * number / len(files), 0.3 + 0.7 * (number + 1) / len(files))
         kind, nodata, strips = _STRIPS[name](mosaics, request, grid, part)
-        temporary = outputs.enter_context(replacing(path))
+        temporary = outputs.enter_context(replacing_raster(path))
         write_geotiff(temporary, Rows(window.shape, kind, strips), grid, nodata, progress)
     counts = np.sum([each.counts for each in made], axis=0)
     return RasterSize(int(counts[0]), int(counts[1]), window.columns, window.rows)

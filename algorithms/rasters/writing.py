@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 from pathlib import Path
-from typing import Any, Callable, Iterable, NamedTuple
+from typing import Any, Callable, Iterable, Iterator, NamedTuple
 
 import numpy as np
 
@@ -20,6 +21,15 @@ _OPTIONS = {
     "OVERVIEW_RESAMPLING": "AVERAGE", "NUM_THREADS": "ALL_CPUS",
 }  # fmt: skip
 _WAITING = {"TILED": "YES", "BIGTIFF": "IF_SAFER", "SPARSE_OK": "TRUE"}
+
+
+@contextlib.contextmanager
+def replacing_raster(path: Path) -> Iterator[Path]:
+    """Yield a temporary name, as `replacing`; what GDAL kept of the raster before goes, too."""
+    with replacing(path) as temporary:
+        yield temporary
+    # Statistics of other cells: QGIS would stretch its colours by them.
+    path.with_name(f"{path.name}.aux.xml").unlink(missing_ok=True)
 
 
 class Rows(NamedTuple):
@@ -70,7 +80,7 @@ def write_geotiff(
     check_output(target)
     if isinstance(values, np.ndarray):
         values = Rows(values.shape, values.dtype.name, [values])
-    with replacing(target) as temporary:
+    with replacing_raster(target) as temporary:
         _writer()(temporary, values, grid, nodata, progress)
 
 

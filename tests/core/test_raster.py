@@ -125,3 +125,12 @@ def test_a_crs_that_geotiff_cannot_hold_is_left_out_with_a_warning_and_no_side_c
     with rasterio.open(tmp_path / "a.tif") as raster:
         assert "without a CRS" in warnings[0] and raster.crs is None
     assert [path.name for path in tmp_path.iterdir()] == ["a.tif"]
+
+
+def test_statistics_of_the_raster_before_are_removed(tmp_path):
+    grid, target = RasterGrid.over(square(9.0), Frame(), 1.0), tmp_path / "a.tif"
+    statistics = tmp_path / "a.tif.aux.xml"
+    statistics.write_text("<PAMDataset></PAMDataset>")
+    values = np.zeros((grid.rows, grid.columns), np.float32)
+    write_geotiff(target, values, grid, NODATA, SILENT)
+    assert target.exists() and not statistics.exists()
