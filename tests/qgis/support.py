@@ -6,9 +6,20 @@ import laspy
 import numpy as np
 from laspy.vlrs.known import WktCoordinateSystemVlr
 from qgis.core import QgsCoordinateReferenceSystem, QgsProcessingFeedback
+from qgis.PyQt import sip
 
 ROOT = Path(__file__).parents[2]
 ALGORITHM = "bareearth:tindensification"
+
+
+def remove(dialog):
+    """Close a dialog and delete all of it at once, as a window's event loop would do later.
+
+    Else its Python half may go first, and Qt falls over the rest when it next looks at it.
+    """
+    dialog.close()
+    if not sip.isdeleted(dialog):
+        sip.delete(dialog)
 
 
 class Log(QgsProcessingFeedback):

@@ -3,6 +3,7 @@
 import pytest
 from qgis.core import QgsApplication, QgsProcessingContext
 from qgis.PyQt.QtWidgets import QComboBox
+from support import remove
 
 TIN = "bareearth:tindensification"
 
@@ -19,7 +20,7 @@ def dialog(plugin):
 
     yield dialog
     for each in made:
-        each.close()
+        remove(each)
 
 
 def box_of(dialog, text):
@@ -51,7 +52,7 @@ def test_the_table_of_batch_mode_has_labels_too(plugin):
     algorithm = QgsApplication.processingRegistry().createAlgorithmById(TIN)
     dialog = BatchAlgorithmDialog(algorithm)
     assert box_of(dialog, "Steep or rugged terrain").currentText() == "Automatic"
-    dialog.close()
+    remove(dialog)
 
 
 @pytest.mark.parametrize("value", ["steep", 3, "3"])

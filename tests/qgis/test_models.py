@@ -13,7 +13,7 @@ from qgis.core import (
     QgsProcessingParameterFile,
     QgsProcessingParameterNumber,
 )
-from support import ALGORITHM
+from support import ALGORITHM, remove
 
 VALUES = {"MAX_TERRAIN_ANGLE": 80.0, "OTHERS": "unclassified", "FROM_CLASSES": "1"}
 
@@ -94,12 +94,13 @@ def test_the_dialog_gives_back_what_is_chosen(algorithm, scene, plugin):
     try:
         dialog.setParameters({"INPUT": str(scene.path), "TO_CLASS": 9})
         values = dialog.createProcessingParameters()
+        # The dialog takes the algorithm along.
+        assert algorithm.checkParameterValues(values, QgsProcessingContext())[0]
     finally:
-        dialog.close()
+        remove(dialog)
     assert values["INPUT"] == str(scene.path)
     assert values["TO_CLASS"] == 9
     assert "DTM" in values and "HILLSHADE" in values
-    assert algorithm.checkParameterValues(values, QgsProcessingContext())[0]
 
 
 def test_batch_mode_takes_files(algorithm, scene, tmp_path, plugin):
@@ -115,4 +116,4 @@ def test_batch_mode_takes_files(algorithm, scene, tmp_path, plugin):
         wrapper.setParameterValue(str(scene.path), panel.processing_context)
         assert wrapper.parameterValue() == str(scene.path)
     finally:
-        dialog.close()
+        remove(dialog)
