@@ -10,8 +10,9 @@ import numpy as np
 
 from ..core.points import Frame, Points
 from ..core.progress import SILENT, Progress
-from ..grids.lines import NearPlaces, along, falling, inside_grid, squares, two_sided
+from ..grids.lines import NearestHeights, NearPlaces, along, falling, inside_grid, squares
 from ..las.cloud import PointCloud, survey_frame
+from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
 from ..las.reading import read_parts
 from ..survey.area import Area, Polygon
@@ -181,8 +182,7 @@ class _Shapes:
         progress: Progress,
     ) -> None:
         self._constraints, self._step, self._progress = constraints, step, progress
-        first = next(read_parts(files[0]))
-        self._frame = frame = survey_frame(first.crs)
+        self._frame = frame = survey_frame(read_crs(files[0]))
         unit = frame.horizontal_unit
         self._lines = [
             along(line * (unit, unit, frame.vertical_unit), step) for line in constraints.breaklines
@@ -195,18 +195,19 @@ class _Shapes:
             np.concatenate([along(ring, step, is_closed=True) for ring in polygon])
             for polygon in self._waters
         ]
-        self._ground = _ground_near([*self._lines, *self._borders], files, ground, frame, progress)
+        near = _ground_near([*self._lines, *self._borders], files, ground, frame, progress)
         if self._waters:
             # What lies in water is no bank.
             water = Area(None, tuple(tuple(ring[:, :2] for ring in each) for each in self._waters))
-            self._ground = self._ground[~water.contains(*self._ground[:, :2].T)]
+            near = near[~water.contains(*near[:, :2].T)]
+        self._ground = NearestHeights(near, _NEAR)
 
     def breaklines(self) -> Iterator[np.ndarray]:
         """Yield the vertices of each breakline."""
         lost = 0
         for line in self._lines:
             unknown = np.isnan(line[:, 2])
-            sides = two_sided(line, self._ground, _NEAR)[np.tile(unknown, 2)]
+            sides = self._ground.beside(line)[np.tile(unknown, 2)]
             sides = sides[~np.isnan(sides[:, 2])]
             lost += bool(unknown.all()) and not len(sides)
             yield np.concatenate((line[~unknown], sides))
@@ -223,7 +224,7 @@ class _Shapes:
         ]
         dry = 0
         for polygon, border in zip(self._waters, self._borders):
-            heights = self._heights(border)
+            heights = self._ground.at(border[:, :2])
             if np.isnan(heights).all():
                 dry += 1
                 yield np.zeros((0, 3)), np.zeros((0, 3))
@@ -245,18 +246,6 @@ class _Shapes:
                 f"{dry:,} waters have no ground within {_NEAR:g} m of their border: they are not"
                 " flattened, and nothing in them is ground."
             )
-
-    def _heights(self, places: np.ndarray) -> np.ndarray:
-        """Return the height of the nearest ground point; NaN where none is near."""
-        from scipy.spatial import cKDTree
-
-        heights = np.full(len(places), np.nan)
-        if len(self._ground) and len(places):
-            tree = cKDTree(self._ground[:, :2])
-            far, nearest = tree.query(places[:, :2], distance_upper_bound=_NEAR)
-            found = np.isfinite(far)
-            heights[found] = self._ground[nearest[found], 2]
-        return heights
 
 
 def _ground_near(

@@ -203,7 +203,7 @@ class TileJob:
         with FilePoints.opened(las, self.target, resources, not is_copied, reading) as points:
             result = step.result(path, points.room)
             for where, part in points.parts():
-                step.marks(part, tally)
+                step.count(part, tally)
                 result.add(where, part, kept.of(where, part))
             kept.check()
             step.tell_of_tile(tally, path, progress)

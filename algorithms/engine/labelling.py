@@ -105,6 +105,10 @@ class LabelGround(PointStep):
         for value, name in self.selection.new_classes():
             check_class(tile.path, tile.point_format, value, name)
 
+    def count(self, part: PointCloud, tally: ChosenTally) -> None:
+        """Count which points take part."""
+        self.selection.choose(part, tally)
+
     def tell_of_tile(self, tally: ChosenTally, path: Path, progress: Progress) -> None:
         """Tell how many points of a file took part; refuse one in which none does."""
         self.selection.tell(tally, path, progress)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from dataclasses import dataclass, field
 from typing import Any, Iterable, Sequence, TypeVar
 
@@ -58,7 +57,7 @@ class Request:
         **others
             Attributes that are no parameter sets.
         """
-        fields = {type(getattr(cls(), each.name)): each.name for each in dataclasses.fields(cls)}
+        fields = {type(value): name for name, value in vars(cls()).items()}
         for each in sets:
             if isinstance(each, TileMethod):
                 each = each.parameters

@@ -108,6 +108,9 @@ class PointStep(Step):
     def check_tile(self, tile: Tile) -> None:
         """Refuse, before any work, a file that cannot hold what is found."""
 
+    def count(self, part: PointCloud, tally: Any) -> None:
+        """Count what `tell_of_tile` tells of the points of one of many files."""
+
     def tell_of_tile(self, tally: Any, path: Path, progress: Progress) -> None:
         """Tell what was counted in one of many files, or refuse it."""
 

@@ -78,47 +78,78 @@ def along(line: np.ndarray, step: float, is_closed: bool = False) -> np.ndarray:
     return np.concatenate((start + share[:, None] * (end - start), line[-1:]))
 
 
-def two_sided(line: np.ndarray, points: np.ndarray, reach: float) -> np.ndarray:
-    """Return places on both sides of a line, with the height of the nearest point on that side.
+class NearestHeights:
+    """The heights of the points nearest to places.
 
     Parameters
     ----------
-    line : numpy.ndarray of float64, shape (n, 3)
-        Places along the line; z is not used.
     points : numpy.ndarray of float64, shape (m, 3)
         Points of the terrain.
     reach : float
         In the unit of x and y: points farther away do not count.
-
-    Returns
-    -------
-    numpy.ndarray of float64, shape (2 n, 3)
-        Those on the left, then those on the right, a little beside the line. z is NaN where there
-        is no point on either side; where there is one on one side only, it counts for both.
     """
-    from scipy.spatial import cKDTree
 
-    across = np.zeros((len(line), 2))
-    if len(line) > 1:
-        along_x, along_y = (np.gradient(line[:, axis]) for axis in (0, 1))
-        length = np.maximum(np.hypot(along_x, along_y), 1e-12)
-        across = np.column_stack((-along_y, along_x)) / length[:, None]
-    heights = np.full((2, len(line)), np.nan)
-    if len(points) and len(line):
-        count = min(_NEAREST, len(points))
-        far, which = cKDTree(points[:, :2]).query(
-            line[:, :2], list(range(1, count + 1)), distance_upper_bound=reach
-        )
-        near = np.isfinite(far)
-        which = np.where(near, which, 0)
-        side = ((points[which, :2] - line[:, None, :2]) * across[:, None]).sum(axis=2)
-        for number, there in enumerate((near & (side > 0.0), near & (side <= 0.0))):
-            first = np.argmax(there, axis=1)
-            found = points[which[np.arange(len(line)), first], 2]
-            heights[number] = np.where(there.any(axis=1), found, np.nan)
-        heights = np.where(np.isnan(heights), heights[::-1], heights)
-    places = [line[:, :2] + sign * _BESIDE * across for sign in (1.0, -1.0)]
-    return np.column_stack((np.concatenate(places), heights.ravel()))
+    def __init__(self, points: np.ndarray, reach: float) -> None:
+        # Not at the start of QGIS, which may lack scipy.
+        from scipy.spatial import cKDTree
+
+        self._points, self._reach = points, reach
+        self._tree = cKDTree(points[:, :2]) if len(points) else None
+
+    def at(self, places: np.ndarray) -> np.ndarray:
+        """Return the height of the nearest point to each place; NaN where none is near.
+
+        Parameters
+        ----------
+        places : numpy.ndarray of float64, shape (n, 2)
+
+        Returns
+        -------
+        numpy.ndarray of float64, shape (n,)
+        """
+        heights = np.full(len(places), np.nan)
+        if self._tree is not None and len(places):
+            far, nearest = self._tree.query(places, distance_upper_bound=self._reach)
+            found = np.isfinite(far)
+            heights[found] = self._points[nearest[found], 2]
+        return heights
+
+    def beside(self, line: np.ndarray) -> np.ndarray:
+        """Return places on both sides of a line, with the height of the nearest point on that side.
+
+        Parameters
+        ----------
+        line : numpy.ndarray of float64, shape (n, 3)
+            Places along the line; z is not used.
+
+        Returns
+        -------
+        numpy.ndarray of float64, shape (2 n, 3)
+            Those on the left, then those on the right, a little beside the line. z is NaN where
+            there is no point on either side; where there is one on one side only, it counts for
+            both.
+        """
+        across = np.zeros((len(line), 2))
+        if len(line) > 1:
+            along_x, along_y = (np.gradient(line[:, axis]) for axis in (0, 1))
+            length = np.maximum(np.hypot(along_x, along_y), 1e-12)
+            across = np.column_stack((-along_y, along_x)) / length[:, None]
+        heights = np.full((2, len(line)), np.nan)
+        if self._tree is not None and len(line):
+            points, count = self._points, min(_NEAREST, len(self._points))
+            far, which = self._tree.query(
+                line[:, :2], list(range(1, count + 1)), distance_upper_bound=self._reach
+            )
+            near = np.isfinite(far)
+            which = np.where(near, which, 0)
+            side = ((points[which, :2] - line[:, None, :2]) * across[:, None]).sum(axis=2)
+            for number, there in enumerate((near & (side > 0.0), near & (side <= 0.0))):
+                first = np.argmax(there, axis=1)
+                found = points[which[np.arange(len(line)), first], 2]
+                heights[number] = np.where(there.any(axis=1), found, np.nan)
+            heights = np.where(np.isnan(heights), heights[::-1], heights)
+        places = [line[:, :2] + sign * _BESIDE * across for sign in (1.0, -1.0)]
+        return np.column_stack((np.concatenate(places), heights.ravel()))
 
 
 def inside_grid(box: Box, step: float) -> np.ndarray:

@@ -132,11 +132,15 @@ def add_survey(algorithm: QgsProcessingAlgorithm) -> None:
     """Add fields for a point cloud, or a folder of them, to a dialog."""
     cloud = SurveyInput("INPUT", "Point cloud", None, True)
     cloud.setHelp(_CLOUD_TEXT)
+    algorithm.addParameter(cloud)
+    _add_folder(algorithm)
+
+
+def _add_folder(algorithm: QgsProcessingAlgorithm) -> None:
     folder = QgsProcessingParameterFile(
         "INPUT_FOLDER", _FOLDER_LABEL, compat.FOLDER, "", None, True
     )
     folder.setHelp(_FOLDER_TEXT)
-    algorithm.addParameter(cloud)
     algorithm.addParameter(folder)
 
 
@@ -177,12 +181,8 @@ def names_of(paths: Sequence[Path]) -> str:
 def add_clouds(algorithm: QgsProcessingAlgorithm) -> None:
     """Add fields for many files to a dialog: as a list, or as a folder."""
     files = QgsProcessingParameterMultipleLayers("INPUT", _FILES_LABEL, compat.FILES, None, True)
-    folder = QgsProcessingParameterFile(
-        "INPUT_FOLDER", _FOLDER_LABEL, compat.FOLDER, "", None, True
-    )
-    folder.setHelp(_FOLDER_TEXT)
     algorithm.addParameter(files)
-    algorithm.addParameter(folder)
+    _add_folder(algorithm)
 
 
 def clouds_of(
