@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 from html import escape
+from pathlib import Path
 from typing import Any, Iterator, Mapping
 
 from qgis.core import (
@@ -26,6 +27,7 @@ from .fields import field_of, help_of, parameters_of, title_of
 from .outputs import do_not_load
 from .presets import presets_of
 
+_ICONS = Path(__file__).parents[1] / "icons"
 _PAGES = "https://github.com/bare-earth/bare-earth/blob/main/docs"
 
 
@@ -173,12 +175,12 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         return type(self)()
 
     def icon(self) -> QIcon:
-        """Return the provider's picture."""
-        return self.provider().icon() if self.provider() else super().icon()
+        """Return the picture in the toolbox."""
+        return QIcon(self.svgIconPath())
 
     def svgIconPath(self) -> str:
-        """Return the file of the provider's picture."""
-        return self.provider().svgIconPath() if self.provider() else super().svgIconPath()
+        """Return the file of that picture."""
+        return str(_ICONS / f"{self.identifier}.svg")
 
     def canExecute(self) -> tuple[bool, str]:
         """Return whether the needed packages are there, and if not how to get them."""

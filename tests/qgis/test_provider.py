@@ -11,6 +11,7 @@ from qgis.core import (
     QgsProcessingParameterEnum,
     QgsProcessingParameterNumber,
 )
+from qgis.PyQt.QtGui import QIcon
 from support import ALGORITHM, ROOT
 
 from bare_earth.algorithms.engine.memory import Resources
@@ -188,6 +189,21 @@ def test_an_algorithm_says_what_it_is(each):
     assert each.flags() & each.Flag.FlagCanCancel
     assert each.flags() & each.Flag.FlagSupportsBatch
     assert not each.flags() & each.Flag.FlagNoThreading
+
+
+def test_each_algorithm_has_an_icon_of_its_own(registry):
+    provider = registry.providerById("bareearth")
+    paths = {each.id(): each.svgIconPath() for each in provider.algorithms()}
+    assert len({*paths.values(), provider.svgIconPath()}) == len(paths) + 1
+    for name, path in paths.items():
+        assert f"{name.partition(':')[2]}.svg" == os.path.basename(path)
+        picture = QIcon(path).pixmap(16, 16).toImage()
+        rows = [[picture.pixelColor(x, y) for x in range(16)] for y in range(16)]
+        drawn = [colour for row in rows for colour in row if colour.alpha() > 200]
+        # As large as the others, and neither near white nor near black: it stands out in themes of
+        # either kind.
+        assert len(drawn) > 50, name
+        assert all(50 < colour.lightness() < 205 for colour in drawn), name
 
 
 def test_an_instance_is_of_the_same_kind(each):
