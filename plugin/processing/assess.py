@@ -32,7 +32,6 @@ class AssessAlgorithm(BareEarthAlgorithm):
         " points. Type I error: the share of the reference's ground that was rejected; type II: of"
         " all other points, the share that was accepted. The report is a web page with a map.\n"
     ) + "\n".join(f"<b>{label}</b>: {text}" for label, text in _INPUTS.values())
-    keywords = ("lidar", "las", "laz", "accuracy", "quality", "error", "confusion", "validation")
 
     def parameter_sets(self):
         """Return the options."""

@@ -26,6 +26,7 @@ from .feedback import FeedbackProgress
 from .fields import field_of, help_of, parameters_of, title_of
 from .outputs import do_not_load
 from .presets import presets_of
+from .search_words import words_of
 
 _ICONS = Path(__file__).parents[1] / "icons"
 _PAGES = "https://github.com/bare-earth/bare-earth/blob/main/docs"
@@ -42,8 +43,6 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         Name and group in the toolbox, and the tooltip.
     about : str
         First paragraphs of the help.
-    keywords : tuple of str
-        What the search of the toolbox finds it by.
     page : str
         Its page in the folder docs.
     cancelled : str
@@ -59,7 +58,6 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
 
     identifier = title = section = summary = about = page = run_name = subject = ""
     cancelled = "Cancelled; nothing was written."
-    keywords: tuple[str, ...] = ()
     shown: tuple[str, ...] | None = None
 
     def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
@@ -153,7 +151,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
 
     def tags(self) -> list[str]:
         """Return what the search of the toolbox finds."""
-        return list(self.keywords)
+        return words_of(self.identifier)
 
     def helpUrl(self) -> str:
         """Return the address of the page on the algorithm."""

@@ -34,9 +34,6 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         " under its name. A virtual point cloud (.vpc) lists the results.\n"
     ) + FOLDER_HELP
     shown = "method", "preset"
-    keywords = (
-        "lidar", "point cloud", "las", "laz", "copc", "vpc", "tiles", "batch", "survey", "folder",
-        "ground", "bare earth", "classification", "classify", "filter", "terrain")  # fmt: skip
 
     def parameter_sets(self):
         """Return method, points and classes, files, terrain model, and what may be used."""

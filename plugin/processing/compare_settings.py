@@ -34,8 +34,6 @@ class CompareSettingsAlgorithm(BareEarthAlgorithm):
         "<b>Point cloud</b>: a layer or a file; a virtual point cloud (.vpc) or a folder, too.\n"
         f"<b>Window</b>: {_EXTENT_HELP}"
     )
-    keywords = ("lidar", "las", "laz", "copc", "ground", "preview", "try", "test", "preset",
-                "parameters", "choose", "compare", "profile", "hillshade", "dtm")  # fmt: skip
 
     def parameter_sets(self):
         """Return the settings, and what may be used."""

@@ -26,10 +26,6 @@ class HeightAboveGroundAlgorithm(ProductAlgorithm):
         " Heights are in the vertical unit of the CRS. They become an extra dimension,"
         " HeightAboveGround, or take the place of z; nothing else in the file changes."
     )
-    keywords = (
-        "lidar", "point cloud", "las", "laz", "copc", "hag", "normalise", "normalize", "height",
-        "vegetation", "canopy", "tin", "extra bytes",
-    )  # fmt: skip
     page = "height-above-ground"
     cloud_label = "Point cloud with heights"
     numbers = (

@@ -25,10 +25,6 @@ class ModelKeyPointsAlgorithm(ProductAlgorithm):
         " the tolerances. They get a class of their own, or the key-point flag; nothing else in the"
         " file changes.\nLengths are metres, whatever the unit of the CRS."
     )
-    keywords = (
-        "lidar", "point cloud", "las", "laz", "copc", "ground", "thin", "thinning", "generalise",
-        "keypoints", "classification", "classify", "terrain", "contours", "tin",
-    )  # fmt: skip
     page = "model-key-points"
     cloud_label = "Point cloud with key points"
     numbers = (

@@ -31,9 +31,6 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         f" left out. Local relief shows small features. Lengths are metres.\n{SURVEY_HELP}"
     )
     shown = "method", "preset", "dtm_cell_size"
-    keywords = (
-        "lidar", "las", "laz", "copc", "vpc", "ground", "bare earth", "dtm", "dem", "dsm", "chm",
-        "hillshade", "relief", "contours", "smrf", "pmf", "csf", "lasground", "filter")  # fmt: skip
 
     def parameter_sets(self):
         """Return method, cells, and all that may be left as it is."""

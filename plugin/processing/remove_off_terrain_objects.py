@@ -29,10 +29,6 @@ class RemoveOffTerrainObjectsAlgorithm(BareEarthAlgorithm):
         " object, is removed, and the gaps are filled smoothly. Hills and slopes stay.\nThe output"
         " has the same grid, CRS and unit. Lengths are metres, whatever the unit of the CRS."
     )
-    keywords = (
-        "raster", "dem", "dsm", "dtm", "surface", "terrain", "buildings", "trees", "vegetation",
-        "off-terrain objects", "oto", "whitebox", "lindsay", "top-hat", "bare earth",
-    )  # fmt: skip
     page = "remove-off-terrain-objects"
 
     def parameter_sets(self):

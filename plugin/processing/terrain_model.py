@@ -25,10 +25,6 @@ class TerrainModelAlgorithm(ProductAlgorithm):
         " without noise; canopy height, the difference of the two; and a hillshade of the terrain."
         " All lie on the same grid. Heights are in the vertical unit of the CRS."
     )
-    keywords = (
-        "lidar", "point cloud", "las", "laz", "copc", "dtm", "dem", "dsm", "chm", "ndsm", "canopy",
-        "hillshade", "relief", "raster", "rasterize", "interpolate", "tin", "elevation",
-    )  # fmt: skip
     page, run_name = "terrain-model", "terrain and surface"
     shown = "dtm_cell_size", "max_edge"
     numbers = (("GROUND_COUNT", "Ground points"), ("SURFACE_COUNT", "Points of the surface"))

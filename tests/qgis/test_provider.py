@@ -11,6 +11,8 @@ from qgis.core import (
     QgsProcessingParameterEnum,
     QgsProcessingParameterNumber,
 )
+from qgis.gui import QgsProcessingToolboxProxyModel
+from qgis.PyQt.QtCore import QModelIndex
 from qgis.PyQt.QtGui import QIcon
 from support import ALGORITHM, ROOT
 
@@ -204,6 +206,38 @@ def test_each_algorithm_has_an_icon_of_its_own(registry):
         # either kind.
         assert len(drawn) > 50, name
         assert all(50 < colour.lightness() < 205 for colour in drawn), name
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "smrf",
+        "pmf",
+        "csf",
+        "lasground",
+        "noise",
+        "ground filter",
+        "bare earth",
+        "dtm",
+        "dem",
+        "lidar",
+        "drone",
+    ],
+)
+def test_the_search_of_the_toolbox_finds_what_people_type(registry, words):
+    model = QgsProcessingToolboxProxyModel(None, registry)
+    model.setFilterString(words)
+    found = set()
+
+    def look(parent):
+        for row in range(model.rowCount(parent)):
+            index = model.index(row, 0, parent)
+            algorithm = model.toolboxModel().algorithmForIndex(model.mapToSource(index))
+            found.update([algorithm.id()] if algorithm else [])
+            look(index)
+
+    look(QModelIndex())
+    assert {ALGORITHM, "bareearth:pointcloudtoterrain"} <= found
 
 
 def test_an_instance_is_of_the_same_kind(each):
