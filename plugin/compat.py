@@ -20,6 +20,8 @@ from qgis.core import (
     QgsRasterLayer,
 )
 
+from .i18n import tr
+
 try:  # Qt 6 has it there
     from qgis.PyQt.QtGui import QAction as QAction
 except ImportError:
@@ -76,7 +78,7 @@ def point_cloud_output(
     if HAS_POINT_CLOUD_OUTPUTS:
         return core.QgsProcessingParameterPointCloudDestination(name, label)
     # The first filter gives the extension of files that get no name.
-    filters = ";;".join(f"{each.upper()} files (*.{each})" for each in extensions)
+    filters = ";;".join(tr("{} files (*.{})").format(each.upper(), each) for each in extensions)
     return QgsProcessingParameterFileDestination(name, label, filters)
 
 

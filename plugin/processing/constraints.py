@@ -17,6 +17,7 @@ from qgis.core import (
 from ...algorithms.core.errors import BareEarthError
 from ...algorithms.survey.collection import find_files
 from .. import compat
+from ..i18n import tr
 from .inputs import crs_of, is_empty, polygons_of
 
 # Name, label, kind of the layer and help of each field.
@@ -44,9 +45,6 @@ _FIELDS = {
         "Polygons in which no point is ground, such as bridges and roofs.",
     ),
 }
-
-
-CONSTRAINT_HELP = [f"<b>{label}</b>: {text}" for label, _, text in _FIELDS.values()]
 
 
 def add_constraints(algorithm: QgsProcessingAlgorithm) -> None:
@@ -79,7 +77,7 @@ def constraints_of(
         label, kind, _ = _FIELDS[name]
         source = algorithm.parameterAsSource(parameters, name, context)
         if source is None:
-            raise BareEarthError(f"The layer of {label.lower()} cannot be read.")
+            raise BareEarthError(tr('The layer "{}" cannot be read.').format(tr(label)))
         request = QgsFeatureRequest().setSubsetOfAttributes([])
         request.setDestinationCrs(crs, context.transformContext())
         shapes: Callable[[QgsGeometry], Iterator[Any]] = (

@@ -2,35 +2,58 @@
 
 from __future__ import annotations
 
-_CLOUD = "lidar,laser scanning,als,uav,drone,las,laz,copc,point cloud"
-_GROUND = (
+from ..i18n import mark, tr
+
+_CLOUD = mark("lidar,laser scanning,als,uav,drone,las,laz,copc,point cloud")
+_GROUND = mark(
     "ground,bare earth,ground filter,ground classification,classify ground,extract ground,"
     "ground points,noise,outliers,vegetation removal,smrf,pmf,csf,mcc,lasground,classifyground"
 )
-_TERRAIN = "terrain,terrain model,elevation model,dtm,dem,dsm,hillshade,relief"
-_CANOPY = "chm,ndsm,canopy,vegetation height,normalize,normalise,hag,lasheight"
-_TILES = "vpc,tiles,batch,survey,folder,many files"
-_QUALITY = "accuracy,quality,error,validation,kappa,confusion matrix,reference"
+_TERRAIN = mark("terrain,terrain model,elevation model,dtm,dem,dsm,hillshade,relief")
+_CANOPY = mark("chm,ndsm,canopy,vegetation,vegetation height,normalize,normalise,hag,lasheight")
+_TILES = mark("vpc,tiles,batch,survey,folder,many files")
+_TIN = mark("tin,triangulation")
+_RASTER = mark("grid,raster,rasterize,interpolate")
 
-# By the second half of the id.
+# Groups of words by the second half of the id.
 _WORDS = {
-    "pointcloudtoterrain": f"{_CLOUD},{_GROUND},{_TERRAIN},{_CANOPY},{_TILES},contours,workflow",
-    "tindensification": f"{_CLOUD},{_GROUND},{_TERRAIN},tin,ptd,axelsson,densification",
-    "gridminimum": f"{_CLOUD},{_GROUND},{_TERRAIN},grid,raster,lowest,minimum",
-    "slopefilter": f"{_CLOUD},{_GROUND},{_TERRAIN},slope,vosselman,whitebox,top-hat",
-    "classifytiles": f"{_CLOUD},{_GROUND},{_TERRAIN},{_TILES}",
-    "terrainmodel": f"{_CLOUD},{_TERRAIN},{_CANOPY},tin,raster,rasterize,interpolate",
-    "heightaboveground": f"{_CLOUD},{_CANOPY},height,vegetation,tin,extra bytes",
-    "modelkeypoints": f"{_CLOUD},{_TERRAIN},ground,thin,thinning,generalize,keypoints,contours",
-    "comparesettings": f"{_CLOUD},{_GROUND},preview,try,test,preset,parameters,compare,profile",
-    "assess": f"{_CLOUD},ground,{_QUALITY}",
-    "removeoffterrainobjects": (
-        f"{_TERRAIN},bare earth,raster,surface,buildings,trees,vegetation,off-terrain objects,oto,"
-        "whitebox,lindsay,top-hat"
+    "pointcloudtoterrain": (
+        _CLOUD, _GROUND, _TERRAIN, _CANOPY, _TILES, mark("contours,workflow"),
     ),
-}
+    "tindensification": (_CLOUD, _GROUND, _TERRAIN, _TIN, mark("ptd,axelsson,densification")),
+    "gridminimum": (_CLOUD, _GROUND, _TERRAIN, _RASTER, mark("lowest,minimum")),
+    "slopefilter": (_CLOUD, _GROUND, _TERRAIN, mark("slope,vosselman,whitebox,top-hat")),
+    "classifytiles": (_CLOUD, _GROUND, _TERRAIN, _TILES),
+    "terrainmodel": (_CLOUD, _TERRAIN, _CANOPY, _TIN, _RASTER),
+    "heightaboveground": (_CLOUD, _CANOPY, _TIN, mark("height,extra bytes")),
+    "modelkeypoints": (
+        _CLOUD, _TERRAIN, _TIN, mark("ground,thin,thinning,generalize,keypoints,contours"),
+    ),
+    "comparesettings": (
+        _CLOUD, _GROUND, _TERRAIN, mark("preview,try,test,preset,parameters,compare,profile"),
+    ),
+    "assess": (
+        _CLOUD,
+        mark("ground,accuracy,quality,error,validation,kappa,confusion matrix,reference"),
+    ),
+    "removeoffterrainobjects": (
+        _TERRAIN, _RASTER,
+        mark(
+            "bare earth,surface,buildings,trees,vegetation,off-terrain objects,oto,whitebox,"
+            "lindsay,top-hat"
+        ),
+    ),
+}  # fmt: skip
 
 
 def words_of(identifier: str) -> list[str]:
-    """Return the words for an algorithm, by the second half of its id."""
-    return _WORDS[identifier].split(",")
+    """Return the words for an algorithm, in English and in the user's language.
+
+    Parameters
+    ----------
+    identifier : str
+        The second half of its id.
+    """
+    groups = _WORDS[identifier]
+    words = (word for group in groups for text in (group, tr(group)) for word in text.split(","))
+    return list(dict.fromkeys(words))
