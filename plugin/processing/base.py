@@ -27,12 +27,12 @@ from ..i18n import mark, tr
 from ..styles import layers
 from .feedback import FeedbackProgress
 from .fields import field_of, parameters_of
+from .help_pages import address_of
 from .outputs import do_not_load
 from .presets import presets_of
 from .search_words import words_of
 
 _ICONS = Path(__file__).parents[1] / "icons"
-_PAGES = "https://github.com/bare-earth/bare-earth/blob/main/docs"
 
 
 class BareEarthAlgorithm(QgsProcessingAlgorithm):
@@ -166,7 +166,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
 
     def helpUrl(self) -> str:
         """Return the address of the page on the algorithm."""
-        return f"{_PAGES}/{self.page}.md"
+        return address_of(self.page)
 
     def shortHelpString(self) -> str:
         """Return the help: what it does, and on each parameter a paragraph, as in the dialog."""
