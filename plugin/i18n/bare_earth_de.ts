@@ -1598,6 +1598,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>{} und andere</translation>
     </message>
     <message>
+        <source>{} and {}</source>
+        <translation>{} und {}</translation>
+    </message>
+    <message>
         <source>{} does not exist. Check the path.</source>
         <translation>{} gibt es nicht. Prüfen Sie den Pfad.</translation>
     </message>

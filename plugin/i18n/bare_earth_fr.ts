@@ -77,7 +77,7 @@
     </message>
     <message>
         <source>All in one</source>
-        <translation>Tout en un</translation>
+        <translation>Chaîne complète</translation>
     </message>
     <message>
         <source>All returns</source>
@@ -1596,6 +1596,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>{} and others</source>
         <translation>{} et d'autres</translation>
+    </message>
+    <message>
+        <source>{} and {}</source>
+        <translation>{} et {}</translation>
     </message>
     <message>
         <source>{} does not exist. Check the path.</source>

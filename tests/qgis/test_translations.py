@@ -99,6 +99,8 @@ def test_qgis_speaks_german_and_french(registry, speak, locale, title, label, ta
     # Scripts and models know no language.
     assert {each.id(): each.groupId() for each in found.values()} == ids
     assert algorithm.parameterDefinition("PRESET").options()[0] == "automatic"
+    groups = {each.group(): each.groupId() for each in found.values()}
+    assert groups[min(groups)] == "allinone"  # first in the toolbox
     for name, each in found.items():
         assert each.displayName() != english[name][0] and each.shortHelpString() != english[name][3]
 
