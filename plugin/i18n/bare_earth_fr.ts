@@ -25,15 +25,15 @@
     </message>
     <message>
         <source>A point cloud layer, or a .las, .laz or .copc.laz file; also a virtual point cloud (.vpc) or a folder.</source>
-        <translation>Une couche de nuage de points, ou un fichier .las, .laz ou .copc.laz ; aussi un nuage de points virtuel (.vpc) ou un dossier.</translation>
+        <translation>Une couche de nuage de points, ou un fichier .las, .laz ou .copc.laz ; aussi un nuage de points virtuel (.vpc) ou un dossier.</translation>
     </message>
     <message>
         <source>A point is not ground if it stands above a neighbour at a steeper slope than this; in the automatic preset, steeper by this than the terrain round it. Empty: 15 deg, or 45 deg in the preset Whitebox.</source>
-        <translation>Un point n'est pas du sol s'il se trouve au-dessus d'un voisin avec une pente plus forte que celle-ci ; dans le préréglage automatique, plus forte d'autant que celle du terrain alentour. Vide : 15 degrés, ou 45 degrés dans le préréglage Whitebox.</translation>
+        <translation>Un point n'est pas du sol s'il se trouve au-dessus d'un voisin avec une pente plus forte que celle-ci ; dans le préréglage automatique, plus forte d'autant que celle du terrain alentour. Vide : 15 degrés, ou 45 degrés dans le préréglage Whitebox.</translation>
     </message>
     <message>
         <source>A point this close to its triangle is a vertex whatever its angle: near a corner the angle of mere noise is large.</source>
-        <translation>Un point aussi proche de son triangle devient un sommet quel que soit son angle : près d'un sommet, l'angle du simple bruit est déjà grand.</translation>
+        <translation>Un point aussi proche de son triangle devient un sommet quel que soit son angle : près d'un sommet, l'angle du simple bruit est déjà grand.</translation>
     </message>
     <message>
         <source>A point with fewer neighbours within the search radius is compared with this many nearest ones. For the preset Whitebox only.</source>
@@ -41,7 +41,7 @@
     </message>
     <message>
         <source>A surface model: a raster file with a band of heights.</source>
-        <translation>Un modèle numérique de surface : un fichier raster avec une bande d'altitudes.</translation>
+        <translation>Un modèle numérique de surface : un fichier raster avec une bande d'altitudes.</translation>
     </message>
     <message>
         <source>A web page with the figures, and a map of where the errors are.</source>
@@ -53,7 +53,7 @@
     </message>
     <message>
         <source>About how much a run may take. A file that needs more is read twice, with its points in a temporary file in the folder of the output meanwhile; of many files, fewer blocks are in work at the same time. The result does not depend on it.</source>
-        <translation>La mémoire qu'un traitement peut prendre, environ. Un fichier qui en demande plus est lu deux fois, ses points étant entre-temps dans un fichier temporaire du dossier de sortie ; avec de nombreux fichiers, moins de blocs sont traités en même temps. Le résultat n'en dépend pas.</translation>
+        <translation>La mémoire qu'un traitement peut prendre, environ. Un fichier qui en demande plus est lu deux fois, ses points étant entre-temps dans un fichier temporaire du dossier de sortie ; avec de nombreux fichiers, moins de blocs sont traités en même temps. Le résultat n'en dépend pas.</translation>
     </message>
     <message>
         <source>Add the height above ground</source>
@@ -61,7 +61,7 @@
     </message>
     <message>
         <source>Adds the extra dimension HeightAboveGround: how high each point stands above the ground, in the vertical unit of the CRS.</source>
-        <translation>Ajoute la dimension supplémentaire HeightAboveGround : la hauteur de chaque point au-dessus du sol, dans l'unité verticale du SCR.</translation>
+        <translation>Ajoute la dimension supplémentaire HeightAboveGround : la hauteur de chaque point au-dessus du sol, dans l'unité verticale du SCR.</translation>
     </message>
     <message>
         <source>Adds the height of every point above the ground points of a point cloud.</source>
@@ -105,7 +105,7 @@
     </message>
     <message>
         <source>Automatic finds buildings as well as shrubs; the kinds of terrain do so with other values for what is left empty. Whitebox is the classic filter with the values of WhiteboxTools: its radius of 2 m cannot see a building.</source>
-        <translation>Automatique trouve les bâtiments comme les buissons ; les types de terrain aussi, avec d'autres valeurs pour les champs vides. Whitebox est le filtre classique avec les valeurs de WhiteboxTools : son rayon de 2 m ne peut pas voir un bâtiment.</translation>
+        <translation>Automatique trouve les bâtiments comme les buissons ; les types de terrain aussi, avec d'autres valeurs pour les champs vides. Whitebox est le filtre classique avec les valeurs de WhiteboxTools : son rayon de 2 m ne peut pas voir un bâtiment.</translation>
     </message>
     <message>
         <source>Band</source>
@@ -113,7 +113,7 @@
     </message>
     <message>
         <source>Bare Earth: LAZ support</source>
-        <translation>Bare Earth : prise en charge LAZ</translation>
+        <translation>Bare Earth : prise en charge LAZ</translation>
     </message>
     <message>
         <source>Boundary</source>
@@ -137,11 +137,11 @@
     </message>
     <message>
         <source>Cancelled; nothing was written.</source>
-        <translation>Annulé ; rien n'a été écrit.</translation>
+        <translation>Annulé ; rien n'a été écrit.</translation>
     </message>
     <message>
         <source>Cancelled; the tiles that are finished stay, and a later run can go on with them.</source>
-        <translation>Annulé ; les dalles terminées restent, et un traitement ultérieur peut continuer avec elles.</translation>
+        <translation>Annulé ; les dalles terminées restent, et un traitement ultérieur peut continuer avec elles.</translation>
     </message>
     <message>
         <source>Canopy height (CHM)</source>
@@ -186,7 +186,7 @@
     <message>
         <source>Chooses, of the ground points of a classified point cloud, the few that a terrain model needs: no other ground point lies farther above or below their triangulation (TIN) than the tolerances. They get a class of their own, or the key-point flag; nothing else in the file changes.
 Lengths are metres, whatever the unit of the CRS.</source>
-        <translation>Choisit, parmi les points sol d'un nuage de points classé, les quelques points dont un modèle de terrain a besoin : aucun autre point sol n'est plus haut ou plus bas par rapport à leur triangulation (TIN) que les tolérances. Ils reçoivent une classe à part, ou l'indicateur de point clé ; rien d'autre ne change dans le fichier.
+        <translation>Choisit, parmi les points sol d'un nuage de points classé, les quelques points dont un modèle de terrain a besoin : aucun autre point sol n'est plus haut ou plus bas par rapport à leur triangulation (TIN) que les tolérances. Ils reçoivent une classe à part, ou l'indicateur de point clé ; rien d'autre ne change dans le fichier.
 Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
     </message>
     <message>
@@ -219,7 +219,7 @@ Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
     </message>
     <message>
         <source>Classes of the reference that are ground; add 9 where water counts as ground.</source>
-        <translation>Classes de la référence qui sont du sol ; ajoutez 9 si l'eau compte comme sol.</translation>
+        <translation>Classes de la référence qui sont du sol ; ajoutez 9 si l'eau compte comme sol.</translation>
     </message>
     <message>
         <source>Classes to classify anew</source>
@@ -239,7 +239,7 @@ Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
     </message>
     <message>
         <source>Classifies the points in a window with each of the settings, without writing any point cloud, and makes a web page, opened from the Results Viewer: the terrain of each, a profile, the share of ground, where they differ, and how to run each on all points. Of COPC only the window is read, which takes seconds; a LAS or LAZ file is read as a whole.</source>
-        <translation>Classe les points d'une fenêtre avec chacun des réglages, sans écrire de nuage de points, et produit une page web, qui s'ouvre depuis le visualiseur de résultats : le terrain de chacun, un profil, la part du sol, les endroits où ils diffèrent, et comment appliquer chacun à tous les points. D'un COPC, seule la fenêtre est lue, en quelques secondes ; un fichier LAS ou LAZ est lu en entier.</translation>
+        <translation>Classe les points d'une fenêtre avec chacun des réglages, sans écrire de nuage de points, et produit une page web, qui s'ouvre depuis le visualiseur de résultats : le terrain de chacun, un profil, la part du sol, les endroits où ils diffèrent, et comment appliquer chacun à tous les points. D'un COPC, seule la fenêtre est lue, en quelques secondes ; un fichier LAS ou LAZ est lu en entier.</translation>
     </message>
     <message>
         <source>Classify ground (TIN densification)</source>
@@ -271,11 +271,11 @@ Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
     </message>
     <message>
         <source>Compares a classified point cloud with a reference: type I and II error, kappa.</source>
-        <translation>Compare un nuage de points classé avec une référence : erreurs de type I et II, kappa.</translation>
+        <translation>Compare un nuage de points classé avec une référence : erreurs de type I et II, kappa.</translation>
     </message>
     <message>
         <source>Compares the ground of a classified point cloud with a reference that holds the same points. Type I error: the share of the reference's ground that was rejected; type II: of all other points, the share that was accepted. The report is a web page with a map.</source>
-        <translation>Compare le sol d'un nuage de points classé avec une référence qui contient les mêmes points. Erreur de type I : la part du sol de la référence qui a été rejetée ; de type II : la part de tous les autres points qui a été acceptée. Le rapport est une page web avec une carte.</translation>
+        <translation>Compare le sol d'un nuage de points classé avec une référence qui contient les mêmes points. Erreur de type I : la part du sol de la référence qui a été rejetée ; de type II : la part de tous les autres points qui a été acceptée. Le rapport est une page web avec une carte.</translation>
     </message>
     <message>
         <source>Comparison of settings</source>
@@ -283,7 +283,7 @@ Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
     </message>
     <message>
         <source>Compressed point clouds (.laz, .copc.laz) need the package lazrs, which few builds of QGIS have. Here you get it from the Python Package Index (0.6 MB), or, without the internet, from a wheel file of lazrs for {}. It goes into your profile; QGIS itself is left as it is.</source>
-        <translation>Les nuages de points compressés (.laz, .copc.laz) demandent le paquet lazrs, que peu de versions de QGIS contiennent. Vous l'obtenez ici depuis le Python Package Index (0,6 Mo) ou, sans internet, depuis un fichier wheel de lazrs pour {}. Il va dans votre profil ; QGIS lui-même reste tel quel.</translation>
+        <translation>Les nuages de points compressés (.laz, .copc.laz) demandent le paquet lazrs, que peu de versions de QGIS contiennent. Vous l'obtenez ici depuis le Python Package Index (0,6 Mo) ou, sans internet, depuis un fichier wheel de lazrs pour {}. Il va dans votre profil ; QGIS lui-même reste tel quel.</translation>
     </message>
     <message>
         <source>Confidence of the terrain model</source>
@@ -307,7 +307,7 @@ Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
     </message>
     <message>
         <source>Done; no restart is needed.</source>
-        <translation>Terminé ; il n'est pas nécessaire de redémarrer.</translation>
+        <translation>Terminé ; il n'est pas nécessaire de redémarrer.</translation>
     </message>
     <message>
         <source>Each {:g}</source>
@@ -364,19 +364,19 @@ Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
     <message>
         <source>Finds the ground points of airborne or drone lidar by progressive TIN densification, and writes the point cloud anew with their class; nothing else in it changes. It starts from a sparse triangulation of points that are surely ground and adds, round by round, the points that lie close to it.
 Lengths are metres and angles degrees, whatever the unit of the CRS. The terrain model and its hillshade are GeoTIFFs.</source>
-        <translation>Trouve les points sol d'un lidar aéroporté ou de drone par densification progressive de TIN, et réécrit le nuage de points avec leur classe ; rien d'autre n'y change. La méthode part d'une triangulation lâche de points qui sont sûrement du sol et ajoute, tour après tour, les points qui en sont proches.
+        <translation>Trouve les points sol d'un lidar aéroporté ou de drone par densification progressive de TIN, et réécrit le nuage de points avec leur classe ; rien d'autre n'y change. La méthode part d'une triangulation lâche de points qui sont sûrement du sol et ajoute, tour après tour, les points qui en sont proches.
 Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité du SCR. Le modèle de terrain et son ombrage sont des GeoTIFF.</translation>
     </message>
     <message>
         <source>Finds the ground points of airborne or drone lidar by slopes, and writes the point cloud anew with their class; nothing else in it changes. A point that stands above a neighbour by more than the terrain can is not ground. The preset Automatic compares on many scales and follows the terrain; the preset Whitebox repeats WhiteboxTools' LidarGroundPointFilter.
 Lengths are metres and angles degrees, whatever the unit of the CRS. The terrain model and its hillshade are GeoTIFFs.</source>
-        <translation>Trouve les points sol d'un lidar aéroporté ou de drone par les pentes, et réécrit le nuage de points avec leur classe ; rien d'autre n'y change. Un point qui dépasse un voisin plus que le terrain ne le peut n'est pas du sol. Le préréglage Automatique compare à plusieurs échelles et suit le terrain ; le préréglage Whitebox reproduit LidarGroundPointFilter de WhiteboxTools.
+        <translation>Trouve les points sol d'un lidar aéroporté ou de drone par les pentes, et réécrit le nuage de points avec leur classe ; rien d'autre n'y change. Un point qui dépasse un voisin plus que le terrain ne le peut n'est pas du sol. Le préréglage Automatique compare à plusieurs échelles et suit le terrain ; le préréglage Whitebox reproduit LidarGroundPointFilter de WhiteboxTools.
 Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité du SCR. Le modèle de terrain et son ombrage sont des GeoTIFF.</translation>
     </message>
     <message>
         <source>Finds the ground points of airborne or drone lidar on a grid of lowest points, and writes the point cloud anew with their class; nothing else in it changes. Steps between neighbouring cells are the rims of objects; what such rims enclose is removed, the tall objects first. It needs heights only, no returns, and is fast.
 Lengths are metres and angles degrees, whatever the unit of the CRS. The terrain model and its hillshade are GeoTIFFs.</source>
-        <translation>Trouve les points sol d'un lidar aéroporté ou de drone sur une grille de points les plus bas, et réécrit le nuage de points avec leur classe ; rien d'autre n'y change. Les marches entre cellules voisines sont les bords d'objets ; ce que ces bords entourent est enlevé, les objets hauts en premier. La méthode ne demande que des altitudes, pas de retours, et elle est rapide.
+        <translation>Trouve les points sol d'un lidar aéroporté ou de drone sur une grille de points les plus bas, et réécrit le nuage de points avec leur classe ; rien d'autre n'y change. Les marches entre cellules voisines sont les bords d'objets ; ce que ces bords entourent est enlevé, les objets hauts en premier. La méthode ne demande que des altitudes, pas de retours, et elle est rapide.
 Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité du SCR. Le modèle de terrain et son ombrage sont des GeoTIFF.</translation>
     </message>
     <message>
@@ -413,7 +413,7 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     </message>
     <message>
         <source>Gaps between points are interpolated by triangles; those with a longer edge have no data instead, as water should. Empty: all gaps are interpolated, as far as the convex hull of the points.</source>
-        <translation>Les vides entre les points sont interpolés par des triangles ; ceux dont un côté est plus long restent sans donnée, comme il convient à l'eau. Vide : tous les vides sont interpolés, jusqu'à l'enveloppe convexe des points.</translation>
+        <translation>Les vides entre les points sont interpolés par des triangles ; ceux dont un côté est plus long restent sans donnée, comme il convient à l'eau. Vide : tous les vides sont interpolés, jusqu'à l'enveloppe convexe des points.</translation>
     </message>
     <message>
         <source>Get lazrs</source>
@@ -549,15 +549,15 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     </message>
     <message>
         <source>How far a point is compared with its neighbours, the largest distance in the automatic preset: at least half the shorter side of the largest building. Empty: 18 m (more if points are sparse), or 2 m in the preset Whitebox.</source>
-        <translation>Jusqu'où un point est comparé à ses voisins, la plus grande distance dans le préréglage automatique : au moins la moitié du petit côté du plus grand bâtiment. Vide : 18 m (plus si la densité de points est faible), ou 2 m dans le préréglage Whitebox.</translation>
+        <translation>Jusqu'où un point est comparé à ses voisins, la plus grande distance dans le préréglage automatique : au moins la moitié du petit côté du plus grand bâtiment. Vide : 18 m (plus si la densité de points est faible), ou 2 m dans le préréglage Whitebox.</translation>
     </message>
     <message>
         <source>How far below the ground a point must lie to become low noise, in level terrain; on slopes the rise of the ground over 1 m is added. Only where low outliers are put into class 7.</source>
-        <translation>La profondeur sous le sol à partir de laquelle un point devient du bruit bas, en terrain plat ; en pente s'ajoute la montée du sol sur 1 m. Seulement si les points aberrants bas vont dans la classe 7.</translation>
+        <translation>La profondeur sous le sol à partir de laquelle un point devient du bruit bas, en terrain plat ; en pente s'ajoute la montée du sol sur 1 m. Seulement si les points aberrants bas vont dans la classe 7.</translation>
     </message>
     <message>
         <source>How far the surroundings reach that a place is compared with. About as wide as the features to be seen; larger landforms vanish.</source>
-        <translation>Jusqu'où va le voisinage auquel un lieu est comparé. Environ la largeur des formes à voir ; les formes plus grandes disparaissent.</translation>
+        <translation>Jusqu'où va le voisinage auquel un lieu est comparé. Environ la largeur des formes à voir ; les formes plus grandes disparaissent.</translation>
     </message>
     <message>
         <source>How high the light stands above the horizon.</source>
@@ -573,19 +573,19 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     </message>
     <message>
         <source>In the command line the boundary is missing: save it in the CRS of the points as boundary.geojson, and add --boundary boundary.geojson.</source>
-        <translation>Dans la ligne de commande, la limite manque : enregistrez-la dans le SCR des points comme boundary.geojson, et ajoutez --boundary boundary.geojson.</translation>
+        <translation>Dans la ligne de commande, la limite manque : enregistrez-la dans le SCR des points comme boundary.geojson, et ajoutez --boundary boundary.geojson.</translation>
     </message>
     <message>
         <source>In the command line the layers are missing: save them as GeoJSON.</source>
-        <translation>Dans la ligne de commande, les couches manquent : enregistrez-les en GeoJSON.</translation>
+        <translation>Dans la ligne de commande, les couches manquent : enregistrez-les en GeoJSON.</translation>
     </message>
     <message>
         <source>In the last pass whatever stands this far above the ground beside it is removed: bushes, cars, walls. Larger spares rough ground. Empty: from the preset.</source>
-        <translation>Au dernier passage, tout ce qui dépasse d'autant le sol voisin est enlevé : buissons, voitures, murs. Une valeur plus grande épargne le sol rugueux. Vide : d'après le préréglage.</translation>
+        <translation>Au dernier passage, tout ce qui dépasse d'autant le sol voisin est enlevé : buissons, voitures, murs. Une valeur plus grande épargne le sol rugueux. Vide : d'après le préréglage.</translation>
     </message>
     <message>
         <source>In triangles whose longest edge is shorter the iteration angle is reduced in proportion, so that low vegetation is not climbed step by step. Empty: never.</source>
-        <translation>Dans les triangles dont le plus long côté est plus court, l'angle d'itération est réduit en proportion, pour que la végétation basse ne soit pas gravie pas à pas. Vide : jamais.</translation>
+        <translation>Dans les triangles dont le plus long côté est plus court, l'angle d'itération est réduit en proportion, pour que la végétation basse ne soit pas gravie pas à pas. Vide : jamais.</translation>
     </message>
     <message>
         <source>Iteration angle</source>
@@ -613,15 +613,15 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     </message>
     <message>
         <source>Key points: grid size</source>
-        <translation>Points clés : pas de la grille</translation>
+        <translation>Points clés : pas de la grille</translation>
     </message>
     <message>
         <source>Key points: tolerance above</source>
-        <translation>Points clés : tolérance vers le haut</translation>
+        <translation>Points clés : tolérance vers le haut</translation>
     </message>
     <message>
         <source>Key points: tolerance below</source>
-        <translation>Points clés : tolérance vers le bas</translation>
+        <translation>Points clés : tolérance vers le bas</translation>
     </message>
     <message>
         <source>LAS</source>
@@ -641,11 +641,11 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     </message>
     <message>
         <source>Largest angle between a triangle and the line from one of its corners to a new point. Larger follows rugged ground better, smaller keeps low objects out: 4 in flat, 10 and more in steep terrain. Empty: from the preset.</source>
-        <translation>Le plus grand angle entre un triangle et la ligne d'un de ses sommets à un nouveau point. Plus grand, il suit mieux un terrain accidenté ; plus petit, il écarte les objets bas : 4 en terrain plat, 10 et plus en terrain raide. Vide : d'après le préréglage.</translation>
+        <translation>Le plus grand angle entre un triangle et la ligne d'un de ses sommets à un nouveau point. Plus grand, il suit mieux un terrain accidenté ; plus petit, il écarte les objets bas : 4 en terrain plat, 10 et plus en terrain raide. Vide : d'après le préréglage.</translation>
     </message>
     <message>
         <source>Largest distance of a new point from its triangle. Empty: from the preset.</source>
-        <translation>La plus grande distance d'un nouveau point à son triangle. Vide : d'après le préréglage.</translation>
+        <translation>La plus grande distance d'un nouveau point à son triangle. Vide : d'après le préréglage.</translation>
     </message>
     <message>
         <source>Last and single returns (return number = number of returns)</source>
@@ -673,7 +673,7 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     </message>
     <message>
         <source>Lines that no triangle of the terrain crosses: edges of walls, dykes and terraces. A line with z has that height; without z, each side of it has the height of the nearest ground point there.</source>
-        <translation>Lignes qu'aucun triangle du terrain ne traverse : bords de murs, de digues et de terrasses. Une ligne avec z a cette altitude ; sans z, chacun de ses côtés a l'altitude du point sol le plus proche à cet endroit.</translation>
+        <translation>Lignes qu'aucun triangle du terrain ne traverse : bords de murs, de digues et de terrasses. Une ligne avec z a cette altitude ; sans z, chacun de ses côtés a l'altitude du point sol le plus proche à cet endroit.</translation>
     </message>
     <message>
         <source>Local relief</source>
@@ -685,7 +685,7 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     </message>
     <message>
         <source>Makes a map of the terrain of a raw point cloud: classes, models, contours.</source>
-        <translation>Produit une carte du terrain à partir d'un nuage de points brut : classes, modèles, courbes de niveau.</translation>
+        <translation>Produit une carte du terrain à partir d'un nuage de points brut : classes, modèles, courbes de niveau.</translation>
     </message>
     <message>
         <source>Makes a terrain model of a surface model where there is no point cloud. What stands above the terrain round it with steep edges on all sides, and is not larger than the largest object, is removed, and the gaps are filled smoothly. Hills and slopes stay.
@@ -695,7 +695,7 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>Makes rasters (GeoTIFF) of a classified point cloud: the terrain, interpolated on the triangulation (TIN) of the ground points; the surface, the highest point of each cell without noise; canopy height, the difference of the two; and a hillshade of the terrain. All lie on the same grid. Heights are in the vertical unit of the CRS.</source>
-        <translation>Produit des rasters (GeoTIFF) à partir d'un nuage de points classé : le terrain, interpolé sur la triangulation (TIN) des points sol ; la surface, le point le plus haut de chaque cellule sans le bruit ; la hauteur de canopée, la différence des deux ; et un ombrage du terrain. Tous ont la même grille. Les altitudes sont dans l'unité verticale du SCR.</translation>
+        <translation>Produit des rasters (GeoTIFF) à partir d'un nuage de points classé : le terrain, interpolé sur la triangulation (TIN) des points sol ; la surface, le point le plus haut de chaque cellule sans le bruit ; la hauteur de canopée, la différence des deux ; et un ombrage du terrain. Tous ont la même grille. Les altitudes sont dans l'unité verticale du SCR.</translation>
     </message>
     <message>
         <source>Makes terrain model, surface model, canopy height and hillshade of a point cloud.</source>
@@ -739,7 +739,7 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>No Python interpreter was found beside this QGIS, so pip cannot be run: choose a wheel file instead.</source>
-        <translation>Aucun interpréteur Python n'a été trouvé à côté de ce QGIS, pip ne peut donc pas s'exécuter : choisissez plutôt un fichier wheel.</translation>
+        <translation>Aucun interpréteur Python n'a été trouvé à côté de ce QGIS, pip ne peut donc pas s'exécuter : choisissez plutôt un fichier wheel.</translation>
     </message>
     <message>
         <source>No ground here</source>
@@ -759,7 +759,7 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>Not there yet: .laz and .copc.laz files cannot be read or written.</source>
-        <translation>Pas encore là : les fichiers .laz et .copc.laz ne peuvent être ni lus ni écrits.</translation>
+        <translation>Pas encore là : les fichiers .laz et .copc.laz ne peuvent être ni lus ni écrits.</translation>
     </message>
     <message>
         <source>Number of the raster's band that holds the heights.</source>
@@ -767,15 +767,15 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>Objects have edges steeper than this all round, measured above the terrain that the maximum object size gives; what rises more gently somewhere is a hill.</source>
-        <translation>Les objets ont des bords plus raides que ceci de tous côtés, mesurés au-dessus du terrain que donne la taille maximale des objets ; ce qui monte plus doucement quelque part est une colline.</translation>
+        <translation>Les objets ont des bords plus raides que ceci de tous côtés, mesurés au-dessus du terrain que donne la taille maximale des objets ; ce qui monte plus doucement quelque part est une colline.</translation>
     </message>
     <message>
         <source>Of the ground, keep only the points that a terrain model needs: those whose TIN lies within the two tolerances below of every other ground point.</source>
-        <translation>Ne garder du sol que les points dont un modèle de terrain a besoin : ceux dont le TIN reste dans les deux tolérances ci-dessous autour de chaque autre point sol.</translation>
+        <translation>Ne garder du sol que les points dont un modèle de terrain a besoin : ceux dont le TIN reste dans les deux tolérances ci-dessous autour de chaque autre point sol.</translation>
     </message>
     <message>
         <source>One pass for each, from the largest: of two neighbouring cells that differ by more, the higher is the rim of an object. Empty: from the preset.</source>
-        <translation>Un passage pour chacun, en partant du plus grand : de deux cellules voisines qui diffèrent davantage, la plus haute est le bord d'un objet. Vide : d'après le préréglage.</translation>
+        <translation>Un passage pour chacun, en partant du plus grand : de deux cellules voisines qui diffèrent davantage, la plus haute est le bord d'un objet. Vide : d'après le préréglage.</translation>
     </message>
     <message>
         <source>Only key points</source>
@@ -783,19 +783,19 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>Only points in these polygons are classified, of an extent too if there is one. The others keep their class, but those near them help to judge. Empty: all points.</source>
-        <translation>Seuls les points dans ces polygones sont classés, et dans l'emprise s'il y en a une. Les autres gardent leur classe, mais ceux qui sont proches aident à juger. Vide : tous les points.</translation>
+        <translation>Seuls les points dans ces polygones sont classés, et dans l'emprise s'il y en a une. Les autres gardent leur classe, mais ceux qui sont proches aident à juger. Vide : tous les points.</translation>
     </message>
     <message>
         <source>Only points in this rectangle are classified. The others keep their class, but those near it help to judge. Empty: all points.</source>
-        <translation>Seuls les points dans ce rectangle sont classés. Les autres gardent leur classe, mais ceux qui sont proches aident à juger. Vide : tous les points.</translation>
+        <translation>Seuls les points dans ce rectangle sont classés. Les autres gardent leur classe, mais ceux qui sont proches aident à juger. Vide : tous les points.</translation>
     </message>
     <message>
         <source>Only points of these classes take part and may change their class; every class but low and high noise (7 and 18) when none is given.</source>
-        <translation>Seuls les points de ces classes participent et peuvent changer de classe ; sans indication, toutes les classes sauf le bruit bas et haut (7 et 18).</translation>
+        <translation>Seuls les points de ces classes participent et peuvent changer de classe ; sans indication, toutes les classes sauf le bruit bas et haut (7 et 18).</translation>
     </message>
     <message>
         <source>Only points that stand above a neighbour by at least this much are not ground. Empty: 0.5 m, or 1 m in the preset Whitebox.</source>
-        <translation>Seuls les points qui dépassent un voisin d'au moins cette hauteur ne sont pas du sol. Vide : 0,5 m, ou 1 m dans le préréglage Whitebox.</translation>
+        <translation>Seuls les points qui dépassent un voisin d'au moins cette hauteur ne sont pas du sol. Vide : 0,5 m, ou 1 m dans le préréglage Whitebox.</translation>
     </message>
     <message>
         <source>Point cloud</source>
@@ -827,7 +827,7 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>Points no deeper below the final surface are ground, in level terrain: it lies through the lowest points, and is smooth where they are not.</source>
-        <translation>Les points qui ne sont pas plus bas sous la surface finale sont du sol, en terrain plat : elle passe par les points les plus bas, et elle est lisse là où ils ne le sont pas.</translation>
+        <translation>Les points qui ne sont pas plus bas sous la surface finale sont du sol, en terrain plat : elle passe par les points les plus bas, et elle est lisse là où ils ne le sont pas.</translation>
     </message>
     <message>
         <source>Points no higher above the final surface are ground, in level terrain. More takes in grass and low bushes.</source>
@@ -835,7 +835,7 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>Points no higher above the ground's surface are ground, in level terrain. Empty: from the preset.</source>
-        <translation>Les points qui ne sont pas plus hauts au-dessus de la surface du sol sont du sol, en terrain plat. Vide : d'après le préréglage.</translation>
+        <translation>Les points qui ne sont pas plus hauts au-dessus de la surface du sol sont du sol, en terrain plat. Vide : d'après le préréglage.</translation>
     </message>
     <message>
         <source>Points no higher above the surface through the ground are ground, in level terrain. Not for the preset Whitebox.</source>
@@ -847,7 +847,7 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>Points of these classes are ground for certain, whatever their return: they are not judged, and the TIN densification starts from them. They get the class of the ground, too, unless theirs is not among those to classify anew.</source>
-        <translation>Les points de ces classes sont du sol à coup sûr, quel que soit leur retour : ils ne sont pas jugés, et la densification de TIN part d'eux. Ils reçoivent aussi la classe du sol, sauf si la leur n'est pas parmi celles à reclasser.</translation>
+        <translation>Les points de ces classes sont du sol à coup sûr, quel que soit leur retour : ils ne sont pas jugés, et la densification de TIN part d'eux. Ils reçoivent aussi la classe du sol, sauf si la leur n'est pas parmi celles à reclasser.</translation>
     </message>
     <message>
         <source>Points of these classes of the reference are left out, noise (7, 18) for example.</source>
@@ -855,7 +855,7 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>Points so far round the window are read to judge those in it, but not shown. More is slower, and closer to what the whole file gives near the edges of the window and beside large buildings. Empty: as far as the methods look, at most 50 m.</source>
-        <translation>Les points jusqu'à cette distance de la fenêtre sont lus pour juger ceux qu'elle contient, mais pas montrés. Plus grande, elle est plus lente, et plus proche de ce que le fichier entier donne près des bords de la fenêtre et à côté de grands bâtiments. Vide : aussi loin que les méthodes regardent, au plus 50 m.</translation>
+        <translation>Les points jusqu'à cette distance de la fenêtre sont lus pour juger ceux qu'elle contient, mais pas montrés. Plus grande, elle est plus lente, et plus proche de ce que le fichier entier donne près des bords de la fenêtre et à côté de grands bâtiments. Vide : aussi loin que les méthodes regardent, au plus 50 m.</translation>
     </message>
     <message>
         <source>Points that took part</source>
@@ -871,7 +871,7 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>Polygons of water: flattened to one level, that of the ground along their border.</source>
-        <translation>Polygones d'eau : aplanis à un seul niveau, celui du sol le long de leur bord.</translation>
+        <translation>Polygones d'eau : aplanis à un seul niveau, celui du sol le long de leur bord.</translation>
     </message>
     <message>
         <source>Preset</source>
@@ -927,7 +927,7 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>Removed; the files that are in use go when QGIS starts next.</source>
-        <translation>Supprimé ; les fichiers en cours d'utilisation disparaîtront au prochain démarrage de QGIS.</translation>
+        <translation>Supprimé ; les fichiers en cours d'utilisation disparaîtront au prochain démarrage de QGIS.</translation>
     </message>
     <message>
         <source>Report</source>
@@ -963,15 +963,15 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>Share of the ground's rise from point to point, over a metre at most, that is added to the ground tolerance; in the paper's preset, of its rise over one cell. Empty: from the preset.</source>
-        <translation>Part de la montée du sol d'un point à l'autre, sur un mètre au plus, qui s'ajoute à la tolérance du sol ; dans le préréglage de l'article, de sa montée sur une cellule. Vide : d'après le préréglage.</translation>
+        <translation>Part de la montée du sol d'un point à l'autre, sur un mètre au plus, qui s'ajoute à la tolérance du sol ; dans le préréglage de l'article, de sa montée sur une cellule. Vide : d'après le préréglage.</translation>
     </message>
     <message>
         <source>Shorter side of the largest building or other object. Whatever is narrower and stands out from its surroundings gives no seed of the ground. Too large costs time and sharp hilltops. Empty: from the preset.</source>
-        <translation>Petit côté du plus grand bâtiment ou autre objet. Ce qui est plus étroit et ressort de son entourage ne donne pas de point de départ du sol. Trop grand, il coûte du temps et des sommets pointus. Vide : d'après le préréglage.</translation>
+        <translation>Petit côté du plus grand bâtiment ou autre objet. Ce qui est plus étroit et ressort de son entourage ne donne pas de point de départ du sol. Trop grand, il coûte du temps et des sommets pointus. Vide : d'après le préréglage.</translation>
     </message>
     <message>
         <source>Shorter side of the largest building, which is found by the drop all round it even if it is wider than two search radii. Empty: 100 m, or two search radii where that is given. Not for the preset Whitebox.</source>
-        <translation>Petit côté du plus grand bâtiment, que l'on trouve à la chute tout autour même s'il est plus large que deux rayons de recherche. Vide : 100 m, ou deux rayons de recherche si celui-ci est donné. Pas pour le préréglage Whitebox.</translation>
+        <translation>Petit côté du plus grand bâtiment, que l'on trouve à la chute tout autour même s'il est plus large que deux rayons de recherche. Vide : 100 m, ou deux rayons de recherche si celui-ci est donné. Pas pour le préréglage Whitebox.</translation>
     </message>
     <message>
         <source>Shorter side of the largest building. Larger costs time, and steep hilltops that are then taken for objects.</source>
@@ -979,7 +979,7 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>Shorter side of the largest building. What is wider is terrain. Empty: from the preset.</source>
-        <translation>Petit côté du plus grand bâtiment. Ce qui est plus large est du terrain. Vide : d'après le préréglage.</translation>
+        <translation>Petit côté du plus grand bâtiment. Ce qui est plus large est du terrain. Vide : d'après le préréglage.</translation>
     </message>
     <message>
         <source>Side of a cell of the raster that tells the share of wrong points. The map in the report chooses its own.</source>
@@ -987,15 +987,15 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>Side of a cell of the terrain model and of its hillshade. About the distance between ground points is sensible; smaller cells only make the file larger.</source>
-        <translation>Côté d'une cellule du modèle de terrain et de son ombrage. Il est raisonnable de prendre environ la distance entre points sol ; des cellules plus petites ne font qu'agrandir le fichier.</translation>
+        <translation>Côté d'une cellule du modèle de terrain et de son ombrage. Il est raisonnable de prendre environ la distance entre points sol ; des cellules plus petites ne font qu'agrandir le fichier.</translation>
     </message>
     <message>
         <source>Side of the cells whose lowest points are compared in the automatic preset. Empty: 1 m, more if points are sparse.</source>
-        <translation>Côté des cellules dont les points les plus bas sont comparés dans le préréglage automatique. Vide : 1 m, plus si la densité de points est faible.</translation>
+        <translation>Côté des cellules dont les points les plus bas sont comparés dans le préréglage automatique. Vide : 1 m, plus si la densité de points est faible.</translation>
     </message>
     <message>
         <source>Side of the square cells whose lowest points are compared. Smaller ones follow finer terrain, if they hold a point, and hold more rims of low plants. Empty: from the preset; where such a cell would hold less than a point, more.</source>
-        <translation>Côté des cellules carrées dont les points les plus bas sont comparés. Plus petites, elles suivent un terrain plus fin, si elles contiennent un point, et contiennent plus de bords de plantes basses. Vide : d'après le préréglage ; plus, si une telle cellule contenait moins d'un point.</translation>
+        <translation>Côté des cellules carrées dont les points les plus bas sont comparés. Plus petites, elles suivent un terrain plus fin, si elles contiennent un point, et contiennent plus de bords de plantes basses. Vide : d'après le préréglage ; plus, si une telle cellule contenait moins d'un point.</translation>
     </message>
     <message>
         <source>Slope filter</source>
@@ -1051,7 +1051,7 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>Surface minus terrain: the height of trees, and of buildings too.</source>
-        <translation>Surface moins terrain : la hauteur des arbres, et aussi des bâtiments.</translation>
+        <translation>Surface moins terrain : la hauteur des arbres, et aussi des bâtiments.</translation>
     </message>
     <message>
         <source>Surface model (DSM)</source>
@@ -1115,11 +1115,11 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>The class that decks of bridges get; 17 in the LAS specification, which point formats 0 to 5 hold as well. Only where bridges are not ground.</source>
-        <translation>La classe que reçoivent les tabliers de ponts ; 17 dans la spécification LAS, que les formats de point 0 à 5 peuvent contenir aussi. Seulement si les ponts ne sont pas du sol.</translation>
+        <translation>La classe que reçoivent les tabliers de ponts ; 17 dans la spécification LAS, que les formats de point 0 à 5 peuvent contenir aussi. Seulement si les ponts ne sont pas du sol.</translation>
     </message>
     <message>
         <source>The class that ground points get; 2 is ground in the LAS specification. Point formats 0 to 5 hold classes up to 31.</source>
-        <translation>La classe que reçoivent les points sol ; 2 est le sol dans la spécification LAS. Les formats de point 0 à 5 contiennent des classes jusqu'à 31.</translation>
+        <translation>La classe que reçoivent les points sol ; 2 est le sol dans la spécification LAS. Les formats de point 0 à 5 contiennent des classes jusqu'à 31.</translation>
     </message>
     <message>
         <source>The class that key points get. Points that have it already are taken as ground, and get the first of the ground classes again if they are not needed. Point formats 0 to 5 hold classes up to 31.</source>
@@ -1135,7 +1135,7 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>The height between contour lines, in the vertical unit of the CRS. Empty: what gives about 20 of them.</source>
-        <translation>La différence d'altitude entre les courbes de niveau, dans l'unité verticale du SCR. Vide : ce qui en donne environ 20.</translation>
+        <translation>La différence d'altitude entre les courbes de niveau, dans l'unité verticale du SCR. Vide : ce qui en donne environ 20.</translation>
     </message>
     <message>
         <source>The highest point of each cell, noise left out.</source>
@@ -1143,7 +1143,7 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>The key-point flag of LAS; the class stays</source>
-        <translation>L'indicateur de point clé de LAS ; la classe reste</translation>
+        <translation>L'indicateur de point clé de LAS ; la classe reste</translation>
     </message>
     <message>
         <source>The laser meets the top first. Take all returns where the return numbers of the file are wrong.</source>
@@ -1155,19 +1155,19 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>The layer "{}" cannot be read.</source>
-        <translation>La couche « {} » ne peut pas être lue.</translation>
+        <translation>La couche « {} » ne peut pas être lue.</translation>
     </message>
     <message>
         <source>The layer's filter is not applied: all points are read.</source>
-        <translation>Le filtre de la couche n'est pas appliqué : tous les points sont lus.</translation>
+        <translation>Le filtre de la couche n'est pas appliqué : tous les points sont lus.</translation>
     </message>
     <message>
         <source>The lazrs that was got cannot be loaded by this QGIS: {}.</source>
-        <translation>Le lazrs obtenu ne peut pas être chargé par ce QGIS : {}.</translation>
+        <translation>Le lazrs obtenu ne peut pas être chargé par ce QGIS : {}.</translation>
     </message>
     <message>
         <source>The lazrs that was removed is still in use: start QGIS anew and try again.</source>
-        <translation>Le lazrs supprimé est encore utilisé : redémarrez QGIS et réessayez.</translation>
+        <translation>Le lazrs supprimé est encore utilisé : redémarrez QGIS et réessayez.</translation>
     </message>
     <message>
         <source>The names of the files stay, but for what a format needs.</source>
@@ -1179,7 +1179,7 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>The probability, 0 to 1, that the terrain model is right: low under dense trees, across gaps and at breaks.</source>
-        <translation>La probabilité, de 0 à 1, que le modèle de terrain soit juste : faible sous des arbres denses, au-dessus des vides et aux ruptures.</translation>
+        <translation>La probabilité, de 0 à 1, que le modèle de terrain soit juste : faible sous des arbres denses, au-dessus des vides et aux ruptures.</translation>
     </message>
     <message>
         <source>The rasters have {:,} x {:,} cells.</source>
@@ -1211,7 +1211,7 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>The terrain model less a smoothed one: mounds, ditches and old paths stand out.</source>
-        <translation>Le modèle de terrain moins un modèle lissé : les buttes, les fossés et les anciens chemins ressortent.</translation>
+        <translation>Le modèle de terrain moins un modèle lissé : les buttes, les fossés et les anciens chemins ressortent.</translation>
     </message>
     <message>
         <source>The terrain model, lit from one side.</source>
@@ -1223,7 +1223,7 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>The window that is classified, such as the map's extent; at most 1,000 m wide, and quick up to about 250 x 250 m. It is transformed to the CRS of the points.</source>
-        <translation>La fenêtre à classer, par exemple l'emprise de la carte ; au plus 1 000 m de large, et rapide jusqu'à environ 250 x 250 m. Elle est transformée dans le SCR des points.</translation>
+        <translation>La fenêtre à classer, par exemple l'emprise de la carte ; au plus 1 000 m de large, et rapide jusqu'à environ 250 x 250 m. Elle est transformée dans le SCR des points.</translation>
     </message>
     <message>
         <source>There is not enough memory for this file.</source>
@@ -1231,23 +1231,23 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>This Python has neither pip nor ensurepip: install pip for it (in Debian and Ubuntu python3-pip), or choose a wheel file.</source>
-        <translation>Ce Python n'a ni pip ni ensurepip : installez pip pour lui (python3-pip dans Debian et Ubuntu), ou choisissez un fichier wheel.</translation>
+        <translation>Ce Python n'a ni pip ni ensurepip : installez pip pour lui (python3-pip dans Debian et Ubuntu), ou choisissez un fichier wheel.</translation>
     </message>
     <message>
         <source>This QGIS cannot show such a file as a layer. It is at {}.</source>
-        <translation>Ce QGIS ne peut pas afficher un tel fichier comme couche. Il se trouve ici : {}.</translation>
+        <translation>Ce QGIS ne peut pas afficher un tel fichier comme couche. Il se trouve ici : {}.</translation>
     </message>
     <message>
         <source>This QGIS cannot show such a file as a layer. It will be at {}.</source>
-        <translation>Ce QGIS ne peut pas afficher un tel fichier comme couche. Il se trouvera ici : {}.</translation>
+        <translation>Ce QGIS ne peut pas afficher un tel fichier comme couche. Il se trouvera ici : {}.</translation>
     </message>
     <message>
         <source>This QGIS has no scipy. On Windows, install python3-scipy with the OSGeo4W setup; elsewhere, the scipy of the system or of a newer QGIS.</source>
-        <translation>Ce QGIS n'a pas scipy. Sous Windows, installez python3-scipy avec l'installateur OSGeo4W ; ailleurs, le scipy du système ou d'un QGIS plus récent.</translation>
+        <translation>Ce QGIS n'a pas scipy. Sous Windows, installez python3-scipy avec l'installateur OSGeo4W ; ailleurs, le scipy du système ou d'un QGIS plus récent.</translation>
     </message>
     <message>
         <source>This QGIS has no {}.</source>
-        <translation>Il manque à ce QGIS : {}.</translation>
+        <translation>Il manque à ce QGIS : {}.</translation>
     </message>
     <message>
         <source>Threads</source>
@@ -1283,7 +1283,7 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>Triangles whose longest edge is shorter take no further point. Empty: never.</source>
-        <translation>Les triangles dont le plus long côté est plus court ne prennent plus de point. Vide : jamais.</translation>
+        <translation>Les triangles dont le plus long côté est plus court ne prennent plus de point. Vide : jamais.</translation>
     </message>
     <message>
         <source>Tries methods and presets on a part of a point cloud, and shows them side by side.</source>
@@ -1319,11 +1319,11 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>What becomes of points that are not ground. Points that were never classified (0) become 1 in either case; noise, withheld points and other classes than those to classify anew stay as they are.</source>
-        <translation>Ce que deviennent les points qui ne sont pas du sol. Les points jamais classés (0) deviennent 1 dans tous les cas ; le bruit, les points retenus (withheld) et les classes autres que celles à reclasser restent tels quels.</translation>
+        <translation>Ce que deviennent les points qui ne sont pas du sol. Les points jamais classés (0) deviennent 1 dans tous les cas ; le bruit, les points retenus (withheld) et les classes autres que celles à reclasser restent tels quels.</translation>
     </message>
     <message>
         <source>What becomes of the decks of bridges. They are found by cross-sections that fall to lower ground on both sides; ramps, dams and embankments stay ground. A classic preset (Whitebox, LiDAR360's, the paper's) does just what the original does.</source>
-        <translation>Ce que deviennent les tabliers de ponts. On les trouve par des profils en travers qui tombent vers un sol plus bas des deux côtés ; les rampes, les digues et les remblais restent du sol. Un préréglage classique (Whitebox, LiDAR360, l'article) fait exactement ce que fait l'original.</translation>
+        <translation>Ce que deviennent les tabliers de ponts. On les trouve par des profils en travers qui tombent vers un sol plus bas des deux côtés ; les rampes, les digues et les remblais restent du sol. Un préréglage classique (Whitebox, LiDAR360, l'article) fait exactement ce que fait l'original.</translation>
     </message>
     <message>
         <source>Wheel file of lazrs</source>
@@ -1343,11 +1343,11 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>Where the values come from that are left empty: from the points (automatic), or from what suits a kind of terrain. The log says which values were used.</source>
-        <translation>D'où viennent les valeurs des champs vides : des points (automatique), ou de ce qui convient à un type de terrain. Le journal dit quelles valeurs ont servi.</translation>
+        <translation>D'où viennent les valeurs des champs vides : des points (automatique), ou de ce qui convient à un type de terrain. Le journal dit quelles valeurs ont servi.</translation>
     </message>
     <message>
         <source>Where the values come from that are left empty: what suits most land (automatic) or a kind of terrain. The log says which values were used.</source>
-        <translation>D'où viennent les valeurs des champs vides : de ce qui convient à la plupart des terrains (automatique) ou à un type de terrain. Le journal dit quelles valeurs ont servi.</translation>
+        <translation>D'où viennent les valeurs des champs vides : de ce qui convient à la plupart des terrains (automatique) ou à un type de terrain. Le journal dit quelles valeurs ont servi.</translation>
     </message>
     <message>
         <source>Whitebox (one scale, 2 m, 45 deg, 1 m)</source>
@@ -1375,11 +1375,11 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>Writes a classified point cloud anew with the height of every point above the ground, that is above the triangulation (TIN) of the ground points, or beyond it above the nearest of them. Heights are in the vertical unit of the CRS. They become an extra dimension, HeightAboveGround, or take the place of z; nothing else in the file changes.</source>
-        <translation>Réécrit un nuage de points classé avec la hauteur de chaque point au-dessus du sol, c'est-à-dire au-dessus de la triangulation (TIN) des points sol ou, au-delà, au-dessus du plus proche d'entre eux. Les hauteurs sont dans l'unité verticale du SCR. Elles deviennent une dimension supplémentaire, HeightAboveGround, ou prennent la place de z ; rien d'autre ne change dans le fichier.</translation>
+        <translation>Réécrit un nuage de points classé avec la hauteur de chaque point au-dessus du sol, c'est-à-dire au-dessus de la triangulation (TIN) des points sol ou, au-delà, au-dessus du plus proche d'entre eux. Les hauteurs sont dans l'unité verticale du SCR. Elles deviennent une dimension supplémentaire, HeightAboveGround, ou prennent la place de z ; rien d'autre ne change dans le fichier.</translation>
     </message>
     <message>
         <source>X and Y of its two ends, in the CRS of the points: X1 Y1 X2 Y2. Empty: straight across the window, from west to east or from south to north, where the terrains differ most.</source>
-        <translation>X et Y de ses deux bouts, dans le SCR des points : X1 Y1 X2 Y2. Vide : droit à travers la fenêtre, d'ouest en est ou du sud au nord, là où les terrains diffèrent le plus.</translation>
+        <translation>X et Y de ses deux bouts, dans le SCR des points : X1 Y1 X2 Y2. Vide : droit à travers la fenêtre, d'ouest en est ou du sud au nord, là où les terrains diffèrent le plus.</translation>
     </message>
     <message>
         <source>Z, in place of the elevation</source>
@@ -1455,11 +1455,11 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>lazrs could not be installed: {}</source>
-        <translation>lazrs n'a pas pu être installé : {}</translation>
+        <translation>lazrs n'a pas pu être installé : {}</translation>
     </message>
     <message>
         <source>lazrs could not be stored: {}.</source>
-        <translation>lazrs n'a pas pu être enregistré : {}.</translation>
+        <translation>lazrs n'a pas pu être enregistré : {}.</translation>
     </message>
     <message>
         <source>lidar,laser scanning,als,uav,drone,las,laz,copc,point cloud</source>
@@ -1479,7 +1479,7 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>pip cannot work through the SOCKS proxy of QGIS's settings: choose a wheel file.</source>
-        <translation>pip ne peut pas passer par le proxy SOCKS des préférences de QGIS : choisissez un fichier wheel.</translation>
+        <translation>pip ne peut pas passer par le proxy SOCKS des préférences de QGIS : choisissez un fichier wheel.</translation>
     </message>
     <message>
         <source>pip failed without a word</source>
@@ -1539,11 +1539,11 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>the package index was not reached: check the connection, and the proxy in Settings &gt; Options &gt; Network, or choose a wheel file.</source>
-        <translation>l'index des paquets n'a pas été atteint : vérifiez la connexion, et le proxy dans Préférences &gt; Options &gt; Réseau, ou choisissez un fichier wheel.</translation>
+        <translation>l'index des paquets n'a pas été atteint : vérifiez la connexion, et le proxy dans Préférences &gt; Options &gt; Réseau, ou choisissez un fichier wheel.</translation>
     </message>
     <message>
         <source>the proxy wants a name and password: give them in Settings &gt; Options &gt; Network.</source>
-        <translation>le proxy demande un nom et un mot de passe : indiquez-les dans Préférences &gt; Options &gt; Réseau.</translation>
+        <translation>le proxy demande un nom et un mot de passe : indiquez-les dans Préférences &gt; Options &gt; Réseau.</translation>
     </message>
     <message>
         <source>tin,triangulation</source>
@@ -1559,11 +1559,11 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>{file} could not be unzipped: {error}.</source>
-        <translation>{file} n'a pas pu être décompressé : {error}.</translation>
+        <translation>{file} n'a pas pu être décompressé : {error}.</translation>
     </message>
     <message>
         <source>{file} holds {held}; a wheel of {package} is needed.</source>
-        <translation>{file} contient {held} ; il faut un wheel de {package}.</translation>
+        <translation>{file} contient {held} ; il faut un wheel de {package}.</translation>
     </message>
     <message>
         <source>{file} holds {member}, which has no place in a wheel of {package}. Get it anew.</source>
@@ -1571,7 +1571,7 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>{file} is for another Python or system ({tag}); this QGIS needs one for {needed}.</source>
-        <translation>{file} est pour un autre Python ou système ({tag}) ; ce QGIS en demande un pour {needed}.</translation>
+        <translation>{file} est pour un autre Python ou système ({tag}) ; ce QGIS en demande un pour {needed}.</translation>
     </message>
     <message>
         <source>{file} is larger than any wheel of {package}.</source>
@@ -1611,7 +1611,7 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>{} is damaged: a file differs from its list. Get it anew.</source>
-        <translation>{} est endommagé : un fichier diffère de sa liste. Téléchargez-le à nouveau.</translation>
+        <translation>{} est endommagé : un fichier diffère de sa liste. Téléchargez-le à nouveau.</translation>
     </message>
     <message>
         <source>{} is not a file of this computer. Download it as .las or .laz first.</source>
@@ -1631,11 +1631,11 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>{} is not a wheel: choose a file with the ending .whl.</source>
-        <translation>{} n'est pas un wheel : choisissez un fichier qui se termine par .whl.</translation>
+        <translation>{} n'est pas un wheel : choisissez un fichier qui se termine par .whl.</translation>
     </message>
     <message>
         <source>{} must be installed first.</source>
-        <translation>À installer d'abord : {}.</translation>
+        <translation>À installer d'abord : {}.</translation>
     </message>
 </context>
 </TS>
