@@ -41,7 +41,7 @@
     </message>
     <message>
         <source>A surface model: a raster file with a band of heights.</source>
-        <translation>Ein Oberflächenmodell: eine Rasterdatei mit einem Band aus Höhen.</translation>
+        <translation>Ein Oberflächenmodell: eine Rasterdatei mit einem Kanal aus Höhen.</translation>
     </message>
     <message>
         <source>A web page with the figures, and a map of where the errors are.</source>
@@ -109,7 +109,7 @@
     </message>
     <message>
         <source>Band</source>
-        <translation>Band</translation>
+        <translation>Kanal</translation>
     </message>
     <message>
         <source>Bare Earth: LAZ support</source>
@@ -763,7 +763,7 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     </message>
     <message>
         <source>Number of the raster's band that holds the heights.</source>
-        <translation>Nummer des Bandes, das die Höhen enthält.</translation>
+        <translation>Nummer des Kanals, der die Höhen enthält.</translation>
     </message>
     <message>
         <source>Objects have edges steeper than this all round, measured above the terrain that the maximum object size gives; what rises more gently somewhere is a hill.</source>
