@@ -15,6 +15,7 @@ from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
 from ..core.threads import may_use
 from ..las.cloud import PointCloud, survey_frame
+from ..las.extrabytes import remembers
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..las.writing import check_writable, is_copc, layers_kept, write_changed
@@ -99,7 +100,7 @@ def classify_cloud(
     with may_use(resources.thread_count):
         result, _ = FilePoints(cloud, resources).find(step, step.tally(), progress)
         result.tell(progress)
-        inside, selected = step.chooser.choose(cloud, step.tally())
+        inside, selected, _ = step.chooser.choose(cloud, step.tally())
     return result.classification, selected & inside
 
 
@@ -132,7 +133,8 @@ def classify_file(
     request.rasters.check((source, target))
     step, products = request.step, _products(request)
     tally, first = step.tally(), progress.part(0.0, 0.2)
-    is_copied = not request.output.changes_points and layers_kept(las, target) is not None
+    changes_more = request.output.changes_points or request.selection.remember_classes
+    is_copied = not (changes_more or remembers(las)) and layers_kept(las, target) is not None
     _check_copc(las, target, is_copied, resources)
     with contextlib.ExitStack() as outputs:
         outputs.enter_context(may_use(resources.thread_count))
