@@ -15,6 +15,7 @@ from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified
+from .corrections import CORRECTIONS_HELP, NOT_IN_COMMAND, add_corrections, corrections_of
 from .feedback import FeedbackProgress
 from .inputs import (
     AREA_FIELDS,
@@ -64,6 +65,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         self.addParameter(PointCloudInput("INPUT", "Point cloud"))
         self.add_declared()
         add_area(self)
+        add_corrections(self)
         add_cloud(self, "Classified point cloud")
         add_rasters(self, ("DTM", "HILLSHADE"))
         self.addOutput(QgsProcessingOutputNumber("POINT_COUNT", "Points"))
@@ -72,9 +74,9 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         self.addOutput(QgsProcessingOutputNumber("GROUND_COUNT", "Ground points"))
 
     def shortHelpString(self) -> str:
-        """Return the help, the fields of the area in it."""
+        """Return the help, the fields of area and corrections in it."""
         area = [f"<b>{label}</b>: {text}" for label, text in AREA_FIELDS.values()]
-        return "\n".join([super().shortHelpString(), *area])
+        return "\n".join([super().shortHelpString(), *area, CORRECTIONS_HELP])
 
     def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
         """Find the input's file."""
@@ -87,11 +89,12 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> None:
-        """Find the input, and read the area."""
+        """Find the input, and read area and corrections."""
         super().prepare(parameters, context, progress)
         if ignored_filter(self, parameters, "INPUT", context):
             progress.warning("The layer's filter is not applied: all points are read.")
         self._area = area_of(self, parameters, context, self._source)
+        self._corrections = corrections_of(self, parameters, context, self._source)
 
     def compute(
         self,
@@ -110,7 +113,10 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         options = {"method": self.method, **paths}
         command = command_line("classify", [str(self._source), output], chosen, options)
         progress.command(" ".join([command, *self._area_options(progress)]))
-        request = ClassifyRequest.of(chosen, rasters=raster_files(paths), area=self._area)
+        if self._corrections.polygons:
+            progress.info(NOT_IN_COMMAND)
+        known = {"area": self._area, "corrections": self._corrections}
+        request = ClassifyRequest.of(chosen, rasters=raster_files(paths), **known)
         summary = classify_file(self._source, Path(output), request, progress)
         ground, count = summary.area_ground_count, summary.area_count
         place = " in the area" if self._area else ""

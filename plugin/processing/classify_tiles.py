@@ -13,6 +13,7 @@ from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified
+from .corrections import CORRECTIONS_HELP, NOT_IN_COMMAND, add_corrections, corrections_of
 from .inputs import FOLDER_HELP, add_clouds, clouds_of, names_of
 from .outputs import add_rasters, raster_files, raster_paths
 
@@ -32,7 +33,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
     about = (
         "Classifies the ground points of many files, each as if all were one, and writes each anew"
         " under its name. A virtual point cloud (.vpc) lists the results.\n"
-    ) + FOLDER_HELP
+    ) + f"{FOLDER_HELP}\n{CORRECTIONS_HELP}"
     shown = "method", "preset"
     keywords = (
         "lidar", "point cloud", "las", "laz", "copc", "vpc", "tiles", "batch", "survey", "folder",
@@ -46,6 +47,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         """Declare the fields of the dialog and the results."""
         add_clouds(self)
         self.add_declared()
+        add_corrections(self)
         self.addParameter(Folder("OUTPUT_FOLDER", "Folder of the classified point clouds"))
         self.addParameter(File("OUTPUT_VPC", "Virtual point cloud", "*.vpc", None, True, False))
         add_rasters(self, ("DTM", "HILLSHADE"))
@@ -68,7 +70,10 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         paths = raster_paths(self, parameters, context)
         words, options = [*map(str, sources), str(folder)], {"VPC": vpc, **paths}
         progress.command(command_line("classify-tiles", words, chosen, options))
-        request = ClassifyRequest.of(chosen, rasters=raster_files(paths))
+        known = corrections_of(self, parameters, context, sources[0])
+        if known.polygons:
+            progress.info(NOT_IN_COMMAND)
+        request = ClassifyRequest.of(chosen, rasters=raster_files(paths), corrections=known)
         summary = classify_files(sources, folder, request, progress, vpc=vpc or None)
         progress.info(f"{summary.text}.")
         ground_class, cell = request.selection.to_class, request.terrain.dtm_cell_size

@@ -16,6 +16,7 @@ from ...algorithms.survey.selection import Selection
 from ..styles.layers import BELOW_TERRAIN, contours
 from .base import BareEarthAlgorithm
 from .classified import show_classified
+from .corrections import CORRECTIONS_HELP, add_corrections, corrections_of
 from .inputs import SURVEY_HELP, add_survey, names_of, survey_of
 from .outputs import RASTERS, add_cloud, add_rasters, do_not_load, raster_files, raster_paths
 
@@ -28,7 +29,8 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
     summary = "Makes a map of the terrain of a raw point cloud: classes, models, contours."
     about = (
         "Finds the ground of a raw lidar point cloud and makes maps of it, of which any may be"
-        f" left out. Local relief shows small features. Lengths are metres.\n{SURVEY_HELP}"
+        " left out. Local relief shows small features. Lengths are metres.\n"
+        f"{SURVEY_HELP}\n{CORRECTIONS_HELP}"
     )
     shown = "method", "preset", "dtm_cell_size"
     keywords = (
@@ -44,6 +46,7 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         """Declare the fields of the dialog and the results."""
         add_survey(self)
         self.add_declared()
+        add_corrections(self)
         add_cloud(self, "Classified point cloud", optional=True)
         add_rasters(self, RASTERS, ("DTM", "HILLSHADE", "DSM", "CHM"))
         self.addParameter(Vector("CONTOURS", "Contour lines", optional=True, createByDefault=False))
@@ -58,7 +61,8 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         """Make what is wanted."""
         from ...algorithms.engine.terrain_maps import MapFiles, MapRequest, make_maps
 
-        request = MapRequest.of(self.chosen(parameters, context))
+        known = corrections_of(self, parameters, context, self._sources[0])
+        request = MapRequest.of(self.chosen(parameters, context), corrections=known)
         cloud = self.point_cloud_destination(parameters, "OUTPUT", context)
         results = raster_paths(self, parameters, context)
         lines = self.parameterAsOutputLayer(parameters, "CONTOURS", context)
