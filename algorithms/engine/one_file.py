@@ -20,6 +20,7 @@ from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..las.writing import check_writable, is_copc, layers_kept, write_changed
 from ..survey.area import Area
+from ..survey.corrections import Corrections
 from ..survey.selection import Selection
 from .file_points import FilePoints, fits_in_memory
 from .labelling import ClassifiedPoints, LabelGround
@@ -64,6 +65,7 @@ def classify_cloud(
     progress: Progress = SILENT,
     area: Area | None = None,
     resources: Resources = Resources(),
+    corrections: Corrections = Corrections(),
 ) -> tuple[np.ndarray, np.ndarray]:
     """Classify the points of a cloud in memory.
 
@@ -81,6 +83,8 @@ def classify_cloud(
         Points outside keep their class; those near it are still context for the method.
     resources : Resources
         How many threads to use, and how much memory.
+    corrections : Corrections
+        Polygons in which the class is known.
 
     Returns
     -------
@@ -96,7 +100,7 @@ def classify_cloud(
     Cancelled
         If the user asked to stop.
     """
-    step = LabelGround(parameters, selection, area)
+    step = LabelGround(parameters, selection, area, corrections=corrections)
     with may_use(resources.thread_count):
         result, _ = FilePoints(cloud, resources).find(step, step.tally(), progress)
         result.tell(progress)
