@@ -17,7 +17,7 @@ from ..las.edits import Edits
 from ..las.records import check_class
 from ..survey.collection import Tile
 from ..survey.ground_classes import GroundClasses, GroundTally
-from ..survey.selection import count_classes
+from ..survey.tally import count_classes
 from .blocks import Block, Blocks, Store
 from .ground import over_blocks
 from .memory import Resources

@@ -18,7 +18,8 @@ from ..survey.area import Area
 from ..survey.collection import Tile
 from ..survey.corrections import Corrections
 from ..survey.point_chooser import ChosenTally, PointChooser
-from ..survey.selection import Selection, count_classes
+from ..survey.selection import Selection
+from ..survey.tally import count_classes
 from .blocks import BRIDGE, GROUND, LOW, Blocks, Store
 from .ground import blocks_of, label_ground
 from .memory import Resources

@@ -13,7 +13,8 @@ from ..las.cloud import PointCloud
 from ..las.records import check_class
 from .area import Area, box_in_words
 from .corrections import ByHand, Corrections
-from .selection import Selection, Tally
+from .selection import Selection
+from .tally import Tally
 
 
 @dataclass

@@ -21,7 +21,7 @@ from .area import Area
 if TYPE_CHECKING:
     import laspy
 
-_COLUMNS = {
+_COLUMNS: dict[str, tuple[str, type]] = {
     "x": ("X", np.int32),
     "y": ("Y", np.int32),
     "z": ("Z", np.int32),
@@ -30,7 +30,7 @@ _COLUMNS = {
     "number_of_returns": ("number_of_returns", np.uint8),
     "withheld": ("withheld", bool),
 }
-_REMEMBERED = {"remembered": (REMEMBERED, np.uint8)}
+_REMEMBERED: dict[str, tuple[str, type]] = {"remembered": (REMEMBERED, np.uint8)}
 Columns = dict[str, np.ndarray]
 
 
