@@ -30,6 +30,7 @@ except ImportError:
 # From 3.36 on the enumerations are those of `Qgis`; the old names are on their way out.
 if hasattr(Qgis, "ProcessingParameterFlag"):
     ADVANCED = Qgis.ProcessingParameterFlag.Advanced
+    OPTIONAL = Qgis.ProcessingParameterFlag.Optional
     NUMBER = Qgis.ProcessingNumberParameterType.Double
     INTEGER = Qgis.ProcessingNumberParameterType.Integer
     POLYGONS = Qgis.ProcessingSourceType.VectorPolygon
@@ -38,6 +39,7 @@ if hasattr(Qgis, "ProcessingParameterFlag"):
     FOLDER = Qgis.ProcessingFileParameterBehavior.Folder
 else:
     ADVANCED = QgsProcessingParameterDefinition.Flag.FlagAdvanced
+    OPTIONAL = QgsProcessingParameterDefinition.Flag.FlagOptional
     NUMBER = QgsProcessingParameterNumber.Type.Double
     INTEGER = QgsProcessingParameterNumber.Type.Integer
     POLYGONS = QgsProcessing.SourceType.TypeVectorPolygon

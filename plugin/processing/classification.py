@@ -16,6 +16,7 @@ from ...algorithms.survey.selection import Selection
 from ..i18n import tr
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified
+from .corrections import add_corrections, corrections_of, not_in_command
 from .feedback import FeedbackProgress
 from .inputs import (
     CLOUD_HELP,
@@ -65,6 +66,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         self.addParameter(PointCloudInput("INPUT", "Point cloud"), CLOUD_HELP)
         self.add_declared()
         add_area(self)
+        add_corrections(self)
         add_cloud(self)
         add_rasters(self, ("DTM", "HILLSHADE"))
         self.addOutput(QgsProcessingOutputNumber("POINT_COUNT", "Points"))
@@ -83,11 +85,12 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> None:
-        """Find the input, and read the area."""
+        """Find the input, and read area and corrections."""
         super().prepare(parameters, context, progress)
         if ignored_filter(self, parameters, "INPUT", context):
             progress.warning(tr("The layer's filter is not applied: all points are read."))
         self._area = area_of(self, parameters, context, self._source)
+        self._corrections = corrections_of(self, parameters, context, self._source)
 
     def compute(
         self,
@@ -106,7 +109,10 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         options = {"method": self.method, **paths}
         command = command_line("classify", [str(self._source), output], chosen, options)
         progress.command(" ".join([command, *self._area_options(progress)]))
-        request = ClassifyRequest.of(chosen, rasters=raster_files(paths), area=self._area)
+        if self._corrections.polygons:
+            progress.info(not_in_command())
+        known = {"area": self._area, "corrections": self._corrections}
+        request = ClassifyRequest.of(chosen, rasters=raster_files(paths), **known)
         summary = classify_file(self._source, Path(output), request, progress)
         ground, count = summary.area_ground_count, summary.area_count
         text = tr("{ground:,} of {count:,} points are ground ({share:.1%}).")

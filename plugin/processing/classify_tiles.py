@@ -11,6 +11,7 @@ from ...algorithms.survey.selection import Selection
 from ..i18n import mark
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified
+from .corrections import add_corrections, corrections_of, not_in_command
 from .inputs import add_clouds, clouds_of, names_of
 from .outputs import add_rasters, add_tiles, raster_files, raster_paths
 
@@ -43,6 +44,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         """Declare the fields of the dialog and the results."""
         add_clouds(self)
         self.add_declared()
+        add_corrections(self)
         add_tiles(self)
         add_rasters(self, ("DTM", "HILLSHADE"))
         self.add_numbers(_NUMBERS)
@@ -64,7 +66,10 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         paths = raster_paths(self, parameters, context)
         words, options = [*map(str, sources), str(folder)], {"VPC": vpc, **paths}
         progress.command(command_line("classify-tiles", words, chosen, options))
-        request = ClassifyRequest.of(chosen, rasters=raster_files(paths))
+        known = corrections_of(self, parameters, context, sources[0])
+        if known.polygons:
+            progress.info(not_in_command())
+        request = ClassifyRequest.of(chosen, rasters=raster_files(paths), corrections=known)
         summary = classify_files(sources, folder, request, progress, vpc=vpc or None)
         progress.info(f"{summary.text}.")
         ground_class, cell = request.selection.to_class, request.terrain.dtm_cell_size

@@ -16,6 +16,7 @@ from ..styles.layers import BELOW_TERRAIN, contours
 from . import outputs
 from .base import BareEarthAlgorithm
 from .classified import show_classified
+from .corrections import add_corrections, corrections_of
 from .inputs import add_survey, names_of, survey_of
 
 
@@ -40,6 +41,7 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         """Declare the fields of the dialog and the results."""
         add_survey(self)
         self.add_declared()
+        add_corrections(self)
         outputs.add_cloud(self, optional=True)
         outputs.add_rasters(self, outputs.RASTERS, ("DTM", "HILLSHADE", "DSM", "CHM"))
         outputs.add_contours(self)
@@ -54,7 +56,8 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         """Make what is wanted."""
         from ...algorithms.engine.terrain_maps import MapFiles, MapRequest, make_maps
 
-        request = MapRequest.of(self.chosen(parameters, context))
+        known = corrections_of(self, parameters, context, self._sources[0])
+        request = MapRequest.of(self.chosen(parameters, context), corrections=known)
         cloud = self.point_cloud_destination(parameters, "OUTPUT", context)
         results = outputs.raster_paths(self, parameters, context)
         lines = self.parameterAsOutputLayer(parameters, "CONTOURS", context)
