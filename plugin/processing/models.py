@@ -45,7 +45,7 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         context: QgsProcessingContext,
         feedback: QgsProcessingFeedback,
     ) -> dict[str, Any]:
-        """Run it; QGIS would hand nothing to the algorithms in it for an input that is not given."""
+        """Run it; for an input that is not given QGIS would hand on nothing, not its default."""
         defaults = {each.name(): each.defaultValue() for each in self.parameterDefinitions()}
         given = {**defaults, **parameters}
         return super().processAlgorithm(given, context, feedback)
