@@ -45,7 +45,8 @@ _AREA_FIELDS = {
     ),
 }
 
-
+# By its name: QGIS makes one for a dialog, and qgis_process imports no widgets.
+_WIDGET = f"{__package__}.widgets.PointCloudWidget"
 # Of the fields of `add_survey` and `add_clouds`.
 _FILES_HELP = (
     "Files .las, .laz and .copc.laz, virtual point clouds (.vpc), or text files (.txt) with a path"
@@ -73,6 +74,10 @@ class PointCloudInput(QgsProcessingParameterPointCloudLayer):
     QGIS takes only what it can load, which without its `pdal` provider excludes .las and .laz, and
     with it would index the whole file first.
     """
+
+    def __init__(self, *arguments: Any) -> None:
+        super().__init__(*arguments)
+        self.setMetadata({"widget_wrapper": {"class": _WIDGET}})
 
     def clone(self) -> PointCloudInput:
         """Return a copy; dialogs and models work with copies, which must take files too."""

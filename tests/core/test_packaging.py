@@ -93,6 +93,8 @@ def test_the_zip_holds_one_folder_with_what_qgis_needs(names):
         "__init__.py metadata.txt LICENSE README.md requirements.txt plugin/plugin.py"
         " algorithms/engine/runs.py packages/laspy/__init__.py help/index.html"
         " plugin/i18n/bare_earth_de.qm plugin/i18n/bare_earth_fr.qm"
+        " plugin/models/terrain_contours.model3 plugin/models/cloud_heights.model3"
+        " plugin/models/two_methods.model3"
     )
     for name in needed.split():
         assert f"bare_earth/{name}" in names, name

@@ -132,6 +132,7 @@ def fresh(package, tmp_path_factory):
         answer["messages"] = messages()
         registry = QgsApplication.processingRegistry()
         answer["algorithms"] = len(registry.providerById("bareearth").algorithms())
+        answer["model"] = registry.createAlgorithmById("bareearth:terraincontours").canExecute()
         import laspy
         answer["laspy"] = laspy.__file__
         """,
@@ -161,7 +162,8 @@ def ground_of(path):
 def test_qgis_installs_the_zip(fresh):
     qgis, answer = fresh
     assert answer["menu"] == ["LAZ support…"]
-    assert answer["algorithms"] >= 9
+    assert answer["algorithms"] >= 14
+    assert answer["model"] == [True, ""]
     assert Path(answer["laspy"]) == (
         qgis.profile / "python" / "plugins" / "bare_earth" / "packages" / "laspy" / "__init__.py"
     )
