@@ -40,6 +40,10 @@
         <translation>Ein Punkt, der im Suchradius weniger Nachbarn hat, wird mit so vielen nächsten verglichen. Nur für die Voreinstellung Whitebox.</translation>
     </message>
     <message>
+        <source>A raw .las, .laz or .copc.laz file.</source>
+        <translation>Eine rohe Datei .las, .laz oder .copc.laz.</translation>
+    </message>
+    <message>
         <source>A surface model: a raster file with a band of heights.</source>
         <translation>Ein Oberflächenmodell: eine Rasterdatei mit einem Kanal aus Höhen.</translation>
     </message>
@@ -58,6 +62,10 @@
     <message>
         <source>Add the height above ground</source>
         <translation>Höhe über Grund hinzufügen</translation>
+    </message>
+    <message>
+        <source>Adds the extra dimension BareEarthClass, the class that this run gives. A later run on the file sees by it which classes were changed by hand since, and keeps them, whatever its settings; it remembers the classes again.</source>
+        <translation>Fügt die Zusatzdimension BareEarthClass hinzu, die Klasse, die dieser Lauf vergibt. Ein späterer Lauf mit der Datei sieht daran, welche Klassen seither von Hand geändert wurden, und behält sie, gleich welche Einstellungen er hat; er merkt sich die Klassen wieder.</translation>
     </message>
     <message>
         <source>Adds the extra dimension HeightAboveGround: how high each point stands above the ground, in the vertical unit of the CRS.</source>
@@ -152,6 +160,10 @@
         <translation>Zellgröße</translation>
     </message>
     <message>
+        <source>Cell size [m]</source>
+        <translation>Zellgröße [m]</translation>
+    </message>
+    <message>
         <source>Cell size of the error map</source>
         <translation>Zellgröße der Fehlerkarte</translation>
     </message>
@@ -204,6 +216,10 @@ Längen sind Meter, gleich welche Einheit das KBS hat.</translation>
     <message>
         <source>Class of other points</source>
         <translation>Klasse der übrigen Punkte</translation>
+    </message>
+    <message>
+        <source>Class of the corrections</source>
+        <translation>Klasse der Korrekturen</translation>
     </message>
     <message>
         <source>Class of the ground</source>
@@ -302,8 +318,16 @@ Längen sind Meter, gleich welche Einheit das KBS hat.</translation>
         <translation>Höhenlinien</translation>
     </message>
     <message>
+        <source>Corrections</source>
+        <translation>Korrekturen</translation>
+    </message>
+    <message>
         <source>Depth of low outliers</source>
         <translation>Tiefe tiefer Ausreißer</translation>
+    </message>
+    <message>
+        <source>Difference in height of neighbouring lines, in the unit of the heights.</source>
+        <translation>Höhenunterschied benachbarter Linien, in der Einheit der Höhen.</translation>
     </message>
     <message>
         <source>Done; no restart is needed.</source>
@@ -346,8 +370,24 @@ Längen sind Meter, gleich welche Einheit das KBS hat.</translation>
         <translation>Findet die wenigen Bodenpunkte, deren Dreiecksvermaschung so gut ist wie die von allen.</translation>
     </message>
     <message>
+        <source>Finds the ground by two methods, and says where they differ.</source>
+        <translation>Findet den Boden mit zwei Verfahren und sagt, wo sie sich unterscheiden.</translation>
+    </message>
+    <message>
+        <source>Finds the ground of a raw lidar point cloud (TIN densification), adds the height above it to every point, and makes rasters of terrain and canopy height.</source>
+        <translation>Findet den Boden einer rohen Lidar-Punktwolke (TIN-Verdichtung), fügt jedem Punkt die Höhe darüber hinzu und macht Raster von Gelände und Kronenhöhe.</translation>
+    </message>
+    <message>
+        <source>Finds the ground of a raw lidar point cloud (TIN densification), makes terrain model and hillshade of it, and contour lines of the terrain model (GDAL).</source>
+        <translation>Findet den Boden einer rohen Lidar-Punktwolke (TIN-Verdichtung), macht daraus Geländemodell und Schummerung und aus dem Geländemodell Höhenlinien (GDAL).</translation>
+    </message>
+    <message>
         <source>Finds the ground of a raw lidar point cloud and makes maps of it, of which any may be left out. Local relief shows small features. Lengths are metres.</source>
         <translation>Findet den Boden einer rohen Lidar-Punktwolke und macht Karten davon, von denen jede entfallen kann. Das lokale Relief zeigt kleine Formen. Längen sind Meter.</translation>
+    </message>
+    <message>
+        <source>Finds the ground of a raw lidar point cloud by TIN densification and by the slope filter, and compares the two: a hillshade of each, and a report in which TIN densification stands as the reference. Where both agree, most can be trusted; where they differ, look.</source>
+        <translation>Findet den Boden einer rohen Lidar-Punktwolke durch TIN-Verdichtung und durch den Neigungsfilter und vergleicht beide: je eine Schummerung und ein Bericht, in dem die TIN-Verdichtung als Referenz gilt. Wo beide übereinstimmen, ist das meiste verlässlich; wo sie sich unterscheiden, sehen Sie hin.</translation>
     </message>
     <message>
         <source>Finds the ground points of a lidar point cloud by rules on the lowest points of cells.</source>
@@ -402,6 +442,14 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>Format of the output</source>
         <translation>Format der Ausgabe</translation>
+    </message>
+    <message>
+        <source>From a raw point cloud to heights above ground, of points and as a raster.</source>
+        <translation>Von der rohen Punktwolke zu Höhen über Grund, an den Punkten und als Raster.</translation>
+    </message>
+    <message>
+        <source>From a raw point cloud to terrain model, hillshade and contour lines.</source>
+        <translation>Von der rohen Punktwolke zu Geländemodell, Schummerung und Höhenlinien.</translation>
     </message>
     <message>
         <source>From a wheel file…</source>
@@ -536,6 +584,14 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Azimut der Lichtquelle</translation>
     </message>
     <message>
+        <source>Hillshade, TIN densification</source>
+        <translation>Schummerung, TIN-Verdichtung</translation>
+    </message>
+    <message>
+        <source>Hillshade, slope filter</source>
+        <translation>Schummerung, Neigungsfilter</translation>
+    </message>
+    <message>
         <source>Hilly land, forest</source>
         <translation>Hügelland, Wald</translation>
     </message>
@@ -574,6 +630,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>In the command line the boundary is missing: save it in the CRS of the points as boundary.geojson, and add --boundary boundary.geojson.</source>
         <translation>In der Befehlszeile fehlt die Begrenzung: Speichern Sie sie im KBS der Punkte als boundary.geojson, und fügen Sie --boundary boundary.geojson hinzu.</translation>
+    </message>
+    <message>
+        <source>In the command line the corrections are missing: save them in the CRS of the points as corrections.geojson, their class as the attribute "{}", and add --corrections corrections.geojson.</source>
+        <translation>In der Befehlszeile fehlen die Korrekturen: Speichern Sie sie im KBS der Punkte als corrections.geojson, ihre Klasse als Attribut „{}“, und fügen Sie --corrections corrections.geojson hinzu.</translation>
     </message>
     <message>
         <source>In the command line the layers are missing: save them as GeoJSON.</source>
@@ -738,6 +798,22 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Mindestzahl der Nachbarn</translation>
     </message>
     <message>
+        <source>Model: heights above ground</source>
+        <translation>Modell: Höhen über Grund</translation>
+    </message>
+    <message>
+        <source>Model: terrain, hillshade and contours</source>
+        <translation>Modell: Gelände, Schummerung und Höhenlinien</translation>
+    </message>
+    <message>
+        <source>Model: two methods compared</source>
+        <translation>Modell: zwei Verfahren im Vergleich</translation>
+    </message>
+    <message>
+        <source>Models</source>
+        <translation>Modelle</translation>
+    </message>
+    <message>
         <source>No Python interpreter was found beside this QGIS, so pip cannot be run: choose a wheel file instead.</source>
         <translation>Neben diesem QGIS wurde kein Python-Interpreter gefunden, pip lässt sich also nicht ausführen: Wählen Sie stattdessen eine Wheel-Datei.</translation>
     </message>
@@ -870,6 +946,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Polygone, in denen kein Punkt Boden ist, etwa Brücken und Dächer.</translation>
     </message>
     <message>
+        <source>Polygons in which the class is known: it holds whatever the filter makes of the points. Where it is that of the ground, points of the wanted returns are ground; else all points get it, and the filter does not see them. Where polygons overlap, the last one counts.</source>
+        <translation>Polygone, in denen die Klasse bekannt ist: Sie gilt, was auch immer der Filter aus den Punkten macht. Wo es die des Bodens ist, sind Punkte der gewünschten Echos Boden; sonst bekommen sie alle Punkte, und der Filter sieht diese nicht. Wo sich Polygone überlappen, zählt das letzte.</translation>
+    </message>
+    <message>
         <source>Polygons of water: flattened to one level, that of the ground along their border.</source>
         <translation>Polygone von Gewässern: auf eine Höhe eingeebnet, die des Bodens an ihrem Rand.</translation>
     </message>
@@ -912,6 +992,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Reference</source>
         <translation>Referenz</translation>
+    </message>
+    <message>
+        <source>Remember the classes</source>
+        <translation>Klassen merken</translation>
     </message>
     <message>
         <source>Remove</source>
@@ -988,6 +1072,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Side of a cell of the terrain model and of its hillshade. About the distance between ground points is sensible; smaller cells only make the file larger.</source>
         <translation>Seite einer Zelle des Geländemodells und seiner Schummerung. Sinnvoll ist etwa der Abstand der Bodenpunkte; kleinere Zellen machen nur die Datei größer.</translation>
+    </message>
+    <message>
+        <source>Side of the cells of the rasters, about the distance between ground points.</source>
+        <translation>Seite der Zellen der Raster, etwa der Abstand der Bodenpunkte.</translation>
     </message>
     <message>
         <source>Side of the cells whose lowest points are compared in the automatic preset. Empty: 1 m, more if points are sparse.</source>
@@ -1106,6 +1194,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Gelände-, Oberflächen- und Kronenhöhenmodelle</translation>
     </message>
     <message>
+        <source>The attribute of these polygons that says their class: 2 is ground, 1 nothing else.</source>
+        <translation>Das Attribut dieser Polygone, das ihre Klasse angibt: 2 ist Boden, 1 keines von allem.</translation>
+    </message>
+    <message>
         <source>The boundary cannot be read. Choose a layer of polygons.</source>
         <translation>Die Begrenzung lässt sich nicht lesen. Wählen Sie einen Layer mit Polygonen.</translation>
     </message>
@@ -1124,6 +1216,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>The class that key points get. Points that have it already are taken as ground, and get the first of the ground classes again if they are not needed. Point formats 0 to 5 hold classes up to 31.</source>
         <translation>Die Klasse, die Schlüsselpunkte bekommen. Punkte, die sie schon haben, gelten als Boden und bekommen wieder die erste der Bodenklassen, wenn sie nicht gebraucht werden. Die Punktformate 0 bis 5 fassen Klassen bis 31.</translation>
+    </message>
+    <message>
+        <source>The corrections have no attribute {}. Choose the one to use.</source>
+        <translation>Die Korrekturen haben kein Attribut {}. Wählen Sie, welches gelten soll.</translation>
     </message>
     <message>
         <source>The elevation raster is not a file. Export it as GeoTIFF first.</source>
@@ -1326,6 +1422,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Was aus den Fahrbahnen von Brücken wird. Sie werden an Querschnitten erkannt, die auf beiden Seiten zu tieferem Boden abfallen; Rampen, Dämme und Böschungen bleiben Boden. Eine klassische Voreinstellung (Whitebox, LiDAR360, Veröffentlichung) tut genau, was das Original tut.</translation>
     </message>
     <message>
+        <source>What the land is like. automatic: judged by the points.</source>
+        <translation>Wie das Land ist. automatic: nach den Punkten beurteilt.</translation>
+    </message>
+    <message>
         <source>Wheel file of lazrs</source>
         <translation>Wheel-Datei von lazrs</translation>
     </message>
@@ -1348,6 +1448,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Where the values come from that are left empty: what suits most land (automatic) or a kind of terrain. The log says which values were used.</source>
         <translation>Woher die Werte leerer Felder kommen: was zu den meisten Landschaften passt (automatisch) oder zu einer Geländeart. Das Protokoll sagt, welche Werte benutzt wurden.</translation>
+    </message>
+    <message>
+        <source>Where they differ</source>
+        <translation>Wo sie sich unterscheiden</translation>
     </message>
     <message>
         <source>Whitebox (one scale, 2 m, 45 deg, 1 m)</source>

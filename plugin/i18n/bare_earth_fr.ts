@@ -40,6 +40,10 @@
         <translation>Un point qui a moins de voisins dans le rayon de recherche est comparé à ce nombre de points les plus proches. Pour le préréglage Whitebox seulement.</translation>
     </message>
     <message>
+        <source>A raw .las, .laz or .copc.laz file.</source>
+        <translation>Un fichier brut .las, .laz ou .copc.laz.</translation>
+    </message>
+    <message>
         <source>A surface model: a raster file with a band of heights.</source>
         <translation>Un modèle numérique de surface : un fichier raster avec une bande d'altitudes.</translation>
     </message>
@@ -58,6 +62,10 @@
     <message>
         <source>Add the height above ground</source>
         <translation>Ajouter la hauteur au-dessus du sol</translation>
+    </message>
+    <message>
+        <source>Adds the extra dimension BareEarthClass, the class that this run gives. A later run on the file sees by it which classes were changed by hand since, and keeps them, whatever its settings; it remembers the classes again.</source>
+        <translation>Ajoute la dimension supplémentaire BareEarthClass, la classe que donne ce traitement. Un traitement ultérieur du fichier y voit quelles classes ont été changées à la main depuis, et les garde, quels que soient ses réglages ; il mémorise à nouveau les classes.</translation>
     </message>
     <message>
         <source>Adds the extra dimension HeightAboveGround: how high each point stands above the ground, in the vertical unit of the CRS.</source>
@@ -152,6 +160,10 @@
         <translation>Taille de cellule</translation>
     </message>
     <message>
+        <source>Cell size [m]</source>
+        <translation>Taille de cellule [m]</translation>
+    </message>
+    <message>
         <source>Cell size of the error map</source>
         <translation>Taille de cellule de la carte des erreurs</translation>
     </message>
@@ -204,6 +216,10 @@ Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
     <message>
         <source>Class of other points</source>
         <translation>Classe des autres points</translation>
+    </message>
+    <message>
+        <source>Class of the corrections</source>
+        <translation>Classe des corrections</translation>
     </message>
     <message>
         <source>Class of the ground</source>
@@ -302,8 +318,16 @@ Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
         <translation>Courbes de niveau</translation>
     </message>
     <message>
+        <source>Corrections</source>
+        <translation>Corrections</translation>
+    </message>
+    <message>
         <source>Depth of low outliers</source>
         <translation>Profondeur des points aberrants bas</translation>
+    </message>
+    <message>
+        <source>Difference in height of neighbouring lines, in the unit of the heights.</source>
+        <translation>Différence d'altitude entre courbes voisines, dans l'unité des altitudes.</translation>
     </message>
     <message>
         <source>Done; no restart is needed.</source>
@@ -346,8 +370,24 @@ Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
         <translation>Trouve les quelques points sol dont la triangulation vaut celle de tous les points sol.</translation>
     </message>
     <message>
+        <source>Finds the ground by two methods, and says where they differ.</source>
+        <translation>Trouve le sol par deux méthodes, et dit où elles diffèrent.</translation>
+    </message>
+    <message>
+        <source>Finds the ground of a raw lidar point cloud (TIN densification), adds the height above it to every point, and makes rasters of terrain and canopy height.</source>
+        <translation>Trouve le sol d'un nuage de points lidar brut (densification de TIN), ajoute à chaque point la hauteur au-dessus de lui, et produit des rasters du terrain et de la hauteur de canopée.</translation>
+    </message>
+    <message>
+        <source>Finds the ground of a raw lidar point cloud (TIN densification), makes terrain model and hillshade of it, and contour lines of the terrain model (GDAL).</source>
+        <translation>Trouve le sol d'un nuage de points lidar brut (densification de TIN), en fait un modèle de terrain et un ombrage, et des courbes de niveau du modèle de terrain (GDAL).</translation>
+    </message>
+    <message>
         <source>Finds the ground of a raw lidar point cloud and makes maps of it, of which any may be left out. Local relief shows small features. Lengths are metres.</source>
         <translation>Trouve le sol d'un nuage de points lidar brut et en produit des cartes, dont chacune peut être omise. Le relief local montre les petites formes. Les longueurs sont en mètres.</translation>
+    </message>
+    <message>
+        <source>Finds the ground of a raw lidar point cloud by TIN densification and by the slope filter, and compares the two: a hillshade of each, and a report in which TIN densification stands as the reference. Where both agree, most can be trusted; where they differ, look.</source>
+        <translation>Trouve le sol d'un nuage de points lidar brut par densification de TIN et par le filtre de pente, et compare les deux : un ombrage de chacun, et un rapport où la densification de TIN tient lieu de référence. Là où les deux concordent, on peut se fier à presque tout ; là où elles diffèrent, regardez.</translation>
     </message>
     <message>
         <source>Finds the ground points of a lidar point cloud by rules on the lowest points of cells.</source>
@@ -402,6 +442,14 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>Format of the output</source>
         <translation>Format de sortie</translation>
+    </message>
+    <message>
+        <source>From a raw point cloud to heights above ground, of points and as a raster.</source>
+        <translation>Du nuage de points brut aux hauteurs au-dessus du sol, des points et en raster.</translation>
+    </message>
+    <message>
+        <source>From a raw point cloud to terrain model, hillshade and contour lines.</source>
+        <translation>Du nuage de points brut au modèle de terrain, à l'ombrage et aux courbes de niveau.</translation>
     </message>
     <message>
         <source>From a wheel file…</source>
@@ -536,6 +584,14 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Azimut de l'ombrage</translation>
     </message>
     <message>
+        <source>Hillshade, TIN densification</source>
+        <translation>Ombrage, densification de TIN</translation>
+    </message>
+    <message>
+        <source>Hillshade, slope filter</source>
+        <translation>Ombrage, filtre de pente</translation>
+    </message>
+    <message>
         <source>Hilly land, forest</source>
         <translation>Terrain vallonné, forêt</translation>
     </message>
@@ -574,6 +630,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>In the command line the boundary is missing: save it in the CRS of the points as boundary.geojson, and add --boundary boundary.geojson.</source>
         <translation>Dans la ligne de commande, la limite manque : enregistrez-la dans le SCR des points comme boundary.geojson, et ajoutez --boundary boundary.geojson.</translation>
+    </message>
+    <message>
+        <source>In the command line the corrections are missing: save them in the CRS of the points as corrections.geojson, their class as the attribute "{}", and add --corrections corrections.geojson.</source>
+        <translation>Dans la ligne de commande, les corrections manquent : enregistrez-les dans le SCR des points comme corrections.geojson, leur classe comme attribut « {} », et ajoutez --corrections corrections.geojson.</translation>
     </message>
     <message>
         <source>In the command line the layers are missing: save them as GeoJSON.</source>
@@ -738,6 +798,22 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Nombre minimal de voisins</translation>
     </message>
     <message>
+        <source>Model: heights above ground</source>
+        <translation>Modèle : hauteurs au-dessus du sol</translation>
+    </message>
+    <message>
+        <source>Model: terrain, hillshade and contours</source>
+        <translation>Modèle : terrain, ombrage et courbes de niveau</translation>
+    </message>
+    <message>
+        <source>Model: two methods compared</source>
+        <translation>Modèle : deux méthodes comparées</translation>
+    </message>
+    <message>
+        <source>Models</source>
+        <translation>Modèles</translation>
+    </message>
+    <message>
         <source>No Python interpreter was found beside this QGIS, so pip cannot be run: choose a wheel file instead.</source>
         <translation>Aucun interpréteur Python n'a été trouvé à côté de ce QGIS, pip ne peut donc pas s'exécuter : choisissez plutôt un fichier wheel.</translation>
     </message>
@@ -870,6 +946,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Polygones où aucun point n'est du sol, comme les ponts et les toits.</translation>
     </message>
     <message>
+        <source>Polygons in which the class is known: it holds whatever the filter makes of the points. Where it is that of the ground, points of the wanted returns are ground; else all points get it, and the filter does not see them. Where polygons overlap, the last one counts.</source>
+        <translation>Polygones où la classe est connue : elle vaut quoi que le filtre fasse des points. Si c'est celle du sol, les points des retours voulus sont du sol ; sinon, tous les points la reçoivent, et le filtre ne les voit pas. Là où des polygones se recouvrent, le dernier compte.</translation>
+    </message>
+    <message>
         <source>Polygons of water: flattened to one level, that of the ground along their border.</source>
         <translation>Polygones d'eau : aplanis à un seul niveau, celui du sol le long de leur bord.</translation>
     </message>
@@ -912,6 +992,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Reference</source>
         <translation>Référence</translation>
+    </message>
+    <message>
+        <source>Remember the classes</source>
+        <translation>Mémoriser les classes</translation>
     </message>
     <message>
         <source>Remove</source>
@@ -988,6 +1072,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Side of a cell of the terrain model and of its hillshade. About the distance between ground points is sensible; smaller cells only make the file larger.</source>
         <translation>Côté d'une cellule du modèle de terrain et de son ombrage. Il est raisonnable de prendre environ la distance entre points sol ; des cellules plus petites ne font qu'agrandir le fichier.</translation>
+    </message>
+    <message>
+        <source>Side of the cells of the rasters, about the distance between ground points.</source>
+        <translation>Côté des cellules des rasters, environ la distance entre points sol.</translation>
     </message>
     <message>
         <source>Side of the cells whose lowest points are compared in the automatic preset. Empty: 1 m, more if points are sparse.</source>
@@ -1106,6 +1194,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Modèles de terrain, de surface et de hauteur de canopée</translation>
     </message>
     <message>
+        <source>The attribute of these polygons that says their class: 2 is ground, 1 nothing else.</source>
+        <translation>L'attribut de ces polygones qui donne leur classe : 2 est le sol, 1 rien de plus.</translation>
+    </message>
+    <message>
         <source>The boundary cannot be read. Choose a layer of polygons.</source>
         <translation>La limite ne peut pas être lue. Choisissez une couche de polygones.</translation>
     </message>
@@ -1124,6 +1216,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>The class that key points get. Points that have it already are taken as ground, and get the first of the ground classes again if they are not needed. Point formats 0 to 5 hold classes up to 31.</source>
         <translation>La classe que reçoivent les points clés. Les points qui l'ont déjà comptent comme sol, et reprennent la première des classes de sol s'ils ne sont pas nécessaires. Les formats de point 0 à 5 contiennent des classes jusqu'à 31.</translation>
+    </message>
+    <message>
+        <source>The corrections have no attribute {}. Choose the one to use.</source>
+        <translation>Les corrections n'ont pas d'attribut {}. Choisissez celui à utiliser.</translation>
     </message>
     <message>
         <source>The elevation raster is not a file. Export it as GeoTIFF first.</source>
@@ -1326,6 +1422,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Ce que deviennent les tabliers de ponts. On les trouve par des profils en travers qui tombent vers un sol plus bas des deux côtés ; les rampes, les digues et les remblais restent du sol. Un préréglage classique (Whitebox, LiDAR360, l'article) fait exactement ce que fait l'original.</translation>
     </message>
     <message>
+        <source>What the land is like. automatic: judged by the points.</source>
+        <translation>Comment est le terrain. automatic : jugé d'après les points.</translation>
+    </message>
+    <message>
         <source>Wheel file of lazrs</source>
         <translation>Fichier wheel de lazrs</translation>
     </message>
@@ -1348,6 +1448,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Where the values come from that are left empty: what suits most land (automatic) or a kind of terrain. The log says which values were used.</source>
         <translation>D'où viennent les valeurs des champs vides : de ce qui convient à la plupart des terrains (automatique) ou à un type de terrain. Le journal dit quelles valeurs ont servi.</translation>
+    </message>
+    <message>
+        <source>Where they differ</source>
+        <translation>Où elles diffèrent</translation>
     </message>
     <message>
         <source>Whitebox (one scale, 2 m, 45 deg, 1 m)</source>

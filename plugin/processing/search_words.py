@@ -43,6 +43,9 @@ _WORDS = {
             "lindsay,top-hat"
         ),
     ),
+    "terraincontours": (_CLOUD, _GROUND, _TERRAIN, mark("contours,workflow")),
+    "cloudheights": (_CLOUD, _GROUND, _CANOPY, mark("height,extra bytes")),
+    "twomethods": (_CLOUD, _GROUND, mark("preview,try,test,preset,parameters,compare,profile")),
 }  # fmt: skip
 
 

@@ -210,7 +210,8 @@ def test_an_algorithm_says_what_it_is(each):
 
 def test_each_algorithm_has_an_icon_of_its_own(registry):
     provider = registry.providerById("bareearth")
-    paths = {each.id(): each.svgIconPath() for each in provider.algorithms()}
+    algorithms = [each for each in provider.algorithms() if each.id() in PARAMETERS]
+    paths = {each.id(): each.svgIconPath() for each in algorithms}
     assert len({*paths.values(), provider.svgIconPath()}) == len(paths) + 1
     for name, path in paths.items():
         assert f"{name.partition(':')[2]}.svg" == os.path.basename(path)
