@@ -166,6 +166,12 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
             paragraphs.append(f"<b>{_plain(title_of(each))}</b>: {_plain(help_of(each))}")
             if each.name == "preset":
                 paragraphs.append(presets_of(self.parameter_sets()))
+        # Fields that are not declared, such as layers, say themselves what they are.
+        declared = {title_of(each) for each in ordered}
+        for field in self.parameterDefinitions():
+            title = field.description()
+            if field.help() and title not in declared and f"<b>{title}</b>" not in self.about:
+                paragraphs.append(f"<b>{title}</b>: {field.help()}")
         return "\n".join(paragraphs)
 
     def createInstance(self) -> BareEarthAlgorithm:

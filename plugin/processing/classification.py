@@ -15,10 +15,9 @@ from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified
-from .corrections import CORRECTIONS_HELP, NOT_IN_COMMAND, add_corrections, corrections_of
+from .corrections import add_corrections, corrections_of
 from .feedback import FeedbackProgress
 from .inputs import (
-    AREA_FIELDS,
     PointCloudInput,
     add_area,
     area_of,
@@ -73,11 +72,6 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         self.addOutput(QgsProcessingOutputNumber("SELECTED_COUNT", "Points that took part"))
         self.addOutput(QgsProcessingOutputNumber("GROUND_COUNT", "Ground points"))
 
-    def shortHelpString(self) -> str:
-        """Return the help, the fields of area and corrections in it."""
-        area = [f"<b>{label}</b>: {text}" for label, text in AREA_FIELDS.values()]
-        return "\n".join([super().shortHelpString(), *area, CORRECTIONS_HELP])
-
     def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
         """Find the input's file."""
         self._source = source_path(self, parameters, "INPUT", context)
@@ -94,7 +88,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         if ignored_filter(self, parameters, "INPUT", context):
             progress.warning("The layer's filter is not applied: all points are read.")
         self._area = area_of(self, parameters, context, self._source)
-        self._corrections = corrections_of(self, parameters, context, self._source)
+        self._corrections = corrections_of(self, parameters, context, self._source, progress)
 
     def compute(
         self,
@@ -113,8 +107,6 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         options = {"method": self.method, **paths}
         command = command_line("classify", [str(self._source), output], chosen, options)
         progress.command(" ".join([command, *self._area_options(progress)]))
-        if self._corrections.polygons:
-            progress.info(NOT_IN_COMMAND)
         known = {"area": self._area, "corrections": self._corrections}
         request = ClassifyRequest.of(chosen, rasters=raster_files(paths), **known)
         summary = classify_file(self._source, Path(output), request, progress)

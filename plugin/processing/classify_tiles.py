@@ -13,7 +13,7 @@ from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified
-from .corrections import CORRECTIONS_HELP, NOT_IN_COMMAND, add_corrections, corrections_of
+from .corrections import add_corrections, corrections_of
 from .inputs import FOLDER_HELP, add_clouds, clouds_of, names_of
 from .outputs import add_rasters, raster_files, raster_paths
 
@@ -33,7 +33,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
     about = (
         "Classifies the ground points of many files, each as if all were one, and writes each anew"
         " under its name. A virtual point cloud (.vpc) lists the results.\n"
-    ) + f"{FOLDER_HELP}\n{CORRECTIONS_HELP}"
+    ) + FOLDER_HELP
     shown = "method", "preset"
     keywords = (
         "lidar", "point cloud", "las", "laz", "copc", "vpc", "tiles", "batch", "survey", "folder",
@@ -63,16 +63,13 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         from ...algorithms.engine.many_files import classify_files
         from ...algorithms.engine.requests import ClassifyRequest
 
-        chosen = self.chosen(parameters, context)
-        sources = self._sources
+        chosen, sources = self.chosen(parameters, context), self._sources
         folder = Path(self.parameterAsFileOutput(parameters, "OUTPUT_FOLDER", context))
         vpc = self.parameterAsFileOutput(parameters, "OUTPUT_VPC", context)
         paths = raster_paths(self, parameters, context)
         words, options = [*map(str, sources), str(folder)], {"VPC": vpc, **paths}
         progress.command(command_line("classify-tiles", words, chosen, options))
-        known = corrections_of(self, parameters, context, sources[0])
-        if known.polygons:
-            progress.info(NOT_IN_COMMAND)
+        known = corrections_of(self, parameters, context, sources[0], progress)
         request = ClassifyRequest.of(chosen, rasters=raster_files(paths), corrections=known)
         summary = classify_files(sources, folder, request, progress, vpc=vpc or None)
         progress.info(f"{summary.text}.")

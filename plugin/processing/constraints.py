@@ -49,9 +49,6 @@ _FIELDS = {
 }
 
 
-CONSTRAINT_HELP = [f"<b>{label}</b>: {text}" for label, _, text in _FIELDS.values()]
-
-
 def add_constraints(algorithm: QgsProcessingAlgorithm) -> None:
     """Add the fields of the layers to a dialog, folded away."""
     for name, (label, kind, text) in _FIELDS.items():

@@ -13,6 +13,7 @@ from qgis.core import (
 )
 
 from ...algorithms.core.errors import BareEarthError
+from ...algorithms.core.progress import SILENT, Progress
 from ...algorithms.survey.collection import find_files
 from ...algorithms.survey.corrections import CLASS_FIELD, Corrections
 from .. import compat
@@ -33,8 +34,7 @@ _TEXTS = {
         "The attribute of these polygons that says their class: 2 is ground, 1 nothing else.",
     ),
 }
-CORRECTIONS_HELP = "\n".join(f"<b>{label}</b>: {text}" for label, text in _TEXTS.values())
-NOT_IN_COMMAND = (
+_NOT_IN_COMMAND = (
     "In the command line the corrections are missing: save them in the CRS of the points as"
     f' corrections.geojson, their class as the attribute "{CLASS_FIELD}", and add --corrections'
     " corrections.geojson."
@@ -59,8 +59,11 @@ def corrections_of(
     parameters: dict[str, Any],
     context: QgsProcessingContext,
     cloud: Path,
+    progress: Progress = SILENT,
 ) -> Corrections:
     """Return what the fields hold, in the CRS of a cloud, which may be a folder or a list.
+
+    Progress is told what the command line lacks.
 
     Raises
     ------
@@ -73,6 +76,7 @@ def corrections_of(
     source = algorithm.parameterAsSource(parameters, _LAYER, context)
     if source is not None and source.fields().lookupField(name) < 0:
         raise BareEarthError(f"The corrections have no attribute {name}. Choose the one to use.")
+    progress.info(_NOT_IN_COMMAND)
     crs = crs_of(find_files([cloud])[0])
     found = [
         (polygon, feature[name])

@@ -16,7 +16,7 @@ from ...algorithms.survey.selection import Selection
 from ..styles.layers import BELOW_TERRAIN, contours
 from .base import BareEarthAlgorithm
 from .classified import show_classified
-from .corrections import CORRECTIONS_HELP, add_corrections, corrections_of
+from .corrections import add_corrections, corrections_of
 from .inputs import SURVEY_HELP, add_survey, names_of, survey_of
 from .outputs import RASTERS, add_cloud, add_rasters, do_not_load, raster_files, raster_paths
 
@@ -29,8 +29,7 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
     summary = "Makes a map of the terrain of a raw point cloud: classes, models, contours."
     about = (
         "Finds the ground of a raw lidar point cloud and makes maps of it, of which any may be"
-        " left out. Local relief shows small features. Lengths are metres.\n"
-        f"{SURVEY_HELP}\n{CORRECTIONS_HELP}"
+        f" left out. Local relief shows small features. Lengths are metres.\n{SURVEY_HELP}"
     )
     shown = "method", "preset", "dtm_cell_size"
     keywords = (
@@ -39,8 +38,7 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
 
     def parameter_sets(self):
         """Return method, cells, and all that may be left as it is."""
-        products = TerrainModel, Selection, SurfaceModel, Contours, LocalRelief, Resources
-        return TileMethod, *products
+        return TileMethod, TerrainModel, Selection, SurfaceModel, Contours, LocalRelief, Resources
 
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""
@@ -78,5 +76,4 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
             do_not_load(context, {cloud} - {made})
             how = request.selection.to_class, request.terrain.dtm_cell_size, context, progress
             show_classified(self, made, summary.class_counts, *how, BELOW_TERRAIN)
-        counts = {"POINT_COUNT": summary.point_count, "GROUND_COUNT": summary.ground_count}
-        return {**results, **counts}
+        return {**results, "POINT_COUNT": summary.point_count, "GROUND_COUNT": summary.ground_count}

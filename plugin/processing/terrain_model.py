@@ -8,7 +8,7 @@ from ...algorithms.products.surface_model import SurfaceModel
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.ground_classes import GroundClasses
 from .base import command_line
-from .constraints import CONSTRAINT_HELP, add_constraints, constraints_of
+from .constraints import add_constraints, constraints_of
 from .outputs import add_rasters, raster_files, raster_paths
 from .products import ProductAlgorithm
 
@@ -36,10 +36,6 @@ class TerrainModelAlgorithm(ProductAlgorithm):
     def parameter_sets(self):
         """Return ground classes, cells and light, what makes the surface, and what may be used."""
         return GroundClasses, TerrainModel, SurfaceModel, Resources
-
-    def shortHelpString(self):
-        """Return the help, the layers in it."""
-        return "\n".join([super().shortHelpString(), *CONSTRAINT_HELP])
 
     def add_outputs(self):
         """Add what the terrain must respect, and the rasters; none of them has to be made."""
