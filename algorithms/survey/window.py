@@ -150,7 +150,9 @@ def _touches(layout: LasFile, box: Box) -> bool:
 
 def _cloud(layout: LasFile, parts: Iterator[Columns], progress: Progress) -> PointCloud:
     names = _columns(layout)
-    kept = {name: [np.empty(0, dtype=kind)] for name, (_, kind) in names.items()}
+    kept: dict[str, list[np.ndarray]] = {
+        name: [np.empty(0, dtype=kind)] for name, (_, kind) in names.items()
+    }
     for part in parts:
         for name, values in part.items():
             kept[name].append(values)

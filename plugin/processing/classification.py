@@ -16,7 +16,7 @@ from ...algorithms.survey.selection import Selection
 from ..i18n import tr
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified
-from .corrections import add_corrections, corrections_of, not_in_command
+from .corrections import add_corrections, corrections_of
 from .feedback import FeedbackProgress
 from .inputs import (
     CLOUD_HELP,
@@ -90,7 +90,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         if ignored_filter(self, parameters, "INPUT", context):
             progress.warning(tr("The layer's filter is not applied: all points are read."))
         self._area = area_of(self, parameters, context, self._source)
-        self._corrections = corrections_of(self, parameters, context, self._source)
+        self._corrections = corrections_of(self, parameters, context, self._source, progress)
 
     def compute(
         self,
@@ -109,8 +109,6 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         options = {"method": self.method, **paths}
         command = command_line("classify", [str(self._source), output], chosen, options)
         progress.command(" ".join([command, *self._area_options(progress)]))
-        if self._corrections.polygons:
-            progress.info(not_in_command())
         known = {"area": self._area, "corrections": self._corrections}
         request = ClassifyRequest.of(chosen, rasters=raster_files(paths), **known)
         summary = classify_file(self._source, Path(output), request, progress)

@@ -11,7 +11,7 @@ from ...algorithms.survey.selection import Selection
 from ..i18n import mark
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified
-from .corrections import add_corrections, corrections_of, not_in_command
+from .corrections import add_corrections, corrections_of
 from .inputs import add_clouds, clouds_of, names_of
 from .outputs import add_rasters, add_tiles, raster_files, raster_paths
 
@@ -59,16 +59,13 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         from ...algorithms.engine.many_files import classify_files
         from ...algorithms.engine.requests import ClassifyRequest
 
-        chosen = self.chosen(parameters, context)
-        sources = self._sources
+        chosen, sources = self.chosen(parameters, context), self._sources
         folder = Path(self.parameterAsFileOutput(parameters, "OUTPUT_FOLDER", context))
         vpc = self.parameterAsFileOutput(parameters, "OUTPUT_VPC", context)
         paths = raster_paths(self, parameters, context)
         words, options = [*map(str, sources), str(folder)], {"VPC": vpc, **paths}
         progress.command(command_line("classify-tiles", words, chosen, options))
-        known = corrections_of(self, parameters, context, sources[0])
-        if known.polygons:
-            progress.info(not_in_command())
+        known = corrections_of(self, parameters, context, sources[0], progress)
         request = ClassifyRequest.of(chosen, rasters=raster_files(paths), corrections=known)
         summary = classify_files(sources, folder, request, progress, vpc=vpc or None)
         progress.info(f"{summary.text}.")

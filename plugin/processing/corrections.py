@@ -13,6 +13,7 @@ from qgis.core import (
 )
 
 from ...algorithms.core.errors import BareEarthError
+from ...algorithms.core.progress import SILENT, Progress
 from ...algorithms.survey.collection import find_files
 from ...algorithms.survey.corrections import CLASS_FIELD, Corrections
 from .. import compat
@@ -36,15 +37,6 @@ _TEXTS = {
 }
 
 
-def not_in_command() -> str:
-    """Return what to add to the command that does the same without QGIS."""
-    return tr(
-        "In the command line the corrections are missing: save them in the CRS of the points as"
-        ' corrections.geojson, their class as the attribute "{}", and add --corrections'
-        " corrections.geojson."
-    ).format(CLASS_FIELD)
-
-
 def add_corrections(algorithm: QgsProcessingAlgorithm) -> None:
     """Add the fields of the layer to a dialog, folded away."""
     labels = {name: label for name, (label, _) in _TEXTS.items()}
@@ -62,8 +54,11 @@ def corrections_of(
     parameters: dict[str, Any],
     context: QgsProcessingContext,
     cloud: Path,
+    progress: Progress = SILENT,
 ) -> Corrections:
     """Return what the fields hold, in the CRS of a cloud, which may be a folder or a list.
+
+    Progress is told what the command line lacks.
 
     Raises
     ------
@@ -78,6 +73,12 @@ def corrections_of(
         raise BareEarthError(
             tr("The corrections have no attribute {}. Choose the one to use.").format(name)
         )
+    text = tr(
+        "In the command line the corrections are missing: save them in the CRS of the points as"
+        ' corrections.geojson, their class as the attribute "{}", and add --corrections'
+        " corrections.geojson."
+    )
+    progress.info(text.format(CLASS_FIELD))
     crs = crs_of(find_files([cloud])[0])
     found = [
         (polygon, feature[name])

@@ -34,8 +34,7 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
 
     def parameter_sets(self):
         """Return method, cells, and all that may be left as it is."""
-        products = TerrainModel, Selection, SurfaceModel, Contours, LocalRelief, Resources
-        return TileMethod, *products
+        return TileMethod, TerrainModel, Selection, SurfaceModel, Contours, LocalRelief, Resources
 
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""
@@ -73,5 +72,4 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
             outputs.do_not_load(context, {cloud} - {made})
             how = request.selection.to_class, request.terrain.dtm_cell_size, context, progress
             show_classified(self, made, summary.class_counts, *how, BELOW_TERRAIN)
-        counts = {"POINT_COUNT": summary.point_count, "GROUND_COUNT": summary.ground_count}
-        return {**results, **counts}
+        return {**results, "POINT_COUNT": summary.point_count, "GROUND_COUNT": summary.ground_count}
