@@ -9,6 +9,7 @@ from qgis.PyQt.QtGui import QIcon
 
 from .. import __version__
 from .processing import ALGORITHMS
+from .processing.models import shipped_models
 from .processing.outputs import point_cloud_formats
 
 ICON = Path(__file__).parent / "icons" / "bare_earth.svg"
@@ -42,9 +43,9 @@ class BareEarthProvider(QgsProcessingProvider):
         return str(ICON)
 
     def loadAlgorithms(self) -> None:
-        """Add an instance of each algorithm."""
-        for algorithm in ALGORITHMS:
-            self.addAlgorithm(algorithm())
+        """Add an instance of each algorithm, and the models that come along."""
+        for algorithm in [*(each() for each in ALGORITHMS), *shipped_models()]:
+            self.addAlgorithm(algorithm)
 
     def supportsNonFileBasedOutput(self) -> bool:
         """Say that outputs are files."""

@@ -8,7 +8,7 @@ from qgis.core import QgsProcessingContext, QgsProcessingParameterEnum
 
 LABELS = "labels"
 # By its name: QGIS makes one for a dialog, and qgis_process imports no widgets.
-_WIDGET = f"{__package__}.choice_widget.ChoiceWidget"
+_WIDGET = f"{__package__}.widgets.ChoiceWidget"
 
 
 class ChoiceParameter(QgsProcessingParameterEnum):

@@ -1,6 +1,8 @@
 """A real QGIS without a window, with the plugin's provider, and a scene whose truth is known."""
 
 import os
+import shutil
+import subprocess
 import sys
 from pathlib import Path
 
@@ -60,6 +62,21 @@ def context():
 @pytest.fixture
 def log():
     return Log()
+
+
+@pytest.fixture
+def qgis_process(tmp_path):
+    """What runs qgis_process with some words, in a profile where the plugin is enabled."""
+    # Debian 12 starts it by a script that adds an option which its QGIS does not know.
+    program = shutil.which("qgis_process.bin") or shutil.which("qgis_process")
+    environment = {**os.environ, "HOME": str(tmp_path), "QGIS_CUSTOM_CONFIG_PATH": str(tmp_path)}
+
+    def run(*words):
+        return subprocess.run([program, *words], capture_output=True, text=True, env=environment)
+
+    done = run("plugins", "enable", "bare_earth")
+    assert done.returncode == 0, done.stderr
+    return run
 
 
 @pytest.fixture(params=[".las", ".laz"])

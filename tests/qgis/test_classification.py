@@ -2,8 +2,6 @@ import importlib.util
 import json
 import os
 import shlex
-import shutil
-import subprocess
 
 import laspy
 import numpy as np
@@ -135,23 +133,13 @@ def test_temporary_outputs(scene):
     assert os.path.getsize(results["OUTPUT"]) and results["DTM"].endswith(".tif")
 
 
-def run_qgis_process(*words, **options):
-    # Debian 12 starts it by a script that adds an option which its QGIS does not know.
-    program = shutil.which("qgis_process.bin") or shutil.which("qgis_process")
-    return subprocess.run([program, *words], capture_output=True, text=True, **options)
-
-
-def test_qgis_process(scene, out, tmp_path):
-    environment = {**os.environ, "HOME": str(tmp_path), "QGIS_CUSTOM_CONFIG_PATH": str(tmp_path)}
-    run_qgis_process("plugins", "enable", "bare_earth", env=environment, check=True)
+def test_qgis_process(scene, out, tmp_path, qgis_process):
     parameters = [f"{name}={value}" for name, value in everything(scene, out).items()]
-    done = run_qgis_process(
-        "--json", "run", ALGORITHM, "--", *parameters, "STOP_EDGE=", env=environment
-    )
+    done = qgis_process("--json", "run", ALGORITHM, "--", *parameters, "STOP_EDGE=")
     assert done.returncode == 0, done.stderr
     check(scene, json.loads(done.stdout[done.stdout.index("{") :])["results"])
     parameters[0] = f"INPUT={tmp_path / 'missing.laz'}"
-    done = run_qgis_process("run", ALGORITHM, "--", *parameters, env=environment)
+    done = qgis_process("run", ALGORITHM, "--", *parameters)
     assert done.returncode != 0
     assert "does not exist" in done.stdout + done.stderr
     assert "Traceback" not in done.stdout + done.stderr
