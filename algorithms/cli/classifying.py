@@ -85,11 +85,11 @@ def _classify(options: argparse.Namespace) -> int:
     from ..engine.one_file import classify_file
     from ..engine.requests import ClassifyRequest
     from ..survey.collection import is_one_file
-    from ..survey.corrections import Corrections
+    from ..survey.corrections import NO_CORRECTIONS
     from ..survey.vector_files import read_corrections
 
     area = _area_of(options)
-    corrections = Corrections()
+    corrections = NO_CORRECTIONS
     if options.corrections is not None:
         corrections = read_corrections(options.corrections)
     request = ClassifyRequest.of(

@@ -16,7 +16,7 @@ from ..las.cloud import PointCloud
 from ..las.edits import Edits
 from ..survey.area import Area
 from ..survey.collection import Tile
-from ..survey.corrections import Corrections
+from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.point_chooser import ChosenTally, PointChooser
 from ..survey.selection import Selection
 from ..survey.tally import count_classes
@@ -76,7 +76,7 @@ class LabelGround(PointStep):
     area: Area | None = None
     output: Output = field(default_factory=Output)
     cut: Blocks | None = None
-    corrections: Corrections = field(default_factory=Corrections)
+    corrections: Corrections = NO_CORRECTIONS
 
     summary_type = ClassifiedSummary
     vpc_name = "classified.vpc"

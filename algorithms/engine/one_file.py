@@ -20,7 +20,7 @@ from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..las.writing import check_writable, is_copc, layers_kept, write_changed
 from ..survey.area import Area
-from ..survey.corrections import Corrections
+from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.selection import Selection
 from .file_points import FilePoints, fits_in_memory
 from .labelling import ClassifiedPoints, LabelGround
@@ -65,7 +65,7 @@ def classify_cloud(
     progress: Progress = SILENT,
     area: Area | None = None,
     resources: Resources = Resources(),
-    corrections: Corrections = Corrections(),
+    corrections: Corrections = NO_CORRECTIONS,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Classify the points of a cloud in memory.
 

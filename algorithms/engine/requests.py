@@ -14,7 +14,7 @@ from ..las.lasfile import LasFile
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import TerrainModel
 from ..survey.area import Area
-from ..survey.corrections import Corrections
+from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
 from .constraints import Constraints, fixed_terrain
@@ -91,7 +91,7 @@ class ClassifyRequest(Request):
     parameters: ParameterSet = field(default_factory=METHODS[DEFAULT_METHOD].parameters)
     selection: Selection = field(default_factory=Selection)
     area: Area | None = None
-    corrections: Corrections = field(default_factory=Corrections)
+    corrections: Corrections = NO_CORRECTIONS
     output: Output = field(default_factory=Output)
     rasters: RasterFiles = field(default_factory=RasterFiles)
     terrain: TerrainModel = field(default_factory=TerrainModel)

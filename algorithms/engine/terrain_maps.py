@@ -16,7 +16,7 @@ from ..products.local_relief import LocalRelief, write_local_relief
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import TerrainModel
 from ..survey.collection import is_one_file
-from ..survey.corrections import Corrections
+from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
 from .many_files import classify_files
@@ -59,7 +59,7 @@ class MapRequest(Request):
     surface: SurfaceModel = field(default_factory=SurfaceModel)
     contours: Contours = field(default_factory=Contours)
     relief: LocalRelief = field(default_factory=LocalRelief)
-    corrections: Corrections = field(default_factory=Corrections)
+    corrections: Corrections = NO_CORRECTIONS
 
     @property
     def classify(self) -> ClassifyRequest:

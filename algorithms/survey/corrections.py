@@ -75,6 +75,9 @@ def _class(value: Any) -> int:
     return int(number)
 
 
+NO_CORRECTIONS = Corrections()
+
+
 class ByHand(NamedTuple):
     """What is known of points by hand.
 

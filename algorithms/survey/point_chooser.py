@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +12,7 @@ from ..core.progress import Progress
 from ..las.cloud import PointCloud
 from ..las.records import check_class
 from .area import Area, box_in_words
-from .corrections import ByHand, Corrections
+from .corrections import NO_CORRECTIONS, ByHand, Corrections
 from .selection import Selection
 from .tally import Tally
 
@@ -65,7 +65,7 @@ class PointChooser:
     selection: Selection
     area: Area | None = None
     context: float = 0.0
-    corrections: Corrections = field(default_factory=Corrections)
+    corrections: Corrections = NO_CORRECTIONS
 
     def choose(
         self, part: PointCloud, tally: ChosenTally

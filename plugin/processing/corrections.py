@@ -15,7 +15,7 @@ from qgis.core import (
 from ...algorithms.core.errors import BareEarthError
 from ...algorithms.core.progress import SILENT, Progress
 from ...algorithms.survey.collection import find_files
-from ...algorithms.survey.corrections import CLASS_FIELD, Corrections
+from ...algorithms.survey.corrections import CLASS_FIELD, NO_CORRECTIONS, Corrections
 from .. import compat
 from ..i18n import tr
 from .constraints import features_of
@@ -66,7 +66,7 @@ def corrections_of(
         If the layer cannot be read, or a polygon has no class.
     """
     if is_empty(parameters.get(_LAYER)):
-        return Corrections()
+        return NO_CORRECTIONS
     name = algorithm.parameterAsString(parameters, _FIELD, context) or CLASS_FIELD
     source = algorithm.parameterAsSource(parameters, _LAYER, context)
     if source is not None and source.fields().lookupField(name) < 0:
