@@ -131,27 +131,28 @@ def classify_file(
     las, resources = _checked(source, target, request.resources)
     request.rasters.check((source, target))
     step, products = request.step, _products(request)
-    tally, first = step.tally(), progress.part(0.0, 0.2)
+    tally = step.tally()
+    made_too = 1.5 * ("rasters" in products), 2.5 * ("heights" in products)
+    first, finding, drawing, measuring, last = progress.shares(3.0, 5.0, *made_too, 1.0)
     is_copied = not request.output.changes_points and layers_kept(las, target) is not None
     _check_copc(las, target, is_copied, resources)
     with contextlib.ExitStack() as outputs:
         outputs.enter_context(may_use(resources.thread_count))
         points = FilePoints.opened(las, target, resources, not is_copied, first)
         outputs.enter_context(points)
-        result, stores = points.find(step, tally, progress.part(0.2, 0.65), list(products.values()))
+        result, stores = points.find(step, tally, finding, list(products.values()))
         result.tell(progress)
         waiting, heights = dict(zip(products, stores)), None
         # All outputs or none: the rasters get their names after the cloud is written.
         if "rasters" in products:
-            made = products["rasters"].work(
-                waiting["rasters"], points.resources, progress.part(0.65, 0.75)
-            )
-            frame, part = survey_frame(points.cloud.crs), progress.part(0.75, 0.85)
-            write_rasters(made, frame, products["rasters"].request, outputs, part)
+            part, writing = drawing.shares(1.5, 1.0)
+            made = products["rasters"].work(waiting["rasters"], points.resources, part)
+            frame = survey_frame(points.cloud.crs)
+            write_rasters(made, frame, products["rasters"].request, outputs, writing)
         if "heights" in products:
-            heights = _worked(points, products["heights"], waiting["heights"], progress).heights
+            heights = _worked(points, products["heights"], waiting["heights"], measuring).heights
         edits = result.edits(points.cloud, progress, heights)
-        write_changed(las, target, edits, progress.part(0.9, 1.0), points.cloud)
+        write_changed(las, target, edits, last, points.cloud)
     return _summary(result, tally, request)
 
 
@@ -167,9 +168,9 @@ def _products(request: ClassifyRequest) -> dict[str, Step]:
 
 def _worked(points: FilePoints, step: PointStep, store: Any, progress: Progress) -> Any:
     """Return what a further step finds of the points of a store."""
-    step.work(store, points.resources, progress.part(0.85, 0.9))
+    step.work(store, points.resources, progress.part(0.0, 0.9))
     result = step.result(points.path, points.room)
-    for where, part, values in points.values(store):
+    for where, part, values in points.values(store, progress.part(0.9, 1.0)):
         result.add(where, part, values)
     return result
 
