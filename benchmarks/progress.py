@@ -37,19 +37,25 @@ _RASTERS = ("dtm", "dsm", "chm", "hillshade", "confidence")
 
 
 class Recorder(Progress):
-    """Keeps when which figure was reported."""
+    """Keeps when which figure was reported.
 
-    def __init__(self) -> None:
-        self._begun = time.perf_counter()
+    Parameters
+    ----------
+    clock : callable
+        Returns seconds: those on the wall, or of the processor, to which other work is nothing.
+    """
+
+    def __init__(self, clock: Callable[[], float] = time.perf_counter) -> None:
+        self._clock, self._begun = clock, clock()
         self.moments: list[tuple[float, float]] = []
 
     def report(self, fraction: float) -> None:
         """Keep it."""
-        self.moments.append((time.perf_counter() - self._begun, fraction))
+        self.moments.append((self._clock() - self._begun, fraction))
 
     def pace(self) -> Pace:
         """Return how even it was, once the run is over."""
-        end = time.perf_counter() - self._begun
+        end = self._clock() - self._begun
         return pace_of([(0.0, 0.0), *self.moments], end)
 
 

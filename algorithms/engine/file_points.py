@@ -232,15 +232,15 @@ class FilePoints:
         Cancelled
             If the user asked to stop.
         """
-        parts = self.parts(progress.part(0.0, 0.15))
-        (store,) = self.gathered([(step, tally)], parts, progress.part(0.15, 0.2))
-        step.work(store, self.resources, progress.part(0.2, 0.9))
+        parts = self.parts(progress.part(0.0, 0.08))
+        (store,) = self.gathered([(step, tally)], parts, progress.part(0.08, 0.12))
+        step.work(store, self.resources, progress.part(0.12, 0.94))
         result = step.result(self.path, self.room)
 
         def found() -> Parts:
-            for where, part, values in self.values(store, progress.part(0.9, 0.95)):
+            for where, part, values in self.values(store, progress.part(0.94, 0.97)):
                 result.add(where, part, values)
                 yield where, result.part(where, part)
 
         steps = [(each, each.tally()) for each in then]
-        return result, self.gathered(steps, found(), progress.part(0.95, 1.0))
+        return result, self.gathered(steps, found(), progress.part(0.97, 1.0))

@@ -132,8 +132,9 @@ def classify_file(
     request.rasters.check((source, target))
     step, products = request.step, _products(request)
     tally = step.tally()
-    made_too = 1.5 * ("rasters" in products), 2.5 * ("heights" in products)
-    first, finding, drawing, measuring, last = progress.shares(3.0, 5.0, *made_too, 1.0)
+    # Reading and writing move in small steps, and need no large share however long they take.
+    made_too = 4.0 * ("rasters" in products), 3.0 * ("heights" in products)
+    first, finding, drawing, measuring, last = progress.shares(1.5, 5.0, *made_too, 0.8)
     is_copied = not request.output.changes_points and layers_kept(las, target) is not None
     _check_copc(las, target, is_copied, resources)
     with contextlib.ExitStack() as outputs:
@@ -145,7 +146,7 @@ def classify_file(
         waiting, heights = dict(zip(products, stores)), None
         # All outputs or none: the rasters get their names after the cloud is written.
         if "rasters" in products:
-            part, writing = drawing.shares(1.5, 1.0)
+            part, writing = drawing.shares(4.0, 1.0)
             made = products["rasters"].work(waiting["rasters"], points.resources, part)
             frame = survey_frame(points.cloud.crs)
             write_rasters(made, frame, products["rasters"].request, outputs, writing)
@@ -223,11 +224,11 @@ def write_points(
     las, resources = _checked(source, target, resources)
     _check_copc(las, target, False, resources)
     with may_use(resources.thread_count):
-        first = progress.part(0.0, 0.15)
+        first = progress.part(0.0, 0.1)
         with FilePoints.opened(las, target, resources, progress=first) as points:
-            result, _ = points.find(step, step.tally(), progress.part(0.15, 0.8))
+            result, _ = points.find(step, step.tally(), progress.part(0.1, 0.9))
             edits = result.edits(points.cloud, progress)
-            write_changed(las, target, edits, progress.part(0.8, 1.0), points.cloud)
+            write_changed(las, target, edits, progress.part(0.9, 1.0), points.cloud)
     return result.summary(target.name)
 
 
@@ -255,15 +256,15 @@ def rasters_of_file(
     resources = request.resources.now()
     beside = next(iter(request.rasters.wanted.values()))
     with may_use(resources.thread_count), contextlib.ExitStack() as outputs:
-        las, first = open_las(source), progress.part(0.1, 0.2)
-        step = request.raster_step([las], progress.part(0.0, 0.1))
+        las, first = open_las(source), progress.part(0.05, 0.1)
+        step = request.raster_step([las], progress.part(0.0, 0.05))
         points = FilePoints.opened(las, beside, resources, False, first)
         outputs.enter_context(points)
-        parts = points.parts(progress.part(0.2, 0.3))
-        (store,) = points.gathered([(step, step.tally())], parts, progress.part(0.3, 0.35))
-        made = step.work(store, points.resources, progress.part(0.35, 0.8))
+        parts = points.parts(progress.part(0.1, 0.13))
+        (store,) = points.gathered([(step, step.tally())], parts, progress.part(0.13, 0.15))
+        made = step.work(store, points.resources, progress.part(0.15, 0.9))
         frame = survey_frame(points.cloud.crs)
-        return write_rasters(made, frame, step.request, outputs, progress.part(0.8, 1.0))
+        return write_rasters(made, frame, step.request, outputs, progress.part(0.9, 1.0))
 
 
 def _checked(source: Path, target: Path, resources: Resources) -> tuple[LasFile, Resources]:

@@ -14,8 +14,8 @@ from .enclosing import circumcircles, interpolated, leaving_corner, longest_edge
 from .tin import Tin, is_one_line, lowest_of_duplicates
 from .tin_cells import triangles_of_cells
 
-# Few enough that all threads have work, and a cancel need not wait.
-_VERTICES_A_BLOCK = 60_000
+# Few enough that all threads have work, and neither a cancel nor the progress has to wait.
+_VERTICES_A_BLOCK = 25_000
 # Vertices round a block that are triangulated with it, as a share of its longer side.
 _MARGIN = 0.06
 # A search ends long before, unless rounding makes it go round and round.

@@ -149,8 +149,8 @@ class RasterStep:
         if not points.count or not min(window.shape):
             return np.full(window.shape, np.nan, dtype=np.float32), _placed(points, corner, core)
         anchor = tuple(at - by for at, by in zip(window.corner(self.cell), corner))
-        surface = DenseSurface(points, self.cell, anchor, progress.part(0.05, 0.5))
-        part = progress.part(0.5, 0.9)
+        surface = DenseSurface(points, self.cell, anchor, progress.part(0.05, 0.3))
+        part = progress.part(0.3, 0.95)
         heights = surface.raster((0, 0), window.shape, self.longest_edge, part)
         loose = np.zeros(points.count, dtype=bool)
         if self.max_edge is None:
