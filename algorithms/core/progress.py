@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from itertools import accumulate
 from typing import Iterator
 
 # What a piece of a long step is to take, in seconds: a cancel waits for its end.
@@ -40,6 +41,13 @@ class Progress:
     def part(self, start: float, end: float) -> Progress:
         """Return a progress whose 0 to 1 is the range `start` to `end` of this one."""
         return _Part(self, start, end)
+
+    def shares(self, *weights: float) -> list[Progress]:
+        """Return parts that follow each other, as long as their weights; 0 for what is left out."""
+        ends, whole = list(accumulate(weights)), sum(weights) or 1.0
+        return [
+            self.part((end - weight) / whole, end / whole) for weight, end in zip(weights, ends)
+        ]
 
     def quiet(self) -> Progress:
         """Return one that passes on how far it is, and no messages: they are told elsewhere."""

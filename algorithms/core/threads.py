@@ -42,7 +42,9 @@ def may_use(count: int) -> Iterator[None]:
         _current.workers = before
 
 
-def in_threads(function: Callable[[_Item], _Result], items: Iterable[_Item]) -> list[_Result]:
+def in_threads(
+    function: Callable[[_Item], _Result], items: Iterable[_Item], progress: Progress = SILENT
+) -> list[_Result]:
     """Return the results of a function for each item, in their order.
 
     The calls run in as many threads as the calling thread may use, itself among them, each in one
@@ -54,6 +56,8 @@ def in_threads(function: Callable[[_Item], _Result], items: Iterable[_Item]) -> 
         Takes one item. It must not change what another call reads.
     items : iterable
         What to call it for.
+    progress : Progress
+        Receives progress, from the calling thread.
 
     Raises
     ------
@@ -61,7 +65,7 @@ def in_threads(function: Callable[[_Item], _Result], items: Iterable[_Item]) -> 
         What the first call that failed raised; calls that have not begun are left out then.
     """
     items = list(items)
-    return _Shared(function, items).results(SILENT)
+    return _Shared(function, items).results(progress)
 
 
 def over_parts(

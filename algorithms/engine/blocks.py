@@ -16,6 +16,7 @@ from typing import Callable, Iterator, NamedTuple, Protocol, Sequence
 import numpy as np
 
 from ..core.points import Points
+from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads, parts_of
 
 _SIDE, _STEP, _REACHES = 2000.0, 100.0, 4.0
@@ -128,7 +129,11 @@ class Store(Protocol):
     has_known: bool
 
     def read(
-        self, leaves: np.ndarray, box: Box | None = None, corner: Corner = (0.0, 0.0)
+        self,
+        leaves: np.ndarray,
+        box: Box | None = None,
+        corner: Corner = (0.0, 0.0),
+        progress: Progress = SILENT,
     ) -> BlockPoints:
         """Return the points of some leaves, or those of them in a box.
 
@@ -188,6 +193,7 @@ def gathered(
     read: Callable[[int], BlockPoints],
     box: Box | None = None,
     kind: type = np.int64,
+    progress: Progress = SILENT,
 ) -> BlockPoints:
     """Return contents that are read piece by piece: small ones stay in the processor's cache.
 
@@ -201,17 +207,22 @@ def gathered(
         Points outside are left out.
     kind : type
         Integers that hold the place of any point.
+    progress : Progress
+        Receives progress.
     """
     starts = np.concatenate(([0], np.cumsum(counts, dtype=np.int64))).tolist()
     whole = BlockPoints.empty(starts[-1], kind)
     if box is None:
-        in_threads(lambda number: whole.put(starts[number], read(number)), range(len(counts)))
+        in_threads(
+            lambda number: whole.put(starts[number], read(number)), range(len(counts)), progress
+        )
         return whole
     end = 0
     for number in range(len(counts)):
         some = read(number).within(box)
         whole.put(end, some)
         end += some.points.count
+        progress(starts[number + 1] / starts[-1])
     return whole.take(slice(end))
 
 
@@ -327,9 +338,10 @@ class Blocks:
             counts += np.bincount(row * width + column, minlength=width**2).reshape(counts.shape)
         return counts
 
-    def contents(self, block: Block, store: Store) -> BlockPoints:
+    def contents(self, block: Block, store: Store, progress: Progress = SILENT) -> BlockPoints:
         """Return what the filter sees for a block, relative to its `corner`."""
         box, corner = self.window(block), self.corner(block)
         leaves = store.leaves.within(box)
         local = tuple(each - at for each, at in zip(box, corner * 2))
-        return store.read(leaves, None if store.leaves.are_inside(leaves, box) else local, corner)
+        part = None if store.leaves.are_inside(leaves, box) else local
+        return store.read(leaves, part, corner, progress)

@@ -14,6 +14,7 @@ import numpy as np
 
 from ..core.files import describe_write_error
 from ..core.points import Frame
+from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud, survey_frame
 from .blocks import BlockPoints, Box, Corner, Leaves, gathered
 from .leaf_index import LeafIndex, Sorted
@@ -140,7 +141,11 @@ class DiskPoints:
             self._labels.truncate(self.count * self._kind.itemsize)
 
     def read(
-        self, leaves: np.ndarray, box: Box | None = None, corner: Corner = (0.0, 0.0)
+        self,
+        leaves: np.ndarray,
+        box: Box | None = None,
+        corner: Corner = (0.0, 0.0),
+        progress: Progress = SILENT,
     ) -> BlockPoints:
         """Return the points of some leaves, in the order of the file, or those of them in a box."""
         runs, frame = list(_joined(*self._runs.of(leaves))), self._frame.moved(corner)
@@ -154,7 +159,7 @@ class DiskPoints:
             positions = np.arange(start, end)
             return BlockPoints(points, flags & _KNOWN > 0, flags & _WANTED > 0, positions)
 
-        return gathered([end - start for start, end in runs], read, box)
+        return gathered([end - start for start, end in runs], read, box, progress=progress)
 
     def _read(self, start: int, end: int) -> np.ndarray:
         with self._lock:

@@ -172,10 +172,11 @@ class FilePoints:
                 for mine, some in zip(marks, step.marks(part, tally)):
                     mine[where] = some
         stores = []
-        for (step, tally), marks in zip(steps, every):
+        for number, ((step, tally), marks) in enumerate(zip(steps, every)):
             step.tell(tally, self.path, progress)
             files, frame = [SurveyFile(self.cloud, *marks)], survey_frame(self.cloud.crs)
-            stores.append(MemoryPoints(files, frame, step.blocks, progress, step.kind))
+            part = progress.part(number / len(steps), (number + 1) / len(steps))
+            stores.append(MemoryPoints(files, frame, step.blocks, part, step.kind))
         return stores
 
     def _on_disk(
@@ -231,14 +232,15 @@ class FilePoints:
         Cancelled
             If the user asked to stop.
         """
-        parts = self.parts(progress.part(0.0, 0.15))
-        (store,) = self.gathered([(step, tally)], parts, progress.part(0.15, 0.2))
-        step.work(store, self.resources, progress.part(0.2, 0.9))
+        parts = self.parts(progress.part(0.0, 0.08))
+        (store,) = self.gathered([(step, tally)], parts, progress.part(0.08, 0.12))
+        step.work(store, self.resources, progress.part(0.12, 0.94))
         result = step.result(self.path, self.room)
 
         def found() -> Parts:
-            for where, part, values in self.values(store, progress.part(0.9, 1.0)):
+            for where, part, values in self.values(store, progress.part(0.94, 0.97)):
                 result.add(where, part, values)
                 yield where, result.part(where, part)
 
-        return result, self.gathered([(each, each.tally()) for each in then], found())
+        steps = [(each, each.tally()) for each in then]
+        return result, self.gathered(steps, found(), progress.part(0.97, 1.0))

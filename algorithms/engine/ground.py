@@ -184,13 +184,13 @@ def _job_maker(
 ) -> Callable[[Block, bool], Callable[[Progress], _Labelled]]:
     def job_of(block: Block, is_only: bool) -> Callable[[Progress], _Labelled]:
         def job(progress: Progress) -> _Labelled:
-            contents = blocks.contents(block, store)
+            contents = blocks.contents(block, store, progress.part(0.0, 0.15))
             # The only block holds them all.
             core = contents.wanted.copy()
             if not is_only:
                 core &= block.holds(contents.points, blocks.corner(block))
             positions = contents.positions if core.all() else contents.positions[core]
-            notes = _Notes(progress, len(positions), is_only)
+            notes = _Notes(progress.part(0.15, 1.0), len(positions), is_only)
             labels = np.zeros(len(positions), dtype=np.uint8)
             if notes.count:
                 try:
@@ -214,6 +214,8 @@ def _labels(
     border of those of all others.
     """
     groups, count = apart(contents.points, reach)
+    progress(0.1)
+    progress = progress.part(0.1, 1.0)
     if count == 1:
         return filter_.label(contents, progress)
     sizes = np.bincount(groups, minlength=count)

@@ -179,7 +179,7 @@ class _Heights(NamedTuple):
 
 def _job_of(store: Store, block: Block, is_only: bool) -> Callable[[Progress], _Heights]:
     def job(progress: Progress) -> _Heights:
-        contents = _BLOCKS.contents(block, store)
+        contents = _BLOCKS.contents(block, store, progress.part(0.0, 0.1))
         wanted = contents.wanted.copy()
         if not is_only:
             wanted &= block.holds(contents.points, _BLOCKS.corner(block))
@@ -188,7 +188,9 @@ def _job_of(store: Store, block: Block, is_only: bool) -> Callable[[Progress], _
             return _Heights(positions, np.full(len(positions), np.nan))
         if not len(positions):
             return _Heights(positions, np.zeros(0))
-        heights = height_above_ground(contents.points, contents.known, progress, wanted)
+        heights = height_above_ground(
+            contents.points, contents.known, progress.part(0.1, 1.0), wanted
+        )
         return _Heights(positions, heights[wanted])
 
     return job

@@ -208,7 +208,7 @@ def _job_of(
     store: Store, blocks: Blocks, parameters: ModelKeyPoints, block: Block, is_only: bool
 ) -> Callable[[Progress], _Found]:
     def job(progress: Progress) -> _Found:
-        contents = blocks.contents(block, store)
+        contents = blocks.contents(block, store, progress.part(0.0, 0.1))
         core = contents.wanted.copy()
         if not is_only:
             core &= block.holds(contents.points, blocks.corner(block))
@@ -216,7 +216,8 @@ def _job_of(
         if core.any():
             # The grid belongs to the CRS, not to the block.
             anchor = tuple(-each for each in blocks.corner(block))
-            keys = model_key_points(contents.points, parameters, progress, anchor)
+            part = progress.part(0.1, 1.0)
+            keys = model_key_points(contents.points, parameters, part, anchor)
         return _Found(contents.positions[core], keys[core])
 
     return job

@@ -136,7 +136,11 @@ class MemoryPoints:
         return found
 
     def read(
-        self, leaves: np.ndarray, box: Box | None = None, corner: Corner = (0.0, 0.0)
+        self,
+        leaves: np.ndarray,
+        box: Box | None = None,
+        corner: Corner = (0.0, 0.0),
+        progress: Progress = SILENT,
     ) -> BlockPoints:
         """Return the points of some leaves, or those of them in a box, relative to a corner."""
         pieces, frame = list(self._pieces(leaves)), self._frame.moved(corner)
@@ -144,7 +148,7 @@ class MemoryPoints:
         def read(number: int) -> BlockPoints:
             return self._contents(*pieces[number], frame)
 
-        return gathered([len(which) for _, which in pieces], read, box, self._kind)
+        return gathered([len(which) for _, which in pieces], read, box, self._kind, progress)
 
     def _pieces(self, leaves: np.ndarray) -> Iterator[tuple[int, np.ndarray]]:
         """Yield the number of a file and the indices of some of its points."""

@@ -136,7 +136,10 @@ def classify_file(
     las, resources = _checked(source, target, request.resources)
     request.rasters.check((source, target))
     step, products = request.step, _products(request)
-    tally, first = step.tally(), progress.part(0.0, 0.2)
+    tally = step.tally()
+    # Reading and writing move in small steps, and need no large share however long they take.
+    made_too = 4.0 * ("rasters" in products), 3.0 * ("heights" in products)
+    first, finding, drawing, measuring, last = progress.shares(1.5, 5.0, *made_too, 0.8)
     changes_more = request.output.changes_points or request.selection.remember_classes
     is_copied = not (changes_more or remembers(las)) and layers_kept(las, target) is not None
     _check_copc(las, target, is_copied, resources)
@@ -144,20 +147,19 @@ def classify_file(
         outputs.enter_context(may_use(resources.thread_count))
         points = FilePoints.opened(las, target, resources, not is_copied, first)
         outputs.enter_context(points)
-        result, stores = points.find(step, tally, progress.part(0.2, 0.65), list(products.values()))
+        result, stores = points.find(step, tally, finding, list(products.values()))
         result.tell(progress)
         waiting, heights = dict(zip(products, stores)), None
         # All outputs or none: the rasters get their names after the cloud is written.
         if "rasters" in products:
-            made = products["rasters"].work(
-                waiting["rasters"], points.resources, progress.part(0.65, 0.75)
-            )
-            frame, part = survey_frame(points.cloud.crs), progress.part(0.75, 0.85)
-            write_rasters(made, frame, products["rasters"].request, outputs, part)
+            part, writing = drawing.shares(4.0, 1.0)
+            made = products["rasters"].work(waiting["rasters"], points.resources, part)
+            frame = survey_frame(points.cloud.crs)
+            write_rasters(made, frame, products["rasters"].request, outputs, writing)
         if "heights" in products:
-            heights = _worked(points, products["heights"], waiting["heights"], progress).heights
+            heights = _worked(points, products["heights"], waiting["heights"], measuring).heights
         edits = result.edits(points.cloud, progress, heights)
-        write_changed(las, target, edits, progress.part(0.9, 1.0), points.cloud)
+        write_changed(las, target, edits, last, points.cloud)
     return _summary(result, tally, request)
 
 
@@ -173,9 +175,9 @@ def _products(request: ClassifyRequest) -> dict[str, Step]:
 
 def _worked(points: FilePoints, step: PointStep, store: Any, progress: Progress) -> Any:
     """Return what a further step finds of the points of a store."""
-    step.work(store, points.resources, progress.part(0.85, 0.9))
+    step.work(store, points.resources, progress.part(0.0, 0.9))
     result = step.result(points.path, points.room)
-    for where, part, values in points.values(store):
+    for where, part, values in points.values(store, progress.part(0.9, 1.0)):
         result.add(where, part, values)
     return result
 
@@ -228,11 +230,11 @@ def write_points(
     las, resources = _checked(source, target, resources)
     _check_copc(las, target, False, resources)
     with may_use(resources.thread_count):
-        first = progress.part(0.0, 0.15)
+        first = progress.part(0.0, 0.1)
         with FilePoints.opened(las, target, resources, progress=first) as points:
-            result, _ = points.find(step, step.tally(), progress.part(0.15, 0.8))
+            result, _ = points.find(step, step.tally(), progress.part(0.1, 0.9))
             edits = result.edits(points.cloud, progress)
-            write_changed(las, target, edits, progress.part(0.8, 1.0), points.cloud)
+            write_changed(las, target, edits, progress.part(0.9, 1.0), points.cloud)
     return result.summary(target.name)
 
 
@@ -260,15 +262,15 @@ def rasters_of_file(
     resources = request.resources.now()
     beside = next(iter(request.rasters.wanted.values()))
     with may_use(resources.thread_count), contextlib.ExitStack() as outputs:
-        las, first = open_las(source), progress.part(0.1, 0.2)
-        step = request.raster_step([las], progress.part(0.0, 0.1))
+        las, first = open_las(source), progress.part(0.05, 0.1)
+        step = request.raster_step([las], progress.part(0.0, 0.05))
         points = FilePoints.opened(las, beside, resources, False, first)
         outputs.enter_context(points)
-        parts = points.parts(progress.part(0.2, 0.3))
-        (store,) = points.gathered([(step, step.tally())], parts, progress.part(0.3, 0.35))
-        made = step.work(store, points.resources, progress.part(0.35, 0.8))
+        parts = points.parts(progress.part(0.1, 0.13))
+        (store,) = points.gathered([(step, step.tally())], parts, progress.part(0.13, 0.15))
+        made = step.work(store, points.resources, progress.part(0.15, 0.9))
         frame = survey_frame(points.cloud.crs)
-        return write_rasters(made, frame, step.request, outputs, progress.part(0.8, 1.0))
+        return write_rasters(made, frame, step.request, outputs, progress.part(0.9, 1.0))
 
 
 def _checked(source: Path, target: Path, resources: Resources) -> tuple[LasFile, Resources]:

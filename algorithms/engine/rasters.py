@@ -234,7 +234,8 @@ def _job_of(
     blocks = step.blocks
 
     def job(progress: Progress) -> BlockRasters:
-        contents, corner = blocks.contents(block, store), blocks.corner(block)
+        contents = blocks.contents(block, store, progress.part(0.0, 0.1))
+        corner = blocks.corner(block)
         core = np.ones(contents.points.count, dtype=bool)
         if not (is_only and are_all):
             core = block.holds(contents.points, corner)
@@ -244,7 +245,8 @@ def _job_of(
             points, ground, edges = step.fixed.added_to(points, ground, corner)
             top, core = (np.pad(each, (0, points.count - len(each))) for each in (top, core))
         marks = ground, top, core
-        return step.request.step.of(points, *marks, corner, block.box, edges, progress)
+        part = progress.part(0.1, 1.0)
+        return step.request.step.of(points, *marks, corner, block.box, edges, part)
 
     return job
 

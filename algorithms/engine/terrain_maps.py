@@ -146,20 +146,21 @@ def make_maps(
             check_output(each, tuple(sources))
             rasters = replace(rasters, dtm=rasters.dtm or Path(waiting, "dtm.tif"))
         rasters.check((*sources, cloud))
-        summary = _classified(sources, cloud, request, progress.part(0.0, 0.6))
+        part, drawing, smoothing, tracing = progress.shares(
+            5.0, 4.4 * bool(rasters.wanted), 0.3 * bool(files.relief), 0.3 * bool(files.contours)
+        )
+        summary = _classified(sources, cloud, request, part)
         if not rasters.wanted:
             return summary
         ground = GroundClasses((request.selection.to_class,))
         sets = ground, request.terrain, request.surface, request.resources
         maps = TerrainRequest.of(sets, rasters=rasters)
-        made = terrain([summary.cloud], maps, progress.part(0.6, 0.95))
+        made = terrain([summary.cloud], maps, drawing)
         summary = summary._replace(columns=made.columns, rows=made.rows)
         if files.relief and rasters.dtm:
-            part = progress.part(0.95, 0.97)
-            write_local_relief(rasters.dtm, files.relief, request.relief, part)
+            write_local_relief(rasters.dtm, files.relief, request.relief, smoothing)
         if files.contours and rasters.dtm:
-            part = progress.part(0.97, 1.0)
-            interval = write_contours(rasters.dtm, files.contours, request.contours, part)
+            interval = write_contours(rasters.dtm, files.contours, request.contours, tracing)
             summary = summary._replace(contour_interval=interval)
         return summary
 

@@ -66,13 +66,19 @@ class DenseSurface:
         Metres: twice the side of a cell of the lattice.
     anchor : tuple of float
         x and y of a corner of cells in metres.
+    progress : Progress
+        Receives progress.
     """
 
     def __init__(
-        self, points: Points, cell: float, anchor: tuple[float, float] = (0.0, 0.0)
+        self,
+        points: Points,
+        cell: float,
+        anchor: tuple[float, float] = (0.0, 0.0),
+        progress: Progress = SILENT,
     ) -> None:
         self._points, self._cell = points, cell
-        self._thinned = ThinnedPoints(points, cell / VERTICES_A_SIDE, anchor)
+        self._thinned = ThinnedPoints(points, cell / VERTICES_A_SIDE, anchor, progress)
 
     def raster(
         self,
@@ -122,7 +128,7 @@ class DenseSurface:
             for whole, part in zip((heights, sure), found):
                 whole[cells] = part.reshape(whole[cells].shape)
 
-        over_parts(fill, len(places), 1, progress.part(0.1, 0.7))
+        over_parts(fill, len(places), 1, progress.part(0.0, 0.5))
         left = np.flatnonzero(~sure)
         if len(left):
             row, column = np.divmod(left, shape[1])
@@ -130,7 +136,7 @@ class DenseSurface:
                 (each + at + 0.5) * self._cell + start
                 for each, at, start in zip((column, row), first[::-1], self._thinned.anchor)
             )
-            cells, part = CellLattice(self._thinned.anchor, self._cell), progress.part(0.7, 1.0)
+            cells, part = CellLattice(self._thinned.anchor, self._cell), progress.part(0.5, 1.0)
             heights.ravel()[left] = self._rest(x, y, max_edge, part, cells)
         progress(1.0)
         return heights
@@ -169,7 +175,7 @@ class DenseSurface:
             queries = _Queries(at_x, at_y, *corners)
             heights[which], sure[which] = self._in_tile(place, queries, False, max_edge)
 
-        over_parts(fill, len(groups), 1, progress.part(0.1, 0.7))
+        over_parts(fill, len(groups), 1, progress.part(0.05, 0.7))
         left = np.flatnonzero(~sure)
         if len(left):
             heights[left] = self._rest(x[left], y[left], max_edge, progress.part(0.7, 1.0))
@@ -224,8 +230,11 @@ class DenseSurface:
         cells: CellLattice | None = None,
     ) -> np.ndarray:
         """Return heights of the queries that are left, on a triangulation of the vertices near."""
-        surface = Surface(self._points.take(self._vertices((x, y))))
-        return surface.heights(x, y, max_edge, progress, cells)
+        vertices = self._vertices((x, y))
+        progress(0.15)
+        surface = Surface(self._points.take(vertices))
+        progress(0.2)
+        return surface.heights(x, y, max_edge, progress.part(0.2, 1.0), cells)
 
     def _vertices(self, near: tuple[np.ndarray, np.ndarray] | None = None) -> np.ndarray:
         """Return which points are vertices, in ascending order; all, or those near some places."""

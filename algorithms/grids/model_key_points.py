@@ -113,8 +113,7 @@ def model_key_points(
     chosen = np.zeros(points.count, dtype=bool)
     if not points.count:
         return chosen
-    points, cells, order = _sorted(points, parameters.grid_size, anchor)
-    progress(0.05)
+    points, cells, order = _sorted(points, parameters.grid_size, anchor, progress.part(0.0, 0.2))
     hull = _hull_corners(points, cells)
     if len(hull) < 3:
         # Points on one line: no TIN can stand for them.
@@ -124,25 +123,29 @@ def model_key_points(
     seeds = np.unique(np.concatenate((lowest, hull, _outermost(points, cells))))
     near = _of_cells(cells, lowest)[cells.index]
     keys = _Keys(points, seeds, parameters)
+    progress(0.22)
     levels = _levels(points, parameters.grid_size)
+    progress(0.25)
     for number, (some, cells) in enumerate(levels):
-        keys.densify(some, near[some], progress.part(0.1 + 0.1 * number, 0.2 + 0.1 * number))
+        start = 0.25 + 0.1 * number
+        keys.densify(some, near[some], progress.part(start, start + 0.1))
         near = _of_cells(cells, some)[cells.index]
     everyone = np.arange(points.count, dtype=np.int32)
-    keys.densify(everyone, near, progress.part(0.3, 1.0), is_last=True)
+    keys.densify(everyone, near, progress.part(0.45, 1.0), is_last=True)
     chosen[order[keys.are_keys]] = True
     progress(1.0)
     return chosen
 
 
 def _sorted(
-    points: Points, grid_size: float, anchor: tuple[float, float]
+    points: Points, grid_size: float, anchor: tuple[float, float], progress: Progress
 ) -> tuple[Points, Cells, np.ndarray]:
     """Return points cell by cell, with x and y from a corner of cells; the cells; and the order.
 
     Of points at one place only the lowest is there.
     """
     kept = _lowest_of_places(points)
+    progress(0.4)
     x, y = (
         values - (at + grid_size * np.floor(((values.min() + values.max()) / 2 - at) / grid_size))
         for values, at in zip(points, anchor)
@@ -150,8 +153,10 @@ def _sorted(
     # A coordinate on the border of a cell must not be rounded to the wrong side.
     points = Points(x + _ROUNDING, y + _ROUNDING, points.z)
     cells = Cells.over(points, grid_size)
+    progress(0.6)
     index = cells.index[kept]
     order = np.argsort((index // (index.max() // _MOST_SMALL + 1)).astype(np.uint16), kind="stable")
+    progress(0.8)
     kept, index = kept[order], index[order]
     return points.take(kept), replace(cells, index=index), kept
 

@@ -14,8 +14,8 @@ from .enclosing import circumcircles, interpolated, leaving_corner, longest_edge
 from .tin import Tin, is_one_line, lowest_of_duplicates
 from .tin_cells import triangles_of_cells
 
-# Few enough that all threads have work, and a cancel need not wait.
-_VERTICES_A_BLOCK = 60_000
+# Few enough that all threads have work, and neither a cancel nor the progress has to wait.
+_VERTICES_A_BLOCK = 25_000
 # Vertices round a block that are triangulated with it, as a share of its longer side.
 _MARGIN = 0.06
 # A search ends long before, unless rounding makes it go round and round.
@@ -94,10 +94,13 @@ class Surface:
         if is_one_line(np.column_stack(self._vertices[:2])):
             return heights
         blocks = list(self._blocks(x, y))
+        # Of many blocks, each is a step; a single one is done in the calling thread.
+        within = progress if len(blocks) == 1 else SILENT
 
         def fill(number: slice) -> None:
             queries, size = blocks[number.start]
-            heights[queries] = self._block_heights(x[queries], y[queries], size, max_edge, cells)
+            some = x[queries], y[queries]
+            heights[queries] = self._block_heights(*some, size, max_edge, cells, within)
 
         over_parts(fill, len(blocks), 1, progress)
         return heights
@@ -162,22 +165,27 @@ class Surface:
         size: float,
         max_edge: float | None,
         cells: CellLattice | None,
+        progress: Progress,
     ) -> np.ndarray:
         """Return the heights of the queries of a block, on a TIN of the vertices round it."""
         vertices, margin = self._vertices, max(_MARGIN * size, _ON_HULL)
         if vertices.count <= _VERTICES_A_BLOCK:
             tin, which, sure = Tin(*vertices), np.arange(vertices.count), np.ones(len(x), bool)
+            progress(0.5)
             triangle = _located(tin, x, y, cells)
         else:
             borders = x.min() - margin, y.min() - margin, x.max() + margin, y.max() + margin
             which = self._within(borders)
             tin = Tin(*vertices.take(which))
+            progress(0.4)
             triangle = _located(tin, x, y, cells)
+            progress(0.6)
             depth = self._depth(x, y)
             sure = (triangle < 0) & (depth < _ON_HULL)
             triangle[depth <= -_ON_HULL] = -1
             inside = np.flatnonzero(triangle >= 0)
             sure[inside] = self._are_delaunay(tin, triangle[inside], borders)
+        progress(0.8)
         heights = tin.interpolate(x, y, _without_long(tin, triangle, max_edge))
         left = np.flatnonzero(~sure)
         if len(left):

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.points import Points
-from ..core.progress import SILENT
+from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads, over_parts
 from .cells import first_of_each
 from .tin import hull_corners
@@ -58,6 +58,8 @@ class ThinnedPoints:
         Side of a cell in metres.
     anchor : tuple of float
         x and y of a corner of cells, in metres.
+    progress : Progress
+        Receives progress.
 
     Attributes
     ----------
@@ -67,20 +69,29 @@ class ThinnedPoints:
         Those with points, by row and column of the tile.
     """
 
-    def __init__(self, points: Points, side: float, anchor: tuple[float, float]) -> None:
+    def __init__(
+        self,
+        points: Points,
+        side: float,
+        anchor: tuple[float, float],
+        progress: Progress = SILENT,
+    ) -> None:
         self.points, self.side, self.anchor = points, side, anchor
-        numbers, places = self._tile_of_each()
+        numbers, places = self._tile_of_each(progress.part(0.0, 0.3))
         small = np.uint16 if len(places) <= _MOST_SMALL else np.int64
         order = np.argsort(numbers.astype(small), kind="stable")
+        progress(0.4)
         bounds = np.searchsorted(numbers[order], np.arange(len(places) + 1))
+        progress(0.5)
         filled = [k for k in range(len(places)) if bounds[k + 1] > bounds[k]]
 
         def thin(number: int) -> Tile:
             return self._tile(order[bounds[number] : bounds[number + 1]], places[number])
 
-        self.tiles = dict(zip((places[k] for k in filled), in_threads(thin, filled)))
+        thinned = in_threads(thin, filled, progress.part(0.5, 1.0))
+        self.tiles = dict(zip((places[k] for k in filled), thinned))
 
-    def _tile_of_each(self) -> tuple[np.ndarray, list[tuple[int, int]]]:
+    def _tile_of_each(self, progress: Progress) -> tuple[np.ndarray, list[tuple[int, int]]]:
         """Return the number of the tile of each point (n,), and row and column of each tile."""
         places = np.empty((2, self.points.count), dtype=np.int32)
 
@@ -88,7 +99,7 @@ class ThinnedPoints:
             for axis, values in enumerate((self.points.y, self.points.x)):
                 places[axis, part] = np.floor(self.cells(values[part], 1 - axis)) // TILE
 
-        over_parts(place, self.points.count, _POINTS_A_PART, SILENT)
+        over_parts(place, self.points.count, _POINTS_A_PART, progress)
         (first_row, first_column), (last_row, last_column) = places.min(axis=1), places.max(axis=1)
         columns = int(last_column) - int(first_column) + 1
         numbers = (places[0].astype(np.int64) - first_row) * columns + (places[1] - first_column)

@@ -56,28 +56,33 @@ def assess_files(
             raise BareEarthError(f"Cannot write {report}: the report is HTML, name it .html.")
     if error_map is not None:
         check_raster_output(error_map, (classified, reference))
-    result = read_cloud(classified, progress.part(0.0, 0.35))
-    truth = read_cloud(reference, progress.part(0.35, 0.7))
+    result = read_cloud(classified, progress.part(0.0, 0.3))
+    truth = read_cloud(reference, progress.part(0.3, 0.6))
     order_result, order_truth = _matching_orders(result, truth)
-    progress(0.75)
+    progress(0.64)
     ground = result.classification[order_result] == GROUND
     classes = truth.classification[order_truth]
     assessment = compare(ground, classes, options)
     if assessment.point_count == 0:
         raise BareEarthError("All points are of ignored classes: there is nothing to assess.")
-    progress(0.8)
+    progress(0.67)
     if report is not None or error_map is not None:
-        points, comparison = result.points(order_result), Comparison.of(ground, classes, options)
+        points = result.points(order_result)
+        progress(0.71)
+        comparison = Comparison.of(ground, classes, options)
+        progress(0.75)
         with contextlib.ExitStack() as outputs:  # both or none
             report, error_map = (
                 path and outputs.enter_context(replacing(path)) for path in (report, error_map)
             )
             if error_map is not None:
-                _write_error_map(error_map, points, comparison, result.frame, options, progress)
-            progress(0.9)
+                part = progress.part(0.75, 0.85)
+                _write_error_map(error_map, points, comparison, result.frame, options, part)
+            progress(0.85)
             if report is not None:
                 files = (classified, reference)
-                write_report(report, assessment, comparison, points, options, files)
+                part = progress.part(0.85, 1.0)
+                write_report(report, assessment, comparison, points, options, files, part)
             progress(1.0)
     return assessment
 
@@ -90,15 +95,21 @@ def _write_error_map(
     options: AssessmentOptions,
     progress: Progress,
 ) -> None:
-    points, wrong = points.take(comparison.counted), comparison.rejected | comparison.accepted
+    counted, wrong = comparison.counted, comparison.rejected | comparison.accepted
+    points = points if counted.all() else points.take(counted)
+    progress(0.2)
     grid = RasterGrid.over(points, frame, options.map_cell_size)
+    progress(0.3)
     # From the centres of the first cells; a point on the last edge belongs to the last cell.
     column = np.rint((points.x - grid.x[0]) / grid.cell_metres).astype(np.int64)
+    progress(0.4)
     row = np.rint((grid.y[0] - points.y) / grid.cell_metres).astype(np.int64)
     place = np.clip(row, 0, grid.rows - 1) * grid.columns + np.clip(column, 0, grid.columns - 1)
     cells = grid.rows * grid.columns
+    progress(0.6)
     count = np.bincount(place, minlength=cells)
-    errors = np.bincount(place[wrong[comparison.counted]], minlength=cells)
+    progress(0.8)
+    errors = np.bincount(place[wrong[counted]], minlength=cells)
     share = np.where(count > 0, errors / np.maximum(count, 1), NODATA).astype(np.float32)
     write_geotiff(target, share.reshape(grid.rows, grid.columns), grid, NODATA, progress)
 

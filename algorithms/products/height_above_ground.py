@@ -49,10 +49,11 @@ def height_above_ground(
     """
     terrain, heights = points.take(ground), np.zeros(points.count)
     apart = min(_SPACINGS * spacing(terrain, _LEAST / _SPACINGS), _MOST)
-    surface = DenseSurface(terrain, VERTICES_A_SIDE * apart)
+    progress(0.05)
+    surface = DenseSurface(terrain, VERTICES_A_SIDE * apart, progress=progress.part(0.05, 0.2))
     which = ~ground if wanted is None else ~ground & wanted
     others = points.take(which)
-    below = surface.heights(others.x, others.y, progress=progress.part(0.1, 0.95))
+    below = surface.heights(others.x, others.y, progress=progress.part(0.2, 0.95))
     outside = np.flatnonzero(np.isnan(below))
     if len(outside):
         below[outside] = surface.nearest(others.x[outside], others.y[outside])

@@ -116,3 +116,4 @@ def write_local_relief(
     progress(0.9)
     values = np.where(np.isnan(relief), np.float32(NODATA), relief)
     write_geotiff(target, values, raster, NODATA, progress)
+    progress(1.0)

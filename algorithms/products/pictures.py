@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core.points import Points
+from ..grids.cells import lower_at
 from ..grids.hillshade import hillshade
 from ..grids.inpaint import inpaint
 
@@ -111,10 +112,9 @@ class Relief:
 def _shade(place: np.ndarray, z: np.ndarray, shape: tuple[int, int], cell: float) -> np.ndarray:
     from scipy import ndimage
 
-    order = np.lexsort((z, place))
-    last = np.append(np.diff(place[order]) != 0, True)
-    heights = np.full(shape, np.nan)
-    heights.ravel()[place[order[last]]] = z[order[last]]
+    lowest = np.full(shape[0] * shape[1], np.inf)
+    lower_at(lowest, place, -z)  # of the highest points
+    heights = np.where(np.isinf(lowest), np.nan, -lowest).reshape(shape)
     near = ndimage.binary_dilation(np.isfinite(heights), np.ones((3, 3)), _GAP)
     return np.where(near, soft_light(inpaint(heights), cell), 255.0)
 

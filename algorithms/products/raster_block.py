@@ -115,20 +115,18 @@ class RasterStep:
             Receives progress.
         """
         window = CellWindow.with_centres_in(_within(box, points, corner, self.cell), self.cell)
+        wanted = 3.0 * self.terrain, 4.0 * self.surface, 1.5 * self.confidence
+        parts = progress.shares(*wanted)
         none = np.zeros((0, 0), dtype=np.float32), np.zeros((0, 3))
         terrain = surface = none
         if self.terrain:
             inside = core[ground]
-            terrain = self._terrain(
-                points.take(ground), inside, window, corner, progress.part(0.0, 0.6)
-            )
+            terrain = self._terrain(points.take(ground), inside, window, corner, parts[0])
             if edges is not None and edges.any() and terrain[0].size:
                 some = points.take(ground), edges[ground]
                 follow_edges(terrain[0], window, self.cell, *some, corner)
         if self.surface:
-            surface = self._surface(
-                points.take(top), core[top], window, corner, progress.part(0.6, 1.0)
-            )
+            surface = self._surface(points.take(top), core[top], window, corner, parts[1])
         sure = none[0]
         if self.confidence:
             sure = self._confidence(points, ground, window, corner)
@@ -151,8 +149,9 @@ class RasterStep:
         if not points.count or not min(window.shape):
             return np.full(window.shape, np.nan, dtype=np.float32), _placed(points, corner, core)
         anchor = tuple(at - by for at, by in zip(window.corner(self.cell), corner))
-        surface = DenseSurface(points, self.cell, anchor)
-        heights = surface.raster((0, 0), window.shape, self.longest_edge, progress)
+        surface = DenseSurface(points, self.cell, anchor, progress.part(0.05, 0.3))
+        part = progress.part(0.3, 0.95)
+        heights = surface.raster((0, 0), window.shape, self.longest_edge, part)
         loose = np.zeros(points.count, dtype=bool)
         if self.max_edge is None:
             if np.isnan(heights).any():
@@ -183,24 +182,27 @@ class RasterStep:
         inside = np.flatnonzero(
             (row >= 0) & (row < wide.rows) & (column >= 0) & (column < wide.columns)
         )
+        progress(0.1)
         index = row[inside] * wide.columns + column[inside]
         keys = -points.z[inside], points.x[inside], points.y[inside]
+        progress(0.25)
         top = inside[first_of_each(index, wide.rows * wide.columns, *keys)]
         every = np.full(wide.shape, np.nan)
         every[row[top], column[top]] = points.z[top]
         margin = window.row - wide.row
         heights[:] = every[margin : margin + window.rows, margin : margin + window.columns]
-        progress(0.3)
+        progress(0.4)
         empty_row, empty_column = np.nonzero(np.isnan(heights))
         highest = points.take(top)
         start_x, start_y = (at - by for at, by in zip(window.corner(self.cell), corner))
-        surface = DenseSurface(highest, VERTICES_A_SIDE * self.cell, (start_x, start_y))
+        part = progress.part(0.4, 0.6)
+        surface = DenseSurface(highest, VERTICES_A_SIDE * self.cell, (start_x, start_y), part)
         if len(empty_row):
             heights[empty_row, empty_column] = surface.heights(
                 start_x + (empty_column + 0.5) * self.cell,
                 start_y + (empty_row + 0.5) * self.cell,
                 self.longest_edge,
-                progress.part(0.3, 1.0),
+                progress.part(0.6, 1.0),
             )
         loose = np.zeros(points.count, dtype=bool)
         if self.max_edge is None:

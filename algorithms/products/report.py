@@ -6,6 +6,7 @@ from pathlib import Path
 
 from ..core.files import replacing
 from ..core.points import Points
+from ..core.progress import SILENT, Progress
 from .comparison import Assessment, AssessmentOptions, Comparison
 from .page import CLASSES, key, map_figure, page_html, percent, text
 from .pictures import LONGEST_SIDE, Picture, Relief
@@ -28,6 +29,7 @@ def write_report(
     points: Points,
     options: AssessmentOptions,
     files: tuple[Path, Path],
+    progress: Progress = SILENT,
 ) -> None:
     """Write the report of an assessment.
 
@@ -45,18 +47,22 @@ def write_report(
         How the figures were made.
     files : tuple of Path
         The classified cloud and the reference.
+    progress : Progress
+        Receives progress.
 
     Raises
     ------
     BareEarthError
         If the file cannot be written.
     """
-    text = report_html(assessment, draw_errors(points, comparison), options, files)
+    picture = draw_errors(points, comparison, progress.part(0.0, 0.7))
+    text = report_html(assessment, picture, options, files)
+    progress(0.95)
     with replacing(target) as temporary:
         temporary.write_text(text, encoding="utf-8")
 
 
-def draw_errors(points: Points, comparison: Comparison) -> Picture:
+def draw_errors(points: Points, comparison: Comparison, progress: Progress = SILENT) -> Picture:
     """Return a map of the errors on the relief of the highest points.
 
     Parameters
@@ -65,9 +71,15 @@ def draw_errors(points: Points, comparison: Comparison) -> Picture:
         Where the points lie; one at least.
     comparison : Comparison
         Which of them are wrong.
+    progress : Progress
+        Receives progress.
     """
+    relief = Relief.of(points)
+    progress(0.7)
     marks = comparison.rejected, comparison.accepted
-    return Relief.of(points).marked(*marks, (TYPE_1, TYPE_2), comparison.counted)
+    picture = relief.marked(*marks, (TYPE_1, TYPE_2), comparison.counted)
+    progress(1.0)
+    return picture
 
 
 def report_html(

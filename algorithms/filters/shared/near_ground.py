@@ -80,4 +80,5 @@ def near_ground(
         seeds, _ = checked_seeds(points, seeds, waiting, cells, max(apart, cells.size))
     progress(0.5)
     limits = ground_limits(points, seeds, cells, apart, tolerance, apart <= NOISE_SPACING)
+    progress(0.6)
     return near_surface(points, cells, limits, progress.part(0.6, 1.0))

@@ -1,0 +1,71 @@
+"""How a run moves its bar: always forwards, often, and never long at one figure."""
+
+import time
+
+import numpy as np
+import pytest
+import surveys
+from benchmarks.progress import Recorder, pace_of, runs
+
+from bare_earth.algorithms.core.progress import Progress
+from bare_earth.algorithms.engine.memory import Resources
+
+# A fifth is what is promised; of so short a run, what takes as long for any file is a part.
+_LONGEST_STAY = 0.25
+_NAMES = (
+    "TIN densification",
+    "TIN, DTM, hillshade, heights",
+    "Grid minimum",
+    "Slope filter",
+    "All rasters",
+    "Height above ground",
+    "Point cloud to terrain",
+)
+
+
+@pytest.fixture(scope="module")
+def cloud(tmp_path_factory):
+    path = tmp_path_factory.mktemp("progress") / "cloud.las"
+    return surveys.write(path, surveys.strip(350_000, 500.0, 350.0))
+
+
+def pace_of_run(name, cloud, folder, memory):
+    todo = runs(cloud, folder, Resources(threads=2, memory=memory))
+    # The classified cloud, which some of them read; and what is imported once.
+    next(iter(todo.values()))(Progress())
+    # Seconds of the processor: whatever else the machine does is not measured.
+    recorder = Recorder(time.process_time)
+    todo[name](recorder)
+    assert recorder.moments[-1][1] == pytest.approx(1.0)
+    return recorder.pace()
+
+
+@pytest.mark.parametrize("name", _NAMES)
+def test_a_bar_never_stands_still(name, cloud, tmp_path):
+    pace = pace_of_run(name, cloud, tmp_path, 4.0)
+    assert pace.falls == 0
+    assert pace.stay <= _LONGEST_STAY and pace.rest <= 2.0, pace
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", _NAMES)
+def test_nor_where_points_wait_on_disk(name, cloud, tmp_path):
+    pace = pace_of_run(name, cloud, tmp_path, 0.02)
+    assert pace.falls == 0
+    assert pace.stay <= _LONGEST_STAY and pace.rest <= 2.0, pace
+
+
+def test_the_pace_tells_what_stands_still():
+    moments = [(0.0, 0.0), (1.0, 0.2), (2.0, 0.2), (3.0, 0.2), (7.0, 0.5), (8.0, 0.4), (9.0, 1.0)]
+    pace = pace_of(moments, 10.0)
+    assert (pace.silence, pace.rest, pace.figure, pace.falls) == (4.0, 6.0, 20, 1)
+    assert pace.stay == pytest.approx(0.6)
+
+
+def test_shares_follow_each_other():
+    recorder = Recorder()
+    for part in recorder.shares(1.0, 0.0, 3.0):
+        part(0.0)
+        part(1.0)
+    figures = [figure for _, figure in recorder.moments]
+    assert np.allclose(figures, [0.0, 0.25, 0.25, 0.25, 0.25, 1.0])
