@@ -7,6 +7,7 @@ import shutil
 import struct
 import subprocess
 import sys
+import time
 
 import laspy
 import lazrs
@@ -27,7 +28,7 @@ from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import inspect, read_cloud, read_parts
 from bare_earth.algorithms.las.writing import write_changed, write_classified
 from bare_earth.algorithms.survey.collection import open_collection
-from bare_earth.algorithms.survey.vector_files import read_boundary
+from bare_earth.algorithms.survey.vector_files import read_boundary, read_lines
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
 from benchmarks.data import FOLDER
 
@@ -321,6 +322,17 @@ def test_brackets_in_brackets_are_no_crs(text):
     assert crs_of_wkt(text) is None or crs_of_wkt(text).horizontal_unit == 1.0
 
 
+def test_a_crs_that_the_library_for_rasters_does_not_know_is_told_and_not_printed(las, capfd):
+    pytest.importorskip("rasterio")
+    record = las.vlr(b"LASF_Projection", 2112, b'PROJCS["p",UNIT["metre",1]]')
+    source = las.make(version=4, point_format=6, encoding=0x10, vlrs=[record])
+    heard, out = las.Heard(), las.folder / "dtm.tif"
+    method = SlopeFilter(preset="whitebox")
+    classify_file(source, las.folder / "out.las", method, dtm=out, progress=heard)
+    assert any("without a CRS" in each for each in heard.warnings)
+    assert out.is_file() and capfd.readouterr().err == ""
+
+
 @pytest.mark.parametrize("code", ["9" * 60_000, "²", "-1", "4.5", "1e3"])
 def test_codes_that_are_none_are_left_out(code):
     crs = crs_of_wkt(f'PROJCS["p",UNIT["metre",1],AUTHORITY["EPSG","{code}"]]')
@@ -381,6 +393,28 @@ def test_virtual_point_clouds_that_name_what_cannot_be(tmp_path, change):
     with pytest.raises(BareEarthError) as caught:
         open_collection([path])
     assert "\n" not in str(caught.value) and str(caught.value).endswith(".")
+
+
+# Polygons and lines
+
+
+@pytest.mark.parametrize("corner", ["[1e999, 1]", "[NaN, 1]", f"[{'9' * 400}, 1]", "[null, 1]"])
+@pytest.mark.parametrize(("kind", "read"), [("Polygon", read_boundary), ("LineString", read_lines)])
+def test_corners_that_are_no_places_are_refused(tmp_path, corner, kind, read):
+    corners = f"[[0, 0], {corner}, [1, 1]]"
+    coordinates = f"[{corners}]" if kind == "Polygon" else corners
+    path = tmp_path / "a.geojson"
+    path.write_text(f'{{"type": "{kind}", "coordinates": {coordinates}}}')
+    with pytest.raises(BareEarthError, match="is not valid GeoJSON"):
+        read(path)
+
+
+def test_many_shapes_are_read_in_a_time_that_grows_with_their_number(tmp_path):
+    path = tmp_path / "a.wkt"
+    path.write_text("LINESTRING (0 0, 1 1)\n" * 30_000)
+    begun = time.monotonic()
+    assert len(read_lines(path)) == 30_000
+    assert time.monotonic() - begun < 30  # with the square of their number it takes minutes
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with names here")

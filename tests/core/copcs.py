@@ -1,0 +1,35 @@
+"""COPC files made by hand: with a hierarchy of several pages, as large clouds have it."""
+
+import struct
+
+_ENTRY = struct.Struct("<4iQ2i")
+# The info record is the first VLR: in it, where the first page begins and how many bytes it has.
+_ROOT = 375 + 54 + 40
+
+
+def with_sub_pages(content, depth=1):
+    """Return a COPC file whose nodes of a depth, and those below them, stand on pages of their own.
+
+    The hierarchy has to be the last record of the file.
+    """
+    data = bytearray(content)
+    start, size = struct.unpack_from("<2Q", data, _ROOT)
+    if start + size != len(data):
+        raise ValueError("the hierarchy is not at the end")
+    entries = [_ENTRY.unpack_from(data, at) for at in range(start, start + size, _ENTRY.size)]
+    above = [each for each in entries if each[0] < depth]
+    pages = {}
+    for entry in entries:
+        if entry[0] >= depth:
+            branch = tuple(part >> (entry[0] - depth) for part in entry[1:4])
+            pages.setdefault(branch, []).append(entry)
+    first = (len(above) + len(pages)) * _ENTRY.size
+    at, pointers, rest = start + first, [], b""
+    for branch, members in pages.items():
+        page = b"".join(_ENTRY.pack(*each) for each in members)
+        pointers.append((depth, *branch, at, len(page), -1))
+        at, rest = at + len(page), rest + page
+    data[start:] = b"".join(_ENTRY.pack(*each) for each in (*above, *pointers)) + rest
+    struct.pack_into("<Q", data, _ROOT + 8, first)
+    struct.pack_into("<Q", data, start - 60 + 20, len(data) - start)
+    return bytes(data)
