@@ -15,6 +15,8 @@ import struct
 from typing import NamedTuple, Sequence
 
 POINT_14, _EXTRA_BYTES_14, _WAVE_PACKET_13 = 10, 14, 9
+# Which of the layers of a point has its GPS time.
+_GPS_TIMES = 8
 # Layers of a point, its colours, those with near infrared, and its wave packet.
 LAYERS = {POINT_14: 9, 11: 1, 12: 2, 13: 1}
 # Kinds of compression: points one by one in chunks, and columns of points in chunks.
@@ -132,6 +134,12 @@ class ChunkHead(NamedTuple):
         if min(size, len(data) - start) < self.size:
             return False
         return self.size + sum(self.numbers(data, start)[1:]) <= size
+
+    def gps_times(self, data: bytes) -> slice:
+        """Return where the layer of the GPS times is in the chunk that begins with `data`."""
+        _, *lengths = self.numbers(data)
+        start = self.size + sum(lengths[:_GPS_TIMES])
+        return slice(start, start + lengths[_GPS_TIMES])
 
 
 def with_chunk_size(record: bytes, points: int) -> bytes:

@@ -54,8 +54,9 @@ RUNS = 0.1
 RIGHT = "done", "refused", "told, and a panic printed"
 # Mutants that a child works on: to begin one takes as long as some mutants.
 A_CHILD = 40
-# Bytes that may be asked for, and that may be used; seconds of work. Sound files take 0.1 GB.
-ASKED, USED, SECONDS = 4 << 30, 1 << 30, 20
+# Bytes that may be asked for, and that may be used (sound files take 0.1 GB); seconds that it may
+# work, and that it may take.
+ASKED, USED, SECONDS, WAITED = 4 << 30, 1 << 30, 20, 300
 METHOD = SlopeFilter(preset="whitebox")
 
 
@@ -157,8 +158,11 @@ def work_through(numbers, make, work, answers):
         warnings.simplefilter("error")
         for number in numbers:
             source, random = make(number)
-            signal.alarm(SECONDS)
+            # Of work, which others do not slow down; and of waiting, for what hangs.
+            signal.setitimer(signal.ITIMER_PROF, SECONDS)
+            signal.alarm(WAITED)
             answer = came_of(source, random)
+            signal.setitimer(signal.ITIMER_PROF, 0)
             signal.alarm(0)
             os.write(answers, f"{' '.join(answer.split())[:400]}\n".encode("utf-8", "replace"))
             clean(work)

@@ -186,6 +186,9 @@ def _change_bytes(data, low, high, random, keep_length):
     elif kind < 0.9:
         number = struct.unpack_from("<I", data, at)[0] + int(random.integers(-3, 4))
         struct.pack_into("<I", data, at, number & 0xFFFFFFFF)
+    elif kind < 0.93:  # as broken disks have it
+        end = min(at + int(random.integers(16, 4096)), high)
+        data[at:end] = (b"\0", b"\xff")[random.integers(2)] * (end - at)
     else:
         length = int(random.integers(1, 64))
         start = int(random.integers(len(data)))

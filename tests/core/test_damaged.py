@@ -14,6 +14,7 @@ import lazrs
 import numpy as np
 import pytest
 import surveys
+from conftest import GPS_TIMES, make_records
 from runs import classify_file
 
 from bare_earth.algorithms.core.errors import BareEarthError
@@ -24,6 +25,7 @@ from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 from bare_earth.algorithms.las.edits import Edits
 from bare_earth.algorithms.las.extrabytes import ExtraDimension
+from bare_earth.algorithms.las.laszip import Compression
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import inspect, read_cloud, read_parts
 from bare_earth.algorithms.las.writing import write_changed, write_classified
@@ -183,6 +185,56 @@ def test_extra_bytes_of_no_type_and_no_length(las):
     records = las.split(target).records
     assert np.array_equal(records[:, :-4], las.split(source).records)
     assert np.array_equal(np.ascontiguousarray(records[:, -4:]).view("<f4")[:, 0], values)
+
+
+UNPACKED = """
+import sys
+from pathlib import Path
+import numpy as np
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.las.writing import write_classified
+for source in map(Path, sys.argv[1:]):
+    try:
+        write_classified(source, source.with_name("out.las"), np.zeros(3000, np.uint8))
+        print("read", flush=True)
+    except BareEarthError as error:
+        print(error, flush=True)
+"""
+
+
+def with_blank_block(path, start, length=4096):
+    """Put bytes into a file as a disk has them where nothing was written."""
+    data = bytearray(path.read_bytes())
+    data[start : start + length] = b"\xff" * length
+    path.write_bytes(data)
+    return path
+
+
+@pytest.mark.parametrize("point_format", [1, 3, 4, 6, 7])
+def test_a_blank_block_among_the_gps_times_does_not_fill_the_stack(make, point_format):
+    records = make_records(point_format, 3000)
+    times = 1e8 + np.arange(3000) // 3 * 1e-3 + np.arange(3000) % 2 * 50.0
+    place = GPS_TIMES[point_format]
+    records[:, place : place + 8] = times.astype("<f8").view(np.uint8).reshape(-1, 8)
+    sound = make(point_format=point_format, records=records)
+    start = open_las(sound).points_start + 8
+    if point_format < 6:
+        places = start + np.arange(200, 20_000, 2500)
+    else:
+        _, *layers = struct.unpack_from("<10I", sound.read_bytes(), start + records.shape[1])
+        count = Compression.of(open_las(sound).laszip).layers
+        places = [start + records.shape[1] + 4 + 4 * count + sum(layers[:8])]
+    paths = []
+    for at in places:
+        path = make(point_format=point_format, records=records)
+        length = min(4096, layers[8]) if point_format > 5 else 4096
+        paths.append(with_blank_block(path, int(at), length))
+    command = [sys.executable, "-c", UNPACKED, *map(str, (sound, *paths))]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    assert (done.returncode, done.stderr) == (0, ""), done.stdout
+    first, *others = done.stdout.splitlines()
+    assert first == "read" and len(others) == len(paths)
+    assert all("damaged or cut off" in line for line in others)
 
 
 def test_the_files_that_broke_it_once(tmp_path):
@@ -379,6 +431,7 @@ def test_an_extent_that_the_points_cannot_have(las, place, value):
         {"href": "x" * 5000},
         {"href": "%" + "x" * 5000},
         {"href": 7},
+        {"href": "\ud800.laz"},
         {"pc:count": 1e400},
         {"pc:count": "many"},
         {"proj:bbox": [0, 1, "x", 3]},

@@ -4,6 +4,7 @@
 """
 
 import faulthandler
+import itertools
 import os
 import subprocess
 import sys
@@ -41,6 +42,7 @@ ENDS = {
     "SystemExit": lambda: sys.exit(1),
     "ended by SIGABRT": lambda: (faulthandler.disable(), os.abort()),
     "ended by SIGALRM": lambda: time.sleep(60),
+    "ended by SIGPROF": lambda: sum(0 for _ in itertools.count()),
     "MemoryError": lambda: np.ones(1 << 30),
     "MB used": lambda: len(np.ones(160_000_000)),
     "stderr: a word": lambda: os.write(2, b"a word"),
@@ -49,7 +51,8 @@ ENDS = {
 
 def test_the_campaign_sees_each_bad_end_and_goes_on_behind_it(tmp_path, monkeypatch):
     expected = list(ENDS)
-    monkeypatch.setattr(campaign, "SECONDS", 5)
+    monkeypatch.setattr(campaign, "SECONDS", 3)
+    monkeypatch.setattr(campaign, "WAITED", 8)
     monkeypatch.setattr(campaign, "work_on", lambda source, random: ENDS[source]())
     numbers = range(len(expected))
     found = dict(campaign.answers_of(numbers, lambda each: (expected[each], None), tmp_path))
