@@ -167,6 +167,18 @@ def test_a_compression_of_another_point_format(make):
     refused(damage(old, "B", (104, 0x80 | 6)), damage(new, "B", (104, 0x80 | 1)))
 
 
+def test_parts_of_a_point_of_another_type_than_their_length(make):
+    def with_type(point_format, part, kind):
+        path = make(point_format=point_format, extra=2)
+        return damage(path, "H", (laszip_record(path) + 34 + 6 * part, kind))
+
+    # Wave packets as colours, colours with near infrared as such without, extra bytes as colours.
+    paths = [with_type(10, 2, 11), with_type(8, 1, 11), with_type(7, 2, 11), with_type(7, 1, 14)]
+    # A time as colours, colours as a time, a time as extra bytes.
+    paths += [with_type(1, 1, 8), with_type(2, 1, 7), with_type(3, 1, 0)]
+    refused(*paths)
+
+
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), -float("inf"), 1e300, 1e13])
 @pytest.mark.parametrize("place", [*range(131, 155, 8), *range(155, 179, 8)])
 def test_scales_and_offsets_with_which_nothing_can_be_calculated(las, place, value):
