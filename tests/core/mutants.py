@@ -12,11 +12,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from conftest import las_bytes, make_records, vlr
-from copcs import with_sub_pages
-
-from bare_earth.algorithms.las import copc
-from bare_earth.algorithms.las.writing import write_classified
+from conftest import las_bytes, vlr
+from copcs import many_nodes
 
 WKT = b'PROJCS["p",GEOGCS["g",UNIT["degree",0.01745]],UNIT["metre",1],AUTHORITY["EPSG","25832"]]'
 KEYS = struct.pack("<12H", 1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, 25832)
@@ -74,7 +71,9 @@ def originals(folder):
                 chunk_size=17,
             )
             found.append(_las(".laz" if compressed else ".las", content))
-    found += [_las(".copc.laz", content) for content in _copcs(folder, records)]
+    for pages in (False, True):
+        content = many_nodes(folder, 7, pages, vlrs=records, encoding=0x10)
+        found.append(_las(".copc.laz", content))
     found += [_text(suffix, content) for suffix, content in _texts()]
     return found
 
@@ -83,20 +82,6 @@ def _evlrs():
     head = "<H16sHQ32s"
     wkt = struct.pack(head, 0, b"LASF_Projection", 2112, len(WKT), b"") + WKT
     return [wkt, struct.pack(head, 0, b"other", 7, 30, b"") + bytes(30)]
-
-
-def _copcs(folder, records):
-    """Yield COPC files of one page, and of several."""
-    plain, target = folder / "plain.las", folder / "plain.copc.laz"
-    made = make_records(7, 2000)
-    plain.write_bytes(las_bytes(version=4, point_format=7, vlrs=records, records=made))
-    before = copc._LEAF_POINTS, copc._SMALL_NODE
-    for sizes in (before, (100, 10)):
-        copc._LEAF_POINTS, copc._SMALL_NODE = sizes
-        write_classified(plain, target, np.zeros(2000, np.uint8))
-        yield target.read_bytes()
-    copc._LEAF_POINTS, copc._SMALL_NODE = before
-    yield with_sub_pages(target.read_bytes())
 
 
 def _las(suffix, content):

@@ -4,6 +4,8 @@ Every version, point format and container, with records before and behind the po
 all types, waveforms, every flag, and integers as large as can be; and the files of other projects.
 """
 
+import contextlib
+import io
 import itertools
 import struct
 
@@ -11,8 +13,10 @@ import independent
 import numpy as np
 import pytest
 from conftest import evlr, las_bytes, make_records, vlr
-from independent import CLASS, meaning, without
+from copcs import many_nodes
+from independent import CLASS, KEY_POINT, copc_nodes, in_any_order, meaning, without
 
+from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.las.writing import write_classified
 from benchmarks.data import FOLDER
 
@@ -153,3 +157,131 @@ def test_nothing_but_the_class_changes(written, tmp_path, version, point_format,
         start = before.field("I", 96)
         rest = slice(start + before.points.size, None)
         assert (after.header, after.data[rest]) == (before.header, before.data[rest])
+
+
+# Through the commands
+
+
+def said(*words):
+    """Run the command; return its exit code and what it says of what went wrong."""
+    errors = io.StringIO()
+    with contextlib.redirect_stderr(errors), contextlib.redirect_stdout(io.StringIO()):
+        code = main([*map(str, words)])
+    return code, errors.getvalue()
+
+
+def command(name, source, target):
+    return {
+        "classify": ["classify", source, target, "--method", "slope"],
+        "height": ["height", source, target],
+        "height in z": ["height", source, target, "--output-as", "z"],
+        "key points": ["key-points", source, target],
+        "key points by flag": ["key-points", source, target, "--mark-as", "flag"],
+    }[name]
+
+
+COMMANDS = ("classify", "height", "height in z", "key points", "key points by flag")
+# What each may change: bits of the points, bytes of the header.
+BITS = {"classify": (CLASS,), "key points": (CLASS,), "key points by flag": (KEY_POINT,)}
+EXTENT_OF_Z = 211, 227
+RECORD_LENGTH, VLR_COUNT = (105, 107), (100, 104)
+EXTRA_BYTES = SPEC + b"\4\0"
+
+
+def kept_by(name, before, after):
+    """Compare all bytes of a file that a command may not change."""
+    points, old = after.points, before.points
+    header = []
+    if name == "height":
+        # A dimension is added, and described behind the others, if it is not there already.
+        header = [RECORD_LENGTH, VLR_COUNT]
+        points, added = points[:, : old.shape[1]], points.shape[1] - old.shape[1]
+        assert added == 4
+        before, after = (
+            each._replace(
+                vlrs=[vlr for vlr in each.vlrs if vlr[2:20] != EXTRA_BYTES],
+                evlrs=[vlr for vlr in each.evlrs if vlr[2:20] != EXTRA_BYTES],
+            )
+            for each in (before, after)
+        )
+    elif name == "height in z":
+        header = [EXTENT_OF_Z]
+        points, old = points.copy(), old.copy()
+        points[:, 8:12] = old[:, 8:12] = 0
+    kept_around(before, after, *header)
+    bits = BITS.get(name, ())
+    old, points = (without(each, before.format, *bits) for each in (old, points))
+    if any(each[2:18] == COPC for each in after.vlrs):
+        if any(each[2:18] == COPC for each in before.vlrs) and name == "classify":
+            assert np.array_equal(old, points)  # all but the layer of the classes is copied
+        old, points = in_any_order(old), in_any_order(points)
+    assert np.array_equal(old, points)
+
+
+SOME = [(2, 3), (3, 5), (4, 1), (4, 8), (4, 10)]
+
+
+@pytest.mark.parametrize("container", ["las", "laz", "LASzip laz"])
+@pytest.mark.parametrize(
+    ("version", "point_format"),
+    [each if each in SOME else pytest.param(*each, marks=pytest.mark.long) for each in EVERY],
+)
+def test_commands_change_what_they_are_for_and_nothing_else(
+    tmp_path, version, point_format, container
+):
+    suffix = container.split()[-1]
+    plain, source = tmp_path / "in.las", tmp_path / f"source.{suffix}"
+    plain.write_bytes(everything(version, point_format, limits=False))
+    if container == "LASzip laz":
+        independent.write_laz(source, plain.read_bytes())
+    else:
+        write_classified(plain, source, np.full(300, 2, np.uint8))
+    for name in COMMANDS:
+        target = tmp_path / f"out.{suffix}"
+        if name == "height" and container == "LASzip laz":
+            source = tmp_path / "classified.laz"
+            assert said(*command("classify", tmp_path / "source.laz", source))[0] == 0
+        code, errors = said(*command(name, source, target))
+        assert code == 0, errors
+        kept_by(name, independent.read(source), independent.read(target))
+
+
+@pytest.mark.parametrize("point_format", [6, 7, 8])
+@pytest.mark.parametrize("name", COMMANDS)
+def test_copc_with_sub_pages_stays_whole(tmp_path, name, point_format):
+    source, target = tmp_path / "in.copc.laz", tmp_path / "out.copc.laz"
+    source.write_bytes(many_nodes(tmp_path, point_format))
+    assert copc_nodes(independent.read(source))[1] > 3
+    if name != "classify":
+        classified = tmp_path / "classified.copc.laz"
+        assert said(*command("classify", source, classified))[0] == 0
+        source = classified
+    code, errors = said(*command(name, source, target))
+    assert code == 0, errors
+    before, after = independent.read(source), independent.read(target)
+    kept_by(name, before, after)
+    nodes_are_whole(after)
+
+
+def nodes_are_whole(cloud):
+    """Compare the nodes of a COPC file with its length: they lie side by side and hold all."""
+    nodes, pages = copc_nodes(cloud)
+    start = cloud.field("I", 96) + 8
+    for place, length, _ in nodes:
+        assert place == start
+        start += length
+    assert start == struct.unpack_from("<q", cloud.data, cloud.field("I", 96))[0]
+    assert sum(count for *_, count in nodes) == len(cloud.points)
+    return pages
+
+
+# Files of other projects
+
+
+def awkward():
+    """Return the files; a parameter that is skipped where they are not here."""
+    found = sorted(AWKWARD.glob("*.la[sz]")) if AWKWARD.is_dir() else []
+    missing = pytest.mark.skip(reason=f"{AWKWARD} is not here")
+    return [pytest.param(each, id=each.name) for each in found] or [
+        pytest.param(None, marks=missing)
+    ]
