@@ -15,8 +15,17 @@ import struct
 from typing import NamedTuple, Sequence
 
 POINT_14, _EXTRA_BYTES_14, _WAVE_PACKET_13 = 10, 14, 9
+# Which of the layers of a point has its GPS time.
+_GPS_TIMES = 8
 # Layers of a point, its colours, those with near infrared, and its wave packet.
 LAYERS = {POINT_14: 9, 11: 1, 12: 2, 13: 1}
+# Bytes of each part of a point but of its extra bytes, and the parts of each point format.
+_SIZES = {6: 20, 7: 8, 8: 6, 9: 29, 10: 30, 11: 6, 12: 8, 13: 29}
+_PARTS = (
+    (6,), (6, 7), (6, 8), (6, 7, 8), (6, 7, 9), (6, 7, 8, 9),
+    (10,), (10, 11), (10, 12), (10, 13), (10, 12, 13),
+)  # fmt: skip
+_EXTRA_BYTES = 0
 # Kinds of compression: points one by one in chunks, and columns of points in chunks.
 _CHUNKED, _LAYERED = 2, 3
 _HEAD, _ITEM = struct.Struct("<HHBBHIIqqH"), struct.Struct("<HHH")
@@ -78,6 +87,18 @@ class Compression(NamedTuple):
         """Bytes of a point."""
         return sum(size for _, size, _ in self.items)
 
+    def is_of(self, point_format: int) -> bool:
+        """Return whether these are the parts of points of a format.
+
+        The decompressor takes the length of a part from its type, and not from what is said here.
+        """
+        parts = self.items
+        if parts[-1][0] in (_EXTRA_BYTES, _EXTRA_BYTES_14):
+            parts = parts[:-1]
+        return tuple(kind for kind, _, _ in parts) == _PARTS[point_format] and all(
+            size == _SIZES[kind] for kind, size, _ in parts
+        )
+
     def chunk_count_fits(self, chunks: int, count: int, size: int) -> bool:
         """Return whether so many chunks can hold so many points in so many bytes.
 
@@ -132,6 +153,12 @@ class ChunkHead(NamedTuple):
         if min(size, len(data) - start) < self.size:
             return False
         return self.size + sum(self.numbers(data, start)[1:]) <= size
+
+    def gps_times(self, data: bytes) -> slice:
+        """Return where the layer of the GPS times is in the chunk that begins with `data`."""
+        _, *lengths = self.numbers(data)
+        start = self.size + sum(lengths[:_GPS_TIMES])
+        return slice(start, start + lengths[_GPS_TIMES])
 
 
 def with_chunk_size(record: bytes, points: int) -> bytes:

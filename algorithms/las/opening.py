@@ -161,7 +161,8 @@ def _check_compressed(layout: LasFile) -> None:
             f"{layout.path} is compressed in a way that cannot be read here (LASzip compressor"
             f" {compression.kind}). Write it anew with LASzip."
         )
-    if (compression.layers > 0) != (layout.point_format >= FIRST_EXTENDED_FORMAT):
+    is_layered = layout.point_format >= FIRST_EXTENDED_FORMAT
+    if (compression.layers > 0) != is_layered or not compression.is_of(layout.point_format):
         raise damaged(layout.path)
     with open_source(layout.path) as file:
         file.seek(layout.points_start)

@@ -9,6 +9,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.progress import paced
 from .extrabytes import remembers, runs_of_bytes
+from .gps_times import check_gps_times
 from .lasfile import FIRST_EXTENDED_FORMAT, LASZIP, LasFile, Vlr, new_vlr
 from .laszip import with_chunk_size, with_wave_packets_of_1
 from .sources import changed, damage_told, damaged, open_source
@@ -310,6 +311,8 @@ def copy_range(source: BinaryIO, target: BinaryIO, start: int, end: int) -> None
 def _decompressor(layout: LasFile, file: BinaryIO, columns: Sequence[str] | None):
     import lazrs
 
+    if columns is None or layout.point_format < FIRST_EXTENDED_FORMAT:
+        check_gps_times(layout)
     record, points = layout.laszip, layout.chunk_table[0][0]
     if points > layout.count:
         # Room for a whole chunk is made, however few points there are.

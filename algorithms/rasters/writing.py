@@ -193,11 +193,13 @@ def _write_with_rasterio(
 
 def _crs_of(grid: RasterGrid | Raster, progress: Progress) -> Any:
     """Return the CRS as rasterio has it, or None."""
+    import rasterio
     from rasterio.crs import CRS
     from rasterio.errors import CRSError
 
     try:
-        return CRS.from_wkt(grid.frame.wkt) if grid.frame.wkt else None
+        with rasterio.Env():  # without it, GDAL prints its errors
+            return CRS.from_wkt(grid.frame.wkt) if grid.frame.wkt else None
     except CRSError:
         _warn_without_crs(progress)
         return None

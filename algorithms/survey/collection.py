@@ -161,7 +161,7 @@ def open_collection(
     Cancelled
         If the user asked to stop.
     """
-    paths = find_files(sources, recursive)
+    paths = find_files(sources, recursive, progress)
     heard, tiles, broken, known = _Tally(), [], [], {}
     for number, path in enumerate(paths, start=1):
         try:
@@ -181,13 +181,17 @@ def open_collection(
     return Collection(tuple(tiles), tuple(broken), crs)
 
 
-def find_files(sources: Iterable[Path], recursive: bool = False) -> list[Path]:
+def find_files(
+    sources: Iterable[Path], recursive: bool = False, progress: Progress = SILENT
+) -> list[Path]:
     """Return the paths of the point clouds that sources name, sorted and each once.
 
     Parameters
     ----------
     sources, recursive
         As for `open_collection`.
+    progress : Progress
+        Told of virtual point clouds that list files outside of their folders.
 
     Raises
     ------
@@ -197,7 +201,7 @@ def find_files(sources: Iterable[Path], recursive: bool = False) -> list[Path]:
     sources = [sources] if isinstance(sources, (str, os.PathLike)) else list(sources)
     found: dict[str, Path] = {}
     for source in sources:
-        for path in _expand(Path(source), recursive):
+        for path in _expand(Path(source), recursive, progress):
             found.setdefault(os.path.normcase(path.resolve()), path)
     if not found:
         names = ", ".join(map(str, sources)) or "what was given"
@@ -205,7 +209,7 @@ def find_files(sources: Iterable[Path], recursive: bool = False) -> list[Path]:
     return sorted(found.values(), key=lambda path: path.as_posix())
 
 
-def _expand(source: Path, recursive: bool) -> Iterator[Path]:
+def _expand(source: Path, recursive: bool, progress: Progress) -> Iterator[Path]:
     """Yield the files that a source stands for."""
     suffix = source.suffix.lower()
     if source.is_dir():
@@ -214,12 +218,14 @@ def _expand(source: Path, recursive: bool) -> Iterator[Path]:
             if is_cloud(path) and not path.name.startswith(".") and path.is_file():
                 yield path
     elif suffix == VPC_SUFFIX:
-        yield from (entry.path for entry in read_vpc(source))
+        paths = [entry.path for entry in read_vpc(source)]
+        _tell_of_files_elsewhere(source, paths, progress)
+        yield from paths
     elif suffix in _LISTS:
         for path in _listed(source):
             if path.suffix.lower() in _LISTS:
                 raise BareEarthError(f"{source} lists another list, {path}. Name the files in it.")
-            yield from _expand(path, recursive)
+            yield from _expand(path, recursive, progress)
     elif is_cloud(source):
         yield source
     elif not source.exists():
@@ -228,6 +234,17 @@ def _expand(source: Path, recursive: bool) -> Iterator[Path]:
         raise BareEarthError(
             f"{source} is neither a point cloud (.las, .laz, .copc.laz) nor a folder, a virtual"
             " point cloud (.vpc) or a list of files (.txt)."
+        )
+
+
+def _tell_of_files_elsewhere(source: Path, paths: list[Path], progress: Progress) -> None:
+    """Warn of a virtual point cloud whose files do not all lie in its folder, or below it."""
+    folder = source.parent.resolve()
+    elsewhere = [path for path in paths if folder not in path.resolve().parents]
+    if elsewhere:
+        progress.warning(
+            f"{source.name} lists {len(elsewhere)} of its {len(paths)} files outside of its own"
+            f" folder. The first is {elsewhere[0].resolve()}."
         )
 
 

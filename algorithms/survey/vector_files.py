@@ -17,6 +17,10 @@ from .corrections import CLASS_FIELD, Corrections
 _Shape = TypeVar("_Shape")
 
 _WKT_PART = re.compile(r"[()]|[^()]+")
+# What a text may do that is no such file.
+_INVALID = (
+    ValueError, TypeError, KeyError, IndexError, AttributeError, RecursionError, OverflowError
+)  # fmt: skip
 # A line is a single run of corners, a polygon a list of runs, its rings.
 _DEPTHS = {"LineString": 1, "Polygon": 2}
 
@@ -99,7 +103,7 @@ def _shapes(path: Path, kind: str, made: Callable[[Any, dict], _Shape]) -> tuple
     try:
         found = _of_wkt(text, kind) if suffix == ".wkt" else _of_geojson(text, kind)
         shapes = tuple(made(*each) for each in found)
-    except (ValueError, TypeError, KeyError, IndexError, AttributeError, RecursionError) as error:
+    except _INVALID as error:
         name = "WKT" if suffix == ".wkt" else "GeoJSON"
         raise BareEarthError(f"{path} is not valid {name}: {_one_line(error)}.") from error
     if not any(map(len, shapes)):
@@ -116,7 +120,7 @@ def _polygon(rings: Any) -> Polygon:
     for ring in rings:
         corners = np.array([(float(corner[0]), float(corner[1])) for corner in ring])
         if len(corners):
-            polygon.append(corners)
+            polygon.append(_finite(corners))
     return tuple(polygon)
 
 
@@ -126,10 +130,14 @@ def _polygon_with_class(rings: Any, attributes: dict) -> tuple[Polygon, Any]:
 
 def _line(corners: Any) -> np.ndarray:
     rows = [[float(each) for each in corner[:3]] for corner in corners]
-    line = np.array([row + [np.nan] * (3 - len(row)) for row in rows]).reshape(-1, 3)
-    if not np.isfinite(line[:, :2]).all():
+    return _finite(np.array([row + [np.nan] * (3 - len(row)) for row in rows]).reshape(-1, 3))
+
+
+def _finite(corners: np.ndarray) -> np.ndarray:
+    """Return corners, all of which have to be places."""
+    if not np.isfinite(corners[:, :2]).all():
         raise ValueError("a corner is not a finite number")
-    return line
+    return corners
 
 
 def _of_geojson(text: str, kind: str) -> Iterator[tuple[Any, dict]]:
@@ -159,7 +167,7 @@ def _of_wkt(text: str, kind: str) -> Iterator[tuple[Any, dict]]:
         corners_at = _DEPTHS[kind] + bool(match[1])
         whole_at = corners_at - _DEPTHS[kind]
         depth, runs = 0, []
-        for part in _WKT_PART.findall(text, match.end()):
+        for part in map(re.Match.group, _WKT_PART.finditer(text, match.end())):
             depth += {"(": 1, ")": -1}.get(part, 0)
             if depth == corners_at and part not in "()":
                 runs.append([corner.split() for corner in part.split(",")])

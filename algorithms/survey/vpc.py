@@ -206,6 +206,7 @@ def _href(assets: dict[str, dict[str, Any]]) -> str:
         asset = next(each for each in assets.values() if "overview" not in each.get("roles", ()))
     if not isinstance(asset["href"], str) or "\0" in asset["href"]:
         raise TypeError
+    os.fsencode(asset["href"])  # which not all that JSON can say is a name of a file
     return asset["href"]
 
 

@@ -47,7 +47,8 @@ def field_of(declaration: Declaration, is_shown: bool = True) -> QgsProcessingPa
             name, label, list(declaration.choices), True, list(default), optional, True
         )
     elif declaration.kind == "boolean":
-        field = QgsProcessingParameterBoolean(name, label, default, optional)
+        # The designer asks for all that is not optional, in models of before it was there as well.
+        field = QgsProcessingParameterBoolean(name, label, default, True)
     elif declaration.kind == "choice":
         # The values themselves, not their places in the list: they stay true in saved models.
         field = ChoiceParameter(
@@ -128,11 +129,11 @@ def _value(
 ) -> Any:
     name = declaration.name.upper()
     given = parameters.get(name)
+    if declaration.kind == "boolean":
+        return algorithm.parameterAsBool(parameters, name, context)
     if name in parameters and (compat.is_null(given) or given == ""):
         # Emptied on purpose; parameterAs... would return the default instead.
         return None
-    if declaration.kind == "boolean":
-        return algorithm.parameterAsBool(parameters, name, context)
     if declaration.kind == "choice":
         if isinstance(given, (str, int)):
             return value_of(given, list(declaration.choices))

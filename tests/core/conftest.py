@@ -8,6 +8,7 @@ import pytest
 
 from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine import workers
+from bare_earth.algorithms.las.laszip import with_chunk_size
 
 LENGTHS = (20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67)
 HEADER_SIZES = (227, 227, 227, 235, 375)
@@ -93,6 +94,7 @@ def las_bytes(
     waveform_start=0,
     tail=b"",
     count=60,
+    chunk_size=None,
 ):
     if records is None:
         records = make_records(point_format, count, extra)
@@ -104,6 +106,8 @@ def las_bytes(
         laszip = lazrs.LazVlr.new_for_compression(
             point_format, records.shape[1] - LENGTHS[point_format]
         )
+        if chunk_size is not None:
+            laszip = lazrs.LazVlr(with_chunk_size(bytes(laszip.record_data()), chunk_size))
         vlrs.append(vlr(b"laszip encoded", 22204, bytes(laszip.record_data())))
     start = len(header) + sum(map(len, vlrs)) + len(padding)
     if compressed:

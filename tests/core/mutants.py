@@ -1,138 +1,205 @@
-"""Files with some wrong bytes, worked on by `python mutants.py FOLDER SEED COUNT`.
+"""Sound files of all kinds, and files of which some bytes are wrong.
 
-It prints the number of a mutant before it is worked on, and what is no sentence after it. The
-process ends when one takes too long or asks for too much memory.
+A mutant is known by its seed and its number: `mutant(originals, seed, number)` gives the same bytes
+each time. `campaign.py` works on them.
 """
 
-import functools
-import os
-import signal
+import json
+import pickle
 import struct
 import sys
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from conftest import las_bytes, vlr
+from copcs import many_nodes
 
-from bare_earth.algorithms.core.errors import BareEarthError
-from bare_earth.algorithms.las.edits import Edits
-from bare_earth.algorithms.las.extrabytes import ExtraDimension
-from bare_earth.algorithms.las.opening import open_las
-from bare_earth.algorithms.las.reading import inspect, read_cloud
-from bare_earth.algorithms.las.writing import write_changed, write_classified
-from bare_earth.algorithms.survey.collection import open_collection
-from bare_earth.algorithms.survey.vpc import write_vpc
-from bare_earth.algorithms.survey.window import read_window
-
-MEMORY, SECONDS = 4 << 30, 10
 WKT = b'PROJCS["p",GEOGCS["g",UNIT["degree",0.01745]],UNIT["metre",1],AUTHORITY["EPSG","25832"]]'
 KEYS = struct.pack("<12H", 1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, 25832)
 EXTRA = struct.pack("<2xBB32s156x", 3, 0, b"amount")
+RING = [[4e5 - 5, 5e6 - 5], [4e5 + 20, 5e6 - 5], [4e5 + 20, 5e6 + 20], [4e5 - 5, 5e6 - 5]]
 # What a counter, a length, a place or a coordinate may be at its worst.
 NUMBERS = {
     "<B": (0, 1, 0x7F, 0x80, 0xFF),
     "<H": (0, 1, 0x7FFF, 0xFFFF),
-    "<I": (0, 1, 0x7FFFFFFF, 0xFFFFFFFF, 10**6, 10**9),
+    "<I": (0, 1, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF, 10**6, 10**9),
     "<Q": (0, 1, 1 << 31, 1 << 40, (1 << 63) - 1, 1 << 63, (1 << 64) - 1),
     "<d": (0.0, -1.0, 1e-300, 1e300, float("inf"), float("nan"), 1e6, 1e12, -1e12),
 }
+# How often each kind of file is taken.
+SHARES = {
+    ".las": 0.2,
+    ".laz": 0.35,
+    ".copc.laz": 0.25,
+    ".vpc": 0.08,
+    ".geojson": 0.06,
+    ".wkt": 0.06,
+}
+WORDS = (
+    b"null", b"-1", b"1e999", b"1e-400", b"NaN", b"Infinity", b"9" * 400, b"{}", b"[]", b"[[[[",
+    b"]]", b"}", b'"', b"\\ud800", b"\\u0000", b"\0", b"\xff\xfe", b"..", b"/", b"http://a.b/",
+    b"/vsicurl/http://a.b/c.laz", b"file:///", b"%2e%2e%2f", b"%00", b"\n", b"((((", b"))", b",",
+    b"MULTI", b"UNIT[", b"AUTHORITY[", b"[" * 3000, b"(" * 3000, b"true", b"x" * 5000,
+)  # fmt: skip
+
+
+class Original(NamedTuple):
+    """A sound file: what its name ends with, its bytes, and where its parts are."""
+
+    suffix: str
+    content: bytes
+    parts: dict
 
 
 def originals(folder):
-    """Return sound files of all kinds, as bytes by their suffix."""
+    """Return sound files of all kinds; it uses threads, so let a process of its own call it."""
     records = [vlr(b"LASF_Projection", 2112, WKT), vlr(b"LASF_Projection", 34735, KEYS)]
     extra = vlr(b"LASF_Spec", 4, EXTRA)
     found = []
-    for point_format in (1, 3, 6, 7):
+    for point_format in (0, 1, 3, 4, 6, 7, 8, 10):
         for compressed in (False, True):
+            is_new = point_format > 5
             content = las_bytes(
-                version=4 if point_format > 5 else 2,
+                version=4 if is_new else 3,
                 point_format=point_format,
                 compressed=compressed,
                 extra=2,
                 vlrs=[*records, extra],
-                encoding=0x10 if point_format > 5 else 0,
+                evlrs=_evlrs() if is_new else (),
+                encoding=0x10 if is_new else 0,
+                chunk_size=17,
             )
-            found.append((".laz" if compressed else ".las", content))
-    plain, copc = folder / "plain.las", folder / "plain.copc.laz"
-    plain.write_bytes(las_bytes(version=4, point_format=6, vlrs=records, count=2000))
-    write_classified(plain, copc, np.zeros(2000, np.uint8))
-    return [*found, (".copc.laz", copc.read_bytes()), (".copc.laz", copc.read_bytes())]
+            found.append(_las(".laz" if compressed else ".las", content))
+    for pages in (False, True):
+        content = many_nodes(folder, 7, pages, vlrs=records, encoding=0x10)
+        found.append(_las(".copc.laz", content))
+    found += [_text(suffix, content) for suffix, content in _texts()]
+    return found
 
 
-def mutant(originals, random):
-    """Return the suffix and the bytes of a file of which up to four numbers are wrong."""
-    suffix, content = originals[random.integers(len(originals))]
-    data = bytearray(content)
-    start = struct.unpack_from("<I", data, 96)[0]
+def _evlrs():
+    head = "<H16sHQ32s"
+    wkt = struct.pack(head, 0, b"LASF_Projection", 2112, len(WKT), b"") + WKT
+    return [wkt, struct.pack(head, 0, b"other", 7, 30, b"") + bytes(30)]
+
+
+def _las(suffix, content):
+    """Return a file of points, and where its parts are."""
+    (header, start), size = struct.unpack_from("<HI", content, 94), len(content)
+    parts = {"header": (0, min(header, 375)), "records": (header, start)}
+    points_end = size
+    if content[25] == 4 and struct.unpack_from("<I", content, 243)[0]:
+        points_end = struct.unpack_from("<Q", content, 235)[0]
+        parts["EVLRs"] = points_end, size
+    if suffix != ".las":
+        table = struct.unpack_from("<q", content, start)[0]
+        parts["chunk table"] = table, points_end
+        parts["chunk pointer"] = start, start + 8
+        laszip = content.index(b"laszip encoded") + 52
+        parts["LASzip record"] = laszip, laszip + 34 + 12
+        points_end = table
+    if suffix == ".copc.laz":
+        parts["COPC info"] = 375 + 54, 375 + 54 + 160
+        parts["hierarchy"] = struct.unpack_from("<QQ", content, 375 + 54 + 40)
+        start_of, length = parts["hierarchy"]
+        parts["hierarchy"] = start_of, start_of + length
+    parts["points"] = start, points_end
+    if WKT in content[:start]:
+        at = content.index(WKT)
+        parts["WKT"] = at, at + len(WKT)
+    return Original(suffix, content, parts)
+
+
+def _text(suffix, content):
+    return Original(suffix, content, {"text": (0, len(content))})
+
+
+def _texts():
+    """Yield a virtual point cloud, polygons and lines, as text."""
+    features = []
+    for name in ("a.las", "b.laz"):
+        asset = {"href": f"./{name}", "type": "application/vnd.laszip", "roles": ["data"]}
+        box = [4e5 - 10, 5e6, 4e5, 5e6 + 8]
+        properties = {"datetime": "2021-02-11T00:00:00Z", "pc:count": 60, "pc:type": "lidar",
+                      "proj:epsg": 25832, "proj:wkt2": WKT.decode(), "proj:bbox": box}  # fmt: skip
+        features.append(
+            {"type": "Feature", "stac_version": "1.0.0", "id": name, "bbox": box,
+             "properties": properties, "assets": {"data": asset}}
+        )  # fmt: skip
+    collection = {"type": "FeatureCollection", "features": features}
+    yield ".vpc", json.dumps(collection).encode()
+    polygon = {"type": "Polygon", "coordinates": [RING]}
+    line = {"type": "LineString", "coordinates": [[*corner, 100.0] for corner in RING]}
+    shapes = [{"type": "Feature", "geometry": each, "properties": {}} for each in (polygon, line)]
+    yield ".geojson", json.dumps({"type": "FeatureCollection", "features": shapes}).encode()
+    corners = ", ".join(f"{x} {y}" for x, y in RING)
+    yield ".wkt", f"POLYGON (({corners}))\nMULTILINESTRING Z (({corners}))\n".encode()
+
+
+def mutant(originals, seed, number):
+    """Return the suffix and the bytes of a file of which some are wrong, and what was done."""
+    random = np.random.default_rng([seed, number])
+    suffix = random.choice(list(SHARES), p=list(SHARES.values()))
+    of_kind = [each for each in originals if each.suffix == suffix]
+    original = of_kind[random.integers(len(of_kind))]
+    data, done = bytearray(original.content), []
     for _ in range(random.integers(1, 5)):
-        # Header and records, then the table of the chunks and what else is behind the points.
-        parts = ((0, 375), (227, start + 60), (len(data) - 400, len(data)), (0, len(data)))
-        low, high = parts[random.choice(4, p=(0.4, 0.3, 0.2, 0.1))]
-        at = int(random.integers(max(low, 0), min(high, len(data)) - 8))
-        kind = list(NUMBERS)[random.integers(len(NUMBERS))]
-        value = NUMBERS[kind][random.integers(len(NUMBERS[kind]))]
-        struct.pack_into(kind, data, at, value)
-    if random.random() < 0.1:
+        name = list(original.parts)[random.integers(len(original.parts))]
+        change = _change_text if name in ("text", "WKT") else _change_bytes
+        place = original.parts[name]
+        change(data, *place, random, keep_length=name == "WKT")
+        done.append(name)
+    if random.random() < 0.08 and len(data) > 1:
         del data[int(random.integers(len(data))) :]
-    return suffix, bytes(data)
+        done.append("cut off")
+    return original.suffix, bytes(data), done
 
 
-def actions(source):
-    """Yield what may be done with a file, one after the other."""
-    yield lambda: inspect(source).lines()
-    count = open_las(source).count
-    classes = np.arange(count, dtype=np.int64).astype(np.uint8) % 5
-    for suffix in (".las", ".laz", ".copc.laz"):
-        target = source.with_name(f"out{suffix}")
-        yield functools.partial(write_classified, source, target, classes)
-    values = np.zeros(count, np.float32)
-    extra = Edits(extra=ExtraDimension("height", "of it", values), kept=classes > 1)
-    yield lambda: write_changed(source, source.with_name("out.las"), extra)
-    yield lambda: read_cloud(source).points(slice(None))
-    yield lambda: read_window(source, (4e5, 5e6, 4e5 + 3, 5e6 + 3))
-    yield lambda: write_vpc(source.with_name("all.vpc"), [source])
-    yield lambda: open_collection([source])
+def _change_bytes(data, low, high, random, keep_length):
+    """Put a wrong number, other bits, or bytes from elsewhere into a part of a file."""
+    high = min(high, len(data))
+    if high - low < 8:
+        return
+    at, kind = int(random.integers(low, high - 7)), random.random()
+    if kind < 0.55:
+        layout = list(NUMBERS)[random.integers(len(NUMBERS))]
+        value = NUMBERS[layout][random.integers(len(NUMBERS[layout]))]
+        struct.pack_into(layout, data, at, value)
+    elif kind < 0.75:
+        data[at] ^= 1 << int(random.integers(8))
+    elif kind < 0.9:
+        number = struct.unpack_from("<I", data, at)[0] + int(random.integers(-3, 4))
+        struct.pack_into("<I", data, at, number & 0xFFFFFFFF)
+    elif kind < 0.93:  # as broken disks have it
+        end = min(at + int(random.integers(16, 4096)), high)
+        data[at:end] = (b"\0", b"\xff")[random.integers(2)] * (end - at)
+    else:
+        length = int(random.integers(1, 64))
+        start = int(random.integers(len(data)))
+        piece = data[start : start + length]
+        end = at + (len(piece) if random.random() < 0.7 else 0)
+        data[at : min(end, len(data))] = piece
 
 
-def work_on(source):
-    """Do all of it; only a `BareEarthError` may come of it, and no second line of it."""
-    following = actions(source)
-    while True:
-        try:
-            action = next(following, None)
-            if action is None:
-                return
-            action()
-        except BareEarthError as error:
-            if "\n" in str(error):
-                raise ValueError("two lines") from error
-
-
-def main(folder, seed, count):
-    import resource
-
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-    before = originals(folder)
-    for number in range(count):
-        random = np.random.default_rng([seed, number])
-        suffix, data = mutant(before, random)
-        source = folder / f"mutant{suffix}"
-        source.write_bytes(data)
-        print(number, flush=True)
-        signal.alarm(SECONDS)
-        try:
-            work_on(source)
-        except Exception as error:
-            where = error.__traceback__
-            while where.tb_next is not None:
-                where = where.tb_next
-            place = f"{Path(where.tb_frame.f_code.co_filename).name}:{where.tb_lineno}"
-            print(f"mutant {number}: {type(error).__name__} at {place}: {error}", flush=True)
-        signal.alarm(0)
-        for each in folder.glob("out.*"):
-            os.unlink(each)
+def _change_text(data, low, high, random, keep_length):
+    """Put what a text must not hold into it, leave a piece out, or repeat one."""
+    high = min(high, len(data))
+    if high <= low:
+        return
+    at, length = int(random.integers(low, high)), int(random.integers(0, 24))
+    end, kind = min(at + length, high), random.random()
+    if kind < 0.6:
+        new = WORDS[random.integers(len(WORDS))]
+    elif kind < 0.8:
+        new = b""
+    else:
+        new = bytes(data[low:high] if kind > 0.95 else data[at:end] * 2)
+    if keep_length:
+        new = new[: end - at].ljust(end - at)
+    data[at:end] = new
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3]))
+    place = Path(sys.argv[1])
+    (place / "originals").write_bytes(pickle.dumps([tuple(each) for each in originals(place)]))

@@ -203,3 +203,16 @@ def test_neighbours_are_those_within_the_distance(las):
     assert near("far", 49) == []
     assert near("far", 50) == ["03", "13"]
     assert [each.path.stem for each in collection.touching((310, 310, 320, 320))] == ["33"]
+
+
+def test_files_outside_of_the_folder_of_their_list_are_told(las):
+    inside, outside = tile(las, "sub/a.las"), tile(las, "b.las", 100.0)
+    vpc = las.folder / "sub" / "all.vpc"
+    write_vpc(vpc, [inside, outside])
+    heard = las.Heard()
+    assert len(open_collection([vpc], progress=heard).tiles) == 2
+    assert [each for each in heard.warnings if f"The first is {outside.resolve()}." in each]
+    write_vpc(las.folder / "all.vpc", [inside, outside])
+    heard = las.Heard()
+    open_collection([las.folder / "all.vpc"], progress=heard)
+    assert not any("outside" in each for each in heard.warnings)

@@ -7,12 +7,14 @@ import shutil
 import struct
 import subprocess
 import sys
+import time
 
 import laspy
 import lazrs
 import numpy as np
 import pytest
 import surveys
+from conftest import GPS_TIMES, make_records
 from runs import classify_file
 
 from bare_earth.algorithms.core.errors import BareEarthError
@@ -23,11 +25,12 @@ from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 from bare_earth.algorithms.las.edits import Edits
 from bare_earth.algorithms.las.extrabytes import ExtraDimension
+from bare_earth.algorithms.las.laszip import Compression
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import inspect, read_cloud, read_parts
 from bare_earth.algorithms.las.writing import write_changed, write_classified
 from bare_earth.algorithms.survey.collection import open_collection
-from bare_earth.algorithms.survey.vector_files import read_boundary
+from bare_earth.algorithms.survey.vector_files import read_boundary, read_lines
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
 from benchmarks.data import FOLDER
 
@@ -164,6 +167,18 @@ def test_a_compression_of_another_point_format(make):
     refused(damage(old, "B", (104, 0x80 | 6)), damage(new, "B", (104, 0x80 | 1)))
 
 
+def test_parts_of_a_point_of_another_type_than_their_length(make):
+    def with_type(point_format, part, kind):
+        path = make(point_format=point_format, extra=2)
+        return damage(path, "H", (laszip_record(path) + 34 + 6 * part, kind))
+
+    # Wave packets as colours, colours with near infrared as such without, extra bytes as colours.
+    paths = [with_type(10, 2, 11), with_type(8, 1, 11), with_type(7, 2, 11), with_type(7, 1, 14)]
+    # A time as colours, colours as a time, a time as extra bytes.
+    paths += [with_type(1, 1, 8), with_type(2, 1, 7), with_type(3, 1, 0)]
+    refused(*paths)
+
+
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), -float("inf"), 1e300, 1e13])
 @pytest.mark.parametrize("place", [*range(131, 155, 8), *range(155, 179, 8)])
 def test_scales_and_offsets_with_which_nothing_can_be_calculated(las, place, value):
@@ -182,6 +197,56 @@ def test_extra_bytes_of_no_type_and_no_length(las):
     records = las.split(target).records
     assert np.array_equal(records[:, :-4], las.split(source).records)
     assert np.array_equal(np.ascontiguousarray(records[:, -4:]).view("<f4")[:, 0], values)
+
+
+UNPACKED = """
+import sys
+from pathlib import Path
+import numpy as np
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.las.writing import write_classified
+for source in map(Path, sys.argv[1:]):
+    try:
+        write_classified(source, source.with_name("out.las"), np.zeros(3000, np.uint8))
+        print("read", flush=True)
+    except BareEarthError as error:
+        print(error, flush=True)
+"""
+
+
+def with_blank_block(path, start, length=4096):
+    """Put bytes into a file as a disk has them where nothing was written."""
+    data = bytearray(path.read_bytes())
+    data[start : start + length] = b"\xff" * length
+    path.write_bytes(data)
+    return path
+
+
+@pytest.mark.parametrize("point_format", [1, 3, 4, 6, 7])
+def test_a_blank_block_among_the_gps_times_does_not_fill_the_stack(make, point_format):
+    records = make_records(point_format, 3000)
+    times = 1e8 + np.arange(3000) // 3 * 1e-3 + np.arange(3000) % 2 * 50.0
+    place = GPS_TIMES[point_format]
+    records[:, place : place + 8] = times.astype("<f8").view(np.uint8).reshape(-1, 8)
+    sound = make(point_format=point_format, records=records)
+    start = open_las(sound).points_start + 8
+    if point_format < 6:
+        places = start + np.arange(200, 20_000, 2500)
+    else:
+        _, *layers = struct.unpack_from("<10I", sound.read_bytes(), start + records.shape[1])
+        count = Compression.of(open_las(sound).laszip).layers
+        places = [start + records.shape[1] + 4 + 4 * count + sum(layers[:8])]
+    paths = []
+    for at in places:
+        path = make(point_format=point_format, records=records)
+        length = min(4096, layers[8]) if point_format > 5 else 4096
+        paths.append(with_blank_block(path, int(at), length))
+    command = [sys.executable, "-c", UNPACKED, *map(str, (sound, *paths))]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    assert (done.returncode, done.stderr) == (0, ""), done.stdout
+    first, *others = done.stdout.splitlines()
+    assert first == "read" and len(others) == len(paths)
+    assert all("damaged or cut off" in line for line in others)
 
 
 def test_the_files_that_broke_it_once(tmp_path):
@@ -321,6 +386,17 @@ def test_brackets_in_brackets_are_no_crs(text):
     assert crs_of_wkt(text) is None or crs_of_wkt(text).horizontal_unit == 1.0
 
 
+def test_a_crs_that_the_library_for_rasters_does_not_know_is_told_and_not_printed(las, capfd):
+    pytest.importorskip("rasterio")
+    record = las.vlr(b"LASF_Projection", 2112, b'PROJCS["p",UNIT["metre",1]]')
+    source = las.make(version=4, point_format=6, encoding=0x10, vlrs=[record])
+    heard, out = las.Heard(), las.folder / "dtm.tif"
+    method = SlopeFilter(preset="whitebox")
+    classify_file(source, las.folder / "out.las", method, dtm=out, progress=heard)
+    assert any("without a CRS" in each for each in heard.warnings)
+    assert out.is_file() and capfd.readouterr().err == ""
+
+
 @pytest.mark.parametrize("code", ["9" * 60_000, "²", "-1", "4.5", "1e3"])
 def test_codes_that_are_none_are_left_out(code):
     crs = crs_of_wkt(f'PROJCS["p",UNIT["metre",1],AUTHORITY["EPSG","{code}"]]')
@@ -367,6 +443,7 @@ def test_an_extent_that_the_points_cannot_have(las, place, value):
         {"href": "x" * 5000},
         {"href": "%" + "x" * 5000},
         {"href": 7},
+        {"href": "\ud800.laz"},
         {"pc:count": 1e400},
         {"pc:count": "many"},
         {"proj:bbox": [0, 1, "x", 3]},
@@ -381,6 +458,28 @@ def test_virtual_point_clouds_that_name_what_cannot_be(tmp_path, change):
     with pytest.raises(BareEarthError) as caught:
         open_collection([path])
     assert "\n" not in str(caught.value) and str(caught.value).endswith(".")
+
+
+# Polygons and lines
+
+
+@pytest.mark.parametrize("corner", ["[1e999, 1]", "[NaN, 1]", f"[{'9' * 400}, 1]", "[null, 1]"])
+@pytest.mark.parametrize(("kind", "read"), [("Polygon", read_boundary), ("LineString", read_lines)])
+def test_corners_that_are_no_places_are_refused(tmp_path, corner, kind, read):
+    corners = f"[[0, 0], {corner}, [1, 1]]"
+    coordinates = f"[{corners}]" if kind == "Polygon" else corners
+    path = tmp_path / "a.geojson"
+    path.write_text(f'{{"type": "{kind}", "coordinates": {coordinates}}}')
+    with pytest.raises(BareEarthError, match="is not valid GeoJSON"):
+        read(path)
+
+
+def test_many_shapes_are_read_in_a_time_that_grows_with_their_number(tmp_path):
+    path = tmp_path / "a.wkt"
+    path.write_text("LINESTRING (0 0, 1 1)\n" * 30_000)
+    begun = time.monotonic()
+    assert len(read_lines(path)) == 30_000
+    assert time.monotonic() - begun < 30  # with the square of their number it takes minutes
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with names here")

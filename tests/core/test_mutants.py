@@ -1,27 +1,61 @@
 """Files with some wrong bytes end in a right output or in a sentence: no abort, no hang, no trace.
 
-`python tests/core/mutants.py FOLDER SEED COUNT` tries as many as wanted.
+`python tests/core/campaign.py FOLDER SEED COUNT` tries as many as wanted.
 """
 
+import faulthandler
+import itertools
+import os
 import subprocess
 import sys
+import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 pytest.importorskip("resource")
-SCRIPT = Path(__file__).with_name("mutants.py")
+import campaign
+
+SCRIPT = Path(campaign.__file__)
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="its limits are those of Linux")
 
 
 @pytest.mark.parametrize(
     ("seed", "count"),
-    [(2, 30), *(pytest.param(seed, 120, marks=pytest.mark.long) for seed in (2, 3))],
+    [(2, 80), *(pytest.param(seed, 3000, marks=pytest.mark.long) for seed in (2, 3))],
 )
 def test_files_with_wrong_bytes_end_in_a_sentence(tmp_path, seed, count):
     words = map(str, (SCRIPT, tmp_path, seed, count))
-    command = [sys.executable, "-W", "error", *words]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
-    lines = done.stdout.splitlines()
-    assert not [line for line in lines if line.startswith("mutant")]
-    assert (done.returncode, done.stderr) == (0, ""), f"mutant {lines[-1]} ended the process"
-    assert lines[-1] == str(count - 1)
+    done = subprocess.run(
+        [sys.executable, *words], capture_output=True, text=True, timeout=600, check=False
+    )
+    assert not [line for line in done.stdout.splitlines() if line.startswith("mutant")]
+    assert (done.returncode, done.stderr) == (0, "")
+    assert f"tried {count}:" in done.stdout
+
+
+ENDS = {
+    "done": lambda: 1,
+    "refused": lambda: 0,
+    "ValueError at test_mutants.py": lambda: int("no number"),
+    "SystemExit": lambda: sys.exit(1),
+    "ended by SIGABRT": lambda: (faulthandler.disable(), os.abort()),
+    "ended by SIGALRM": lambda: time.sleep(60),
+    "ended by SIGPROF": lambda: sum(0 for _ in itertools.count()),
+    "MemoryError": lambda: np.ones(1 << 30),
+    "MB used": lambda: len(np.ones(160_000_000)),
+    "stderr: a word": lambda: os.write(2, b"a word"),
+}
+
+
+def test_the_campaign_sees_each_bad_end_and_goes_on_behind_it(tmp_path, monkeypatch):
+    expected = list(ENDS)
+    monkeypatch.setattr(campaign, "SECONDS", 3)
+    monkeypatch.setattr(campaign, "WAITED", 8)
+    monkeypatch.setattr(campaign, "work_on", lambda source, random: ENDS[source]())
+    numbers = range(len(expected))
+    found = dict(campaign.answers_of(numbers, lambda each: (expected[each], None), tmp_path))
+    assert list(found) == list(numbers)
+    for number, answer in found.items():
+        assert expected[number] in answer

@@ -1,0 +1,63 @@
+"""GPS times that would end the process that decompresses them.
+
+Where times jump between series, the decompressor of lazrs calls itself once for each jump that it
+reads, and sound files have one at a time. Of a block of bytes 0xFF, as broken disks give, it reads
+thousands of jumps from each byte, until its stack is full: that cannot be caught, and QGIS would go
+along. No sound file has such a block, for compressed bytes are as good as random.
+
+References
+----------
+lazrs 0.8.2, laz-rs 0.12.2, `src/las/gps.rs`, `decompress_with`, which follows Isenburg's
+`LASreadItemCompressed_GPSTIME11_v2` and `LASreadItemCompressed_POINT14_v3`.
+"""
+
+from __future__ import annotations
+
+from typing import BinaryIO, Iterator
+
+from .lasfile import LasFile
+from .laszip import ChunkHead, Compression
+from .sources import damaged, open_source
+
+# With the stack that `algorithms.las` asks for, 32 of them do no harm yet, and 64 do.
+_RUN = b"\xff" * 32
+_WITH_TIMES = (1, 3, 4, 5, 6, 7, 8, 9, 10)
+_BLOCK = 1 << 24
+
+
+def check_gps_times(layout: LasFile) -> None:
+    """Refuse a compressed file whose GPS times must not be decompressed.
+
+    Raises
+    ------
+    BareEarthError
+        If there are such.
+    """
+    if layout.point_format not in _WITH_TIMES:
+        return
+    layers = Compression.of(layout.laszip).layers
+    with open_source(layout.path) as file:
+        pieces = _layers(layout, file, layers) if layers else _blocks(layout, file)
+        if any(_RUN in piece for piece in pieces):
+            raise damaged(layout.path)
+
+
+def _layers(layout: LasFile, file: BinaryIO, layers: int) -> Iterator[bytes]:
+    """Yield the layer of the GPS times of each chunk."""
+    head, place = ChunkHead(layout.record_length, layers), layout.points_start + 8
+    for _, size in layout.chunk_table:
+        if size:
+            file.seek(place)
+            layer = head.gps_times(file.read(head.size))
+            file.seek(place + layer.start)
+            yield file.read(layer.stop - layer.start)
+        place += size
+
+
+def _blocks(layout: LasFile, file: BinaryIO) -> Iterator[bytes]:
+    """Yield the bytes of points that are compressed one by one."""
+    file.seek(layout.points_start + 8)
+    left, before = sum(size for _, size in layout.chunk_table), b""
+    while left > 0 and (block := file.read(min(_BLOCK, left))):
+        yield before + block
+        left, before = left - len(block), block[1 - len(_RUN) :]
