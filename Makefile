@@ -1,5 +1,5 @@
 # The set-up is all in tools/environment: it makes what is missing, below build/.
-.PHONY: help demo test test-core test-long lint test-qgis coverage docs package clean
+.PHONY: help demo test test-core test-long lint test-qgis coverage docs translations package clean
 
 help:  ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /  \1\t/p' Makefile | expand -t 14
@@ -25,6 +25,10 @@ test-qgis:  ## test the plugin in the real QGIS
 docs:  ## build the pages as a site, build/site/index.html
 	@tools/environment python -m pip install --quiet --editable ".[docs]"
 	@tools/environment python -m mkdocs build --quiet --strict
+
+translations:  ## write what there is to translate into plugin/i18n/*.ts, and try what is translated
+	@tools/environment install-qgis
+	@tools/environment qgis /usr/bin/python3 tools/translations.py
 
 package:  ## pack the last commit, with laspy, as dist/bare_earth-X.Y.Z.zip, to install in QGIS
 	@tools/environment package

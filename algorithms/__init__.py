@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     from .products.surface_model import SurfaceModel as SurfaceModel
     from .products.terrain_model import TerrainModel as TerrainModel
     from .survey.area import Area as Area
+    from .survey.corrections import Corrections as Corrections
     from .survey.ground_classes import GroundClasses as GroundClasses
     from .survey.selection import Selection as Selection
 
@@ -72,6 +73,7 @@ _MODULES = {
     "SurfaceModel": "products.surface_model",
     "TerrainModel": "products.terrain_model",
     "Area": "survey.area",
+    "Corrections": "survey.corrections",
     "GroundClasses": "survey.ground_classes",
     "Selection": "survey.selection",
 }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import matplotlib as mpl
 import numpy as np
 from matplotlib import pyplot
 from PIL import Image
@@ -40,3 +41,14 @@ def shade(panel: pyplot.Axes, heights: np.ndarray, cell_size: float = 1.0, faint
     panel.imshow(grey, cmap="gray", vmin=-200 if faint else 1, vmax=255, interpolation="nearest")
     panel.set_xticks([])
     panel.set_yticks([])
+
+
+def draw_errors(panel: pyplot.Axes, true_heights: np.ndarray, error: np.ndarray) -> None:
+    """Draw a terrain model: red where it is too high, blue where it is too low."""
+    shade(panel, true_heights + error, faint=True)
+    colours = np.zeros((*error.shape, 4))
+    colours[error > 0] = mpl.colors.to_rgba(ADDED)
+    colours[error <= 0] = mpl.colors.to_rgba(LINE)
+    # Errors of less than 0.2 m are not shown; from 1 m on they are so in full colour.
+    colours[..., 3] = np.clip((np.abs(np.nan_to_num(error)) - 0.2) / 0.8, 0, 0.9)
+    panel.imshow(colours, interpolation="nearest")

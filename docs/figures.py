@@ -22,7 +22,8 @@ from PIL import Image
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from drawing import ADDED, FEW_COLOURS, IMAGES, LINE, OTHER, save, shade, shrink
+from by_hand_figure import by_hand
+from drawing import FEW_COLOURS, IMAGES, OTHER, draw_errors, save, shade, shrink
 from method_figures import grid_minimum_steps, slope_filter_steps, tin_densification_steps
 
 from bare_earth.algorithms import ClassifyRequest, RasterFiles, TerrainRequest, classify, terrain
@@ -72,6 +73,7 @@ def main() -> None:
         "tin-densification-steps": tin_densification_steps,
         "slope-filter-steps": slope_filter_steps,
         "grid-minimum-steps": grid_minimum_steps,
+        "by-hand": by_hand,
     }
     figures["presets"] = print_presets
     figures |= {f"which-method-{name}": lambda name=name: small_multiples(name) for name in TERRAIN}
@@ -187,21 +189,10 @@ def small_multiples(group: str) -> None:
         row[1].set_title("true terrain")
         for panel, (method, label) in zip(row[2:], METHODS.items()):
             ground = Filter(method).ground(scene.cloud())
-            draw_errors(panel, model, model.error(scene, ground))
+            draw_errors(panel, model.heights, model.error(scene, ground))
             score = score_scene(scene, ground, model, with_dtm=False)
             panel.set_title(f"{label}: I {score.type_1:.1f}, II {score.type_2_high:.1f} %")
     save(figure, f"which-method-{group}", 90, FEW_COLOURS)
-
-
-def draw_errors(panel: pyplot.Axes, model: TrueModel, error: np.ndarray) -> None:
-    """Draw a terrain model: red where it is too high, blue where it is too low."""
-    shade(panel, model.heights + error, faint=True)
-    colours = np.zeros((*error.shape, 4))
-    colours[error > 0] = mpl.colors.to_rgba(ADDED)
-    colours[error <= 0] = mpl.colors.to_rgba(LINE)
-    # Errors of less than 0.2 m are not shown; from 1 m on they are so in full colour.
-    colours[..., 3] = np.clip((np.abs(np.nan_to_num(error)) - 0.2) / 0.8, 0, 0.9)
-    panel.imshow(colours, interpolation="nearest")
 
 
 def print_presets() -> None:

@@ -15,9 +15,14 @@ from pathlib import Path
 from qgis.core import (
     Qgis,
     QgsApplication,
+    QgsFeature,
+    QgsFillSymbol,
+    QgsGeometry,
     QgsLayerTreeModel,
     QgsProcessingOutputLayerDefinition,
     QgsProject,
+    QgsRectangle,
+    QgsVectorLayer,
 )
 from qgis.gui import QgsLayerTreeView, QgsMapCanvas
 from qgis.PyQt.QtCore import QSize, Qt
@@ -27,6 +32,8 @@ ALGORITHM = "bareearth:tindensification"
 ONE_STEP = "bareearth:pointcloudtoterrain"
 # Few of them are kept in docs/images.
 IMAGES = Path(sys.argv[2]) if len(sys.argv) > 2 else Path(__file__).parent / "images"
+# What is no ground in the tile of `make demo`: the large building, with what stands round it.
+BUILDING = QgsRectangle(568_136.0, 5_931_179.0, 568_208.0, 5_931_233.0)
 VERSION = ".".join(Qgis.QGIS_VERSION.split(".")[:2])
 
 
@@ -58,7 +65,13 @@ def show_dialog(tile: Path, name: str, picture: str) -> None:
     dialog.close()
 
 
-def show_map(algorithm: str, parameters: dict, outputs: dict[str, str], name: str) -> dict:
+def show_map(
+    algorithm: str,
+    parameters: dict,
+    outputs: dict[str, str],
+    name: str,
+    over: QgsVectorLayer | None = None,
+) -> dict:
     """Run an algorithm as the toolbox does, and picture its layers; return what it made.
 
     Parameters
@@ -71,10 +84,14 @@ def show_map(algorithm: str, parameters: dict, outputs: dict[str, str], name: st
         The files to make, by the names of the fields; all are loaded.
     name : str
         Of the picture.
+    over : QgsVectorLayer, optional
+        A layer to show on top; the map shows what lies round it.
     """
     import processing
 
     project = QgsProject.instance()
+    if over is not None:
+        project.addMapLayer(over)
     loaded = {
         each: QgsProcessingOutputLayerDefinition(path, project) for each, path in outputs.items()
     }
@@ -87,6 +104,9 @@ def show_map(algorithm: str, parameters: dict, outputs: dict[str, str], name: st
     root = project.layerTreeRoot()
     canvas.setLayers([each for each in root.layerOrder() if root.findLayer(each).isVisible()])
     canvas.setExtent(next(iter(project.mapLayers().values())).extent())
+    if over is not None:
+        canvas.setLayers([over, *(each for each in canvas.layers() if each is not over)])
+        canvas.setExtent(over.extent().buffered(30.0))
     window = QSplitter()
     window.addWidget(tree)
     window.addWidget(canvas)
@@ -102,6 +122,25 @@ def show_map(algorithm: str, parameters: dict, outputs: dict[str, str], name: st
     save(window, name, QSize(800, 560))
     project.clear()
     return results
+
+
+def show_corrections(tile: Path, folder: Path) -> None:
+    """Picture the map of the filter alone, and the one that follows a polygon of corrections."""
+    provider = QgsApplication.processingRegistry().providerById("bareearth")
+    outputs = {"OUTPUT": str(folder / f"known.{provider.defaultPointCloudFileExtension()}")}
+    outputs |= {each: str(folder / f"known-{each}.tif") for each in ("DTM", "HILLSHADE")}
+    for name in ("map-by-hand-before", "map-by-hand"):
+        layer = QgsVectorLayer(
+            "Polygon?crs=EPSG:25832&field=class:integer", "corrections: class 6", "memory"
+        )
+        feature = QgsFeature(layer.fields())
+        feature.setGeometry(QgsGeometry.fromRect(BUILDING))
+        feature["class"] = 6
+        layer.dataProvider().addFeatures([feature])
+        outline = {"style": "no", "outline_color": "215,38,61", "outline_width": "0.8"}
+        layer.renderer().setSymbol(QgsFillSymbol.createSimple(outline))
+        known = {} if name.endswith("before") else {"CORRECTIONS": layer}
+        show_map(ONE_STEP, {"INPUT": str(tile), **known}, outputs, name, layer)
 
 
 def show_maps(tile: Path, folder: Path) -> None:
@@ -150,6 +189,7 @@ def main() -> None:
     show_dialog(tile, ALGORITHM, "dialog")
     show_dialog(tile, ONE_STEP, "dialog-one-step")
     with tempfile.TemporaryDirectory() as folder:
+        show_corrections(tile, Path(folder))
         show_maps(tile, Path(folder))
 
 

@@ -20,6 +20,8 @@ from qgis.core import (
     QgsRasterLayer,
 )
 
+from .i18n import tr
+
 try:  # Qt 6 has it there
     from qgis.PyQt.QtGui import QAction as QAction
 except ImportError:
@@ -28,6 +30,7 @@ except ImportError:
 # From 3.36 on the enumerations are those of `Qgis`; the old names are on their way out.
 if hasattr(Qgis, "ProcessingParameterFlag"):
     ADVANCED = Qgis.ProcessingParameterFlag.Advanced
+    OPTIONAL = Qgis.ProcessingParameterFlag.Optional
     NUMBER = Qgis.ProcessingNumberParameterType.Double
     INTEGER = Qgis.ProcessingNumberParameterType.Integer
     POLYGONS = Qgis.ProcessingSourceType.VectorPolygon
@@ -36,6 +39,7 @@ if hasattr(Qgis, "ProcessingParameterFlag"):
     FOLDER = Qgis.ProcessingFileParameterBehavior.Folder
 else:
     ADVANCED = QgsProcessingParameterDefinition.Flag.FlagAdvanced
+    OPTIONAL = QgsProcessingParameterDefinition.Flag.FlagOptional
     NUMBER = QgsProcessingParameterNumber.Type.Double
     INTEGER = QgsProcessingParameterNumber.Type.Integer
     POLYGONS = QgsProcessing.SourceType.TypeVectorPolygon
@@ -76,7 +80,7 @@ def point_cloud_output(
     if HAS_POINT_CLOUD_OUTPUTS:
         return core.QgsProcessingParameterPointCloudDestination(name, label)
     # The first filter gives the extension of files that get no name.
-    filters = ";;".join(f"{each.upper()} files (*.{each})" for each in extensions)
+    filters = ";;".join(tr("{} files (*.{})").format(each.upper(), each) for each in extensions)
     return QgsProcessingParameterFileDestination(name, label, filters)
 
 

@@ -21,6 +21,7 @@ from qgis.PyQt.QtWidgets import (
 )
 
 from ..algorithms.core.errors import BareEarthError
+from .i18n import tr
 from .libraries.build import Build
 from .libraries.laz_support import LazSupport
 from .libraries.pip import Finished, Run
@@ -49,9 +50,9 @@ class LazDialog(QDialog):
         super().__init__(parent)
         self._support = support
         self._task: _Task | None = None
-        self.setWindowTitle(self.tr("LAZ support"))
+        self.setWindowTitle(tr("LAZ support"))
         about = QLabel(
-            self.tr(
+            tr(
                 "Compressed point clouds (.laz, .copc.laz) need the package lazrs, which few builds"
                 " of QGIS have. Here you get it from the Python Package Index (0.6 MB), or, without"
                 " the internet, from a wheel file of lazrs for {}. It goes into your profile; QGIS"
@@ -64,9 +65,9 @@ class LazDialog(QDialog):
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.busy = QProgressBar()
         self.busy.setRange(0, 0)
-        self.get = QPushButton(self.tr("Get lazrs"))
-        self.choose = QPushButton(self.tr("From a wheel file…"))
-        self.remove = QPushButton(self.tr("Remove"))
+        self.get = QPushButton(tr("Get lazrs"))
+        self.choose = QPushButton(tr("From a wheel file…"))
+        self.remove = QPushButton(tr("Remove"))
         self.get.clicked.connect(self._get)
         self.choose.clicked.connect(self._choose)
         self.remove.clicked.connect(self._remove)
@@ -101,7 +102,7 @@ class LazDialog(QDialog):
 
     def _choose(self) -> None:
         path, _ = QFileDialog.getOpenFileName(
-            self, self.tr("Wheel file of lazrs"), "", self.tr("Wheel files (*.whl)")
+            self, tr("Wheel file of lazrs"), "", tr("Wheel files (*.whl)")
         )
         if path:
             self.get_from_wheel(path)
@@ -120,13 +121,13 @@ class LazDialog(QDialog):
 
     def _ended(self) -> None:
         if self._task is not None:
-            self.result.setText(self._task.error or self.tr("Done; no restart is needed."))
+            self.result.setText(self._task.error or tr("Done; no restart is needed."))
         self._task = None
         self._show_state()
 
     def _show_state(self) -> None:
         working = self._task is not None
-        self.state.setText(self.tr("Working…") if working else self._support.state)
+        self.state.setText(tr("Working…") if working else self._support.state)
         self.busy.setVisible(working)
         self.get.setEnabled(not working and not self._support.is_there)
         self.choose.setEnabled(not working and not self._support.is_there)
@@ -139,7 +140,7 @@ class _Task(QgsTask):
     """Does the work in another thread, so that the window of QGIS stays alive."""
 
     def __init__(self, work: Callable[[Run], None]) -> None:
-        super().__init__("Bare Earth: LAZ support", QgsTask.Flag.CanCancel)
+        super().__init__(tr("Bare Earth: LAZ support"), QgsTask.Flag.CanCancel)
         self._work = work
         self.error = ""
 
@@ -148,7 +149,7 @@ class _Task(QgsTask):
         try:
             self._work(self._run_process)
         except BareEarthError as error:
-            self.error = "Cancelled." if self.isCanceled() else str(error)
+            self.error = tr("Cancelled.") if self.isCanceled() else str(error)
         except Exception as error:  # a thread's error is seen by nobody
             self.error = f"{type(error).__name__}: {error}"
         return not self.error

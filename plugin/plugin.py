@@ -6,10 +6,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from qgis.core import Qgis, QgsApplication, QgsMessageLog, QgsSettings
+from qgis.PyQt.QtCore import QCoreApplication
 from qgis.PyQt.QtWidgets import QPushButton
 
 from ..algorithms.las.backends import install_hint, missing_packages
 from .compat import QAction
+from .i18n import install, tr
 from .libraries.folders import BUNDLED, add_to_path
 from .libraries.laz_support import LazSupport
 
@@ -31,6 +33,8 @@ class BareEarthPlugin:
         self._provider: BareEarthProvider | None = None
         self._action: QAction | None = None
         self._dialog: LazDialog | None = None
+        # Before all else, as the algorithms are listed in the user's language.
+        self._translator = install()
         self._support = LazSupport(Path(QgsApplication.qgisSettingsDirPath()))
 
     def initProcessing(self) -> None:
@@ -49,7 +53,7 @@ class BareEarthPlugin:
     def initGui(self) -> None:
         """Start within the QGIS window."""
         self.initProcessing()
-        self._action = QAction("LAZ support…", self._iface.mainWindow())
+        self._action = QAction(tr("LAZ support…"), self._iface.mainWindow())
         self._action.triggered.connect(self.show_laz_support)
         self._iface.addPluginToMenu(_MENU, self._action)
         if _missing_science():
@@ -82,13 +86,16 @@ class BareEarthPlugin:
             self._dialog.deleteLater()
             self._dialog = None
 
+        if self._translator is not None:
+            QCoreApplication.removeTranslator(self._translator)
+
     def _tell_of_laz_support(self) -> None:
         """Say once that .laz files need a package, with the way to it."""
         bar = self._iface.messageBar()
         message = bar.createMessage(
-            _MENU, "Ready. Compressed point clouds (.laz) need one package more, once."
+            _MENU, tr("Ready. Compressed point clouds (.laz) need one package more, once.")
         )
-        button = QPushButton("LAZ support…")
+        button = QPushButton(tr("LAZ support…"))
         button.clicked.connect(self.show_laz_support)
         message.layout().addWidget(button)
         bar.pushWidget(message, Qgis.MessageLevel.Info, 0)
@@ -100,4 +107,5 @@ def _missing_science() -> str:
     missing = missing_packages(["numpy", "scipy"])
     if not missing:
         return ""
-    return f"This QGIS has no {' and no '.join(missing)}. {install_hint(missing)}"
+    text = tr("This QGIS has no {}.").format(", ".join(missing))
+    return f"{text} {install_hint(missing)}"

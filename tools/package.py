@@ -1,4 +1,6 @@
-"""Packs the last commit, with the Python packages that travel along, as a zip to install in QGIS.
+"""Packs the last commit as a zip to install in QGIS, with all that is made or got for it.
+
+That is the Python packages that travel along, the help pages and the translations.
 
 It is dist/bare_earth-X.Y.Z.zip, or in another folder that is named.
 """
@@ -12,6 +14,9 @@ import sys
 import tempfile
 import zipfile
 from pathlib import Path
+
+import qm
+from help_pages import help_pages
 
 ROOT = Path(__file__).parents[1]
 BUNDLED = ROOT / "bundled.txt"
@@ -31,11 +36,15 @@ def main(folder: Path = ROOT / "dist") -> None:
     if _git("status", "--porcelain"):
         print("Changes that are not committed are left out.")
     _git("archive", "--format=zip", "--prefix=bare_earth/", f"--output={target.resolve()}", "HEAD")
-    with tempfile.TemporaryDirectory() as name:
-        _download(Path(name))
-        with zipfile.ZipFile(target, "a", zipfile.ZIP_DEFLATED) as archive:
-            for wheel in sorted(Path(name).iterdir()):
-                _add(archive, wheel)
+    files = {**_packages(), **_help(metadata["general"]["repository"]), **_translations()}
+    with zipfile.ZipFile(target, "a", zipfile.ZIP_DEFLATED) as archive:
+        # With the date of the commit, so that the bytes stay the same.
+        date = archive.infolist()[0].date_time
+        for name, content in sorted(files.items()):
+            entry = zipfile.ZipInfo(f"bare_earth/{name}", date)
+            entry.external_attr = 0o644 << 16
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            archive.writestr(entry, content)
     print(f"{target} ({target.stat().st_size / 1e6:.1f} MB)")
     for key in re.findall(r"\w+", "".join(re.findall(f"^{UNSET}(.*)$", text, re.M))):
         print(f"To be set in metadata.txt before publishing: {key}={metadata['general'][key]}")
@@ -45,24 +54,38 @@ def _git(*arguments: str) -> bytes:
     return subprocess.run([*GIT, *arguments], check=True, stdout=subprocess.PIPE).stdout
 
 
-def _download(folder: Path) -> None:
+def _packages() -> dict[str, bytes]:
     """Get the wheels from the package index; pip refuses one with another hash."""
-    subprocess.run(
-        [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", "--require-hashes",
-         "--only-binary", ":all:", "--requirement", str(BUNDLED), "--dest", str(folder)],
-        check=True,
-    )  # fmt: skip
+    found = {}
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run(
+            [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", "--require-hashes",
+             "--only-binary", ":all:", "--requirement", str(BUNDLED), "--dest", folder],
+            check=True,
+        )  # fmt: skip
+        for wheel in Path(folder).iterdir():
+            with zipfile.ZipFile(wheel) as packed:
+                found.update((f"packages/{each}", packed.read(each)) for each in packed.namelist())
+    return found
 
 
-def _add(archive: zipfile.ZipFile, wheel: Path) -> None:
-    """Add all that a wheel holds with the date of the commit, so that the bytes stay the same."""
-    date = archive.infolist()[0].date_time
-    with zipfile.ZipFile(wheel) as packed:
-        for member in sorted(packed.namelist()):
-            entry = zipfile.ZipInfo(f"bare_earth/packages/{member}", date)
-            entry.external_attr = 0o644 << 16
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            archive.writestr(entry, packed.read(member))
+def _help(repository: str) -> dict[str, bytes]:
+    """Make the pages that the Help button opens."""
+    docs = {name[len("docs/") :]: content for name, content in _committed("docs").items()}
+    pages = help_pages(docs, repository)
+    return {f"help/{name}": content for name, content in pages.items()}
+
+
+def _translations() -> dict[str, bytes]:
+    """Make what Qt reads of the translations."""
+    files = {name: each for name, each in _committed("plugin/i18n").items() if name[-3:] == ".ts"}
+    return {f"{name[:-3]}.qm": qm.compiled(qm.read_ts(content)) for name, content in files.items()}
+
+
+def _committed(folder: str) -> dict[str, bytes]:
+    """Return the files of a folder as they were committed."""
+    names = _git("ls-tree", "-r", "--name-only", "HEAD", f"{folder}/").decode().splitlines()
+    return {name: _git("show", f"HEAD:{name}") for name in names}
 
 
 if __name__ == "__main__":

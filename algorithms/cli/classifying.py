@@ -44,6 +44,11 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
         " CRS of the points",
     )  # fmt: skip
     parser.add_argument(
+        "--corrections", metavar="FILE", type=Path,
+        help="polygons whose points have the class that the attribute 'class' says, whatever the"
+        " filter makes of them (.geojson, .json), in the CRS of the points",
+    )  # fmt: skip
+    parser.add_argument(
         "--vpc", metavar="FILE", type=Path,
         help="of many files, the virtual point cloud of the results (default: classified.vpc in"
         " the folder)",
@@ -80,9 +85,16 @@ def _classify(options: argparse.Namespace) -> int:
     from ..engine.one_file import classify_file
     from ..engine.requests import ClassifyRequest
     from ..survey.collection import is_one_file
+    from ..survey.corrections import NO_CORRECTIONS
+    from ..survey.vector_files import read_corrections
 
     area = _area_of(options)
-    request = ClassifyRequest.of(chosen(options), rasters=rasters_of(options), area=area)
+    corrections = NO_CORRECTIONS
+    if options.corrections is not None:
+        corrections = read_corrections(options.corrections)
+    request = ClassifyRequest.of(
+        chosen(options), rasters=rasters_of(options), area=area, corrections=corrections
+    )
     if options.command != _TILES and not options.scheduler and is_one_file(options.input):
         with Terminal(options.verbose) as progress:
             summary = classify_file(options.input[0], options.output, request, progress)

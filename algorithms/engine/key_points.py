@@ -17,10 +17,11 @@ from ..las.edits import Edits
 from ..las.records import check_class
 from ..survey.collection import Tile
 from ..survey.ground_classes import GroundClasses, GroundTally
-from ..survey.selection import count_classes
+from ..survey.tally import count_classes
 from .blocks import Block, Blocks, Store
 from .ground import over_blocks
 from .memory import Resources
+from .remembering import Memory
 from .steps import Marks, PointResult, PointStep, Room
 
 # What a store keeps of ground points that are key points, and of the others.
@@ -163,6 +164,7 @@ class KeyPointsOfPoints(PointResult):
         self._step = step
         # Classes, or what becomes of the flag.
         self._values = room(np.uint8 if step.mark.by_class else np.int8)
+        self._memory = Memory(room)
         self._counts = np.zeros(256, dtype=np.int64)
         self._ground_count = self._key_point_count = 0
 
@@ -175,6 +177,7 @@ class KeyPointsOfPoints(PointResult):
             classes[others & (classes == mark.key_class)] = self._step.ground.ground_classes[0]
             classes[keys] = mark.key_class
             self._values[where] = classes
+            self._memory.add(where, part, classes)
         else:
             self._values[where] = np.where(keys, 1, np.where(others, 0, -1))
         self._counts += count_classes(classes)
@@ -184,7 +187,7 @@ class KeyPointsOfPoints(PointResult):
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
         """Return the classes or the flags."""
         if self._step.mark.by_class:
-            return Edits(classification=self._values)
+            return self._memory.added_to(Edits(classification=self._values))
         return Edits(key_points=self._values)
 
     def summary(self, name: str) -> KeyPointSummary:

@@ -14,15 +14,17 @@ from ..core.progress import SILENT, Progress
 from ..filters import method_of
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
-from ..las.records import check_class
 from ..survey.area import Area
 from ..survey.collection import Tile
+from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.point_chooser import ChosenTally, PointChooser
-from ..survey.selection import Selection, count_classes
+from ..survey.selection import Selection
+from ..survey.tally import count_classes
 from .blocks import BRIDGE, GROUND, LOW, Blocks, Store
 from .ground import blocks_of, label_ground
 from .memory import Resources
 from .output import Output
+from .remembering import Memory
 from .steps import Marks, PointResult, PointStep, Room
 
 
@@ -65,6 +67,8 @@ class LabelGround(PointStep):
         Which points are written.
     cut : Blocks or None
         How the survey is cut, if not as the method has it.
+    corrections : Corrections
+        What is known of the points by hand, beside what their files remember.
     """
 
     parameters: ParameterSet
@@ -72,6 +76,7 @@ class LabelGround(PointStep):
     area: Area | None = None
     output: Output = field(default_factory=Output)
     cut: Blocks | None = None
+    corrections: Corrections = NO_CORRECTIONS
 
     summary_type = ClassifiedSummary
     vpc_name = "classified.vpc"
@@ -85,7 +90,7 @@ class LabelGround(PointStep):
     def chooser(self) -> PointChooser:
         """What says which points take part."""
         reach = method_of(self.parameters).reach(self.parameters)
-        return PointChooser(self.selection, self.area, reach)
+        return PointChooser(self.selection, self.area, reach, self.corrections)
 
     def tally(self) -> ChosenTally:
         """Return what `marks` counts in."""
@@ -93,8 +98,8 @@ class LabelGround(PointStep):
 
     def marks(self, part: PointCloud, tally: ChosenTally) -> Marks:
         """Return which points take part, are surely ground, and lie in the area."""
-        inside, selected = self.chooser.choose(part, tally)
-        return Marks(selected, self.selection.known_ground(part, selected), inside)
+        inside, selected, known = self.chooser.choose(part, tally)
+        return Marks(selected, known, inside)
 
     def tell(self, tally: ChosenTally, path: Path, progress: Progress) -> None:
         """Tell how many points take part; refuse a file in which none does."""
@@ -102,12 +107,11 @@ class LabelGround(PointStep):
 
     def check_tile(self, tile: Tile) -> None:
         """Refuse a file whose points cannot hold the classes."""
-        for value, name in self.selection.new_classes():
-            check_class(tile.path, tile.point_format, value, name)
+        self.chooser.check_classes(tile.path, tile.point_format)
 
     def count(self, part: PointCloud, tally: ChosenTally) -> None:
         """Count which points take part."""
-        self.selection.choose(part, tally)
+        self.selection.choose(part, tally, by_hand=self.chooser.by_hand(part))
 
     def tell_of_tile(self, tally: ChosenTally, path: Path, progress: Progress) -> None:
         """Tell how many points of a file took part; refuse one in which none does."""
@@ -149,16 +153,19 @@ class ClassifiedPoints(PointResult):
     def __init__(self, step: LabelGround, path: Path, room: Room) -> None:
         self._step, self._path = step, path
         self.classification = room(np.uint8)
+        self._memory = Memory(room, step.selection.remember_classes)
         self.class_counts = np.zeros(256, dtype=np.int64)
         self.area_ground_count = self.area_low_count = self.area_deck_count = 0
         self._has_ground = False
 
     def add(self, where: slice, part: PointCloud, values: np.ndarray) -> None:
         """Put in the classes that follow from the labels of some points, and count them."""
-        selection, inside = self._step.selection, self._step.chooser.inside(part)
+        selection, chooser = self._step.selection, self._step.chooser
+        inside = chooser.inside(part)
         ground, low, decks = (values == each for each in (GROUND, LOW, BRIDGE))
-        classes = selection.classes(part, ground, low, inside, decks)
+        classes = selection.classes(part, ground, low, inside, decks, chooser.by_hand(part))
         self.classification[where] = classes
+        self._memory.add(where, part, classes)
         self.class_counts += count_classes(classes)
         self._has_ground |= bool(ground.any())
         ground = classes == selection.to_class
@@ -197,7 +204,8 @@ class ClassifiedPoints(PointResult):
         output, ground = self._step.output, None
         if output.changes_points:
             ground = self.classification == self._step.selection.to_class
-        return output.edits(cloud, self.classification, ground, heights, progress)
+        edits = output.edits(cloud, self.classification, ground, heights, progress)
+        return self._memory.added_to(edits)
 
     def summary(self, name: str) -> ClassifiedSummary:
         """Return how many points there are, and how many of them are ground."""

@@ -15,10 +15,12 @@ from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
 from ..core.threads import may_use
 from ..las.cloud import PointCloud, survey_frame
+from ..las.extrabytes import remembers
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..las.writing import check_writable, is_copc, layers_kept, write_changed
 from ..survey.area import Area
+from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.selection import Selection
 from .file_points import FilePoints, fits_in_memory
 from .labelling import ClassifiedPoints, LabelGround
@@ -63,6 +65,7 @@ def classify_cloud(
     progress: Progress = SILENT,
     area: Area | None = None,
     resources: Resources = Resources(),
+    corrections: Corrections = NO_CORRECTIONS,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Classify the points of a cloud in memory.
 
@@ -80,6 +83,8 @@ def classify_cloud(
         Points outside keep their class; those near it are still context for the method.
     resources : Resources
         How many threads to use, and how much memory.
+    corrections : Corrections
+        Polygons in which the class is known.
 
     Returns
     -------
@@ -95,11 +100,11 @@ def classify_cloud(
     Cancelled
         If the user asked to stop.
     """
-    step = LabelGround(parameters, selection, area)
+    step = LabelGround(parameters, selection, area, corrections=corrections)
     with may_use(resources.thread_count):
         result, _ = FilePoints(cloud, resources).find(step, step.tally(), progress)
         result.tell(progress)
-        inside, selected = step.chooser.choose(cloud, step.tally())
+        inside, selected, _ = step.chooser.choose(cloud, step.tally())
     return result.classification, selected & inside
 
 
@@ -135,7 +140,8 @@ def classify_file(
     # Reading and writing move in small steps, and need no large share however long they take.
     made_too = 4.0 * ("rasters" in products), 3.0 * ("heights" in products)
     first, finding, drawing, measuring, last = progress.shares(1.5, 5.0, *made_too, 0.8)
-    is_copied = not request.output.changes_points and layers_kept(las, target) is not None
+    changes_more = request.output.changes_points or request.selection.remember_classes
+    is_copied = not (changes_more or remembers(las)) and layers_kept(las, target) is not None
     _check_copc(las, target, is_copied, resources)
     with contextlib.ExitStack() as outputs:
         outputs.enter_context(may_use(resources.thread_count))

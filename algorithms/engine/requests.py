@@ -14,6 +14,7 @@ from ..las.lasfile import LasFile
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import TerrainModel
 from ..survey.area import Area
+from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
 from .constraints import Constraints, fixed_terrain
@@ -77,6 +78,8 @@ class ClassifyRequest(Request):
         Which points take part, and what their classes become.
     area : Area or None
         Where points are classified; everywhere if it is None. Of one file only.
+    corrections : Corrections
+        Polygons in which the class is known.
     output : Output
         Which points are written, and whether with their heights above ground.
     rasters : RasterFiles
@@ -88,6 +91,7 @@ class ClassifyRequest(Request):
     parameters: ParameterSet = field(default_factory=METHODS[DEFAULT_METHOD].parameters)
     selection: Selection = field(default_factory=Selection)
     area: Area | None = None
+    corrections: Corrections = NO_CORRECTIONS
     output: Output = field(default_factory=Output)
     rasters: RasterFiles = field(default_factory=RasterFiles)
     terrain: TerrainModel = field(default_factory=TerrainModel)
@@ -95,7 +99,9 @@ class ClassifyRequest(Request):
     @property
     def step(self) -> LabelGround:
         """What finds the ground."""
-        return LabelGround(self.parameters, self.selection, self.area, self.output)
+        return LabelGround(
+            self.parameters, self.selection, self.area, self.output, corrections=self.corrections
+        )
 
     @property
     def _ground(self) -> GroundClasses:

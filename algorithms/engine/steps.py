@@ -8,6 +8,7 @@ many, in memory, from disk, and in the jobs of a survey.
 from __future__ import annotations
 
 import dataclasses
+import hashlib
 from pathlib import Path
 from typing import Any, Callable, NamedTuple
 
@@ -161,4 +162,6 @@ def _plain(value: Any) -> Any:
         return {"set": type(value).__name__, **plain} if is_set else plain
     if isinstance(value, (tuple, list)):
         return [_plain(each) for each in value]
+    if isinstance(value, np.ndarray):
+        return hashlib.sha256(value.tobytes()).hexdigest()
     return str(value) if isinstance(value, Path) else value

@@ -16,6 +16,7 @@ from ..products.local_relief import LocalRelief, write_local_relief
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import TerrainModel
 from ..survey.collection import is_one_file
+from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
 from .many_files import classify_files
@@ -50,7 +51,7 @@ class MapFiles(NamedTuple):
 
 @dataclass(frozen=True)
 class MapRequest(Request):
-    """How it is to be made: the declared parameters of each step."""
+    """How it is to be made: the declared parameters of each step, and what is known by hand."""
 
     parameters: ParameterSet = field(default_factory=METHODS[DEFAULT_METHOD].parameters)
     selection: Selection = field(default_factory=Selection)
@@ -58,12 +59,18 @@ class MapRequest(Request):
     surface: SurfaceModel = field(default_factory=SurfaceModel)
     contours: Contours = field(default_factory=Contours)
     relief: LocalRelief = field(default_factory=LocalRelief)
+    corrections: Corrections = NO_CORRECTIONS
 
     @property
     def classify(self) -> ClassifyRequest:
         """What to classify."""
         return ClassifyRequest(
-            self.files, self.tiles, self.resources, self.parameters, self.selection
+            self.files,
+            self.tiles,
+            self.resources,
+            self.parameters,
+            self.selection,
+            corrections=self.corrections,
         )
 
 

@@ -30,7 +30,7 @@ _WHOLE = 0.01
 
 @dataclass
 class PointCloud:
-    """The points of one file in file order, 16 or 17 bytes each.
+    """The points of one file in file order, 16 to 18 bytes each.
 
     Attributes
     ----------
@@ -52,6 +52,8 @@ class PointCloud:
         What is known of the coordinate reference system.
     scanner_channel : numpy.ndarray of uint8, shape (n,), optional
         The scanner channel of each point, where the point format has it (6 to 10) and it was read.
+    remembered : numpy.ndarray of uint8, shape (n,), optional
+        The class that a run gave each point, where the file has the dimension `REMEMBERED`.
     records : numpy.ndarray of uint8, shape (n, record length), optional
         The points as the file has them, where they were kept to be written again.
     file : LasFile, optional
@@ -71,6 +73,7 @@ class PointCloud:
     point_format: int
     crs: Crs
     scanner_channel: np.ndarray | None = None
+    remembered: np.ndarray | None = None
     records: np.ndarray | None = None
     file: LasFile | None = None
 

@@ -22,7 +22,7 @@ from ..core.points import Box
 from .copc import HIERARCHY_ENTRY
 from .lasfile import COPC_INFO, LasFile
 from .laszip import ChunkHead, Compression
-from .records import NEEDED, named, selection_of
+from .records import named, needed, selection_of
 from .sources import damage_told, damaged, open_source
 
 if TYPE_CHECKING:
@@ -269,7 +269,7 @@ def _decompress(layout: LasFile, file: BinaryIO, nodes: np.ndarray) -> np.ndarra
         layout.laszip,
         records,
         list(zip(counts, sizes)),
-        selection_of(NEEDED),
+        selection_of(needed(layout)),
     )
     return records
 

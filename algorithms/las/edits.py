@@ -27,8 +27,8 @@ class Edits:
         1 sets the flag for model key points, 0 clears it, -1 leaves it as it is.
     z : numpy.ndarray of int32 or None
         Heights as integers, of the scale and offset that the file has.
-    extra : ExtraDimension or None
-        A dimension in extra bytes.
+    extra, remembered : ExtraDimension or None
+        Dimensions in extra bytes.
     kept : numpy.ndarray of bool or None
         The points that are written; all if it is not given.
     """
@@ -37,13 +37,18 @@ class Edits:
     key_points: np.ndarray | None = None
     z: np.ndarray | None = None
     extra: ExtraDimension | None = None
+    remembered: ExtraDimension | None = None
     kept: np.ndarray | None = None
 
     def columns(self) -> list[np.ndarray]:
         """Return what is given."""
-        extra = None if self.extra is None else self.extra.values
-        columns = self.classification, self.key_points, self.z, extra, self.kept
+        extra = [each.values for each in self.dimensions()]
+        columns = self.classification, self.key_points, self.z, self.kept, *extra
         return [each for each in columns if each is not None]
+
+    def dimensions(self) -> list[ExtraDimension]:
+        """Return the dimensions that are given."""
+        return [each for each in (self.extra, self.remembered) if each is not None]
 
 
 class EditedFile:
@@ -76,14 +81,14 @@ class EditedFile:
         ):
             raise BareEarthError(f"{source.path} has changed while it was worked on. Run it again.")
         self.source = self.target = source
-        self._changes, self._place, self._records = changes, None, records
+        self._changes, self._places, self._records = changes, [], records
         if changes.kept is not None and not changes.kept.any():
             raise BareEarthError(f"None of the points of {source.path} is left to be written.")
-        if changes.extra is not None:
-            extra = changes.extra
+        for each in changes.dimensions():
             if changes.kept is not None:
-                extra = replace(extra, values=extra.values[changes.kept])
-            self.target, self._place = place_dimension(source, extra)
+                each = replace(each, values=each.values[changes.kept])
+            self.target, place = place_dimension(self.target, each)
+            self._places.append(place)
         if changes.z is not None:
             self.target = with_z_range(self.target, int(changes.z.min()), int(changes.z.max()))
         if changes.kept is not None:
@@ -163,9 +168,8 @@ class EditedFile:
         points = named(self.target, records)
         if self._changes.z is not None:
             points["Z"] = self._changes.z[part]
-        if self._place is not None and self._changes.extra is not None:
-            added = column(records, self._place.start, self._place.kind)
-            added[:] = self._changes.extra.values[part]
+        for place, dimension in zip(self._places, self._changes.dimensions()):
+            column(records, place.start, place.kind)[:] = dimension.values[part]
         if self._changes.key_points is not None:
             flags = self._changes.key_points[part]
             points["key_point"] = np.where(flags < 0, points["key_point"], flags)

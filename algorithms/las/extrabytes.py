@@ -20,7 +20,9 @@ _DESCRIPTOR = 192
 # Bytes of each data type: undocumented, then integers of 1 to 8 bytes, float and double.
 _SIZES = (0, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8)
 _KINDS = {9: "<f4", 10: "<f8"}
-_FLOAT = 9
+_BYTE, _FLOAT = 1, 9
+# A byte: the class that a run gave. Where it differs from the class, somebody changed this since.
+REMEMBERED = "BareEarthClass"
 _HAS_MINIMUM, _HAS_MAXIMUM, _HAS_SCALE, _HAS_OFFSET = 0x02, 0x04, 0x08, 0x10
 _LARGEST_RECORD = 65535
 _UNDOCUMENTED, _MOST_UNDOCUMENTED = "undocumented", 255
@@ -34,7 +36,7 @@ class ExtraDimension:
     ----------
     name, description : str
         Up to 32 bytes each.
-    values : numpy.ndarray of float32, shape (n,)
+    values : numpy.ndarray of float32 or uint8, shape (n,)
         In the order of the file.
     """
 
@@ -73,13 +75,13 @@ def place_dimension(layout: LasFile, dimension: ExtraDimension) -> tuple[LasFile
     ------
     BareEarthError
         If the record on the extra bytes does not fit the points, or a dimension of that name is
-        neither float nor double.
+        of another type: neither float nor double, or no byte.
     """
     descriptors = _descriptors(layout)
     start = RECORD_LENGTHS[layout.point_format]
     for number, descriptor in enumerate(descriptors):
         if _text(descriptor[4:36]) == dimension.name:
-            kind = _checked_kind(layout, dimension.name, descriptor)
+            kind = _checked_kind(layout, dimension, descriptor)
             descriptors[number] = _descriptor(dimension, descriptor[2])
             return _with_record(layout, descriptors), Place(start, kind)
         start += _size(descriptor)
@@ -88,8 +90,9 @@ def place_dimension(layout: LasFile, dimension: ExtraDimension) -> tuple[LasFile
         size = min(layout.record_length - start, _MOST_UNDOCUMENTED)
         descriptors.append(struct.pack("<2xBB32s156x", 0, size, _UNDOCUMENTED.encode()))
         start += size
-    descriptors.append(_descriptor(dimension, _FLOAT))
-    kind = np.dtype(_KINDS[_FLOAT])
+    is_byte = dimension.values.dtype == np.uint8
+    descriptors.append(_descriptor(dimension, _BYTE if is_byte else _FLOAT))
+    kind = np.dtype(np.uint8 if is_byte else _KINDS[_FLOAT])
     layout = with_record_length(layout, layout.record_length + kind.itemsize)
     return _with_record(layout, descriptors), Place(start, kind)
 
@@ -130,6 +133,29 @@ def dimension_names(layout: LasFile) -> list[str]:
     return names if is_all else [*names, _UNDOCUMENTED]
 
 
+def runs_of_bytes(layout: LasFile) -> list[tuple[str, int]]:
+    """Return the extra bytes of a point as runs, each with a name and its bytes.
+
+    The dimension `REMEMBERED` is a run of its own, if there is one.
+    """
+    count = layout.extra_bytes
+    try:
+        descriptors, start = _descriptors(layout), 0
+    except BareEarthError:
+        descriptors = []
+    for each in descriptors if count else ():
+        if _text(each[4:36]) == REMEMBERED and each[2] == _BYTE:
+            runs = ("before", start), (REMEMBERED, 1), ("behind", count - start - 1)
+            return [run for run in runs if run[1]]
+        start += _size(each)
+    return [("extra_bytes", count)] if count else []
+
+
+def remembers(layout: LasFile) -> bool:
+    """Return whether the points of a file have the dimension `REMEMBERED`."""
+    return (REMEMBERED, 1) in runs_of_bytes(layout)
+
+
 def _descriptors(layout: LasFile) -> list[bytes]:
     """Return the descriptors that a file has.
 
@@ -160,14 +186,17 @@ def _size(descriptor: bytes) -> int:
     return _SIZES[(kind - 1) % 10 + 1] * ((kind - 1) // 10 + 1)
 
 
-def _checked_kind(layout: LasFile, name: str, descriptor: bytes) -> np.dtype:
+def _checked_kind(layout: LasFile, dimension: ExtraDimension, descriptor: bytes) -> np.dtype:
+    kinds, what = _KINDS, "neither float nor double"
+    if dimension.values.dtype == np.uint8:
+        kinds, what = {_BYTE: "u1"}, "no byte"
     kind, options = descriptor[2], descriptor[3]
-    if kind not in _KINDS or options & (_HAS_SCALE | _HAS_OFFSET):
+    if kind not in kinds or options & (_HAS_SCALE | _HAS_OFFSET):
         raise BareEarthError(
-            f"{layout.path} has an extra dimension {name} that is neither float nor double. Remove"
-            " or rename it first."
+            f"{layout.path} has an extra dimension {dimension.name} that is {what}. Remove or"
+            " rename it first."
         )
-    return np.dtype(_KINDS[kind])
+    return np.dtype(kinds[kind])
 
 
 def _descriptor(dimension: ExtraDimension, kind: int) -> bytes:

@@ -15,10 +15,10 @@ from ..crs.system import Crs, unit_name
 from .backends import require
 from .cloud import PointCloud
 from .crs_records import read_crs
-from .extrabytes import dimension_names
+from .extrabytes import REMEMBERED, dimension_names, remembers
 from .lasfile import FIRST_EXTENDED_FORMAT, LasFile
 from .opening import open_las
-from .records import MOST_KEPT, NEEDED, named, read_records
+from .records import MOST_KEPT, named, needed, read_records
 
 if TYPE_CHECKING:
     import laspy
@@ -31,6 +31,7 @@ _SMALL = {
     "number_of_returns": np.uint8,
     "withheld": bool,
     "scanner_channel": np.uint8,
+    "remembered": np.uint8,
 }
 _COORDINATES = ("x", "y", "z")
 
@@ -73,7 +74,7 @@ def read_cloud(
         pieces = read_records(layout, MOST_KEPT, records)
     else:
         cloud = _empty_cloud(layout, layout.count, crs)
-        pieces = read_records(layout, columns=NEEDED)
+        pieces = read_records(layout, columns=needed(layout))
     for piece in pieces:
         _fill(cloud, slice(start, start + len(piece)), named(layout, piece))
         start += len(piece)
@@ -241,7 +242,7 @@ def require_packages(layout: LasFile) -> None:
 def read_chunks(layout: LasFile) -> Iterator[laspy.PackedPointRecord]:
     """Yield all points, as many at a time in each run; the next ones reuse their memory."""
     pieces = parts_of(layout.count, _CHUNK)
-    for records in read_records(layout, _CHUNK, columns=NEEDED, pieces=pieces):
+    for records in read_records(layout, _CHUNK, columns=needed(layout), pieces=pieces):
         yield named(layout, records)
 
 
@@ -250,6 +251,8 @@ def _empty_cloud(layout: LasFile, count: int, crs: Crs, **kept: np.ndarray) -> P
     kinds = {**{name: np.int32 for name in _COORDINATES}, **_SMALL}
     if layout.point_format < FIRST_EXTENDED_FORMAT:
         del kinds["scanner_channel"]
+    if not remembers(layout):
+        del kinds["remembered"]
     empty = {name: np.empty(count, dtype=kind) for name, kind in kinds.items() if name not in kept}
     return PointCloud(
         path=layout.path,
@@ -266,6 +269,8 @@ def _empty_cloud(layout: LasFile, count: int, crs: Crs, **kept: np.ndarray) -> P
 def _fill(cloud: PointCloud, where: slice, points: laspy.PackedPointRecord) -> None:
     """Put points into their place in a cloud; where their coordinates are kept, they are there."""
     names = {name: name for name in _SMALL if getattr(cloud, name) is not None}
+    if cloud.remembered is not None:
+        names["remembered"] = REMEMBERED
     if cloud.records is None:
         names.update({name: name.upper() for name in _COORDINATES})
 

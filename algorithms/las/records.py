@@ -8,6 +8,7 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.progress import paced
+from .extrabytes import remembers, runs_of_bytes
 from .lasfile import FIRST_EXTENDED_FORMAT, LASZIP, LasFile, Vlr, new_vlr
 from .laszip import with_chunk_size, with_wave_packets_of_1
 from .sources import changed, damage_told, damaged, open_source
@@ -16,9 +17,7 @@ if TYPE_CHECKING:
     import laspy
     import lazrs
 
-# What a `PointCloud` has of points that are compressed by columns (formats 6 to 10), besides x, y,
-# returns and scanner channel.
-NEEDED = ("Z", "CLASSIFICATION", "FLAGS")
+_NEEDED, _REMEMBERED = ("Z", "CLASSIFICATION", "FLAGS"), "ALL_EXTRA_BYTES"
 # Most points at a time: where they go through a buffer, and where all of them are in memory.
 _MOST, MOST_KEPT = 1_000_000, 8_000_000
 _BLOCK = 1 << 24
@@ -51,6 +50,14 @@ def check_class(path: object, point_format: int, value: int, what: str) -> None:
         )
 
 
+def needed(layout: LasFile) -> tuple[str, ...]:
+    """Return what a `PointCloud` has of points that are compressed by columns (formats 6 to 10).
+
+    x, y, returns and scanner channel are not among it.
+    """
+    return (*_NEEDED, _REMEMBERED) if remembers(layout) else _NEEDED
+
+
 def selection_of(columns: Sequence[str]) -> lazrs.DecompressionSelection:
     """Return what lazrs calls these columns of points, with those that are always decompressed."""
     import lazrs
@@ -80,7 +87,7 @@ def read_records(
         Where to keep all of them.
     columns : sequence of str, optional
         Which columns are wanted of point formats that are compressed by columns, by their names in
-        `laspy.DecompressionSelection`, as `NEEDED`; x, y, returns and the scanner channel always
+        `laspy.DecompressionSelection`, as `needed`; x, y, returns and the scanner channel always
         are. All, if it is not given. What is in the others is not said.
     pieces : iterable of slice, optional
         Which points to read at a time, one piece after the other, none longer than `most`. As
@@ -116,9 +123,8 @@ def named(layout: LasFile, records: np.ndarray) -> laspy.PackedPointRecord:
     import laspy
 
     point_type = laspy.PointFormat(layout.point_format)
-    if layout.extra_bytes:
-        kind = f"{layout.extra_bytes}u1"
-        point_type.add_extra_dimension(laspy.ExtraBytesParams("extra_bytes", kind))
+    for name, size in runs_of_bytes(layout):
+        point_type.add_extra_dimension(laspy.ExtraBytesParams(name, f"{size}u1"))
     return laspy.PackedPointRecord.from_buffer(records, point_type)
 
 

@@ -86,7 +86,7 @@ class Area:
             which = np.flatnonzero(inside)
             for first in range(0, len(which), _POINTS_A_STEP):
                 part = which[first : first + _POINTS_A_STEP]
-                inside[part] = _in_any(x[part], y[part], self.polygons)
+                inside[part] = last_polygon(x[part], y[part], self.polygons) > 0
         return inside
 
     def of(self, cloud: PointCloud, progress: Progress = SILENT) -> np.ndarray:
@@ -113,20 +113,35 @@ def _bounds(polygon: Polygon) -> Box:
     return (*corners.min(axis=0), *corners.max(axis=0))
 
 
-def _in_any(x: np.ndarray, y: np.ndarray, polygons: tuple[Polygon, ...]) -> np.ndarray:
-    """Return which places lie in one of the polygons at least."""
+def last_polygon(x: np.ndarray, y: np.ndarray, polygons: tuple[Polygon, ...]) -> np.ndarray:
+    """Return the number of the last of some polygons that holds each place.
+
+    Parameters
+    ----------
+    x, y : numpy.ndarray of float64, shape (n,)
+        Coordinates.
+    polygons : tuple of polygon
+        As in `Area`.
+
+    Returns
+    -------
+    numpy.ndarray of int32, shape (n,)
+        The first is 1; 0 where there is none.
+    """
     # Sorted by y, the places beside an edge or a polygon are a slice.
     order = np.argsort(y, kind="stable")
     x, y = x[order], y[order]
-    inside = np.zeros(len(x), dtype=bool)
-    for polygon in filter(None, polygons):
+    numbers = np.zeros(len(x), dtype=np.int32)
+    for number, polygon in enumerate(polygons, start=1):
+        if not polygon:
+            continue
         west, south, east, north = _bounds(polygon)
         first, last = np.searchsorted(y, (south, north))
         near = x[first:last]
         which = first + np.flatnonzero((near >= west) & (near <= east))
-        inside[which] |= _is_odd(x[which], y[which], polygon)
-    result = np.empty(len(x), dtype=bool)
-    result[order] = inside
+        numbers[which[_is_odd(x[which], y[which], polygon)]] = number
+    result = np.empty(len(x), dtype=np.int32)
+    result[order] = numbers
     return result
 
 

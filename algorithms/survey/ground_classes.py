@@ -10,7 +10,8 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter
 from ..las.cloud import PointCloud
-from .selection import count_classes, ground_of
+from .selection import ground_of
+from .tally import count_classes
 
 
 @dataclass

@@ -10,8 +10,11 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.progress import Progress
 from ..las.cloud import PointCloud
+from ..las.records import check_class
 from .area import Area, box_in_words
-from .selection import Selection, Tally
+from .corrections import NO_CORRECTIONS, ByHand, Corrections
+from .selection import Selection
+from .tally import Tally
 
 
 @dataclass
@@ -55,34 +58,51 @@ class PointChooser:
         Where points are to be classified; everywhere if it is None.
     context : float
         Metres round the area from which points take part as well.
+    corrections : Corrections
+        What is known of the points by hand, beside what their files remember.
     """
 
     selection: Selection
     area: Area | None = None
     context: float = 0.0
+    corrections: Corrections = NO_CORRECTIONS
 
-    def choose(self, part: PointCloud, tally: ChosenTally) -> tuple[np.ndarray, np.ndarray]:
-        """Return which points lie in the area, and which take part; count them.
+    def choose(
+        self, part: PointCloud, tally: ChosenTally
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return which points lie in the area, take part, and are surely ground; count them.
 
         Returns
         -------
-        inside, selected : numpy.ndarray of bool, shape (n,)
+        inside, selected, known : numpy.ndarray of bool, shape (n,)
 
         Raises
         ------
         BareEarthError
             If nothing can be measured in the CRS, or the points cannot hold the class.
         """
-        self.selection.check(part)
+        part.require_projected()
+        self.check_classes(part.path, part.point_format)
         inside, near = self.inside(part), None
         if self.area is not None:
             tally.see(part)
             box = self.area.buffered_box(self.context / part.crs.horizontal_unit)
             near = Area(box).of(part)
-        selected = self.selection.choose(part, tally, near)
+        by_hand = self.by_hand(part)
+        selected = self.selection.choose(part, tally, near, by_hand)
         tally.inside += int(np.count_nonzero(inside))
         tally.wanted += int(np.count_nonzero(inside & selected))
-        return inside, selected
+        return inside, selected, self.selection.known_ground(part, selected, by_hand)
+
+    def check_classes(self, path: Path, point_format: int) -> None:
+        """Refuse a file whose points have no room for the classes that the user chose."""
+        by_hand = [(value, "a correction") for value in self.corrections.classes]
+        for value, name in (*self.selection.new_classes(), *by_hand):
+            check_class(path, point_format, value, name)
+
+    def by_hand(self, part: PointCloud) -> ByHand | None:
+        """Return what is known of points by hand; None if nothing can be."""
+        return self.selection.by_hand(part, self.corrections)
 
     def inside(self, part: PointCloud) -> np.ndarray:
         """Return which points lie in the area; boolean, shape (n,)."""
@@ -105,6 +125,11 @@ class PointChooser:
                 )
             progress.info(f"{tally.inside:,} of {tally.points:,} points lie in the area.")
         self.selection.tell(tally, path, progress, self.area is not None)
+        if self.corrections.polygons and not tally.by_hand:
+            progress.warning(
+                "No point gets its class by the polygons of the corrections. Give them in the CRS"
+                " of the points."
+            )
         if not tally.wanted:
             raise BareEarthError(
                 f"None of the {tally.inside:,} points in the area takes part. Choose"

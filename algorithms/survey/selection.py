@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple, Sequence
 
@@ -12,12 +12,14 @@ from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import Progress
 from ..las.cloud import PointCloud
+from ..las.extrabytes import REMEMBERED
 from ..las.records import check_class
+from .corrections import ByHand, Corrections, changed_since
+from .tally import Tally
 
 NEVER_CLASSIFIED, UNCLASSIFIED, GROUND = 0, 1, 2
 LOW_NOISE = 7
 NOISE = (LOW_NOISE, 18)
-_STEP = 1 << 20
 
 
 class Special(NamedTuple):
@@ -131,6 +133,13 @@ class Selection(ParameterSet):
         help="The class that decks of bridges get; 17 in the LAS specification, which point formats"
         " 0 to 5 hold as well. Only where bridges are not ground.",
     )
+    remember_classes: bool = parameter(
+        False,
+        label="Remember the classes",
+        help=f"Adds the extra dimension {REMEMBERED}, the class that this run gives. A later run on"
+        " the file sees by it which classes were changed by hand since, and keeps them, whatever"
+        " its settings; it remembers the classes again.",
+    )
 
     @property
     def special(self) -> Special:
@@ -184,7 +193,11 @@ class Selection(ParameterSet):
         return [(value, name) for value, name in chosen if value is not None]
 
     def choose(
-        self, part: PointCloud, tally: Tally, within: np.ndarray | None = None
+        self,
+        part: PointCloud,
+        tally: Tally,
+        within: np.ndarray | None = None,
+        by_hand: ByHand | None = None,
     ) -> np.ndarray:
         """Return which points of a part of a file take part, and count them.
 
@@ -196,24 +209,42 @@ class Selection(ParameterSet):
             Gets what there is to tell of them added.
         within : numpy.ndarray of bool, shape (n,), optional
             As for `select`.
+        by_hand : ByHand, optional
+            What is known of the points: of those of certain class only the ground takes part.
 
         Returns
         -------
         numpy.ndarray of bool, shape (n,)
         """
-        unnumbered = (part.return_number == 0) | (part.number_of_returns == 0)
+        unnumbered = _unnumbered(part)
         eligible = self._eligible(part, within)
-        selected = eligible
-        if self.returns == "last":
-            # A number above the total is wrong, but a last return whatever the total should be.
-            selected = eligible & ((part.return_number >= part.number_of_returns) | unnumbered)
+        selected = eligible & self._of_returns(part, unnumbered)
         tally.add(part, within, unnumbered=unnumbered, eligible=eligible, of_returns=selected)
         if self.seed_classes:
             known = self.known_ground(part, within)
             selected = selected | known
             tally.add_counts(known=known)
+        if by_hand is not None:
+            known = self.known_ground(part, within, by_hand)
+            selected = np.where(by_hand.known, known, selected)
+            tally.add_counts(by_hand=by_hand.known)
         tally.add_counts(selected=selected)
         return selected
+
+    def by_hand(self, part: PointCloud, corrections: Corrections) -> ByHand | None:
+        """Return what is known of points by hand; None if nothing can be.
+
+        Points in polygons that say ground are ground if they are of the wanted returns; those in
+        others get their class whatever their return. Points that may not change their class keep
+        it.
+        """
+        if part.remembered is None and not corrections.polygons:
+            return None
+        told = corrections.classes_of(part)
+        inside = (told >= 0) & self._eligible(part, None)
+        inside &= (told != self.to_class) | self._of_returns(part, _unnumbered(part))
+        classes = np.where(inside, told, part.classification).astype(np.uint8)
+        return ByHand(inside | changed_since(part), classes)
 
     def tell(self, tally: Tally, path: Path, progress: Progress, in_area: bool = False) -> None:
         """Tell how many points of a file are left out, and why.
@@ -246,11 +277,21 @@ class Selection(ParameterSet):
                 progress.info(f"{tally.known:,} points of class {classes} are known ground.")
             else:
                 progress.warning(f"There are no points of known ground (class {classes}).")
+        if tally.by_hand:
+            progress.info(f"{tally.by_hand:,} points have a class by hand, and keep it.")
         progress.info(f"{tally.selected:,} of {tally.points:,} points take part.")
 
-    def known_ground(self, cloud: PointCloud, within: np.ndarray | None = None) -> np.ndarray:
+    def known_ground(
+        self,
+        cloud: PointCloud,
+        within: np.ndarray | None = None,
+        by_hand: ByHand | None = None,
+    ) -> np.ndarray:
         """Return which points, of those within, are ground for certain."""
-        known = _is_one_of(cloud.classification, self.seed_classes or ()) & ~cloud.withheld
+        known = _is_one_of(cloud.classification, self.seed_classes or ())
+        if by_hand is not None:
+            np.copyto(known, by_hand.classes == self.to_class, where=by_hand.known)
+        known &= ~cloud.withheld
         return known if within is None else known & within
 
     def classes(
@@ -260,6 +301,7 @@ class Selection(ParameterSet):
         low: np.ndarray | None = None,
         inside: np.ndarray | None = None,
         decks: np.ndarray | None = None,
+        by_hand: ByHand | None = None,
     ) -> np.ndarray:
         """Return the new class of every point.
 
@@ -275,6 +317,8 @@ class Selection(ParameterSet):
             Points outside keep their class; all are inside where it is not given.
         decks : numpy.ndarray of bool, shape (n,), optional
             Which of the others lie on decks of bridges.
+        by_hand : ByHand, optional
+            What is known of the points.
 
         Returns
         -------
@@ -293,7 +337,17 @@ class Selection(ParameterSet):
             np.copyto(classes, LOW_NOISE, where=eligible & low)
         if decks is not None and self.bridge_class is not None:
             np.copyto(classes, self.bridge_class, where=eligible & decks)
+        if by_hand is not None:
+            known = by_hand.known if inside is None else by_hand.known & inside
+            np.copyto(classes, by_hand.classes, where=known)
         return classes
+
+    def _of_returns(self, part: PointCloud, unnumbered: np.ndarray) -> np.ndarray:
+        """Return which points are of the wanted returns."""
+        if self.returns != "last":
+            return np.ones(part.count, dtype=bool)
+        # A number above the total is wrong, but a last return whatever the total should be.
+        return (part.return_number >= part.number_of_returns) | unnumbered
 
     def _eligible(self, cloud: PointCloud, within: np.ndarray | None) -> np.ndarray:
         """Return which points, of those within, may change their class, whatever their return."""
@@ -305,65 +359,8 @@ class Selection(ParameterSet):
         return eligible if within is None else eligible & within
 
 
-@dataclass
-class Tally:
-    """What a selection counted, in the parts of a file that it has seen so far.
-
-    Attributes
-    ----------
-    points, within, withheld, unnumbered : int
-        Points of all parts, those in the area (all without one), those withheld and those without
-        return number.
-    free : int
-        Points in the area that are not withheld.
-    eligible, of_returns, known, selected : int
-        Points that may change their class, those of them of the wanted returns, those surely
-        ground, and all that take part.
-    classes, classes_within : numpy.ndarray of int64, shape (256,)
-        Points of each class, of all parts and in the area.
-    """
-
-    points: int = 0
-    within: int = 0
-    withheld: int = 0
-    unnumbered: int = 0
-    free: int = 0
-    eligible: int = 0
-    of_returns: int = 0
-    known: int = 0
-    selected: int = 0
-    classes: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
-    classes_within: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
-
-    def add(self, part: PointCloud, within: np.ndarray | None, **masks: np.ndarray) -> None:
-        """Count the points of a part, and those of some masks."""
-        self.points += part.count
-        classes, free = part.classification, ~part.withheld
-        counts = count_classes(classes)
-        self.classes += counts
-        if within is not None:
-            classes, free = classes[within], free & within
-            counts = count_classes(classes)
-        self.within += len(classes)
-        self.classes_within += counts
-        self.add_counts(withheld=part.withheld, free=free, **masks)
-
-    def add_counts(self, **masks: np.ndarray) -> None:
-        """Count the points of masks, each named as the attribute."""
-        for name, mask in masks.items():
-            setattr(self, name, getattr(self, name) + int(np.count_nonzero(mask)))
-
-    def why_empty(self, place: str) -> str:
-        """Return the sentence for a selection without points: what to change."""
-        if self.eligible:
-            return f"No point of {place} is a last or single return. Choose all returns instead."
-        if not self.free:
-            return f"All points of {place} are withheld. Clear that flag first."
-        present = ", ".join(map(str, np.flatnonzero(self.classes_within)))
-        return (
-            f"No point of {place} is left to classify: it has the classes {present}. Choose among"
-            " them the classes to classify anew."
-        )
+def _unnumbered(part: PointCloud) -> np.ndarray:
+    return (part.return_number == 0) | (part.number_of_returns == 0)
 
 
 def _is_one_of(classification: np.ndarray, classes: tuple[int, ...]) -> np.ndarray:
@@ -382,15 +379,3 @@ def ground_of(cloud: PointCloud, classes: Sequence[int]) -> np.ndarray:
     numpy.ndarray of bool, shape (n,)
     """
     return np.isin(cloud.classification, classes) & ~cloud.withheld
-
-
-def count_classes(classes: np.ndarray) -> np.ndarray:
-    """Return the number of points of each class; in steps, as bincount needs 8 bytes a number."""
-    counts = np.zeros((256, 256), dtype=np.int64)
-    even = len(classes) - len(classes) % 2
-    # Two classes as one number: half as many to count.
-    pairs = np.ascontiguousarray(classes[:even]).view(np.uint16)
-    for first in range(0, len(pairs), _STEP):
-        step = np.bincount(pairs[first : first + _STEP], minlength=counts.size)
-        counts += step.reshape(counts.shape)
-    return counts.sum(axis=0) + counts.sum(axis=1) + np.bincount(classes[even:], minlength=256)

@@ -12,6 +12,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..las.sources import read_text
 from .area import Polygon
+from .corrections import CLASS_FIELD, Corrections
 
 _Shape = TypeVar("_Shape")
 
@@ -38,7 +39,26 @@ def read_boundary(path: Path) -> tuple[Polygon, ...]:
     BareEarthError
         If it cannot be read as such, or holds no polygon.
     """
-    return _shapes(path, "Polygon", _polygon)
+    return _shapes(path, "Polygon", lambda rings, _: _polygon(rings))
+
+
+def read_corrections(path: Path) -> Corrections:
+    """Read polygons with classes from a GeoJSON file; what else it holds is left out.
+
+    Parameters
+    ----------
+    path : Path
+        A .geojson or .json file whose features have the property `class`.
+
+    Raises
+    ------
+    BareEarthError
+        If it cannot be read as such, holds no polygon, or one has no class.
+    """
+    if Path(path).suffix.lower() == ".wkt":
+        raise BareEarthError(f"{path} holds no classes. Give the corrections as GeoJSON.")
+    polygons, classes = zip(*_shapes(path, "Polygon", _polygon_with_class))
+    return Corrections(polygons, classes)
 
 
 def read_lines(path: Path) -> tuple[np.ndarray, ...]:
@@ -59,11 +79,11 @@ def read_lines(path: Path) -> tuple[np.ndarray, ...]:
     BareEarthError
         If it cannot be read as such, or holds no line.
     """
-    return _shapes(path, "LineString", _line)
+    return _shapes(path, "LineString", lambda corners, _: _line(corners))
 
 
-def _shapes(path: Path, kind: str, made: Callable[[Any], _Shape]) -> tuple[_Shape, ...]:
-    """Return what is made of the coordinates of each geometry of a kind."""
+def _shapes(path: Path, kind: str, made: Callable[[Any, dict], _Shape]) -> tuple[_Shape, ...]:
+    """Return what is made of coordinates and attributes of each geometry of a kind."""
     path, what = Path(path), "polygon" if kind == "Polygon" else "line"
     suffix = path.suffix.lower()
     if suffix not in (".geojson", ".json", ".wkt"):
@@ -78,7 +98,7 @@ def _shapes(path: Path, kind: str, made: Callable[[Any], _Shape]) -> tuple[_Shap
         raise BareEarthError(f"{path} is not a text file. Give GeoJSON or WKT.") from None
     try:
         found = _of_wkt(text, kind) if suffix == ".wkt" else _of_geojson(text, kind)
-        shapes = tuple(made(each) for each in found)
+        shapes = tuple(made(*each) for each in found)
     except (ValueError, TypeError, KeyError, IndexError, AttributeError, RecursionError) as error:
         name = "WKT" if suffix == ".wkt" else "GeoJSON"
         raise BareEarthError(f"{path} is not valid {name}: {_one_line(error)}.") from error
@@ -100,6 +120,10 @@ def _polygon(rings: Any) -> Polygon:
     return tuple(polygon)
 
 
+def _polygon_with_class(rings: Any, attributes: dict) -> tuple[Polygon, Any]:
+    return _polygon(rings), attributes.get(CLASS_FIELD)
+
+
 def _line(corners: Any) -> np.ndarray:
     rows = [[float(each) for each in corner[:3]] for corner in corners]
     line = np.array([row + [np.nan] * (3 - len(row)) for row in rows]).reshape(-1, 3)
@@ -108,26 +132,27 @@ def _line(corners: Any) -> np.ndarray:
     return line
 
 
-def _of_geojson(text: str, kind: str) -> Iterator[Any]:
-    """Yield the coordinates of each geometry of a kind in a GeoJSON text."""
-    nodes = [json.loads(text)]
+def _of_geojson(text: str, kind: str) -> Iterator[tuple[Any, dict]]:
+    """Yield coordinates and attributes of each geometry of a kind in a GeoJSON text, in order."""
+    nodes = [(json.loads(text), {})]
     while nodes:
-        node = nodes.pop()
+        node, attributes = nodes.pop()
         if node is None:  # a feature without geometry
             continue
         name = node["type"]
         if name == kind:
-            yield node["coordinates"]
+            yield node["coordinates"], attributes
         elif name == f"Multi{kind}":
-            yield from node["coordinates"]
+            yield from ((each, attributes) for each in node["coordinates"])
         elif name == "Feature":
-            nodes.append(node["geometry"])
+            nodes.append((node["geometry"], node.get("properties") or {}))
         elif name in ("FeatureCollection", "GeometryCollection"):
-            nodes += node["features" if name == "FeatureCollection" else "geometries"]
+            some = node["features" if name == "FeatureCollection" else "geometries"]
+            nodes += [(each, attributes) for each in reversed(some)]
 
 
-def _of_wkt(text: str, kind: str) -> Iterator[Any]:
-    """Yield the coordinates of each geometry of a kind in a text that holds WKT."""
+def _of_wkt(text: str, kind: str) -> Iterator[tuple[Any, dict]]:
+    """Yield the coordinates of each geometry of a kind in a text that holds WKT; no attributes."""
     name = rf"\b(MULTI)?{kind.upper()}\s*(?:ZM|Z|M)?\s*(?=\()"
     for match in re.finditer(name, text, re.IGNORECASE):
         # In how many parentheses the corners stand, and a whole geometry.
@@ -139,7 +164,7 @@ def _of_wkt(text: str, kind: str) -> Iterator[Any]:
             if depth == corners_at and part not in "()":
                 runs.append([corner.split() for corner in part.split(",")])
             elif part == ")" and depth == whole_at and runs:
-                yield runs if kind == "Polygon" else runs[0]
+                yield (runs if kind == "Polygon" else runs[0]), {}
                 runs = []
             if depth == 0:
                 break

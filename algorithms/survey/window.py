@@ -12,6 +12,7 @@ from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
 from ..las.copc_nodes import OctreeError, find_nodes, read_hierarchy, read_nodes
 from ..las.crs_records import read_crs
+from ..las.extrabytes import REMEMBERED, remembers
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..las.reading import read_chunks, require_packages
@@ -20,7 +21,7 @@ from .area import Area
 if TYPE_CHECKING:
     import laspy
 
-_COLUMNS = {
+_COLUMNS: dict[str, tuple[str, type]] = {
     "x": ("X", np.int32),
     "y": ("Y", np.int32),
     "z": ("Z", np.int32),
@@ -29,6 +30,7 @@ _COLUMNS = {
     "number_of_returns": ("number_of_returns", np.uint8),
     "withheld": ("withheld", bool),
 }
+_REMEMBERED: dict[str, tuple[str, type]] = {"remembered": (REMEMBERED, np.uint8)}
 Columns = dict[str, np.ndarray]
 
 
@@ -111,8 +113,13 @@ def _inside(layout: LasFile, area: Area, chunk: laspy.PackedPointRecord) -> Colu
     which = np.flatnonzero(area.contains(x, y))
     return {
         name: np.asarray(chunk[source])[which].astype(kind)
-        for name, (source, kind) in _COLUMNS.items()
+        for name, (source, kind) in _columns(layout).items()
     }
+
+
+def _columns(layout: LasFile) -> dict[str, tuple[str, type]]:
+    """Return which columns of a file are read: their name there, and their type."""
+    return {**_COLUMNS, **_REMEMBERED} if remembers(layout) else _COLUMNS
 
 
 def _leaves_header(layout: LasFile, chunk: laspy.PackedPointRecord) -> bool:
@@ -142,12 +149,15 @@ def _touches(layout: LasFile, box: Box) -> bool:
 
 
 def _cloud(layout: LasFile, parts: Iterator[Columns], progress: Progress) -> PointCloud:
-    kept = {name: [np.empty(0, dtype=kind)] for name, (_, kind) in _COLUMNS.items()}
+    names = _columns(layout)
+    kept: dict[str, list[np.ndarray]] = {
+        name: [np.empty(0, dtype=kind)] for name, (_, kind) in names.items()
+    }
     for part in parts:
         for name, values in part.items():
             kept[name].append(values)
     # One after the other, so that not all columns are there twice at the same time.
-    columns = {name: np.concatenate(kept.pop(name)) for name in _COLUMNS}
+    columns = {name: np.concatenate(kept.pop(name)) for name in names}
     return PointCloud(
         path=layout.path,
         scale=layout.scale,

@@ -8,6 +8,8 @@ import sys
 import sysconfig
 from dataclasses import dataclass
 
+from ..i18n import tr
+
 # The names that glibc's versions had in wheels before they were numbers.
 _LEGACY_GLIBC = {"1": (2, 5), "2010": (2, 12), "2014": (2, 17)}
 
@@ -61,7 +63,7 @@ class Build:
     @property
     def wheels(self) -> str:
         """Say in words what wheels must be for: "cp311 and linux_x86_64"."""
-        return self.name.replace("-", " and ", 1)
+        return tr("{} and {}").format(*self.name.split("-", 1))
 
     @property
     def _python(self) -> str:

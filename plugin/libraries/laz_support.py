@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Callable
 
 from ...algorithms.core.errors import BareEarthError
+from ..i18n import tr
 from . import folders, pip, wheels
 from .build import Build
 
@@ -43,10 +44,10 @@ class LazSupport:
     def state(self) -> str:
         """What there is now, in a sentence."""
         if not self.is_there:
-            return "Not there yet: .laz and .copc.laz files cannot be read or written."
+            return tr("Not there yet: .laz and .copc.laz files cannot be read or written.")
         if self.is_ours:
-            return f"Ready. The package lazrs is in {self.folder}"
-        return "Ready. This QGIS has the package lazrs."
+            return tr("Ready. The package lazrs is in {}").format(self.folder)
+        return tr("Ready. This QGIS has the package lazrs.")
 
     def use(self) -> None:
         """Let Python find what was got before; costs nothing where there is nothing."""
@@ -86,8 +87,8 @@ class LazSupport:
     def remove(self) -> str:
         """Take lazrs out of the profile; return what there is to say about it."""
         if folders.delete(self.folder):
-            return "Removed."
-        return "Removed; the files that are in use go when QGIS starts next."
+            return tr("Removed.")
+        return tr("Removed; the files that are in use go when QGIS starts next.")
 
     def _fill(self, put: Callable[[Path, Path], None]) -> None:
         """Let `put` fill a new folder, put it in the place of the present one, and try it."""
@@ -99,15 +100,18 @@ class LazSupport:
                 put(new, scratch)
                 if not folders.replace(self.folder, new):
                     raise BareEarthError(
-                        "The lazrs that was removed is still in use: start QGIS anew and try again."
+                        tr(
+                            "The lazrs that was removed is still in use: start QGIS anew and try"
+                            " again."
+                        )
                     )
         except OSError as error:
-            raise BareEarthError(f"lazrs could not be stored: {error}.") from error
+            raise BareEarthError(tr("lazrs could not be stored: {}.").format(error)) from error
         self.use()
         try:
             importlib.import_module(PACKAGE)
         except Exception as error:
             folders.delete(self.folder)
             raise BareEarthError(
-                f"The lazrs that was got cannot be loaded by this QGIS: {error}."
+                tr("The lazrs that was got cannot be loaded by this QGIS: {}.").format(error)
             ) from error

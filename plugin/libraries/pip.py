@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Callable, Iterator, Mapping, NamedTuple, Sequence
 
 from ...algorithms.core.errors import BareEarthError
+from ..i18n import mark, tr
 from .build import Build
 
 
@@ -33,20 +34,24 @@ _SETTINGS = {
     "PIP_NO_INPUT": "1",
     "PIP_DISABLE_PIP_VERSION_CHECK": "1",
 }
-_UNREACHED = (
+_UNREACHED = mark(
     "the package index was not reached: check the connection, and the proxy in Settings > Options"
     " > Network, or choose a wheel file."
 )
 # What pip writes, and what it means; the first that is found counts.
 _REASONS = {
-    "SOCKS": "pip cannot work through the SOCKS proxy of QGIS's settings: choose a wheel file.",
-    "407 Proxy": "the proxy wants a name and password: give them in Settings > Options > Network.",
-    "CERTIFICATE_VERIFY_FAILED": "the certificate of the package index was not accepted.",
+    "SOCKS": mark(
+        "pip cannot work through the SOCKS proxy of QGIS's settings: choose a wheel file."
+    ),
+    "407 Proxy": mark(
+        "the proxy wants a name and password: give them in Settings > Options > Network."
+    ),
+    "CERTIFICATE_VERIFY_FAILED": mark("the certificate of the package index was not accepted."),
     "ProxyError": _UNREACHED,
     "Retrying (": _UNREACHED,
     "timed out": _UNREACHED,
-    "No space left": "the disk is full.",
-    "Permission denied": "the folder of the profile may not be written to.",
+    "No space left": mark("the disk is full."),
+    "Permission denied": mark("the folder of the profile may not be written to."),
 }
 
 
@@ -89,7 +94,8 @@ def get_by_pip(
         settings,
     )  # fmt: skip
     if done.code:
-        raise BareEarthError(f"lazrs could not be installed: {_reason(done.output, build)}")
+        reason = _reason(done.output, build)
+        raise BareEarthError(tr("lazrs could not be installed: {}").format(reason))
 
 
 def find_python(run: Run) -> str:
@@ -106,8 +112,10 @@ def find_python(run: Run) -> str:
         if done.code == 0 and done.output.split() == [str(each) for each in here]:
             return str(path)
     raise BareEarthError(
-        "No Python interpreter was found beside this QGIS, so pip cannot be run: choose a wheel"
-        " file instead."
+        tr(
+            "No Python interpreter was found beside this QGIS, so pip cannot be run: choose a wheel"
+            " file instead."
+        )
     )
 
 
@@ -138,8 +146,10 @@ def _pip_of(python: str, scratch: Path, run: Run) -> list[str]:
     found = sorted(scratch.rglob("pip/__main__.py"))
     if done.code or not found:
         raise BareEarthError(
-            "This Python has neither pip nor ensurepip: install pip for it (in Debian and Ubuntu"
-            " python3-pip), or choose a wheel file."
+            tr(
+                "This Python has neither pip nor ensurepip: install pip for it (in Debian and"
+                " Ubuntu python3-pip), or choose a wheel file."
+            )
         )
     return [python, str(found[0].parent)]
 
@@ -147,9 +157,9 @@ def _pip_of(python: str, scratch: Path, run: Run) -> list[str]:
 def _reason(output: str, build: Build) -> str:
     for words, meaning in _REASONS.items():
         if words in output:
-            return meaning
+            return tr(meaning)
     if "No matching distribution" in output:
-        return f"the package index has none for {build.wheels}."
+        return tr("the package index has none for {}.").format(build.wheels)
     lines = [line.strip() for line in output.splitlines() if line.strip()]
     errors = [line for line in lines if line.startswith("ERROR")]
-    return (errors or lines or ["pip failed without a word"])[-1].rstrip(".") + "."
+    return (errors or lines or [tr("pip failed without a word")])[-1].rstrip(".") + "."

@@ -11,6 +11,7 @@ import zlib
 from pathlib import Path, PurePosixPath
 
 from ...algorithms.core.errors import BareEarthError
+from ..i18n import tr
 from .build import Build
 
 _MOST_BYTES = 1 << 26  # unzipped; lazrs has 2 MB
@@ -57,9 +58,13 @@ def unpack(wheel: Path, folder: Path, package: str, build: Build) -> None:
                 target.parent.mkdir(parents=True, exist_ok=True)
                 target.write_bytes(content)
     except _UNREADABLE as error:
-        raise BareEarthError(f"{wheel.name} is not a wheel, or damaged. Get it anew.") from error
+        raise BareEarthError(
+            tr("{} is not a wheel, or damaged. Get it anew.").format(wheel.name)
+        ) from error
     except OSError as error:
-        raise BareEarthError(f"{wheel.name} could not be unzipped: {error}.") from error
+        raise BareEarthError(
+            tr("{file} could not be unzipped: {error}.").format(file=wheel.name, error=error)
+        ) from error
 
 
 def _info_folder(archive: zipfile.ZipFile, wheel: Path, package: str) -> str:
@@ -70,11 +75,17 @@ def _info_folder(archive: zipfile.ZipFile, wheel: Path, package: str) -> str:
         if name.partition("/")[0].endswith(".dist-info")
     }
     if len(found) != 1:
-        raise BareEarthError(f"{wheel.name} is not a wheel: choose a file with the ending .whl.")
+        raise BareEarthError(
+            tr("{} is not a wheel: choose a file with the ending .whl.").format(wheel.name)
+        )
     info = found.pop()
     held = info.partition("-")[0]
     if held != package:
-        raise BareEarthError(f"{wheel.name} holds {held}; a wheel of {package} is needed.")
+        raise BareEarthError(
+            tr("{file} holds {held}; a wheel of {package} is needed.").format(
+                file=wheel.name, held=held, package=package
+            )
+        )
     return info
 
 
@@ -82,8 +93,9 @@ def _check_tags(text: str, wheel: Path, build: Build) -> None:
     tags = [line.partition(":")[2].strip() for line in text.splitlines() if line[:4] == "Tag:"]
     if not any(build.takes(tag) for tag in tags):
         raise BareEarthError(
-            f"{wheel.name} is for another Python or system ({', '.join(tags[:1])}); this QGIS"
-            f" needs one for {build.wheels}."
+            tr(
+                "{file} is for another Python or system ({tag}); this QGIS needs one for {needed}."
+            ).format(file=wheel.name, tag=", ".join(tags[:1]), needed=build.wheels)
         )
 
 
@@ -96,11 +108,17 @@ def _check_places(
         odd = "\\" in member.filename or ":" in member.filename or ".." in parts
         if odd or parts[0] not in folders or stat.S_ISLNK(member.external_attr >> 16):
             raise BareEarthError(
-                f"{wheel.name} holds {member.filename}, which has no place in a wheel of"
-                f" {folders[0]}. Get it anew."
+                tr(
+                    "{file} holds {member}, which has no place in a wheel of {package}. Get it"
+                    " anew."
+                ).format(file=wheel.name, member=member.filename, package=folders[0])
             )
     if sum(member.file_size for member in members) > _MOST_BYTES:
-        raise BareEarthError(f"{wheel.name} is larger than any wheel of {folders[0]}.")
+        raise BareEarthError(
+            tr("{file} is larger than any wheel of {package}.").format(
+                file=wheel.name, package=folders[0]
+            )
+        )
 
 
 def _hashes(record: str) -> dict[str, str]:
@@ -111,4 +129,6 @@ def _hashes(record: str) -> dict[str, str]:
 def _check_content(content: bytes, expected: str | None, wheel: Path) -> None:
     digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
     if expected != f"sha256={digest}":
-        raise BareEarthError(f"{wheel.name} is damaged: a file differs from its list. Get it anew.")
+        raise BareEarthError(
+            tr("{} is damaged: a file differs from its list. Get it anew.").format(wheel.name)
+        )

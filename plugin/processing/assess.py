@@ -8,6 +8,7 @@ from qgis.core import QgsProcessingParameterFileDestination as File
 from qgis.core import QgsProcessingParameterRasterDestination as Raster
 
 from ...algorithms.products.assessment import AssessmentOptions, assess_files
+from ..i18n import tr
 from .base import BareEarthAlgorithm, command_line
 from .inputs import PointCloudInput, name_of, source_path
 
@@ -30,9 +31,8 @@ class AssessAlgorithm(BareEarthAlgorithm):
     about = (
         "Compares the ground of a classified point cloud with a reference that holds the same"
         " points. Type I error: the share of the reference's ground that was rejected; type II: of"
-        " all other points, the share that was accepted. The report is a web page with a map.\n"
-    ) + "\n".join(f"<b>{label}</b>: {text}" for label, text in _INPUTS.values())
-    keywords = ("lidar", "las", "laz", "accuracy", "quality", "error", "confusion", "validation")
+        " all other points, the share that was accepted. The report is a web page with a map."
+    )
 
     def parameter_sets(self):
         """Return the options."""
@@ -41,11 +41,16 @@ class AssessAlgorithm(BareEarthAlgorithm):
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""
         for name, (label, text) in _INPUTS.items():
-            self.addParameter(PointCloudInput(name, label))
-            self.parameterDefinition(name).setHelp(text)
+            self.addParameter(PointCloudInput(name, label), text)
         self.add_declared()
-        self.addParameter(File("REPORT", "Report", "HTML files (*.html)", None, True, True))
-        self.addParameter(Raster("ERROR_MAP", "Error map", None, True, False))
+        self.addParameter(
+            File("REPORT", "Report", tr("HTML files (*.html)"), None, True, True),
+            "A web page with the figures, and a map of where the errors are.",
+        )
+        self.addParameter(
+            Raster("ERROR_MAP", "Error map", None, True, False),
+            "The share of wrong points in each cell of a raster, 0 to 1.",
+        )
         self.add_numbers(_NUMBERS)
 
     def find_inputs(self, parameters, context):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 from html import escape
+from pathlib import Path
 from typing import Any, Iterator, Mapping
 
 from qgis.core import (
@@ -11,7 +12,9 @@ from qgis.core import (
     QgsProcessingContext,
     QgsProcessingException,
     QgsProcessingFeedback,
+    QgsProcessingOutputDefinition,
     QgsProcessingOutputNumber,
+    QgsProcessingParameterDefinition,
 )
 from qgis.PyQt.QtGui import QIcon
 
@@ -20,13 +23,16 @@ from ...algorithms.core.errors import BareEarthError, Cancelled
 from ...algorithms.core.parameters import Declaration, ParameterSet, shown_value
 from ...algorithms.las.backends import install_hint, missing_packages
 from .. import compat
+from ..i18n import mark, tr
 from ..styles import layers
 from .feedback import FeedbackProgress
-from .fields import field_of, help_of, parameters_of, title_of
+from .fields import field_of, parameters_of
+from .help_pages import address_of
 from .outputs import do_not_load
 from .presets import presets_of
+from .search_words import words_of
 
-_PAGES = "https://github.com/bare-earth/bare-earth/blob/main/docs"
+_ICONS = Path(__file__).parents[1] / "icons"
 
 
 class BareEarthAlgorithm(QgsProcessingAlgorithm):
@@ -40,8 +46,6 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         Name and group in the toolbox, and the tooltip.
     about : str
         First paragraphs of the help.
-    keywords : tuple of str
-        What the search of the toolbox finds it by.
     page : str
         Its page in the folder docs.
     cancelled : str
@@ -56,8 +60,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
     """
 
     identifier = title = section = summary = about = page = run_name = subject = ""
-    cancelled = "Cancelled; nothing was written."
-    keywords: tuple[str, ...] = ()
+    cancelled = mark("Cancelled; nothing was written.")
     shown: tuple[str, ...] | None = None
 
     def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
@@ -98,12 +101,20 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
 
     def add_declared(self) -> None:
         """Add the fields of the declared parameters to the dialog."""
-        for each in self._declarations():
-            self.addParameter(field_of(each, self._is_shown(each)))
+        for declared in self.parameter_sets():
+            for each in declared.declarations():
+                super().addParameter(field_of(each, self._is_shown(each)))
 
-    def _declarations(self) -> list[Declaration]:
-        sets = self.parameter_sets()
-        return [each for declared in sets for each in declared.declarations()]
+    def addParameter(self, field: QgsProcessingParameterDefinition, help: str = "") -> bool:
+        """Add a field with its help to the dialog, in the user's language."""
+        field.setDescription(tr(field.description()))
+        field.setHelp(tr(help or field.help()))
+        return super().addParameter(field)
+
+    def addOutput(self, output: QgsProcessingOutputDefinition) -> bool:
+        """Add a result, in the user's language."""
+        output.setDescription(tr(output.description()))
+        return super().addOutput(output)
 
     def _is_shown(self, declaration: Declaration) -> bool:
         is_among = self.shown is None or declaration.name in self.shown
@@ -135,11 +146,11 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
 
     def displayName(self) -> str:
         """Return the name in the toolbox."""
-        return self.title
+        return tr(self.title)
 
     def group(self) -> str:
         """Return the group in the toolbox."""
-        return self.section
+        return tr(self.section)
 
     def groupId(self) -> str:
         """Return the id of the group."""
@@ -147,24 +158,27 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
 
     def shortDescription(self) -> str:
         """Return the tooltip."""
-        return self.summary
+        return tr(self.summary)
 
     def tags(self) -> list[str]:
         """Return what the search of the toolbox finds."""
-        return list(self.keywords)
+        return words_of(self.identifier)
 
     def helpUrl(self) -> str:
         """Return the address of the page on the algorithm."""
-        return f"{_PAGES}/{self.page}.md"
+        return address_of(self.page)
 
     def shortHelpString(self) -> str:
         """Return the help: what it does, and on each parameter a paragraph, as in the dialog."""
-        # What the dialog folds away comes last there, too.
-        ordered = sorted(self._declarations(), key=lambda each: not self._is_shown(each))
-        paragraphs = [self.about]
+        # What the dialog folds away comes after what it shows there, too, and the outputs last.
+        ordered = sorted(
+            self.parameterDefinitions(),
+            key=lambda each: (each.isDestination(), bool(each.flags() & compat.ADVANCED)),
+        )
+        paragraphs = [tr(self.about)]
         for each in ordered:
-            paragraphs.append(f"<b>{_plain(title_of(each))}</b>: {_plain(help_of(each))}")
-            if each.name == "preset":
+            paragraphs.append(f"<b>{_plain(each.description())}</b>: {_plain(each.help())}")
+            if each.name() == "PRESET":
                 paragraphs.append(presets_of(self.parameter_sets()))
         return "\n".join(paragraphs)
 
@@ -173,17 +187,17 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         return type(self)()
 
     def icon(self) -> QIcon:
-        """Return the provider's picture."""
-        return self.provider().icon() if self.provider() else super().icon()
+        """Return the picture in the toolbox."""
+        return QIcon(self.svgIconPath())
 
     def svgIconPath(self) -> str:
-        """Return the file of the provider's picture."""
-        return self.provider().svgIconPath() if self.provider() else super().svgIconPath()
+        """Return the file of that picture."""
+        return str(_ICONS / f"{self.identifier}.svg")
 
     def canExecute(self) -> tuple[bool, str]:
         """Return whether the needed packages are there, and if not how to get them."""
         if missing_packages(["scipy"]):
-            return False, (
+            return False, tr(
                 "This QGIS has no scipy. On Windows, install python3-scipy with the OSGeo4W setup;"
                 " elsewhere, the scipy of the system or of a newer QGIS."
             )
@@ -191,10 +205,8 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         # lazrs is needed for .laz only; who reads or writes one is told then.
         if missing:
             missing = missing_packages(["laspy", "lazrs"])
-            return (
-                False,
-                f"{' and '.join(missing)} must be installed first. {install_hint(missing)}",
-            )
+            needed = tr("{} must be installed first.").format(", ".join(missing))
+            return False, f"{needed} {install_hint(missing)}"
         return True, ""
 
     def checkParameterValues(
@@ -217,8 +229,8 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         with _errors_for_qgis():
             self.prepare(parameters, context, FeedbackProgress(feedback))
         self._looks: dict[str, layers.Look] = {}
-        name = f"{self.subject}: {self.run_name or self.title}" if self.subject else self.title
-        self._group = layers.free_name(context, name)
+        names = [self.subject, tr(self.run_name or self.title)]
+        self._group = layers.free_name(context, ": ".join(filter(None, names)))
         return True
 
     def processAlgorithm(
@@ -234,7 +246,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
             with _errors_for_qgis():
                 results = self.compute(parameters, context, FeedbackProgress(feedback))
         except Cancelled:
-            feedback.pushInfo(self.cancelled)
+            feedback.pushInfo(tr(self.cancelled))
         finally:
             if not results:
                 do_not_load(context, set(context.layersToLoadOnCompletion()) - before)
@@ -249,7 +261,8 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
             if name in layers.RASTERS:
                 looks[results[name]] = layers.RASTERS[name]
         looks.update(self._looks)
-        layers.arrange(context, looks, labels, self.subject or self.title, self._group)
+        subject = self.subject or tr(self.title)
+        layers.arrange(context, looks, labels, subject, self._group)
 
 
 def _plain(text: str) -> str:
@@ -265,7 +278,7 @@ def _errors_for_qgis() -> Iterator[None]:
     except BareEarthError as error:
         raise QgsProcessingException(str(error)) from error
     except MemoryError as error:
-        raise QgsProcessingException("There is not enough memory for this file.") from error
+        raise QgsProcessingException(tr("There is not enough memory for this file.")) from error
 
 
 def command_line(

@@ -13,11 +13,13 @@ from ...algorithms.engine.output import Output
 from ...algorithms.filters import METHODS
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
+from ..i18n import tr
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified
+from .corrections import add_corrections, corrections_of
 from .feedback import FeedbackProgress
 from .inputs import (
-    AREA_FIELDS,
+    CLOUD_HELP,
     PointCloudInput,
     add_area,
     area_of,
@@ -61,20 +63,16 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
 
     def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
         """Declare the fields of the dialog and the results."""
-        self.addParameter(PointCloudInput("INPUT", "Point cloud"))
+        self.addParameter(PointCloudInput("INPUT", "Point cloud"), CLOUD_HELP)
         self.add_declared()
         add_area(self)
-        add_cloud(self, "Classified point cloud")
+        add_corrections(self)
+        add_cloud(self)
         add_rasters(self, ("DTM", "HILLSHADE"))
         self.addOutput(QgsProcessingOutputNumber("POINT_COUNT", "Points"))
         self.addOutput(QgsProcessingOutputNumber("AREA_COUNT", "Points in the area"))
         self.addOutput(QgsProcessingOutputNumber("SELECTED_COUNT", "Points that took part"))
         self.addOutput(QgsProcessingOutputNumber("GROUND_COUNT", "Ground points"))
-
-    def shortHelpString(self) -> str:
-        """Return the help, the fields of the area in it."""
-        area = [f"<b>{label}</b>: {text}" for label, text in AREA_FIELDS.values()]
-        return "\n".join([super().shortHelpString(), *area])
 
     def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
         """Find the input's file."""
@@ -87,11 +85,12 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> None:
-        """Find the input, and read the area."""
+        """Find the input, and read area and corrections."""
         super().prepare(parameters, context, progress)
         if ignored_filter(self, parameters, "INPUT", context):
-            progress.warning("The layer's filter is not applied: all points are read.")
+            progress.warning(tr("The layer's filter is not applied: all points are read."))
         self._area = area_of(self, parameters, context, self._source)
+        self._corrections = corrections_of(self, parameters, context, self._source, progress)
 
     def compute(
         self,
@@ -110,11 +109,14 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         options = {"method": self.method, **paths}
         command = command_line("classify", [str(self._source), output], chosen, options)
         progress.command(" ".join([command, *self._area_options(progress)]))
-        request = ClassifyRequest.of(chosen, rasters=raster_files(paths), area=self._area)
+        known = {"area": self._area, "corrections": self._corrections}
+        request = ClassifyRequest.of(chosen, rasters=raster_files(paths), **known)
         summary = classify_file(self._source, Path(output), request, progress)
         ground, count = summary.area_ground_count, summary.area_count
-        place = " in the area" if self._area else ""
-        progress.info(f"{ground:,} of {count:,} points{place} are ground ({ground / count:.1%}).")
+        text = tr("{ground:,} of {count:,} points are ground ({share:.1%}).")
+        if self._area:
+            text = tr("{ground:,} of {count:,} points in the area are ground ({share:.1%}).")
+        progress.info(text.format(ground=ground, count=count, share=ground / count))
         look = summary.class_counts, request.selection.to_class, request.terrain.dtm_cell_size
         show_classified(self, output, *look, context, progress)
         return {
@@ -132,7 +134,9 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
             return []
         if self._area.polygons:
             progress.info(
-                "In the command line the boundary is missing: save it in the CRS of the points as"
-                " boundary.geojson, and add --boundary boundary.geojson."
+                tr(
+                    "In the command line the boundary is missing: save it in the CRS of the points"
+                    " as boundary.geojson, and add --boundary boundary.geojson."
+                )
             )
         return ["--extent", *map(repr, self._area.box)] if self._area.box else []

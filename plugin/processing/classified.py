@@ -8,6 +8,7 @@ from typing import Iterable
 from qgis.core import QgsProcessingContext, QgsProcessingUtils
 
 from .. import compat
+from ..i18n import tr
 from ..styles import clouds, layers
 from .base import BareEarthAlgorithm
 from .feedback import FeedbackProgress
@@ -55,7 +56,7 @@ def show_classified(
         return
     if compat.can_load(cloud):
         return
-    progress.info(f"This QGIS cannot show such a file as a layer. It is at {cloud}.")
+    progress.info(tr("This QGIS cannot show such a file as a layer. It is at {}.").format(cloud))
     if not context.layersToLoadOnCompletion():
         return
     # Reads files, which takes packages that QGIS may lack when it starts.

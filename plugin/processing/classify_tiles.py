@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from qgis.core import QgsProcessingParameterFileDestination as File
-from qgis.core import QgsProcessingParameterFolderDestination as Folder
-
 from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.options import TileInput, TileMethod, TileOutput
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
+from ..i18n import mark
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified
-from .inputs import FOLDER_HELP, add_clouds, clouds_of, names_of
-from .outputs import add_rasters, raster_files, raster_paths
+from .corrections import add_corrections, corrections_of
+from .inputs import add_clouds, clouds_of, names_of
+from .outputs import add_rasters, add_tiles, raster_files, raster_paths
 
 _NUMBERS = {
     "TILE_COUNT": "Tiles", "DONE_COUNT": "Classified tiles", "KEPT_COUNT": "Tiles kept",
@@ -26,17 +25,16 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
     """Classify ground (many files)."""
 
     identifier, page, section = "classifytiles", "classify-tiles", "Ground classification"
-    title, run_name = "Classify ground (many files)", "classified files"
-    cancelled = "Cancelled; the tiles that are finished stay, and a later run can go on with them."
+    title, run_name = "Classify ground (many files)", mark("classified files")
+    cancelled = mark(
+        "Cancelled; the tiles that are finished stay, and a later run can go on with them."
+    )
     summary = "Finds the ground points of the many files of a survey, without seams between them."
     about = (
         "Classifies the ground points of many files, each as if all were one, and writes each anew"
-        " under its name. A virtual point cloud (.vpc) lists the results.\n"
-    ) + FOLDER_HELP
+        " under its name. A virtual point cloud (.vpc) lists the results."
+    )
     shown = "method", "preset"
-    keywords = (
-        "lidar", "point cloud", "las", "laz", "copc", "vpc", "tiles", "batch", "survey", "folder",
-        "ground", "bare earth", "classification", "classify", "filter", "terrain")  # fmt: skip
 
     def parameter_sets(self):
         """Return method, points and classes, files, terrain model, and what may be used."""
@@ -46,8 +44,8 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         """Declare the fields of the dialog and the results."""
         add_clouds(self)
         self.add_declared()
-        self.addParameter(Folder("OUTPUT_FOLDER", "Folder of the classified point clouds"))
-        self.addParameter(File("OUTPUT_VPC", "Virtual point cloud", "*.vpc", None, True, False))
+        add_corrections(self)
+        add_tiles(self)
         add_rasters(self, ("DTM", "HILLSHADE"))
         self.add_numbers(_NUMBERS)
 
@@ -61,14 +59,14 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         from ...algorithms.engine.many_files import classify_files
         from ...algorithms.engine.requests import ClassifyRequest
 
-        chosen = self.chosen(parameters, context)
-        sources = self._sources
+        chosen, sources = self.chosen(parameters, context), self._sources
         folder = Path(self.parameterAsFileOutput(parameters, "OUTPUT_FOLDER", context))
         vpc = self.parameterAsFileOutput(parameters, "OUTPUT_VPC", context)
         paths = raster_paths(self, parameters, context)
         words, options = [*map(str, sources), str(folder)], {"VPC": vpc, **paths}
         progress.command(command_line("classify-tiles", words, chosen, options))
-        request = ClassifyRequest.of(chosen, rasters=raster_files(paths))
+        known = corrections_of(self, parameters, context, sources[0], progress)
+        request = ClassifyRequest.of(chosen, rasters=raster_files(paths), corrections=known)
         summary = classify_files(sources, folder, request, progress, vpc=vpc or None)
         progress.info(f"{summary.text}.")
         ground_class, cell = request.selection.to_class, request.terrain.dtm_cell_size

@@ -10,8 +10,9 @@ from qgis.core import QgsProcessingParameterFileDestination as File
 from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.trial_options import TrialOptions
 from ...algorithms.survey.collection import find_files
+from ..i18n import tr
 from .base import BareEarthAlgorithm, command_line
-from .inputs import PointCloudInput, area_of, name_of, source_path
+from .inputs import ANY_CLOUD_HELP, PointCloudInput, area_of, name_of, source_path
 
 _EXTENT_HELP = (
     "The window that is classified, such as the map's extent; at most 1,000 m wide, and quick up to"
@@ -30,12 +31,8 @@ class CompareSettingsAlgorithm(BareEarthAlgorithm):
         " cloud, and makes a web page, opened from the Results Viewer: the terrain of each, a"
         " profile, the share of ground, where they differ, and how to run each on all points. Of"
         " COPC only the window is read, which takes seconds; a LAS or LAZ file is read as a"
-        " whole.\n"
-        "<b>Point cloud</b>: a layer or a file; a virtual point cloud (.vpc) or a folder, too.\n"
-        f"<b>Window</b>: {_EXTENT_HELP}"
+        " whole."
     )
-    keywords = ("lidar", "las", "laz", "copc", "ground", "preview", "try", "test", "preset",
-                "parameters", "choose", "compare", "profile", "hillshade", "dtm")  # fmt: skip
 
     def parameter_sets(self):
         """Return the settings, and what may be used."""
@@ -43,11 +40,13 @@ class CompareSettingsAlgorithm(BareEarthAlgorithm):
 
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""
-        self.addParameter(PointCloudInput("INPUT", "Point cloud"))
-        self.addParameter(Extent("EXTENT", "Window"))
-        self.parameterDefinition("EXTENT").setHelp(_EXTENT_HELP)
+        self.addParameter(PointCloudInput("INPUT", "Point cloud"), ANY_CLOUD_HELP)
+        self.addParameter(Extent("EXTENT", "Window"), _EXTENT_HELP)
         self.add_declared()
-        self.addParameter(File("OUTPUT", "Comparison of settings", "HTML files (*.html)"))
+        self.addParameter(
+            File("OUTPUT", "Comparison of settings", tr("HTML files (*.html)")),
+            "A web page, which the Results Viewer opens.",
+        )
 
     def find_inputs(self, parameters, context):
         """Find the input."""

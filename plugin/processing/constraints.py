@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Callable, Iterator
+from typing import Any, Callable, Iterator, Sequence
 
 import numpy as np
 from qgis.core import (
+    QgsCoordinateReferenceSystem,
+    QgsFeature,
     QgsFeatureRequest,
     QgsGeometry,
     QgsProcessingAlgorithm,
     QgsProcessingContext,
+    QgsProcessingFeatureSource,
     QgsProcessingParameterFeatureSource,
 )
 
 from ...algorithms.core.errors import BareEarthError
 from ...algorithms.survey.collection import find_files
 from .. import compat
+from ..i18n import tr
 from .inputs import crs_of, is_empty, polygons_of
 
 # Name, label, kind of the layer and help of each field.
@@ -44,9 +48,6 @@ _FIELDS = {
         "Polygons in which no point is ground, such as bridges and roofs.",
     ),
 }
-
-
-CONSTRAINT_HELP = [f"<b>{label}</b>: {text}" for label, _, text in _FIELDS.values()]
 
 
 def add_constraints(algorithm: QgsProcessingAlgorithm) -> None:
@@ -78,16 +79,33 @@ def constraints_of(
     for name in given:
         label, kind, _ = _FIELDS[name]
         source = algorithm.parameterAsSource(parameters, name, context)
-        if source is None:
-            raise BareEarthError(f"The layer of {label.lower()} cannot be read.")
-        request = QgsFeatureRequest().setSubsetOfAttributes([])
-        request.setDestinationCrs(crs, context.transformContext())
         shapes: Callable[[QgsGeometry], Iterator[Any]] = (
             polygons_of if kind == compat.POLYGONS else _lines_of
         )
-        geometries = (feature.geometry() for feature in source.getFeatures(request))
-        found[name.lower()] = tuple(each for one in geometries for each in shapes(one))
+        features = features_of(source, label, crs, context)
+        found[name.lower()] = tuple(each for one in features for each in shapes(one.geometry()))
     return found
+
+
+def features_of(
+    source: QgsProcessingFeatureSource | None,
+    label: str,
+    crs: QgsCoordinateReferenceSystem,
+    context: QgsProcessingContext,
+    attributes: Sequence[str] = (),
+) -> Iterator[QgsFeature]:
+    """Yield the features of a layer in a CRS, with some attributes.
+
+    Raises
+    ------
+    BareEarthError
+        If the layer, whose label is given, cannot be read.
+    """
+    if source is None:
+        raise BareEarthError(tr('The layer "{}" cannot be read.').format(tr(label)))
+    request = QgsFeatureRequest().setSubsetOfAttributes(attributes, source.fields())
+    request.setDestinationCrs(crs, context.transformContext())
+    yield from source.getFeatures(request)
 
 
 def _lines_of(geometry: QgsGeometry) -> Iterator[np.ndarray]:

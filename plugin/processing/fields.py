@@ -17,6 +17,7 @@ from qgis.core import (
 from ...algorithms.core.errors import BareEarthError
 from ...algorithms.core.parameters import Declaration, ParameterSet
 from .. import compat
+from ..i18n import tr
 from .choices import ChoiceParameter, value_of, with_labels
 
 _SYMBOLS = {"deg": "°"}
@@ -52,7 +53,7 @@ def field_of(declaration: Declaration, is_shown: bool = True) -> QgsProcessingPa
         field = ChoiceParameter(
             name, label, list(declaration.choices), False, default, optional, True
         )
-        field = with_labels(field, list(declaration.choices.values()))
+        field = with_labels(field, list(map(tr, declaration.choices.values())))
     elif declaration.kind in _LISTS:
         default = None if default is None else ", ".join(f"{each:g}" for each in default)
         field = QgsProcessingParameterString(name, label, default, False, optional)
@@ -86,15 +87,16 @@ def _decimals(value: float) -> int:
 
 
 def title_of(declaration: Declaration) -> str:
-    """Return the label with the unit."""
-    unit = _SYMBOLS.get(declaration.unit, declaration.unit)
-    return f"{declaration.label} [{unit}]" if unit else declaration.label
+    """Return the label with the unit, in the user's language."""
+    unit = _SYMBOLS.get(declaration.unit) or tr(declaration.unit)
+    label = tr(declaration.label)
+    return f"{label} [{unit}]" if unit else label
 
 
 def help_of(declaration: Declaration) -> str:
-    """Return the help, with what each choice means."""
-    choices = [f"{value}: {label}." for value, label in declaration.choices.items()]
-    return " ".join([declaration.help, *choices])
+    """Return the help, with what each choice means, in the user's language."""
+    choices = [f"{value}: {tr(label)}." for value, label in declaration.choices.items()]
+    return " ".join([tr(declaration.help), *choices])
 
 
 def parameters_of(
@@ -149,7 +151,11 @@ def _value(
         return declaration.default
     if isinstance(given, str) and not _is_number(given):
         # parameterAsDouble would return the default without a word.
-        raise BareEarthError(f"{declaration.label} must be a number, not {given!r}.")
+        raise BareEarthError(
+            tr("{label} must be a number, not {value}.").format(
+                label=tr(declaration.label), value=repr(given)
+            )
+        )
     # As a number with decimals in either case: 2.5 is not to become 2 where a whole one is asked.
     return algorithm.parameterAsDouble(parameters, name, context)
 

@@ -22,9 +22,4 @@ class GridMinimumAlgorithm(ClassificationAlgorithm):
         " angles degrees, whatever the unit of the CRS. The terrain model and its hillshade are"
         " GeoTIFFs."
     )
-    keywords = (
-        "lidar", "point cloud", "las", "laz", "copc", "als", "drone", "ground", "bare earth",
-        "classification", "classify", "filter", "terrain", "dtm", "dem", "hillshade", "grid",
-        "raster", "lowest", "minimum",
-    )  # fmt: skip
     page = "grid-minimum"

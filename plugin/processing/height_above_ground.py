@@ -8,6 +8,7 @@ from ...algorithms.engine.heights import HeightOutput
 from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.output import HEIGHT_DIMENSION
 from ...algorithms.survey.ground_classes import GroundClasses
+from ..i18n import tr
 from ..styles import layers
 from .base import command_line
 from .products import ProductAlgorithm
@@ -26,12 +27,9 @@ class HeightAboveGroundAlgorithm(ProductAlgorithm):
         " Heights are in the vertical unit of the CRS. They become an extra dimension,"
         " HeightAboveGround, or take the place of z; nothing else in the file changes."
     )
-    keywords = (
-        "lidar", "point cloud", "las", "laz", "copc", "hag", "normalise", "normalize", "height",
-        "vegetation", "canopy", "tin", "extra bytes",
-    )  # fmt: skip
     page = "height-above-ground"
     cloud_label = "Point cloud with heights"
+    cloud_help = "The same points with their heights above ground."
     numbers = (
         ("POINT_COUNT", "Points"),
         ("GROUND_COUNT", "Ground points"),
@@ -53,8 +51,9 @@ class HeightAboveGroundAlgorithm(ProductAlgorithm):
         progress.command(command_line("height", [str(self.source), output], chosen, {}))
         summary = heights(self.source, Path(output), HeightRequest.of(chosen), progress)
         progress.info(
-            f"Heights above ground are {summary.minimum:.2f} to {summary.maximum:.2f}"
-            f" {summary.unit}."
+            tr("Heights above ground are {low:.2f} to {high:.2f} {unit}.").format(
+                low=summary.minimum, high=summary.maximum, unit=summary.unit
+            )
         )
         attribute = "Z" if chosen[1].output_as == "z" else HEIGHT_DIMENSION
         self.show(output, layers.heights(attribute, summary.maximum))

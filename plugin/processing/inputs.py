@@ -29,9 +29,10 @@ from ...algorithms.las.crs_records import read_crs
 from ...algorithms.las.opening import open_las
 from ...algorithms.survey.area import Area, Polygon
 from .. import compat
+from ..i18n import tr
 
 # Name, label and help of the fields of an area.
-AREA_FIELDS = {
+_AREA_FIELDS = {
     "EXTENT": (
         "Extent",
         "Only points in this rectangle are classified. The others keep their class, but those near"
@@ -46,21 +47,24 @@ AREA_FIELDS = {
 
 # By its name: QGIS makes one for a dialog, and qgis_process imports no widgets.
 _WIDGET = f"{__package__}.widgets.PointCloudWidget"
-# Of the fields of `add_clouds`.
-_FILES_LABEL, _FOLDER_LABEL = "Point clouds", "Folder of point clouds"
-_FOLDER_TEXT = "All .las, .laz and .copc.laz files in it are taken, too."
-_CLOUD_TEXT = (
+# Of the fields of `add_survey` and `add_clouds`.
+_FILES_HELP = (
+    "Files .las, .laz and .copc.laz, virtual point clouds (.vpc), or text files (.txt) with a path"
+    " a line. May be empty if a folder is given."
+)
+_FOLDER_HELP = (
+    "All .las, .laz and .copc.laz files in it are taken, too. Many files are one survey, without"
+    " seams."
+)
+_SURVEY_HELP = (
     "A point cloud layer, a .las, .laz or .copc.laz file, a virtual point cloud (.vpc), or a text"
     " file (.txt) with a path a line. May be empty if a folder is given."
 )
-SURVEY_HELP = (
-    f"<b>Point cloud</b>: {_CLOUD_TEXT}\n<b>{_FOLDER_LABEL}</b>: {_FOLDER_TEXT} Many files are"
-    " one survey, without seams."
-)
-FOLDER_HELP = (
-    f"<b>{_FILES_LABEL}</b>: .las, .laz and .copc.laz files, virtual point clouds (.vpc), or text"
-    " files (.txt) with a path a line. May be empty if a folder is given.\n"
-    f"<b>{_FOLDER_LABEL}</b>: {_FOLDER_TEXT}"
+# Of others.
+CLOUD_HELP = "A point cloud layer, or a .las, .laz or .copc.laz file."
+ANY_CLOUD_HELP = (
+    "A point cloud layer, or a .las, .laz or .copc.laz file; also a virtual point cloud (.vpc) or a"
+    " folder."
 )
 
 
@@ -89,7 +93,7 @@ class PointCloudInput(QgsProcessingParameterPointCloudLayer):
 
     def createFileFilter(self) -> str:
         """Return the file types for the dialog's "..."; those of QGIS depend on the build."""
-        return "Point clouds (*.las *.laz *.LAS *.LAZ);;All files (*.*)"
+        return _filter("*.las *.laz *.LAS *.LAZ")
 
 
 class SurveyInput(PointCloudInput):
@@ -101,7 +105,7 @@ class SurveyInput(PointCloudInput):
 
     def createFileFilter(self) -> str:
         """Return the file types for the dialog's "..."."""
-        return "Point clouds (*.las *.laz *.vpc *.txt *.LAS *.LAZ);;All files (*.*)"
+        return _filter("*.las *.laz *.vpc *.txt *.LAS *.LAZ")
 
 
 def source_path(
@@ -128,25 +132,24 @@ def source_path(
         layer = QgsProcessingUtils.mapLayerFromString(text, context, False)
         if layer is None:
             raise BareEarthError(
-                f"{text} does not exist. Check the path." if text else "Choose a point cloud."
+                tr("{} does not exist. Check the path.").format(text)
+                if text
+                else tr("Choose a point cloud.")
             )
     return _path_of(layer)
 
 
 def add_survey(algorithm: QgsProcessingAlgorithm) -> None:
     """Add fields for a point cloud, or a folder of them, to a dialog."""
-    cloud = SurveyInput("INPUT", "Point cloud", None, True)
-    cloud.setHelp(_CLOUD_TEXT)
-    algorithm.addParameter(cloud)
+    algorithm.addParameter(SurveyInput("INPUT", "Point cloud", None, True), _SURVEY_HELP)
     _add_folder(algorithm)
 
 
 def _add_folder(algorithm: QgsProcessingAlgorithm) -> None:
     folder = QgsProcessingParameterFile(
-        "INPUT_FOLDER", _FOLDER_LABEL, compat.FOLDER, "", None, True
+        "INPUT_FOLDER", "Folder of point clouds", compat.FOLDER, "", None, True
     )
-    folder.setHelp(_FOLDER_TEXT)
-    algorithm.addParameter(folder)
+    algorithm.addParameter(folder, _FOLDER_HELP)
 
 
 def survey_of(
@@ -164,10 +167,10 @@ def survey_of(
         paths.append(source_path(algorithm, parameters, "INPUT", context))
     folder = algorithm.parameterAsString(parameters, "INPUT_FOLDER", context)
     if folder and not Path(folder).is_dir():
-        raise BareEarthError(f"{folder} is not a folder. Check the path.")
+        raise BareEarthError(tr("{} is not a folder. Check the path.").format(folder))
     paths += [Path(folder)] if folder else []
     if not paths:
-        raise BareEarthError("Choose a point cloud, or a folder of them.")
+        raise BareEarthError(tr("Choose a point cloud, or a folder of them."))
     return paths
 
 
@@ -180,13 +183,13 @@ def name_of(path: Path) -> str:
 
 def names_of(paths: Sequence[Path]) -> str:
     """Return the name of the files of a run."""
-    return name_of(paths[0]) + (" and others" if paths[1:] else "")
+    return (tr("{} and others") if paths[1:] else "{}").format(name_of(paths[0]))
 
 
 def add_clouds(algorithm: QgsProcessingAlgorithm) -> None:
     """Add fields for many files to a dialog: as a list, or as a folder."""
-    files = QgsProcessingParameterMultipleLayers("INPUT", _FILES_LABEL, compat.FILES, None, True)
-    algorithm.addParameter(files)
+    files = QgsProcessingParameterMultipleLayers("INPUT", "Point clouds", compat.FILES, None, True)
+    algorithm.addParameter(files, _FILES_HELP)
     _add_folder(algorithm)
 
 
@@ -206,10 +209,10 @@ def clouds_of(
     for text in filter(None, texts):
         path = _file(text)
         if path is None:
-            raise BareEarthError(f"{text} does not exist. Check the path.")
+            raise BareEarthError(tr("{} does not exist. Check the path.").format(text))
         paths.append(path)
     if not paths:
-        raise BareEarthError("Choose point clouds, or a folder of them.")
+        raise BareEarthError(tr("Choose point clouds, or a folder of them."))
     return paths
 
 
@@ -230,16 +233,15 @@ def ignored_filter(
 
 def add_area(algorithm: QgsProcessingAlgorithm) -> None:
     """Add the fields of an area to a dialog."""
-    extent, boundary = (label for label, _ in AREA_FIELDS.values())
+    extent, boundary = (label for label, _ in _AREA_FIELDS.values())
     fields = (
         QgsProcessingParameterExtent("EXTENT", extent, None, True),
         QgsProcessingParameterFeatureSource("BOUNDARY", boundary, [compat.POLYGONS], None, True),
     )
     for field in fields:
-        field.setHelp(AREA_FIELDS[field.name()][1])
         if field.name() == "BOUNDARY":
             field.setFlags(field.flags() | compat.ADVANCED)
-        algorithm.addParameter(field)
+        algorithm.addParameter(field, _AREA_FIELDS[field.name()][1])
 
 
 def area_of(
@@ -255,7 +257,7 @@ def area_of(
     BareEarthError
         If they hold no area, or the cloud cannot be read.
     """
-    given = [name for name in AREA_FIELDS if not is_empty(parameters.get(name))]
+    given = [name for name in _AREA_FIELDS if not is_empty(parameters.get(name))]
     if not given:
         return None
     crs = crs_of(cloud)
@@ -266,13 +268,13 @@ def area_of(
     if "BOUNDARY" in given:
         source = algorithm.parameterAsSource(parameters, "BOUNDARY", context)
         if source is None:
-            raise BareEarthError("The boundary cannot be read. Choose a layer of polygons.")
+            raise BareEarthError(tr("The boundary cannot be read. Choose a layer of polygons."))
         request = QgsFeatureRequest().setSubsetOfAttributes([])
         request.setDestinationCrs(crs, context.transformContext())
         geometries = (feature.geometry() for feature in source.getFeatures(request))
         polygons = tuple(each for geometry in geometries for each in polygons_of(geometry))
         if not polygons:
-            raise BareEarthError("The boundary holds no polygon. Choose one that does.")
+            raise BareEarthError(tr("The boundary holds no polygon. Choose one that does."))
     return Area(box, polygons)
 
 
@@ -301,17 +303,25 @@ def polygons_of(geometry: QgsGeometry) -> Iterator[Polygon]:
 def _path_of(layer: QgsMapLayer) -> Path:
     if not isinstance(layer, QgsPointCloudLayer):
         raise BareEarthError(
-            f"{layer.name()} is not a point cloud. Choose a point cloud layer, or a .las or .laz"
-            " file."
+            tr(
+                "{} is not a point cloud. Choose a point cloud layer, or a .las or .laz file."
+            ).format(layer.name())
         )
     provider = layer.dataProvider().name() if layer.dataProvider() else ""
     parts = QgsProviderRegistry.instance().decodeUri(provider, layer.source())
     path = parts.get("path") or layer.source()
     if "://" in path:
         raise BareEarthError(
-            f"{layer.name()} is not a file of this computer. Download it as .las or .laz first."
+            tr("{} is not a file of this computer. Download it as .las or .laz first.").format(
+                layer.name()
+            )
         )
     return Path(path)
+
+
+def _filter(endings: str) -> str:
+    """Return the file types of point clouds with such endings, for a dialog."""
+    return f"{tr('Point clouds')} ({endings});;{tr('All files')} (*.*)"
 
 
 def _file(text: str) -> Path | None:

@@ -8,6 +8,7 @@ from ...algorithms.engine.key_points import KeyPointMark
 from ...algorithms.engine.memory import Resources
 from ...algorithms.grids.model_key_points import ModelKeyPoints
 from ...algorithms.survey.ground_classes import GroundClasses
+from ..i18n import mark, tr
 from ..styles import layers
 from .base import command_line
 from .products import ProductAlgorithm
@@ -25,12 +26,9 @@ class ModelKeyPointsAlgorithm(ProductAlgorithm):
         " the tolerances. They get a class of their own, or the key-point flag; nothing else in the"
         " file changes.\nLengths are metres, whatever the unit of the CRS."
     )
-    keywords = (
-        "lidar", "point cloud", "las", "laz", "copc", "ground", "thin", "thinning", "generalise",
-        "keypoints", "classification", "classify", "terrain", "contours", "tin",
-    )  # fmt: skip
     page = "model-key-points"
     cloud_label = "Point cloud with key points"
+    cloud_help = "The same points, the key points among them marked."
     numbers = (
         ("POINT_COUNT", "Points"),
         ("GROUND_COUNT", "Ground points"),
@@ -51,8 +49,11 @@ class ModelKeyPointsAlgorithm(ProductAlgorithm):
         progress.command(command_line("key-points", [str(self.source), output], chosen, {}))
         summary = key_points(self.source, Path(output), KeyPointRequest.of(chosen), progress)
         progress.info(
-            f"{summary.key_point_count:,} of {summary.ground_count:,} ground points are key points"
-            f" ({summary.key_point_count / summary.ground_count:.1%})."
+            tr("{key:,} of {ground:,} ground points are key points ({share:.1%}).").format(
+                key=summary.key_point_count,
+                ground=summary.ground_count,
+                share=summary.key_point_count / summary.ground_count,
+            )
         )
-        self.show(output, layers.classes(summary.class_counts, "key points"))
+        self.show(output, layers.classes(summary.class_counts, mark("key points")))
         return {"OUTPUT": output, **self.numbers_of(summary)}

@@ -7,7 +7,10 @@ from typing import Any
 
 from qgis.core import QgsProcessingContext, QgsProcessingFeedback, QgsProcessingModelAlgorithm
 
+from ...algorithms.core.parameters import ParameterSet
+from ..i18n import tr
 from .base import BareEarthAlgorithm
+from .search_words import words_of
 
 _FOLDER = Path(__file__).parents[1] / "models"
 
@@ -22,22 +25,45 @@ class ShippedModel(QgsProcessingModelAlgorithm):
     """
 
     page = "models"
-    # As that of all others: the address of the page.
+    # As those of all others: the address of the page, and the help.
     helpUrl = BareEarthAlgorithm.helpUrl
+    shortHelpString = BareEarthAlgorithm.shortHelpString
 
     def __init__(self, file: Path) -> None:
         super().__init__()
         self._file = file
         # What it is made of is found once all providers are there: QGIS makes a new one to run.
         self.fromFile(str(file))
+        self.about = self.helpContent().get("ALG_DESC", "")
+        for each in self.parameterDefinitions():
+            each.setDescription(tr(each.description()))
+            each.setHelp(tr(each.help()))
+        for each in self.outputDefinitions():
+            each.setDescription(tr(each.description()))
 
     def name(self) -> str:
         """Return the second half of the id; that of QGIS would be the title."""
         return self._file.stem.replace("_", "")
 
+    def displayName(self) -> str:
+        """Return the name in the toolbox."""
+        return tr(super().displayName())
+
+    def group(self) -> str:
+        """Return the group in the toolbox."""
+        return tr(super().group())
+
+    def shortDescription(self) -> str:
+        """Return the tooltip."""
+        return tr(super().shortDescription())
+
     def tags(self) -> list[str]:
         """Return what the search of the toolbox finds."""
-        return ["lidar", "las", "laz", "ground", "dtm", "dem", "bare earth", "model", "workflow"]
+        return words_of(self.name())
+
+    def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
+        """Return no declared parameters: the fields are those that were drawn."""
+        return ()
 
     def processAlgorithm(
         self,

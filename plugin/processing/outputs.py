@@ -9,21 +9,35 @@ from qgis.core import (
     QgsProcessingAlgorithm,
     QgsProcessingContext,
     QgsProcessingParameterDefinition,
+    QgsProcessingParameterFileDestination,
+    QgsProcessingParameterFolderDestination,
     QgsProcessingParameterRasterDestination,
+    QgsProcessingParameterVectorDestination,
 )
 
 from ...algorithms.engine.rasters import RasterFiles
 from ...algorithms.las.backends import WRITING_COPC, missing_packages
 from .. import compat
+from ..i18n import tr
 
-# Name and label of each raster that can be made.
+# Name, label and help of each raster that can be made.
 RASTERS = {
-    "DTM": "Terrain model (DTM)",
-    "DSM": "Surface model (DSM)",
-    "CHM": "Canopy height (CHM)",
-    "HILLSHADE": "Hillshade",
-    "CONFIDENCE": "Confidence of the terrain model",
-    "RELIEF": "Local relief",
+    "DTM": ("Terrain model (DTM)", "Heights of the bare ground."),
+    "DSM": ("Surface model (DSM)", "The highest point of each cell, noise left out."),
+    "CHM": (
+        "Canopy height (CHM)",
+        "Surface minus terrain: the height of trees, and of buildings too.",
+    ),
+    "HILLSHADE": ("Hillshade", "The terrain model, lit from one side."),
+    "CONFIDENCE": (
+        "Confidence of the terrain model",
+        "The probability, 0 to 1, that the terrain model is right: low under dense trees, across"
+        " gaps and at breaks.",
+    ),
+    "RELIEF": (
+        "Local relief",
+        "The terrain model less a smoothed one: mounds, ditches and old paths stand out.",
+    ),
 }
 _MODELS = ("DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE")
 
@@ -35,19 +49,48 @@ def add_rasters(
 ) -> None:
     """Add fields for rasters, of which none has to be made; some are made by default."""
     for name in names:
+        label, text = RASTERS[name]
         algorithm.addParameter(
-            QgsProcessingParameterRasterDestination(
-                name, RASTERS[name], None, True, name in default
-            )
+            QgsProcessingParameterRasterDestination(name, label, None, True, name in default), text
         )
 
 
-def add_cloud(algorithm: QgsProcessingAlgorithm, label: str, optional: bool = False) -> None:
-    """Add the field of a point cloud to be made."""
+def add_cloud(
+    algorithm: QgsProcessingAlgorithm,
+    label: str = "Classified point cloud",
+    text: str = "The same points with their new classes.",
+    optional: bool = False,
+) -> None:
+    """Add the field of a point cloud to be made, with its help."""
     field = compat.point_cloud_output("OUTPUT", label, point_cloud_formats())
     if optional:
         field.setFlags(field.flags() | QgsProcessingParameterDefinition.Flag.FlagOptional)
-    algorithm.addParameter(field)
+    algorithm.addParameter(field, text)
+
+
+def add_tiles(algorithm: QgsProcessingAlgorithm) -> None:
+    """Add the fields of many point clouds to be made."""
+    folder, vpc = "Folder of the classified point clouds", "Virtual point cloud"
+    filters = tr("{} files (*.{})").format("VPC", "vpc")
+    algorithm.addParameter(
+        QgsProcessingParameterFolderDestination("OUTPUT_FOLDER", folder),
+        "Where the classified files go, each under its name.",
+    )
+    algorithm.addParameter(
+        QgsProcessingParameterFileDestination("OUTPUT_VPC", vpc, filters, None, True, False),
+        "A list of the classified files, which QGIS shows as one layer from 3.32 on. Without a name"
+        " it goes into their folder.",
+    )
+
+
+def add_contours(algorithm: QgsProcessingAlgorithm) -> None:
+    """Add the field of contour lines to be made."""
+    field = QgsProcessingParameterVectorDestination(
+        "CONTOURS", "Contour lines", optional=True, createByDefault=False
+    )
+    algorithm.addParameter(
+        field, "Lines of equal height of the terrain model, with the field ELEV."
+    )
 
 
 def raster_paths(

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from qgis.core import QgsProcessingParameterVectorDestination as Vector
-
 from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.options import TileMethod
 from ...algorithms.products.contours import Contours
@@ -13,40 +11,39 @@ from ...algorithms.products.local_relief import LocalRelief
 from ...algorithms.products.surface_model import SurfaceModel
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
+from ..i18n import mark
 from ..styles.layers import BELOW_TERRAIN, contours
+from . import outputs
 from .base import BareEarthAlgorithm
 from .classified import show_classified
-from .inputs import SURVEY_HELP, add_survey, names_of, survey_of
-from .outputs import RASTERS, add_cloud, add_rasters, do_not_load, raster_files, raster_paths
+from .corrections import add_corrections, corrections_of
+from .inputs import add_survey, names_of, survey_of
 
 
 class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
     """Point cloud to terrain."""
 
     identifier, page = "pointcloudtoterrain", "point-cloud-to-terrain"
-    title, section, run_name = "Point cloud to terrain", "All in one", "terrain"
+    title, section, run_name = "Point cloud to terrain", "All in one", mark("terrain")
     summary = "Makes a map of the terrain of a raw point cloud: classes, models, contours."
     about = (
         "Finds the ground of a raw lidar point cloud and makes maps of it, of which any may be"
-        f" left out. Local relief shows small features. Lengths are metres.\n{SURVEY_HELP}"
+        " left out. Local relief shows small features. Lengths are metres."
     )
     shown = "method", "preset", "dtm_cell_size"
-    keywords = (
-        "lidar", "las", "laz", "copc", "vpc", "ground", "bare earth", "dtm", "dem", "dsm", "chm",
-        "hillshade", "relief", "contours", "smrf", "pmf", "csf", "lasground", "filter")  # fmt: skip
 
     def parameter_sets(self):
         """Return method, cells, and all that may be left as it is."""
-        products = TerrainModel, Selection, SurfaceModel, Contours, LocalRelief, Resources
-        return TileMethod, *products
+        return TileMethod, TerrainModel, Selection, SurfaceModel, Contours, LocalRelief, Resources
 
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""
         add_survey(self)
         self.add_declared()
-        add_cloud(self, "Classified point cloud", optional=True)
-        add_rasters(self, RASTERS, ("DTM", "HILLSHADE", "DSM", "CHM"))
-        self.addParameter(Vector("CONTOURS", "Contour lines", optional=True, createByDefault=False))
+        add_corrections(self)
+        outputs.add_cloud(self, optional=True)
+        outputs.add_rasters(self, outputs.RASTERS, ("DTM", "HILLSHADE", "DSM", "CHM"))
+        outputs.add_contours(self)
         self.add_numbers({"POINT_COUNT": "Points", "GROUND_COUNT": "Ground points"})
 
     def find_inputs(self, parameters, context):
@@ -58,12 +55,13 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         """Make what is wanted."""
         from ...algorithms.engine.terrain_maps import MapFiles, MapRequest, make_maps
 
-        request = MapRequest.of(self.chosen(parameters, context))
+        known = corrections_of(self, parameters, context, self._sources[0])
+        request = MapRequest.of(self.chosen(parameters, context), corrections=known)
         cloud = self.point_cloud_destination(parameters, "OUTPUT", context)
-        results = raster_paths(self, parameters, context)
+        results = outputs.raster_paths(self, parameters, context)
         lines = self.parameterAsOutputLayer(parameters, "CONTOURS", context)
         paths = [path and Path(path) for path in (cloud, results.get("RELIEF"), lines)]
-        files = MapFiles(paths[0], raster_files(results), *paths[1:])
+        files = MapFiles(paths[0], outputs.raster_files(results), *paths[1:])
         summary = make_maps(self._sources, files, request, progress)
         progress.info("\n".join(summary.lines))
         if lines:
@@ -71,8 +69,7 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
             results["CONTOURS"] = lines
         if cloud:
             results["OUTPUT"] = made = str(summary.cloud)
-            do_not_load(context, {cloud} - {made})
+            outputs.do_not_load(context, {cloud} - {made})
             how = request.selection.to_class, request.terrain.dtm_cell_size, context, progress
             show_classified(self, made, summary.class_counts, *how, BELOW_TERRAIN)
-        counts = {"POINT_COUNT": summary.point_count, "GROUND_COUNT": summary.ground_count}
-        return {**results, **counts}
+        return {**results, "POINT_COUNT": summary.point_count, "GROUND_COUNT": summary.ground_count}

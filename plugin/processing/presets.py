@@ -12,6 +12,7 @@ from ...algorithms.filters import METHODS, Method
 from ...algorithms.filters.grid_minimum import filter as grid_minimum
 from ...algorithms.filters.slope import filter as slope
 from ...algorithms.filters.tin_densification import filter as tin_densification
+from ..i18n import tr
 from .fields import title_of
 
 _PRESETS: dict[str, Mapping[str, Any]] = {
@@ -24,12 +25,9 @@ _PRESETS: dict[str, Mapping[str, Any]] = {
 def presets_of(sets: Sequence[type[ParameterSet]]) -> str:
     """Return what the presets among some parameters stand for, in HTML; empty if there are none."""
     methods = [each for each in METHODS.values() if each.parameters in sets or TileMethod in sets]
-    tables = "".join(f"{each.label}:{_table(each)}" for each in methods)
-    return (
-        f"<b>Values of the presets</b>, where they differ and a field is left empty<br/>{tables}"
-        if tables
-        else ""
-    )
+    tables = "".join(f"{tr(each.label)}:{_table(each)}" for each in methods)
+    words = tr("<b>Values of the presets</b>, where they differ and a field is left empty")
+    return f"{words}<br/>{tables}" if tables else ""
 
 
 def _table(method: Method) -> str:
@@ -41,13 +39,13 @@ def _table(method: Method) -> str:
     columns = [name for name in declared if len({row.get(name) for row in usual}) > 1]
     head = "".join(f"<th>{escape(title_of(declared[name]))}</th>" for name in columns)
     body = "".join(
-        f"<tr><td>{escape(labels[name].partition(' (')[0], quote=False)}</td>"
+        f"<tr><td>{escape(tr(labels[name]).partition(' (')[0], quote=False)}</td>"
         + "".join(f'<td align="right">{_shown(row.get(each))}</td>' for each in columns)
         + "</tr>"
         for name, row in rows.items()
     )
-    table = f'<table border="1" cellspacing="0" cellpadding="2"><tr><th>Preset</th>{head}</tr>'
-    return f"{table}{body}</table>"
+    head = f"<tr><th>{tr('Preset')}</th>{head}</tr>"
+    return f'<table border="1" cellspacing="0" cellpadding="2">{head}{body}</table>'
 
 
 def _values_of(preset: Any) -> dict[str, Any]:

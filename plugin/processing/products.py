@@ -7,9 +7,10 @@ from typing import Any
 from qgis.core import QgsProcessingContext, QgsProcessingOutputNumber
 
 from .. import compat
+from ..i18n import tr
 from .base import BareEarthAlgorithm
 from .feedback import FeedbackProgress
-from .inputs import PointCloudInput, ignored_filter, name_of, source_path
+from .inputs import ANY_CLOUD_HELP, PointCloudInput, ignored_filter, name_of, source_path
 from .outputs import add_cloud
 
 
@@ -18,24 +19,24 @@ class ProductAlgorithm(BareEarthAlgorithm):
 
     Attributes
     ----------
-    cloud_label : str
-        What the point cloud to be made is called; empty if none is.
+    cloud_label, cloud_help : str
+        What the point cloud to be made is called, and its help; empty if none is.
     numbers : tuple of (str, str)
         Name and label of each number that is returned. In small letters, the name is that of the
         attribute of the summary which holds it.
     """
 
     section = "Products"
-    cloud_label = ""
+    cloud_label = cloud_help = ""
     numbers: tuple[tuple[str, str], ...] = ()
 
     def add_outputs(self) -> None:
         """Add the fields of the files to be made."""
-        add_cloud(self, self.cloud_label)
+        add_cloud(self, self.cloud_label, self.cloud_help)
 
     def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
         """Declare the fields of the dialog and the results."""
-        self.addParameter(PointCloudInput("INPUT", "Classified point cloud"))
+        self.addParameter(PointCloudInput("INPUT", "Classified point cloud"), ANY_CLOUD_HELP)
         self.add_declared()
         self.add_outputs()
         for name, label in self.numbers:
@@ -55,7 +56,7 @@ class ProductAlgorithm(BareEarthAlgorithm):
         """Find the input, and tell what is ignored."""
         super().prepare(parameters, context, progress)
         if ignored_filter(self, parameters, "INPUT", context):
-            progress.warning("The layer's filter is not applied: all points are read.")
+            progress.warning(tr("The layer's filter is not applied: all points are read."))
 
     def cloud_output(
         self,
@@ -66,7 +67,8 @@ class ProductAlgorithm(BareEarthAlgorithm):
         """Return the path of the point cloud to be made; say so if QGIS cannot show it."""
         output = self.point_cloud_destination(parameters, "OUTPUT", context)
         if not compat.can_load(output):
-            progress.info(f"This QGIS cannot show such a file as a layer. It will be at {output}.")
+            text = tr("This QGIS cannot show such a file as a layer. It will be at {}.")
+            progress.info(text.format(output))
         return output
 
     def numbers_of(self, summary: Any) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from qgis.core import (
 
 from ...algorithms.core.errors import BareEarthError
 from ...algorithms.products.off_terrain import OffTerrain, remove_objects_file
+from ..i18n import tr
 from ..styles import layers
 from .base import BareEarthAlgorithm, command_line
 
@@ -29,10 +30,6 @@ class RemoveOffTerrainObjectsAlgorithm(BareEarthAlgorithm):
         " object, is removed, and the gaps are filled smoothly. Hills and slopes stay.\nThe output"
         " has the same grid, CRS and unit. Lengths are metres, whatever the unit of the CRS."
     )
-    keywords = (
-        "raster", "dem", "dsm", "dtm", "surface", "terrain", "buildings", "trees", "vegetation",
-        "off-terrain objects", "oto", "whitebox", "lindsay", "top-hat", "bare earth",
-    )  # fmt: skip
     page = "remove-off-terrain-objects"
 
     def parameter_sets(self):
@@ -41,9 +38,15 @@ class RemoveOffTerrainObjectsAlgorithm(BareEarthAlgorithm):
 
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""
-        self.addParameter(QgsProcessingParameterRasterLayer("INPUT", "Elevation raster"))
+        self.addParameter(
+            QgsProcessingParameterRasterLayer("INPUT", "Elevation raster"),
+            "A surface model: a raster file with a band of heights.",
+        )
         self.add_declared()
-        self.addParameter(QgsProcessingParameterRasterDestination("OUTPUT", "Without objects"))
+        self.addParameter(
+            QgsProcessingParameterRasterDestination("OUTPUT", "Without objects"),
+            "The same raster, with the terrain in place of the objects.",
+        )
         self.addOutput(QgsProcessingOutputNumber("CELL_COUNT", "Cells with a height"))
         self.addOutput(QgsProcessingOutputNumber("REMOVED_COUNT", "Cells of objects"))
 
@@ -51,7 +54,9 @@ class RemoveOffTerrainObjectsAlgorithm(BareEarthAlgorithm):
         """Find the input's file."""
         layer = self.parameterAsRasterLayer(parameters, "INPUT", context)
         if layer is None or layer.providerType() != "gdal":
-            raise BareEarthError("The elevation raster is not a file. Export it as GeoTIFF first.")
+            raise BareEarthError(
+                tr("The elevation raster is not a file. Export it as GeoTIFF first.")
+            )
         self._source, self.subject = layer.source(), layer.name()
 
     def compute(self, parameters, context, progress):

@@ -20,9 +20,4 @@ class SlopeFilterAlgorithm(ClassificationAlgorithm):
         " LidarGroundPointFilter.\nLengths are metres and angles degrees, whatever the unit of the"
         " CRS. The terrain model and its hillshade are GeoTIFFs."
     )
-    keywords = (
-        "lidar", "point cloud", "las", "laz", "copc", "als", "drone", "ground", "bare earth",
-        "classification", "classify", "filter", "terrain", "dtm", "dem", "hillshade", "slope",
-        "vosselman", "whitebox", "top-hat",
-    )  # fmt: skip
     page = "slope-filter"

@@ -7,8 +7,9 @@ from ...algorithms.engine.memory import Resources
 from ...algorithms.products.surface_model import SurfaceModel
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.ground_classes import GroundClasses
+from ..i18n import mark, tr
 from .base import command_line
-from .constraints import CONSTRAINT_HELP, add_constraints, constraints_of
+from .constraints import add_constraints, constraints_of
 from .outputs import add_rasters, raster_files, raster_paths
 from .products import ProductAlgorithm
 
@@ -25,21 +26,13 @@ class TerrainModelAlgorithm(ProductAlgorithm):
         " without noise; canopy height, the difference of the two; and a hillshade of the terrain."
         " All lie on the same grid. Heights are in the vertical unit of the CRS."
     )
-    keywords = (
-        "lidar", "point cloud", "las", "laz", "copc", "dtm", "dem", "dsm", "chm", "ndsm", "canopy",
-        "hillshade", "relief", "raster", "rasterize", "interpolate", "tin", "elevation",
-    )  # fmt: skip
-    page, run_name = "terrain-model", "terrain and surface"
+    page, run_name = "terrain-model", mark("terrain and surface")
     shown = "dtm_cell_size", "max_edge"
     numbers = (("GROUND_COUNT", "Ground points"), ("SURFACE_COUNT", "Points of the surface"))
 
     def parameter_sets(self):
         """Return ground classes, cells and light, what makes the surface, and what may be used."""
         return GroundClasses, TerrainModel, SurfaceModel, Resources
-
-    def shortHelpString(self):
-        """Return the help, the layers in it."""
-        return "\n".join([super().shortHelpString(), *CONSTRAINT_HELP])
 
     def add_outputs(self):
         """Add what the terrain must respect, and the rasters; none of them has to be made."""
@@ -55,12 +48,13 @@ class TerrainModelAlgorithm(ProductAlgorithm):
         chosen = self.chosen(parameters, context)
         paths = raster_paths(self, parameters, context)
         if not paths:
-            raise BareEarthError("Choose at least one raster to make.")
+            raise BareEarthError(tr("Choose at least one raster to make."))
         progress.command(command_line("terrain", [str(self.source)], chosen, paths))
         known = Constraints(**constraints_of(self, parameters, context, self.source))
         if known.any:
-            progress.info("In the command line the layers are missing: save them as GeoJSON.")
+            progress.info(tr("In the command line the layers are missing: save them as GeoJSON."))
         request = TerrainRequest.of(chosen, rasters=raster_files(paths), constraints=known)
         summary = terrain(self.source, request, progress)
-        progress.info(f"The rasters have {summary.columns:,} x {summary.rows:,} cells.")
+        size = summary.columns, summary.rows
+        progress.info(tr("The rasters have {:,} x {:,} cells.").format(*size))
         return {**paths, **self.numbers_of(summary)}

@@ -19,9 +19,4 @@ class TinDensificationAlgorithm(ClassificationAlgorithm):
         " points that lie close to it.\nLengths are metres and angles degrees, whatever the unit of"
         " the CRS. The terrain model and its hillshade are GeoTIFFs."
     )
-    keywords = (
-        "lidar", "point cloud", "las", "laz", "copc", "als", "drone", "ground", "bare earth",
-        "classification", "classify", "filter", "terrain", "dtm", "dem", "hillshade", "tin", "ptd",
-        "axelsson",
-    )  # fmt: skip
     page = "tin-densification"

@@ -12,6 +12,7 @@ from qgis.core import (
     QgsProcessingLayerPostProcessorInterface,
 )
 
+from ..i18n import mark, tr
 from . import clouds, rasters, vectors
 
 # QGIS calls them after the algorithm is gone, and owns the C++ half of each: one for each layer,
@@ -45,39 +46,39 @@ class Look(NamedTuple):
     hides: int = 0
 
 
-HILLSHADE = Look("hillshade", 0, rasters.hillshade)
-TERRAIN = Look("terrain model", 1, rasters.terrain, 5)
+HILLSHADE = Look(mark("hillshade"), 0, rasters.hillshade)
+TERRAIN = Look(mark("terrain model"), 1, rasters.terrain, 5)
 # Alone, over whatever is there.
-BARE = Look("without objects", 1, rasters.surface)
-SURFACE = Look("surface model", 2, rasters.surface, 1)
-CANOPY = Look("canopy height", 3, rasters.canopy, 3)
-RELIEF = Look("local relief", 4, rasters.local_relief, 2)
-CONFIDENCE = Look("confidence", 5, rasters.confidence, 1)
-ERRORS = Look("errors", 6, rasters.errors, 1)
+BARE = Look(mark("without objects"), 1, rasters.surface)
+SURFACE = Look(mark("surface model"), 2, rasters.surface, 1)
+CANOPY = Look(mark("canopy height"), 3, rasters.canopy, 3)
+RELIEF = Look(mark("local relief"), 4, rasters.local_relief, 2)
+CONFIDENCE = Look(mark("confidence"), 5, rasters.confidence, 1)
+ERRORS = Look(mark("errors"), 6, rasters.errors, 1)
 RASTERS = {
     "DTM": TERRAIN, "DSM": SURFACE, "CHM": CANOPY, "HILLSHADE": HILLSHADE,
     "CONFIDENCE": CONFIDENCE, "RELIEF": RELIEF, "ERROR_MAP": ERRORS,
 }  # fmt: skip
 
 
-def classes(values: Iterable[int], title: str = "classes", hides: int = CLOUD) -> Look:
+def classes(values: Iterable[int], title: str = mark("classes"), hides: int = CLOUD) -> Look:
     """Return what a cloud of such classes is."""
     return Look(title, 7, clouds.by_class(values), hides)
 
 
 def class_raster(values: Iterable[int], hides: int = CLOUD) -> Look:
     """Return what a raster of such classes is."""
-    return Look("classes", 7, rasters.classes(clouds.categories_of(values)), hides)
+    return Look(mark("classes"), 7, rasters.classes(clouds.categories_of(values)), hides)
 
 
 def heights(attribute: str, highest: float) -> Look:
     """Return what a cloud is with such an attribute of heights, up to the highest."""
-    return Look("height above ground", 7, clouds.by_height(attribute, highest), CLOUD)
+    return Look(mark("height above ground"), 7, clouds.by_height(attribute, highest), CLOUD)
 
 
 def contours(interval: float) -> Look:
     """Return what contour lines are."""
-    return Look("contour lines", 8, vectors.contours(interval))
+    return Look(mark("contour lines"), 8, vectors.contours(interval))
 
 
 def arrange(
@@ -115,7 +116,7 @@ def arrange(
         is_named = path in named
         place = "" if is_named or len(looks) - len(named) < 2 else group
         if not is_named:
-            details.name, details.forceName = f"{subject}: {look.title}", True
+            details.name, details.forceName = f"{subject}: {tr(look.title)}", True
         is_native = hasattr(details, "groupName")  # 3.32
         if is_native and place:
             details.groupName, details.layerSortKey = place, look.height

@@ -7,6 +7,7 @@ from typing import Callable
 from qgis.core import QgsLineSymbol, QgsRuleBasedRenderer, QgsVectorLayer
 
 from ...algorithms.products.contours import INDEX
+from ..i18n import tr
 
 _THIN = {"line_color": "110,72,36,130", "line_width": "0.15"}
 _THICK = {"line_color": "110,72,36,220", "line_width": "0.35"}
@@ -18,7 +19,10 @@ def contours(interval: float) -> Callable[[QgsVectorLayer], None]:
     def dress(layer: QgsVectorLayer) -> None:
         root = QgsRuleBasedRenderer.Rule(None)
         rule = f'round("ELEV" / {interval!r}) % {INDEX} = 0'
-        for properties, words in ((_THICK, f"Each {INDEX * interval:g}"), (_THIN, f"{interval:g}")):
+        for properties, words in (
+            (_THICK, tr("Each {:g}").format(INDEX * interval)),
+            (_THIN, f"{interval:g}"),
+        ):
             symbol = QgsLineSymbol.createSimple(properties)
             each = QgsRuleBasedRenderer.Rule(symbol, 0, 0, rule, words)
             root.appendChild(each)

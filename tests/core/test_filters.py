@@ -10,6 +10,7 @@ from bare_earth.algorithms.filters import METHODS, method_of
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 from bare_earth.algorithms.products.comparison import compare
 from benchmarks import data
+from benchmarks.scenes import make
 from benchmarks.scenes.simple import village
 
 PARAMETERS = [
@@ -36,6 +37,15 @@ def test_a_cancel_ends_the_classification(parameters):
 
     with pytest.raises(Cancelled):
         method_of(parameters).classify(village()[0], parameters, Stop())
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_hall_goes_where_points_are_sparse(method):
+    # Points two metres apart leave every second cell of a metre empty: none of these is a way down.
+    scene = make("hall_stepped", seed=4, density=0.25)
+    found = METHODS[method].classify(scene.points, METHODS[method].parameters())
+    assert found[scene.classes == 6].mean() < 0.02
+    assert found[scene.ground].mean() > 0.98
 
 
 @pytest.mark.skipif(not data.isprs(), reason="the ISPRS samples are not here")

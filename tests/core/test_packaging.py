@@ -91,7 +91,8 @@ def test_the_zip_holds_one_folder_with_what_qgis_needs(names):
     assert {name.split("/")[0] for name in names} == {"bare_earth"}
     needed = (
         "__init__.py metadata.txt LICENSE README.md requirements.txt plugin/plugin.py"
-        " algorithms/engine/runs.py packages/laspy/__init__.py"
+        " algorithms/engine/runs.py packages/laspy/__init__.py help/index.html"
+        " plugin/i18n/bare_earth_de.qm plugin/i18n/bare_earth_fr.qm"
         " plugin/models/terrain_contours.model3 plugin/models/cloud_heights.model3"
         " plugin/models/two_methods.model3"
     )
@@ -103,7 +104,7 @@ def test_the_zip_holds_one_folder_with_what_qgis_needs(names):
 
 def test_the_zip_holds_nothing_else(names):
     top = {name.split("/")[1] for name in names if name.count("/") > 1}
-    assert top <= {"algorithms", "plugin", "docs", "packages"}
+    assert top <= {"algorithms", "plugin", "help", "packages"}
     for name in names:
         # The site refuses hidden files (but for the settings of its own check), caches and
         # compiled code.
@@ -122,6 +123,36 @@ def test_laspy_travels_in_the_version_that_is_pinned_with_its_licence(names, pac
     assert "Requires-Python: >=3.9\n" in metadata
     needs = [line for line in metadata.splitlines() if line.startswith("Requires-Dist")]
     assert [line for line in needs if "extra ==" not in line] == ["Requires-Dist: numpy"]
+
+
+def test_the_help_is_whole_and_needs_nothing_else(names, package, metadata):
+    archive, pages = zipfile.ZipFile(package[0]), {}
+    for name in names:
+        if name.startswith("bare_earth/help/") and name.endswith(".html"):
+            pages[name[len("bare_earth/help/") :]] = archive.read(name).decode()
+    assert {"index.html", "tin-densification.html", "terrain-model.html"} <= set(pages)
+    for page, text in pages.items():
+        assert "<h1" in text, page
+        for link in re.findall(r'(?:href|src)="([^"]*)"', text):
+            file, _, anchor = link.partition("#")
+            if not link.startswith("https://"):
+                assert f"bare_earth/help/{file or page}" in names, (page, link)
+                assert not anchor or f'id="{anchor}"' in pages[file or page], (page, link)
+            elif link.startswith(metadata["repository"]):
+                assert (ROOT / link.partition("/blob/main/")[2]).is_file(), (page, link)
+        # Nothing is left as it is written.
+        prose = re.sub("(?s)<pre>.*?</pre>", "", text)
+        assert not re.search(r"\]\(|^\| |^#+ |```", prose, re.M), page
+    assert pages["terrain-model.html"].count("<table>") >= 3
+
+
+def test_addresses_that_are_to_be_set_stand_in_one_place(metadata):
+    known = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True)
+    for name in known.stdout.splitlines():
+        if name != "metadata.txt" and not name.endswith(".png"):
+            text = (ROOT / name).read_text(encoding="utf-8")
+            for key in ("email", "homepage", "repository", "tracker"):
+                assert metadata[key] not in text, (name, key)
 
 
 def test_the_zip_has_the_same_bytes_each_time(package, tmp_path):

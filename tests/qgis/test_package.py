@@ -174,6 +174,70 @@ def test_of_laz_support_is_told_once(qgis):
     assert not qgis.window("answer['messages'] = messages()")["messages"]
 
 
+def test_the_help_button_opens_the_page_in_the_plugin(qgis):
+    answer = qgis.window(
+        """
+        from processing.gui.AlgorithmDialog import AlgorithmDialog
+        from qgis.PyQt.QtCore import QObject, pyqtSlot, QUrl
+        from qgis.PyQt.QtGui import QDesktopServices
+        from qgis.PyQt.QtWidgets import QDialogButtonBox
+
+        class Browser(QObject):
+            @pyqtSlot(QUrl)
+            def open(self, url):
+                answer["opened"] = url.toLocalFile()
+
+        browser = Browser()
+        QDesktopServices.setUrlHandler("file", browser, "open")
+        registry = QgsApplication.processingRegistry()
+        dialog = AlgorithmDialog(registry.createAlgorithmById(given["algorithm"]))
+        dialog.show()
+        box = dialog.findChild(QDialogButtonBox)
+        box.button(QDialogButtonBox.StandardButton.Help).click()
+        provider = registry.providerById("bareearth")
+        answer["all"] = [QUrl(each.helpUrl()).toLocalFile() for each in provider.algorithms()]
+        """,
+        algorithm=ALGORITHM,
+    )
+    help_folder = qgis.profile / "python" / "plugins" / "bare_earth" / "help"
+    assert Path(answer["opened"]) == help_folder / "tin-densification.html"
+    assert "<h1" in Path(answer["opened"]).read_text(encoding="utf-8")
+    assert all(Path(each).is_file() for each in answer["all"])
+
+
+@pytest.mark.parametrize(
+    ("locale", "title", "menu"),
+    [
+        ("de", "Boden klassifizieren (TIN-Verdichtung)", "LAZ-Unterstützung…"),
+        ("fr", "Classer le sol (densification de TIN)", "Prise en charge LAZ…"),
+    ],
+)
+def test_the_window_speaks_the_language_of_qgis(qgis, clouds, tmp_path, locale, title, menu):
+    qgis.window(
+        """
+        QgsSettings().setValue("locale/overrideFlag", True)
+        QgsSettings().setValue("locale/userLocale", given["locale"])
+        """,
+        locale=locale,
+    )
+    answer = qgis.window(
+        """
+        menus = [each for each in iface.pluginMenu().actions() if each.text() == "Bare Earth"]
+        answer["menu"] = [each.text() for each in menus[0].menu().actions()]
+        algorithm = QgsApplication.processingRegistry().createAlgorithmById(given["algorithm"])
+        answer["title"] = algorithm.displayName()
+        found = dialog()
+        answer["state"] = found.state.text()
+        """,
+        algorithm=ALGORITHM,
+    )
+    assert (answer["title"], answer["menu"]) == (title, [menu])
+    assert not answer["state"].startswith("Not there")
+    # Ids and values are the same in every language.
+    done = qgis.process(clouds[0].path, tmp_path / "out.las")
+    assert done.returncode == 0 and ground_of(tmp_path / "out.las") > 0
+
+
 def test_las_works_from_the_zip_alone_and_laz_is_told(qgis, clouds, tmp_path):
     plain, packed = clouds
     done = qgis.process(plain.path, tmp_path / "out.las")

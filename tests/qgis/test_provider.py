@@ -11,6 +11,9 @@ from qgis.core import (
     QgsProcessingParameterEnum,
     QgsProcessingParameterNumber,
 )
+from qgis.gui import QgsProcessingToolboxProxyModel
+from qgis.PyQt.QtCore import QModelIndex
+from qgis.PyQt.QtGui import QIcon
 from support import ALGORITHM, ROOT
 
 from bare_earth.algorithms.engine.memory import Resources
@@ -21,10 +24,10 @@ from bare_earth.plugin.processing.classification import ClassificationAlgorithm
 
 SHARED_PARAMETERS = [
     "FROM_CLASSES", "SEED_CLASSES", "TO_CLASS", "RETURNS", "OTHERS",
-    "LOW_NOISE_CLASS", "LOW_NOISE_DEPTH", "BRIDGES", "BRIDGE_CLASS",
+    "LOW_NOISE_CLASS", "LOW_NOISE_DEPTH", "BRIDGES", "BRIDGE_CLASS", "REMEMBER_CLASSES",
     "DTM_CELL_SIZE", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
     "GROUND_ONLY", "HEIGHT_ABOVE_GROUND", "THREADS", "MEMORY",
-    "EXTENT", "BOUNDARY",
+    "EXTENT", "BOUNDARY", "CORRECTIONS", "CORRECTIONS_FIELD",
     "OUTPUT", "DTM", "HILLSHADE",
 ]  # fmt: skip
 SHARED_OUTPUTS = [
@@ -43,8 +46,9 @@ PARAMETERS = {
         "INPUT", "INPUT_FOLDER",
         "METHOD", "PRESET", "DTM_CELL_SIZE", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
         "FROM_CLASSES", "SEED_CLASSES", "TO_CLASS", "RETURNS", "OTHERS",
-        "LOW_NOISE_CLASS", "LOW_NOISE_DEPTH", "BRIDGES", "BRIDGE_CLASS",
+        "LOW_NOISE_CLASS", "LOW_NOISE_DEPTH", "BRIDGES", "BRIDGE_CLASS", "REMEMBER_CLASSES",
         "SURFACE_RETURNS", "MAX_EDGE", "CONTOUR_INTERVAL", "RELIEF_RADIUS", "THREADS", "MEMORY",
+        "CORRECTIONS", "CORRECTIONS_FIELD",
         "OUTPUT", "DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE", "RELIEF", "CONTOURS",
     ],
     "bareearth:gridminimum": [
@@ -63,10 +67,10 @@ PARAMETERS = {
         "INPUT", "INPUT_FOLDER",
         "METHOD", "PRESET",
         "FROM_CLASSES", "SEED_CLASSES", "TO_CLASS", "RETURNS", "OTHERS",
-        "LOW_NOISE_CLASS", "LOW_NOISE_DEPTH", "BRIDGES", "BRIDGE_CLASS",
+        "LOW_NOISE_CLASS", "LOW_NOISE_DEPTH", "BRIDGES", "BRIDGE_CLASS", "REMEMBER_CLASSES",
         "RECURSIVE", "FORMAT", "RESUME",
         "DTM_CELL_SIZE", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
-        "THREADS", "MEMORY",
+        "THREADS", "MEMORY", "CORRECTIONS", "CORRECTIONS_FIELD",
         "OUTPUT_FOLDER", "OUTPUT_VPC", "DTM", "HILLSHADE",
     ],
     "bareearth:heightaboveground": [
@@ -204,15 +208,62 @@ def test_an_algorithm_says_what_it_is(each):
     assert not each.flags() & each.Flag.FlagNoThreading
 
 
+def test_each_algorithm_has_an_icon_of_its_own(registry):
+    provider = registry.providerById("bareearth")
+    algorithms = [each for each in provider.algorithms() if each.id() in PARAMETERS]
+    paths = {each.id(): each.svgIconPath() for each in algorithms}
+    assert len({*paths.values(), provider.svgIconPath()}) == len(paths) + 1
+    for name, path in paths.items():
+        assert f"{name.partition(':')[2]}.svg" == os.path.basename(path)
+        picture = QIcon(path).pixmap(16, 16).toImage()
+        rows = [[picture.pixelColor(x, y) for x in range(16)] for y in range(16)]
+        drawn = [colour for row in rows for colour in row if colour.alpha() > 200]
+        # As large as the others, and neither near white nor near black: it stands out in themes of
+        # either kind.
+        assert len(drawn) > 50, name
+        assert all(50 < colour.lightness() < 205 for colour in drawn), name
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "smrf",
+        "pmf",
+        "csf",
+        "lasground",
+        "noise",
+        "ground filter",
+        "bare earth",
+        "dtm",
+        "dem",
+        "lidar",
+        "drone",
+    ],
+)
+def test_the_search_of_the_toolbox_finds_what_people_type(registry, words):
+    model = QgsProcessingToolboxProxyModel(None, registry)
+    model.setFilterString(words)
+    found = set()
+
+    def look(parent):
+        for row in range(model.rowCount(parent)):
+            index = model.index(row, 0, parent)
+            algorithm = model.toolboxModel().algorithmForIndex(model.mapToSource(index))
+            found.update([algorithm.id()] if algorithm else [])
+            look(index)
+
+    look(QModelIndex())
+    assert {ALGORITHM, "bareearth:pointcloudtoterrain"} <= found
+
+
 def test_an_instance_is_of_the_same_kind(each):
     assert type(each.create()) is type(each)
 
 
 def test_the_help_speaks_of_every_parameter(each):
     for parameter in each.parameterDefinitions():
-        if not parameter.isDestination() and parameter.name() != "INPUT":
-            assert len(parameter.help()) > 20
-            assert f"<b>{parameter.description()}</b>" in each.shortHelpString()
+        assert len(parameter.help()) > 20, parameter.name()
+        assert f"<b>{parameter.description()}</b>: " in each.shortHelpString()
 
 
 def test_numbers_have_ranges_and_names_are_upper_case(each):
@@ -235,9 +286,9 @@ def test_a_dialog_shows_eight_fields_at_most(each):
 
 def test_the_help_has_the_order_of_the_dialog(each):
     advanced = QgsProcessingParameterDefinition.Flag.FlagAdvanced
-    declared = {d.name.upper() for s in each.parameter_sets() for d in s.declarations()}
-    fields = [p for p in each.parameterDefinitions() if p.name() in declared]
-    fields.sort(key=lambda p: bool(p.flags() & advanced))
+    fields = list(each.parameterDefinitions())
+    # The outputs follow below what is folded away.
+    fields.sort(key=lambda p: (p.isDestination(), bool(p.flags() & advanced)))
     places = [each.shortHelpString().index(f"<b>{p.description()}</b>") for p in fields]
     assert places == sorted(places)
 

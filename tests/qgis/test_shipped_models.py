@@ -130,7 +130,7 @@ def test_they_are_there_by_themselves(registry):
         assert (ROOT / "docs" / page).is_file()
         for field in model.parameterDefinitions():
             if not field.isDestination():
-                assert f"<h3>{field.description()}</h3>" in model.shortHelpString()
+                assert f"<b>{field.description()}</b>: " in model.shortHelpString()
                 assert len(field.help()) > 20
 
 

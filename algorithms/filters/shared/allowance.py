@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -22,7 +22,8 @@ class Allowance:
     largest : float
         No allowance is larger, in metres.
     gentle_step : float
-        A step between cells that is not an edge, in metres, on top of the terrain's own rise.
+        A step between cells of up to a metre that is not an edge, in metres, on top of the
+        terrain's own rise; in proportion between larger cells.
     gentle_share : float
         Share of the border of a region that must be gentle for it to be terrain.
     gentle_area : float
@@ -49,6 +50,9 @@ class Allowance:
         Whether a step between cells is no edge where those before or after it are as high: a
         steep slope, or a cliff, of which points lie on the face; or where the terrain at large
         rises as much.
+    judges_gaps : bool
+        Whether cells without a point are told apart as well: they are raised where what fills them
+        is, and beyond the survey they are no border.
     """
 
     base: float = 0.15
@@ -67,6 +71,11 @@ class Allowance:
     border_height: float = 4.5
     rise_counts: bool = True
     follows_slopes: bool = True
+    judges_gaps: bool = True
+
+    def for_cells(self, size: float) -> Allowance:
+        """Return what is allowed between cells whose side is `size` metres."""
+        return replace(self, gentle_step=self.gentle_step * max(size, 1.0))
 
 
 # As it was before large windows and slopes were told apart: for presets of other programs.
@@ -77,4 +86,5 @@ CLASSIC = Allowance(
     border_area=np.inf,
     rise_counts=False,
     follows_slopes=False,
+    judges_gaps=False,
 )

@@ -65,9 +65,18 @@ def gentle_regions(
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
+    allowance = allowance.for_cells(size)
+    surveyed = np.ones(known.shape, dtype=bool)
+    if allowance.judges_gaps:
+        # A gap in a roof is not the ground beside it.
+        raised = raised | (~known & (filled - surface > allowance.gentle_step))
+        surveyed = covered(known)
     smooth = smoothed(surface, size, _TREND_SMOOTHING)
     sides = [_steps(filled, known, raised, smooth, trend, axis, size, allowance) for axis in (0, 1)]
     one, other, sign = (np.concatenate(each) for each in zip(*sides))
+    # What fills a gap in the survey slopes down gently from any roof.
+    inside = surveyed.ravel()[one] & surveyed.ravel()[other]
+    one, other, sign = one[inside], other[inside], sign[inside]
     up = raised.ravel()
     cells = np.flatnonzero(up)
     region = np.full(up.size, -1, dtype=np.int64)

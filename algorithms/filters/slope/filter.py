@@ -35,8 +35,6 @@ from .cell_bounds import Rule
 from .low_clusters import low_clusters
 from .standing_above import stands_above
 
-# Metres between points up to which the automatic radius and cells are the least.
-_DENSE = 2.5
 # Radii grow by this factor from scale to scale: the area of the disc doubles.
 _SCALE_STEP = math.sqrt(2.0)
 # Rise over run of the sides of a pit some metres wide that holds low outliers.
@@ -169,7 +167,7 @@ class SlopeFilter(ParameterSet):
         empty="automatic",
         advanced=True,
         help="Side of the cells whose lowest points are compared in the automatic preset. Empty:"
-        " 1 m, more if points are sparse.",
+        " the usual distance between points, at least 1 m.",
     )
     max_building_size: float | None = parameter(
         None,
@@ -229,9 +227,9 @@ class SlopeFilter(ParameterSet):
             if self.search_radius is not None:
                 chosen["max_building_size"] = _WIDEST * self.search_radius
             if self.search_radius is None or self.cell_size is None:
-                apart = spacing(points, _DENSE)
+                apart = spacing(points)
                 chosen["search_radius"] = max(preset.search_radius, round(4.0 * apart, 1))
-                chosen["cell_size"] = max(1.0, round(0.4 * apart, 1))
+                chosen["cell_size"] = apart
         empty = {name: value for name, value in chosen.items() if getattr(self, name) is None}
         return dataclasses.replace(self, **empty)
 

@@ -30,8 +30,8 @@ from ..shared.near_surface import near_surface
 from .densification import DensificationRules, densified, with_lower
 from .seeds import seeds_of_one_grid, seeds_of_two_grids
 
-# Side in metres of the cells whose lowest points may become vertices of the TIN, and of those where
-# points are so dense that their noise is measured.
+# Side in metres of the cells whose lowest points may become vertices of the TIN, if points are not
+# farther apart than that, and of those where points are so dense that their noise is measured.
 _CELL, _DENSE_CELL = 1.0, 0.5
 # Metres between points up to which each cell holds so many that it hardly matters where it begins,
 # that its lowest is hardly ever a plant, and that no break is lost between them.
@@ -268,7 +268,8 @@ def classify(
     is_dense = apart <= NOISE_SPACING and not is_classic
     if resolved != parameters or is_dense:
         progress.info(_in_words(resolved, apart, is_dense))
-    survey = LowestPoints(points, _DENSE_CELL if is_dense else _CELL, is_classic)
+    size = _DENSE_CELL if is_dense else _CELL if is_classic else max(_CELL, apart)
+    survey = LowestPoints(points, size, is_classic)
     progress(0.1)
     tell_of_outliers(len(survey.lowest), survey.heights, progress)
     ground, waiting = _seeds(points, survey, resolved, apart, progress.part(0.1, 0.7))

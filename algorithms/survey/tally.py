@@ -1,0 +1,85 @@
+"""What there is to tell of the points of a file, counted part by part."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..las.cloud import PointCloud
+
+_STEP = 1 << 20
+
+
+@dataclass
+class Tally:
+    """What a selection counted, in the parts of a file that it has seen so far.
+
+    Attributes
+    ----------
+    points, within, withheld, unnumbered : int
+        Points of all parts, those in the area (all without one), those withheld and those without
+        return number.
+    free : int
+        Points in the area that are not withheld.
+    eligible, of_returns, known, by_hand, selected : int
+        Points that may change their class, those of them of the wanted returns, those surely
+        ground, those whose class is certain by hand, and all that take part.
+    classes, classes_within : numpy.ndarray of int64, shape (256,)
+        Points of each class, of all parts and in the area.
+    """
+
+    points: int = 0
+    within: int = 0
+    withheld: int = 0
+    unnumbered: int = 0
+    free: int = 0
+    eligible: int = 0
+    of_returns: int = 0
+    known: int = 0
+    by_hand: int = 0
+    selected: int = 0
+    classes: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
+    classes_within: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
+
+    def add(self, part: PointCloud, within: np.ndarray | None, **masks: np.ndarray) -> None:
+        """Count the points of a part, and those of some masks."""
+        self.points += part.count
+        classes, free = part.classification, ~part.withheld
+        counts = count_classes(classes)
+        self.classes += counts
+        if within is not None:
+            classes, free = classes[within], free & within
+            counts = count_classes(classes)
+        self.within += len(classes)
+        self.classes_within += counts
+        self.add_counts(withheld=part.withheld, free=free, **masks)
+
+    def add_counts(self, **masks: np.ndarray) -> None:
+        """Count the points of masks, each named as the attribute."""
+        for name, mask in masks.items():
+            setattr(self, name, getattr(self, name) + int(np.count_nonzero(mask)))
+
+    def why_empty(self, place: str) -> str:
+        """Return the sentence for a selection without points: what to change."""
+        if self.eligible:
+            return f"No point of {place} is a last or single return. Choose all returns instead."
+        if not self.free:
+            return f"All points of {place} are withheld. Clear that flag first."
+        present = ", ".join(map(str, np.flatnonzero(self.classes_within)))
+        return (
+            f"No point of {place} is left to classify: it has the classes {present}. Choose among"
+            " them the classes to classify anew."
+        )
+
+
+def count_classes(classes: np.ndarray) -> np.ndarray:
+    """Return the number of points of each class; in steps, as bincount needs 8 bytes a number."""
+    counts = np.zeros((256, 256), dtype=np.int64)
+    even = len(classes) - len(classes) % 2
+    # Two classes as one number: half as many to count.
+    pairs = np.ascontiguousarray(classes[:even]).view(np.uint16)
+    for first in range(0, len(pairs), _STEP):
+        step = np.bincount(pairs[first : first + _STEP], minlength=counts.size)
+        counts += step.reshape(counts.shape)
+    return counts.sum(axis=0) + counts.sum(axis=1) + np.bincount(classes[even:], minlength=256)

@@ -1,0 +1,88 @@
+"""Polygons in which the class of the points is known, as a layer of a dialog."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from qgis.core import (
+    QgsProcessingAlgorithm,
+    QgsProcessingContext,
+    QgsProcessingParameterFeatureSource,
+    QgsProcessingParameterField,
+)
+
+from ...algorithms.core.errors import BareEarthError
+from ...algorithms.core.progress import SILENT, Progress
+from ...algorithms.survey.collection import find_files
+from ...algorithms.survey.corrections import CLASS_FIELD, NO_CORRECTIONS, Corrections
+from .. import compat
+from ..i18n import tr
+from .constraints import features_of
+from .inputs import crs_of, is_empty, polygons_of
+
+_LAYER, _FIELD = "CORRECTIONS", "CORRECTIONS_FIELD"
+# Label and help of each field.
+_TEXTS = {
+    _LAYER: (
+        "Corrections",
+        "Polygons in which the class is known: it holds whatever the filter makes of the points."
+        " Where it is that of the ground, points of the wanted returns are ground; else all points"
+        " get it, and the filter does not see them. Where polygons overlap, the last one counts.",
+    ),
+    _FIELD: (
+        "Class of the corrections",
+        "The attribute of these polygons that says their class: 2 is ground, 1 nothing else.",
+    ),
+}
+
+
+def add_corrections(algorithm: QgsProcessingAlgorithm) -> None:
+    """Add the fields of the layer to a dialog, folded away."""
+    labels = {name: label for name, (label, _) in _TEXTS.items()}
+    fields = (
+        QgsProcessingParameterFeatureSource(_LAYER, labels[_LAYER], [compat.POLYGONS], None, True),
+        QgsProcessingParameterField(_FIELD, labels[_FIELD], CLASS_FIELD, _LAYER),
+    )
+    for field in fields:
+        field.setFlags(field.flags() | compat.ADVANCED | compat.OPTIONAL)
+        algorithm.addParameter(field, _TEXTS[field.name()][1])
+
+
+def corrections_of(
+    algorithm: QgsProcessingAlgorithm,
+    parameters: dict[str, Any],
+    context: QgsProcessingContext,
+    cloud: Path,
+    progress: Progress = SILENT,
+) -> Corrections:
+    """Return what the fields hold, in the CRS of a cloud, which may be a folder or a list.
+
+    Progress is told what the command line lacks.
+
+    Raises
+    ------
+    BareEarthError
+        If the layer cannot be read, or a polygon has no class.
+    """
+    if is_empty(parameters.get(_LAYER)):
+        return NO_CORRECTIONS
+    name = algorithm.parameterAsString(parameters, _FIELD, context) or CLASS_FIELD
+    source = algorithm.parameterAsSource(parameters, _LAYER, context)
+    if source is not None and source.fields().lookupField(name) < 0:
+        raise BareEarthError(
+            tr("The corrections have no attribute {}. Choose the one to use.").format(name)
+        )
+    text = tr(
+        "In the command line the corrections are missing: save them in the CRS of the points as"
+        ' corrections.geojson, their class as the attribute "{}", and add --corrections'
+        " corrections.geojson."
+    )
+    progress.info(text.format(CLASS_FIELD))
+    crs = crs_of(find_files([cloud])[0])
+    found = [
+        (polygon, feature[name])
+        for feature in features_of(source, _TEXTS[_LAYER][0], crs, context, [name])
+        for polygon in polygons_of(feature.geometry())
+    ]
+    return Corrections(*zip(*found))

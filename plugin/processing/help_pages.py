@@ -1,0 +1,28 @@
+"""Where the page on an algorithm is: in the plugin, or else in its repository."""
+
+from __future__ import annotations
+
+import configparser
+from pathlib import Path
+
+from qgis.PyQt.QtCore import QUrl
+
+_ROOT = Path(__file__).parents[2]
+# `make package` puts them there; a clone has none.
+_HELP = _ROOT / "help"
+
+
+def address_of(page: str) -> str:
+    """Return the address of a page of docs/.
+
+    Parameters
+    ----------
+    page : str
+        Its name, without ending.
+    """
+    file = _HELP / f"{page}.html"
+    if file.is_file():
+        return QUrl.fromLocalFile(str(file)).toString()
+    metadata = configparser.ConfigParser(interpolation=None)
+    metadata.read(_ROOT / "metadata.txt", encoding="utf-8")
+    return f"{metadata['general']['repository']}/blob/main/docs/{page}.md"

@@ -1,0 +1,62 @@
+"""The words that the search of the toolbox finds each algorithm by: those that people type."""
+
+from __future__ import annotations
+
+from ..i18n import mark, tr
+
+_CLOUD = mark("lidar,laser scanning,als,uav,drone,las,laz,copc,point cloud")
+_GROUND = mark(
+    "ground,bare earth,ground filter,ground classification,classify ground,extract ground,"
+    "ground points,noise,outliers,vegetation removal,smrf,pmf,csf,mcc,lasground,classifyground"
+)
+_TERRAIN = mark("terrain,terrain model,elevation model,dtm,dem,dsm,hillshade,relief")
+_CANOPY = mark("chm,ndsm,canopy,vegetation,vegetation height,normalize,normalise,hag,lasheight")
+_TILES = mark("vpc,tiles,batch,survey,folder,many files")
+_TIN = mark("tin,triangulation")
+_RASTER = mark("grid,raster,rasterize,interpolate")
+
+# Groups of words by the second half of the id.
+_WORDS = {
+    "pointcloudtoterrain": (
+        _CLOUD, _GROUND, _TERRAIN, _CANOPY, _TILES, mark("contours,workflow"),
+    ),
+    "tindensification": (_CLOUD, _GROUND, _TERRAIN, _TIN, mark("ptd,axelsson,densification")),
+    "gridminimum": (_CLOUD, _GROUND, _TERRAIN, _RASTER, mark("lowest,minimum")),
+    "slopefilter": (_CLOUD, _GROUND, _TERRAIN, mark("slope,vosselman,whitebox,top-hat")),
+    "classifytiles": (_CLOUD, _GROUND, _TERRAIN, _TILES),
+    "terrainmodel": (_CLOUD, _TERRAIN, _CANOPY, _TIN, _RASTER),
+    "heightaboveground": (_CLOUD, _CANOPY, _TIN, mark("height,extra bytes")),
+    "modelkeypoints": (
+        _CLOUD, _TERRAIN, _TIN, mark("ground,thin,thinning,generalize,keypoints,contours"),
+    ),
+    "comparesettings": (
+        _CLOUD, _GROUND, _TERRAIN, mark("preview,try,test,preset,parameters,compare,profile"),
+    ),
+    "assess": (
+        _CLOUD,
+        mark("ground,accuracy,quality,error,validation,kappa,confusion matrix,reference"),
+    ),
+    "removeoffterrainobjects": (
+        _TERRAIN, _RASTER,
+        mark(
+            "bare earth,surface,buildings,trees,vegetation,off-terrain objects,oto,whitebox,"
+            "lindsay,top-hat"
+        ),
+    ),
+    "terraincontours": (_CLOUD, _GROUND, _TERRAIN, mark("contours,workflow")),
+    "cloudheights": (_CLOUD, _GROUND, _CANOPY, mark("height,extra bytes")),
+    "twomethods": (_CLOUD, _GROUND, mark("preview,try,test,preset,parameters,compare,profile")),
+}  # fmt: skip
+
+
+def words_of(identifier: str) -> list[str]:
+    """Return the words for an algorithm, in English and in the user's language.
+
+    Parameters
+    ----------
+    identifier : str
+        The second half of its id.
+    """
+    groups = _WORDS[identifier]
+    words = (word for group in groups for text in (group, tr(group)) for word in text.split(","))
+    return list(dict.fromkeys(words))

@@ -1,0 +1,309 @@
+"""Corrections by hand, as polygons or in the file, hold whatever the filter makes of the points."""
+
+import json
+
+import laspy
+import numpy as np
+import pytest
+from copc_edits import give_class
+from surveys import ORIGIN, cut, finished, points_of, write
+
+from bare_earth.algorithms import (
+    BareEarthError,
+    ClassifyRequest,
+    Corrections,
+    GridMinimum,
+    KeyPointMark,
+    KeyPointRequest,
+    Output,
+    RasterFiles,
+    Resources,
+    Selection,
+    classify,
+    key_points,
+)
+from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.engine.options import TileOutput
+from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.survey.vector_files import read_corrections
+
+# Objects narrower than so many metres go: at 8 m hall and mound stay ground, at 60 m none does.
+KEPT, GONE = 8.0, 60.0
+HALL, MOUND = (20.0, 30.0, 60.0, 70.0), (113.0, 43.0, 127.0, 57.0)
+DISK = Resources(threads=2, memory=0.001)
+
+
+@pytest.fixture(scope="module")
+def integers():
+    """Return a slope with a hall, which is not ground, and a mound, which is."""
+    random, count = np.random.default_rng(4), 9000
+    x, y = random.uniform(0, 160, count), random.uniform(0, 100, count)
+    z = 60 + 0.03 * x + random.normal(0, 0.03, count)
+    z[_within(HALL, x, y)] += 6.0
+    z[_within(MOUND, x, y)] += 5.0
+    return np.round(np.column_stack((x, y, z)) * 100).astype(np.int64)
+
+
+@pytest.fixture
+def cloud(integers, tmp_path):
+    return write(tmp_path / "cloud.laz", integers)
+
+
+def _within(box, x, y):
+    return (x > box[0]) & (x < box[2]) & (y > box[1]) & (y < box[3])
+
+
+def _ring(west, south, east, north):
+    corners = [(west, south), (east, south), (east, north), (west, north), (west, south)]
+    return [[x + ORIGIN[0], y + ORIGIN[1]] for x, y in corners]
+
+
+CORRECTIONS = Corrections(tuple((np.array(_ring(*each)),) for each in (HALL, MOUND)), (6, 2))
+
+
+def _request(size, method="slope", **others):
+    chosen = METHODS[method]
+    return ClassifyRequest(parameters=chosen.parameters(**{chosen.size_parameter: size}), **others)
+
+
+def _classes(path, box):
+    las = laspy.read(path)
+    x, y = np.asarray(las.x) - ORIGIN[0], np.asarray(las.y) - ORIGIN[1]
+    return np.asarray(las.classification)[_within(box, x, y)]
+
+
+def _whole(path):
+    return np.asarray(laspy.read(path).classification)
+
+
+# Polygons
+
+
+@pytest.mark.parametrize("size", [KEPT, GONE])
+@pytest.mark.parametrize("method", METHODS)
+def test_polygons_hold_in_memory_from_disk_and_in_tiles(method, size, cloud, integers, tmp_path):
+    raw, known = tmp_path / "raw.laz", tmp_path / "known.laz"
+    classify(cloud, raw, _request(size, method))
+    # Wrong in one place or the other.
+    assert np.mean(_classes(raw, HALL) == 2) > 0.9 or np.mean(_classes(raw, MOUND) != 2) > 0.9
+    request = _request(size, method, corrections=CORRECTIONS)
+    classify(cloud, known, request)
+    assert set(_classes(known, HALL)) == {6}
+    assert set(_classes(known, MOUND)) == {2}
+    disk, tiles = tmp_path / "disk.laz", tmp_path / "tiles"
+    classify(cloud, disk, _request(size, method, corrections=CORRECTIONS, resources=DISK))
+    np.testing.assert_array_equal(_whole(disk), _whole(known))
+    classify([cut(tmp_path / "in", integers, 6)], tiles, request)
+    np.testing.assert_array_equal(points_of(finished(tiles)), points_of([known]))
+
+
+@pytest.mark.parametrize("size", [KEPT, GONE])
+def test_the_terrain_model_follows(size, cloud, tmp_path):
+    rasterio = pytest.importorskip("rasterio")
+    dtm = tmp_path / "dtm.tif"
+    request = _request(size, corrections=CORRECTIONS, rasters=RasterFiles(dtm=dtm))
+    classify(cloud, tmp_path / "out.laz", request)
+    with rasterio.open(dtm) as raster:
+        at = [(ORIGIN[0] + x, ORIGIN[1] + 50.0) for x in (40.0, 120.0)]
+        hall, mound = (each[0] for each in raster.sample(at))
+    assert hall == pytest.approx(61.2, abs=0.15)
+    assert mound == pytest.approx(68.6, abs=0.15)
+
+
+def test_what_is_known_to_be_none_does_not_mislead_the_filter(integers, tmp_path):
+    """Wrong points below the ground take it away round them, unless they are known."""
+    random, box = np.random.default_rng(1), (65.0, 10.0, 73.0, 18.0)
+    x, y = random.uniform(65, 73, 64), random.uniform(10, 18, 64)
+    below = np.round(np.column_stack((x, y, 58.5 + 0.03 * x)) * 100).astype(np.int64)
+    source = write(tmp_path / "in.laz", np.concatenate((integers, below)))
+    west, south, east, north = box
+    shares = []
+    for known in (Corrections(), Corrections(((np.array(_ring(*box)),),), (7,))):
+        out = tmp_path / "out.laz"
+        classify(
+            source, out, ClassifyRequest(parameters=GridMinimum(preset="paper"), corrections=known)
+        )
+        beside = [_classes(out, each) for each in (
+            (west - 8, south, west, north), (east, south, east + 8, north),
+        )]  # fmt: skip
+        shares.append(np.mean(np.concatenate(beside) == 2))
+    assert shares[0] < 0.9
+    assert shares[1] > 0.98
+
+
+def test_a_later_polygon_counts_and_noise_and_first_returns_stay(tmp_path):
+    integers = np.column_stack((np.tile(np.arange(30), 30), np.repeat(np.arange(30), 30)))
+    path = write(tmp_path / "in.las", np.pad(integers * 100, ((0, 0), (0, 1))))
+    las = laspy.read(path)
+    las.classification[:4] = 7
+    las.number_of_returns[4:8] = 2  # of which they are the first
+    las.withheld[8:12] = 1
+    las.write(str(path))
+    rings = [np.array(_ring(*box)) for box in ((-1, -1, 40, 20.5), (-1, -1, 40, 10.5))]
+    known = Corrections(tuple((each,) for each in rings), (64, 2))
+    out = tmp_path / "out.las"
+    classify(path, out, _request(GONE, corrections=known))
+    classes = _whole(out)
+    assert classes[:12].tolist() == [7] * 4 + [1] * 8
+    assert set(classes[12 : 11 * 30]) == {2} and set(classes[11 * 30 : 21 * 30]) == {64}
+    las = laspy.convert(laspy.read(path), point_format_id=1, file_version="1.2")
+    las.write(str(tmp_path / "old.las"))
+    with pytest.raises(BareEarthError, match="holds classes up to 31, not 64"):
+        classify(tmp_path / "old.las", out, _request(GONE, corrections=known))
+
+
+def test_other_polygons_make_finished_tiles_anew(integers, tmp_path):
+    folder, out = cut(tmp_path / "in", integers, 6), tmp_path / "out"
+    resume = TileOutput(resume=True)
+    first = _request(GONE, corrections=CORRECTIONS, tiles=resume)
+    assert classify([folder], out, first).kept_count == 0
+    again = Corrections(CORRECTIONS.polygons, CORRECTIONS.classes)
+    assert classify([folder], out, _request(GONE, corrections=again, tiles=resume)).kept_count == 6
+    moved = Corrections(tuple((ring + 1.0,) for (ring,) in again.polygons), (6, 2))
+    assert classify([folder], out, _request(GONE, corrections=moved, tiles=resume)).kept_count == 0
+
+
+def _geojson(path, *features):
+    features = [
+        {
+            "type": "Feature",
+            "properties": properties,
+            "geometry": {"type": "Polygon", "coordinates": [_ring(*box)]},
+        }
+        for box, properties in features
+    ]
+    path.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    return path
+
+
+def test_the_command_line_takes_polygons_of_a_file(cloud, tmp_path, capsys):
+    path = _geojson(tmp_path / "known.geojson", (HALL, {"class": "6"}), (MOUND, {"class": 2.0}))
+    found = read_corrections(path)
+    assert found.classes == (6, 2) and len(found.polygons) == 2
+    out, words = tmp_path / "out.laz", ["--method", "slope", "--max-building-size", "60"]
+    assert main(["classify", str(cloud), str(out), "--corrections", str(path), *words]) == 0
+    assert set(_classes(out, HALL)) == {6} and set(_classes(out, MOUND)) == {2}
+    far = _geojson(tmp_path / "far.geojson", ((900.0, 0.0, 910.0, 10.0), {"class": 2}))
+    assert main(["classify", str(cloud), str(out), "--corrections", str(far), *words]) == 0
+    assert "Give them in the CRS" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("properties", [{}, {"class": "ground"}, {"class": 256}, {"class": 2.5}])
+def test_polygons_without_a_proper_class_are_refused(properties, tmp_path):
+    path = _geojson(tmp_path / "known.geojson", (HALL, properties))
+    with pytest.raises(BareEarthError, match="must be a whole number from 0 to 255"):
+        read_corrections(path)
+    with pytest.raises(BareEarthError, match="Give the corrections as GeoJSON"):
+        read_corrections(tmp_path / "known.wkt")
+
+
+# Classes changed in the file
+
+REMEMBER = Selection(remember_classes=True)
+
+
+@pytest.fixture
+def edited(cloud, tmp_path):
+    """Return a COPC file of which QGIS gave the hall class 6, and the mound class 2."""
+    path = tmp_path / "edited.copc.laz"
+    classify(cloud, path, _request(GONE, selection=REMEMBER))
+    for box, value in ((HALL, 6), (MOUND, 2)):
+        give_class(path, value, lambda x, y, box=box: _within(box, x / 100, y / 100))
+    return path
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_classes_changed_in_the_file_hold_run_after_run(method, edited, tmp_path):
+    once, twice = tmp_path / "once.copc.laz", tmp_path / "twice.laz"
+    classify(edited, once, _request(KEPT, method))
+    classify(once, twice, _request(GONE, method))
+    for path in (once, twice):
+        assert set(_classes(path, HALL)) == {6}
+        assert set(_classes(path, MOUND)) == {2}
+    disk = tmp_path / "disk.laz"
+    classify(once, disk, _request(GONE, method, resources=DISK))
+    np.testing.assert_array_equal(_whole(disk), _whole(twice))
+
+
+def test_a_run_remembers_its_classes_and_nothing_else_changes(edited, tmp_path):
+    before, out = laspy.read(edited), tmp_path / "out.copc.laz"
+    dimension = np.asarray(before["BareEarthClass"])
+    changed = dimension != before.classification
+    assert changed.any() and set(np.unique(dimension[~changed])) <= {1, 2}
+    classify(edited, out, _request(KEPT))
+    after = laspy.read(out)
+    assert list(after.point_format.dimension_names) == list(before.point_format.dimension_names)
+    order = [np.lexsort((each.Z, each.Y, each.X)) for each in (before, after)]
+    for name in set(before.point_format.dimension_names) - {"classification", "BareEarthClass"}:
+        np.testing.assert_array_equal(
+            *(np.asarray(a[name])[o] for a, o in zip((before, after), order))
+        )
+    still = np.asarray(after["BareEarthClass"]) != after.classification
+    np.testing.assert_array_equal(still[order[1]], changed[order[0]])
+
+
+def test_points_that_nobody_changed_are_judged_anew(cloud, tmp_path):
+    remembered, out, plain = (tmp_path / f"{each}.laz" for each in ("first", "second", "plain"))
+    classify(cloud, remembered, _request(GONE, selection=REMEMBER))
+    classify(remembered, out, _request(KEPT))
+    classify(cloud, plain, _request(KEPT))
+    assert "BareEarthClass" not in laspy.read(plain).point_format.dimension_names
+    np.testing.assert_array_equal(_whole(out), _whole(plain))
+
+
+def test_a_point_set_to_never_classified_is_judged_anew(edited, tmp_path):
+    give_class(edited, 0, lambda x, y: _within(HALL, x / 100, y / 100))
+    out = tmp_path / "out.laz"
+    classify(edited, out, _request(KEPT))
+    assert np.mean(_classes(out, HALL) == 2) > 0.9
+    assert set(_classes(out, MOUND)) == {2}
+
+
+def test_a_polygon_counts_more_than_the_file_which_does_not_remember_it(edited, tmp_path):
+    out, again = tmp_path / "out.laz", tmp_path / "again.laz"
+    (hall, _), (mound, _) = zip(CORRECTIONS.polygons, CORRECTIONS.classes)
+    known = Corrections((hall, mound), (2, 9))
+    classify(edited, out, _request(GONE, corrections=known))
+    assert set(_classes(out, HALL)) == {2} and set(_classes(out, MOUND)) == {9}
+    classify(out, again, _request(GONE, selection=Selection(others="unclassified")))
+    assert set(_classes(again, HALL)) == set(_classes(again, MOUND)) == {1}
+
+
+def test_changes_in_files_hold_in_tiles_and_with_heights(edited, integers, tmp_path):
+    one, tiles = tmp_path / "one.laz", tmp_path / "tiles"
+    high = Output(height_above_ground=True)
+    classify(edited, one, _request(KEPT, output=high))
+    names = list(laspy.read(one).point_format.extra_dimension_names)
+    assert sorted(names) == ["BareEarthClass", "HeightAboveGround"]
+    (tmp_path / "in").mkdir()
+    edited.rename(tmp_path / "in" / "a.copc.laz")
+    # Beside it a file without the dimension.
+    write(tmp_path / "in" / "b.laz", integers + np.array((16_000, 0, 480)))
+    classify([tmp_path / "in"], tiles, _request(KEPT, output=high))
+    found = tiles / "a.copc.laz"
+    assert set(_classes(found, HALL)) == {6} and set(_classes(found, MOUND)) == {2}
+    names = list(laspy.read(found).point_format.extra_dimension_names)
+    assert sorted(names) == ["BareEarthClass", "HeightAboveGround"]
+    assert set(laspy.read(tiles / "b.laz").point_format.extra_dimension_names) == {
+        "HeightAboveGround"
+    }
+
+
+def test_key_points_are_no_changes_by_hand(edited, tmp_path):
+    marked, out = tmp_path / "marked.laz", tmp_path / "out.laz"
+    key_points(edited, marked, KeyPointRequest(mark=KeyPointMark(mark_as="class")))
+    assert np.any(_whole(marked) == 8)
+    classify(marked, out, _request(GONE))
+    # Those on the mound are not known any more.
+    left = [np.count_nonzero(each == 8) for each in (_whole(out), _classes(out, MOUND))]
+    assert left[0] == left[1]
+    assert set(_classes(out, HALL)) == {6}
+
+
+def test_a_dimension_of_that_name_that_is_no_byte_is_refused(cloud, tmp_path):
+    las = laspy.read(cloud)
+    las.add_extra_dim(laspy.ExtraBytesParams("BareEarthClass", "f4"))
+    las.write(str(tmp_path / "in.laz"))
+    classify(tmp_path / "in.laz", tmp_path / "out.laz", _request(GONE))
+    with pytest.raises(BareEarthError, match="BareEarthClass that is no byte"):
+        classify(tmp_path / "in.laz", tmp_path / "out.laz", _request(GONE, selection=REMEMBER))

@@ -1,0 +1,69 @@
+"""The translations of the plugin: complete, and as good for the machine as the English texts."""
+
+import re
+
+import pytest
+import qm
+import translations
+
+from bare_earth.algorithms.core.parameters import ParameterSet
+from bare_earth.algorithms.filters import METHODS
+
+TEXTS = {each.stem.rpartition("_")[2]: qm.read_ts(each.read_bytes()) for each in translations.FILES}
+
+
+@pytest.fixture(params=sorted(TEXTS))
+def language(request):
+    return request.param
+
+
+def test_there_are_german_and_french():
+    assert {"de", "fr"} <= set(TEXTS)
+
+
+def test_no_text_is_without_translation(language):
+    assert [each.source for each in TEXTS[language] if not each.translation.strip()] == []
+
+
+def test_each_language_has_the_same_texts(language):
+    sources = [each.source for each in TEXTS[language]]
+    assert len(sources) == len(set(sources)) > 300
+    assert sources == [each.source for each in TEXTS["de"]]
+
+
+def test_what_the_plugin_says_has_a_translation(language):
+    assert translations.written_texts() <= {each.source for each in TEXTS[language]}
+
+
+def test_labels_and_help_of_the_ground_filters_have_a_translation(language):
+    sources = {each.source for each in TEXTS[language]}
+    for method in METHODS.values():
+        assert issubclass(method.parameters, ParameterSet)
+        for each in method.parameters.declarations():
+            assert {each.label, each.help, *each.choices.values()} <= sources
+
+
+@pytest.mark.parametrize(
+    "pattern", [r"\{[^}]*\}", r"</?\w+/?>", r"\n", r"\*\.\w+", r"-?-\w+ \w+\.\w+"]
+)
+def test_placeholders_and_marks_are_those_of_the_text(language, pattern):
+    for each in TEXTS[language]:
+        wanted = sorted(re.findall(pattern, each.source))
+        assert sorted(re.findall(pattern, each.translation)) == wanted, each
+
+
+def test_numbers_are_those_of_the_text(language):
+    def numbers(text):
+        # In the way of the language: 1.000 and 1 000 are 1,000, and 0,5 is 0.5.
+        text = re.sub(r"(?<=\d)[.,\s](?=\d{3}\b)", "", re.sub(r"\{.*?\}", "", text))
+        return sorted(re.findall(r"\d+", text.replace("7 and 18", "7, 18")))
+
+    for each in TEXTS[language]:
+        if "type I" not in each.source.replace("Type", "type"):
+            assert numbers(each.translation) == numbers(each.source), each
+
+
+def test_a_text_ends_as_the_translation_does(language):
+    for each in TEXTS[language]:
+        for mark in (".", "…", "]", ")"):
+            assert each.translation.endswith(mark) == each.source.endswith(mark), each

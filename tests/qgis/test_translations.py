@@ -1,0 +1,158 @@
+"""The plugin in German and French, and no text that could not be translated."""
+
+import re
+
+import pytest
+import qm
+import translations
+from qgis.core import QgsProcessingParameterEnum, QgsSettings
+from qgis.PyQt.QtCore import QCoreApplication, QTranslator
+from support import ALGORITHM, Log, Scene, remove
+
+from bare_earth.plugin import i18n
+
+_OPEN, _CLOSE = "⟦", "⟧"
+
+
+class Marker(QTranslator):
+    """Translates each text of the plugin into itself, in brackets."""
+
+    def translate(self, context, text, disambiguation=None, n=-1):
+        return f"{_OPEN}{text}{_CLOSE}" if context == i18n.CONTEXT else None
+
+
+@pytest.fixture
+def marked():
+    marker = Marker()
+    QCoreApplication.installTranslator(marker)
+    yield
+    QCoreApplication.removeTranslator(marker)
+
+
+@pytest.fixture
+def speak(tmp_path):
+    """Return what makes QGIS speak a language, with what `make package` makes."""
+    installed = []
+
+    def set_language(locale):
+        settings = QgsSettings()
+        settings.setValue("locale/overrideFlag", True)
+        settings.setValue("locale/userLocale", locale)
+        for path in translations.FILES:
+            messages = qm.read_ts(path.read_bytes())
+            (tmp_path / path.name).with_suffix(".qm").write_bytes(qm.compiled(messages))
+        installed.append(i18n.install(tmp_path))
+        return installed[-1]
+
+    yield set_language
+    for each in filter(None, installed):
+        QCoreApplication.removeTranslator(each)
+    QgsSettings().remove("locale/overrideFlag")
+    QgsSettings().remove("locale/userLocale")
+
+
+def algorithms(registry):
+    return [each.create() for each in registry.providerById("bareearth").algorithms()]
+
+
+def test_all_that_algorithms_say_has_a_translation(registry):
+    texts = translations.written_texts() | translations.asked_texts()
+    for path in translations.FILES:
+        sources = {each.source for each in qm.read_ts(path.read_bytes())}
+        assert texts - sources == set(), "make translations, then translate"
+        assert sources - texts == set(), "make translations removes what is gone"
+
+
+def test_nothing_is_said_past_the_translator(registry, marked):
+    for algorithm in algorithms(registry):
+        ids = {
+            word
+            for each in algorithm.parameterDefinitions()
+            if isinstance(each, QgsProcessingParameterEnum)
+            for word in re.findall(r"[a-z]+", " ".join(each.options()).lower())
+        }
+        for text in translations.visible_texts(algorithm):
+            if text in algorithm.tags():
+                continue
+            left = re.sub(f"{_OPEN}[^{_CLOSE}]*{_CLOSE}|<[^>]*>", " ", text)
+            assert not set(re.findall(r"[a-z]{2,}", left.lower())) - ids, text
+
+
+@pytest.mark.parametrize(
+    ("locale", "title", "label", "tag"),
+    [
+        ("de", "Boden klassifizieren (TIN-Verdichtung)", "Größte Gebäudebreite [m]", "Bodenfilter"),
+        ("de_AT", "Boden klassifizieren (TIN-Verdichtung)", "Größte Gebäudebreite [m]", "dgm"),
+        ("fr", "Classer le sol (densification de TIN)", "Taille maximale des bâtiments [m]", "mnt"),
+    ],
+)
+def test_qgis_speaks_german_and_french(registry, speak, locale, title, label, tag):
+    english = {each.id(): translations.visible_texts(each) for each in algorithms(registry)}
+    ids = {each.id(): each.groupId() for each in algorithms(registry)}
+    assert speak(locale)
+    found = {each.id(): each for each in algorithms(registry)}
+    algorithm = found[ALGORITHM]
+    size = algorithm.parameterDefinition("MAX_BUILDING_SIZE")
+    assert algorithm.displayName() == title
+    assert size.description() == label and f"<b>{label}</b>" in algorithm.shortHelpString()
+    assert tag in algorithm.tags() and "lasground" in algorithm.tags()
+    # Scripts and models know no language.
+    assert {each.id(): each.groupId() for each in found.values()} == ids
+    assert algorithm.parameterDefinition("PRESET").options()[0] == "automatic"
+    groups = {each.group(): each.groupId() for each in found.values()}
+    assert groups[min(groups)] == "allinone"  # first in the toolbox
+    for name, each in found.items():
+        assert each.displayName() != english[name][0] and each.shortHelpString() != english[name][3]
+
+
+@pytest.mark.parametrize("locale", ["en_US", "es", "C"])
+def test_other_languages_see_english(algorithm, speak, locale):
+    assert speak(locale) is None
+    assert algorithm.create().displayName() == "Classify ground (TIN densification)"
+
+
+@pytest.mark.parametrize("path", translations.FILES, ids=lambda path: path.stem)
+def test_qt_finds_every_translation(path, speak):
+    translator = speak(path.stem.rpartition("_")[2])
+    for each in qm.read_ts(path.read_bytes()):
+        assert i18n.tr(each.source) == each.translation
+    assert not translator.translate(i18n.CONTEXT, "never said")
+
+
+def test_a_run_speaks_and_takes_the_same_values(registry, speak, tmp_path, context):
+    speak("de")
+    scene, log = Scene(tmp_path, ".las"), Log()
+    algorithm = registry.createAlgorithmById(ALGORITHM)
+    values = {"INPUT": str(scene.path), "PRESET": "town", "OUTPUT": str(tmp_path / "out.las")}
+    assert algorithm.checkParameterValues(values, context)[0]
+    _, done = algorithm.run(values, context, log)
+    assert done and f"von {scene.count:,} Punkten sind Boden" in log.text
+    possible, text = algorithm.checkParameterValues({**values, "INPUT": "no.las"}, context)
+    assert not possible and text == "no.las gibt es nicht. Prüfen Sie den Pfad."
+
+
+def test_choices_of_a_dialog_are_in_german_and_give_the_same_values(registry, speak):
+    from processing.gui.AlgorithmDialog import AlgorithmDialog
+
+    speak("de")
+    dialog = AlgorithmDialog(registry.createAlgorithmById(ALGORITHM))
+    wrapper = dialog.mainWidget().wrappers["PRESET"]
+    box = wrapper.wrappedWidget()
+    texts = [box.itemText(row) for row in range(box.count())]
+    assert "Stadt" in texts
+    box.setCurrentIndex(texts.index("Stadt"))
+    assert wrapper.parameterValue() == "town"
+    remove(dialog)
+
+
+def test_the_files_are_those_of_make_translations(registry, tmp_path):
+    texts = translations.written_texts() | translations.asked_texts()
+    for path in translations.FILES:
+        copy = tmp_path / path.name
+        copy.write_bytes(path.read_bytes())
+        assert translations.update(copy, texts) == 0
+        assert copy.read_text(encoding="utf-8") == path.read_text(encoding="utf-8")
+        # A new text waits for its translator, one that is gone goes.
+        assert translations.update(copy, {"Preset", "Something new"}) == 1
+        kept = {each.source: each.translation for each in qm.read_ts(copy.read_bytes())}
+        assert kept["Preset"] and kept == {"Preset": kept["Preset"], "Something new": ""}

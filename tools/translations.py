@@ -1,0 +1,104 @@
+"""Writes what there is to translate into plugin/i18n/*.ts, and the .qm files that QGIS reads.
+
+Translations that are there stay, those of texts that are gone go. Runs beside QGIS, as `make
+translations` does: the texts of fields are those that the algorithms ask for.
+"""
+
+from __future__ import annotations
+
+import ast
+import os
+from pathlib import Path
+from xml.sax.saxutils import escape
+
+import qm
+
+ROOT = Path(__file__).parents[1]
+FILES = sorted((ROOT / "plugin" / "i18n").glob("*.ts"))
+# The functions of plugin/i18n that get the texts.
+_FUNCTIONS = ("tr", "mark")
+
+
+def written_texts() -> set[str]:
+    """Return the texts that the code of the plugin asks for by name."""
+    found = set()
+    for path in (ROOT / "plugin").rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call) and getattr(node.func, "id", "") in _FUNCTIONS:
+                found |= {each.value for each in node.args if isinstance(each, ast.Constant)}
+    return found
+
+
+def asked_texts() -> set[str]:
+    """Return the texts that the algorithms ask for when QGIS lists them; needs a QGIS."""
+    from qgis.core import QgsApplication
+    from qgis.PyQt.QtCore import QCoreApplication, QTranslator
+
+    asked = set()
+
+    class Recorder(QTranslator):
+        def translate(self, context, text, disambiguation=None, n=-1):
+            if context == "BareEarth":
+                asked.add(text)
+            return None
+
+    recorder = Recorder()
+    QCoreApplication.installTranslator(recorder)
+    provider = QgsApplication.processingRegistry().providerById("bareearth")
+    for algorithm in provider.algorithms():
+        visible_texts(algorithm.create())
+    QCoreApplication.removeTranslator(recorder)
+    return asked
+
+
+def visible_texts(algorithm) -> list[str]:
+    """Return all texts that a user of an algorithm sees before it runs."""
+    texts = [algorithm.displayName(), algorithm.group(), algorithm.shortDescription()]
+    texts += [algorithm.shortHelpString(), *algorithm.tags()]
+    for each in algorithm.parameterDefinitions():
+        texts += [each.description(), each.help(), *each.metadata().get("labels", [])]
+    return texts + [each.description() for each in algorithm.outputDefinitions()]
+
+
+def update(path: Path, texts: set[str]) -> int:
+    """Write a .ts file with these texts; return how many of them have no translation yet."""
+    known = {each.source: each.translation for each in qm.read_ts(path.read_bytes())}
+    language = path.stem.rpartition("_")[2]
+    lines = [
+        '<?xml version="1.0" encoding="utf-8"?>', "<!DOCTYPE TS>",
+        f'<TS version="2.1" language="{language}" sourcelanguage="en">', "<context>",
+        "    <name>BareEarth</name>",
+    ]  # fmt: skip
+    for text in sorted(texts):
+        state = "" if known.get(text) else ' type="unfinished"'
+        lines += [
+            "    <message>",
+            f"        <source>{escape(text)}</source>",
+            f"        <translation{state}>{escape(known.get(text, ''))}</translation>",
+            "    </message>",
+        ]
+    lines += ["</context>", "</TS>", ""]
+    path.write_bytes("\n".join(lines).encode())
+    path.with_suffix(".qm").write_bytes(qm.compiled(qm.read_ts(path.read_bytes())))
+    return sum(not known.get(text) for text in texts)
+
+
+def main() -> None:
+    """Update all files."""
+    os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+    from qgis.core import QgsApplication
+
+    application = QgsApplication([], False)
+    application.initQgis()
+    from bare_earth import classFactory
+
+    plugin = classFactory(None)
+    plugin.initProcessing()
+    texts = written_texts() | asked_texts()
+    for path in FILES:
+        print(f"{path.relative_to(ROOT)}: {len(texts)} texts, {update(path, texts)} to translate")
+    plugin.unload()
+
+
+if __name__ == "__main__":
+    main()
