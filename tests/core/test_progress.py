@@ -5,10 +5,10 @@ import time
 import numpy as np
 import pytest
 import surveys
-from benchmarks.progress import Recorder, pace_of, runs
 
 from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine.memory import Resources
+from benchmarks.progress import Recorder, pace_of, runs
 
 # A fifth is what is promised; of so short a run, what takes as long for any file is a part.
 _LONGEST_STAY = 0.25
