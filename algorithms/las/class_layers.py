@@ -22,7 +22,7 @@ import numpy as np
 
 from .cloud import PointCloud
 from .lasfile import RECORD_LENGTHS, LasFile
-from .laszip import LAYERS, POINT_14, ChunkHead, Compression
+from .laszip import LAYERS, POINT_14, ChunkHead
 from .records import LazRecordWriter, laszip_vlr, named, read_records
 from .sources import damaged, open_source
 
@@ -75,10 +75,9 @@ def class_layers(layout: LasFile) -> ClassLayers | None:
     BareEarthError
         If it cannot be read.
     """
-    layers = Compression.of(layout.laszip).layers if layout.is_compressed else 0
-    if not layers:
+    if not layout.layers:
         return None
-    head = _Head(layout.record_length, layers)
+    head = _Head(layout.record_length, layout.layers)
     chunks = _chunks(layout, head)
     return None if chunks is None else ClassLayers(layout, chunks, head)
 

@@ -16,7 +16,7 @@ from __future__ import annotations
 from typing import BinaryIO, Iterator
 
 from .lasfile import LasFile
-from .laszip import ChunkHead, Compression
+from .laszip import ChunkHead
 from .sources import damaged, open_source
 
 # With the stack that `algorithms.las` asks for, 32 of them do no harm yet, and 64 do.
@@ -35,16 +35,15 @@ def check_gps_times(layout: LasFile) -> None:
     """
     if layout.point_format not in _WITH_TIMES:
         return
-    layers = Compression.of(layout.laszip).layers
     with open_source(layout.path) as file:
-        pieces = _layers(layout, file, layers) if layers else _blocks(layout, file)
+        pieces = _layers(layout, file) if layout.layers else _blocks(layout, file)
         if any(_RUN in piece for piece in pieces):
             raise damaged(layout.path)
 
 
-def _layers(layout: LasFile, file: BinaryIO, layers: int) -> Iterator[bytes]:
+def _layers(layout: LasFile, file: BinaryIO) -> Iterator[bytes]:
     """Yield the layer of the GPS times of each chunk."""
-    head, place = ChunkHead(layout.record_length, layers), layout.points_start + 8
+    head, place = ChunkHead(layout.record_length, layout.layers), layout.points_start + 8
     for _, size in layout.chunk_table:
         if size:
             file.seek(place)

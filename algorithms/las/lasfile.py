@@ -235,6 +235,12 @@ class LasFile:
             if not self.state.is_same(FileState.of(file)) or file.read(len(before)) != before:
                 raise changed(self.path)
 
+    @property
+    def layers(self) -> int:
+        """How many layers each chunk of compressed points has; 0 if it has none."""
+        compression = Compression.of(self.laszip or b"") if self.is_compressed else None
+        return compression.layers if compression else 0
+
     @cached_property
     def chunk_table(self) -> list[tuple[int, int]]:
         """Points and bytes of each chunk of a compressed file, as its chunk table says.
@@ -252,7 +258,7 @@ class LasFile:
             compression, place = Compression.of(self.laszip), self.points_start + 8
             if not compression.table_fits(table, self.count, self._room):
                 raise damaged(self.path)
-            head = ChunkHead(self.record_length, compression.layers)
+            head = ChunkHead(self.record_length, self.layers)
             for _, size in table if head.layers else ():
                 file.seek(place)
                 if size and not head.fits(file.read(head.size), size):
