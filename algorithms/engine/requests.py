@@ -84,8 +84,8 @@ class ClassifyRequest(Request):
         Which points are written, and whether with their heights above ground.
     rasters : RasterFiles
         Rasters to write as well.
-    terrain : TerrainModel
-        Their cell size and light.
+    terrain, surface : TerrainModel, SurfaceModel
+        Their cell size and light, and which points make the surface.
     """
 
     parameters: ParameterSet = field(default_factory=METHODS[DEFAULT_METHOD].parameters)
@@ -95,6 +95,7 @@ class ClassifyRequest(Request):
     output: Output = field(default_factory=Output)
     rasters: RasterFiles = field(default_factory=RasterFiles)
     terrain: TerrainModel = field(default_factory=TerrainModel)
+    surface: SurfaceModel = field(default_factory=SurfaceModel)
 
     @property
     def step(self) -> LabelGround:
@@ -110,7 +111,7 @@ class ClassifyRequest(Request):
     @property
     def raster_step(self) -> MakeRasters:
         """What makes the rasters of the classified points."""
-        request = RasterRequest(self.rasters, self.terrain)
+        request = RasterRequest(self.rasters, self.terrain, self.surface)
         return MakeRasters(request, self._ground, covers_ground=not request.needs_surface)
 
     @property

@@ -17,14 +17,12 @@ from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import TerrainModel
 from ..survey.collection import is_one_file
 from ..survey.corrections import NO_CORRECTIONS, Corrections
-from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
 from .many_files import classify_files
 from .one_file import classify_file
 from .options import TileOutput
 from .rasters import RasterFiles
-from .requests import ClassifyRequest, Request, TerrainRequest
-from .runs import terrain
+from .requests import ClassifyRequest, Request
 
 # The longest first: each ends as the one after it does.
 _FORMATS = ("copc.laz", "laz", "las")
@@ -61,9 +59,8 @@ class MapRequest(Request):
     relief: LocalRelief = field(default_factory=LocalRelief)
     corrections: Corrections = NO_CORRECTIONS
 
-    @property
-    def classify(self) -> ClassifyRequest:
-        """What to classify."""
+    def classify(self, rasters: RasterFiles) -> ClassifyRequest:
+        """Return the request to classify, with the rasters that are made in the same run."""
         return ClassifyRequest(
             self.files,
             self.tiles,
@@ -71,6 +68,9 @@ class MapRequest(Request):
             self.parameters,
             self.selection,
             corrections=self.corrections,
+            rasters=rasters,
+            terrain=self.terrain,
+            surface=self.surface,
         )
 
 
@@ -85,8 +85,6 @@ class MapSummary(NamedTuple):
         Points, and those of the ground.
     class_counts : dict of int to int
         Points of each class of a single file; empty for many.
-    columns, rows : int
-        Size of the rasters; 0 where none was wanted.
     contour_interval : float
         Height between contour lines; 0 where none were wanted.
     """
@@ -95,8 +93,6 @@ class MapSummary(NamedTuple):
     point_count: int
     ground_count: int
     class_counts: dict[int, int]
-    columns: int = 0
-    rows: int = 0
     contour_interval: float = 0.0
 
     @property
@@ -106,8 +102,6 @@ class MapSummary(NamedTuple):
         text = [f"Points    {self.point_count:>15,}"]
         text.append(f"Ground    {self.ground_count:>15,}  ({share:.1%})")
         text += [f"Class {value:>3} {count:>15,}" for value, count in self.class_counts.items()]
-        if self.columns:
-            text.append(f"Rasters of {self.columns:,} x {self.rows:,} cells")
         return text
 
 
@@ -146,17 +140,10 @@ def make_maps(
             check_output(each, tuple(sources))
             rasters = replace(rasters, dtm=rasters.dtm or Path(waiting, "dtm.tif"))
         rasters.check((*sources, cloud))
-        part, drawing, smoothing, tracing = progress.shares(
-            5.0, 4.4 * bool(rasters.wanted), 0.3 * bool(files.relief), 0.3 * bool(files.contours)
+        part, smoothing, tracing = progress.shares(
+            5.0 + 4.4 * bool(rasters.wanted), 0.3 * bool(files.relief), 0.3 * bool(files.contours)
         )
-        summary = _classified(sources, cloud, request, part)
-        if not rasters.wanted:
-            return summary
-        ground = GroundClasses((request.selection.to_class,))
-        sets = ground, request.terrain, request.surface, request.resources
-        maps = TerrainRequest.of(sets, rasters=rasters)
-        made = terrain([summary.cloud], maps, drawing)
-        summary = summary._replace(columns=made.columns, rows=made.rows)
+        summary = _classified(sources, cloud, request.classify(rasters), part)
         if files.relief and rasters.dtm:
             write_local_relief(rasters.dtm, files.relief, request.relief, smoothing)
         if files.contours and rasters.dtm:
@@ -166,9 +153,8 @@ def make_maps(
 
 
 def _classified(
-    sources: Sequence[Path], target: Path, request: MapRequest, progress: Progress
+    sources: Sequence[Path], target: Path, how: ClassifyRequest, progress: Progress
 ) -> MapSummary:
-    how = request.classify
     if is_one_file(sources):
         one = classify_file(sources[0], target, how, progress)
         return MapSummary(target, one.point_count, one.ground_count, one.class_counts)
