@@ -14,8 +14,9 @@ from ...algorithms.survey.selection import Selection
 from ..i18n import mark
 from ..styles.layers import BELOW_TERRAIN, contours
 from . import outputs
-from .base import BareEarthAlgorithm, command_line
+from .base import BareEarthAlgorithm
 from .classified import show_classified
+from .commands import terrain_commands
 from .corrections import add_corrections, corrections_of
 from .inputs import add_survey, names_of, survey_of
 
@@ -63,7 +64,8 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         paths = [path and Path(path) for path in (cloud, results.get("RELIEF"), lines)]
         files = MapFiles(paths[0], outputs.raster_files(results), *paths[1:])
         summary = make_maps(self._sources, files, request, progress)
-        for each in self._commands(parameters, context, str(cloud and summary.cloud), results):
+        made, chosen = str(cloud and summary.cloud), self.chosen(parameters, context)
+        for each in terrain_commands(self._sources, made, results, chosen):
             progress.command(each)
         progress.info("\n".join(summary.lines))
         if lines:
@@ -75,19 +77,3 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
             how = request.selection.to_class, request.terrain.dtm_cell_size, context, progress
             show_classified(self, made, summary.class_counts, *how, BELOW_TERRAIN)
         return {**results, "POINT_COUNT": summary.point_count, "GROUND_COUNT": summary.ground_count}
-
-    def _commands(self, parameters, context, cloud, rasters):
-        """Return the commands that make cloud and models; relief and contours are QGIS's alone."""
-        method, terrain, selection, surface, *_, resources = self.chosen(parameters, context)
-        made = cloud or "classified.laz"
-        # Of many files, the folder that their virtual point cloud lies in.
-        target = str(Path(made).parent) if made.endswith(".vpc") else made
-        sources = [str(each) for each in self._sources]
-        yield command_line("classify", [*sources, target], [method, selection, resources], {})
-        models = {
-            name: path for name, path in rasters.items() if name not in ("RELIEF", "CONTOURS")
-        }
-        if models:
-            ground = "" if selection.to_class == 2 else str(selection.to_class)
-            options = {"ground-classes": ground, **models}
-            yield command_line("terrain", [made], [terrain, surface, resources], options)
