@@ -44,7 +44,7 @@ ENDS = {
     "ended by SIGALRM": lambda: time.sleep(60),
     "ended by SIGPROF": lambda: sum(0 for _ in itertools.count()),
     "MemoryError": lambda: np.ones(1 << 30),
-    "MB used": lambda: len(np.ones(160_000_000)),
+    "MB used": lambda: len(np.ones(80_000_000)),
     "stderr: a word": lambda: os.write(2, b"a word"),
 }
 
@@ -52,7 +52,8 @@ ENDS = {
 def found(monkeypatch, folder, ends, waited):
     """Return what the campaign says of mutants that come to these ends, by the name of each."""
     names = list(ends)
-    monkeypatch.setattr(campaign, "SECONDS", 2)
+    monkeypatch.setattr(campaign, "SECONDS", 4)
+    monkeypatch.setattr(campaign, "USED", 500 << 20)
     monkeypatch.setattr(campaign, "WAITED", waited)
     monkeypatch.setattr(campaign, "work_on", lambda source, random: ENDS[source]())
     numbers = range(len(names))
