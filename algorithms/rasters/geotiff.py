@@ -261,7 +261,7 @@ def _check_local(source: str) -> None:
             f"{source} is not on this computer, or names what is not. Download it first."
         )
     if not path.exists():
-        raise BareEarthError(f"{source} does not exist. Check the path.")
+        raise BareEarthError(f"Cannot read {source}: it does not exist. Check the path.")
 
 
 def _read_with_gdal(source: str, band: int) -> _Content:
