@@ -33,9 +33,10 @@ def check_gps_times(layout: LasFile) -> None:
     BareEarthError
         If there are such.
     """
-    if layout.point_format not in _WITH_TIMES:
+    compression = Compression.of(layout.laszip or b"")
+    if compression is None or layout.point_format not in _WITH_TIMES:
         return
-    layers = Compression.of(layout.laszip).layers
+    layers = compression.layers
     with open_source(layout.path) as file:
         pieces = _layers(layout, file, layers) if layers else _blocks(layout, file)
         if any(_RUN in piece for piece in pieces):
