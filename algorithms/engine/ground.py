@@ -16,7 +16,7 @@ from ..filters.shared.bridges import bridge_decks
 from ..filters.shared.doubts import tell_of_extent, tell_of_little_ground
 from ..grids.cells import apart
 from ..survey.selection import Special
-from .blocks import BRIDGE, LOW, Block, BlockPoints, Blocks, Store
+from .blocks import BRIDGE, GROUND, LOW, Block, BlockPoints, Blocks, Store
 from .memory import Resources
 from .scheduling import run_jobs
 
@@ -153,6 +153,9 @@ class _Filter(NamedTuple):
         finds_bridges = self._finds_bridges
         part = progress.part(0.0, end - _BRIDGES_SHARE if finds_bridges else end)
         points, known = contents.points, contents.known
+        if points.count == 1:
+            # There is nothing to tell it from, and a survey may be scattered all over a country.
+            return np.array([GROUND], dtype=np.uint8)
         tell_of_extent(points, *method.largest(self.parameters), progress)
         if known.any() and method.takes_known_ground:
             ground = method.classify(points, self.parameters, part, known_ground=known)

@@ -53,8 +53,8 @@ def run_jobs(
     Cancelled
         If the user asked to stop.
     """
-    stop, total = threading.Event(), max(sum(weights), 1e-9)
-    talks = [_Relay(stop) for _ in jobs]
+    stop, ended, total = threading.Event(), 0.0, max(sum(weights), 1e-9)
+    talks: dict[int, _Relay] = {}
 
     def run(number: int) -> Any:
         with may_use(workers):
@@ -67,19 +67,22 @@ def run_jobs(
         # Not all at once: results that nobody has fetched yet would fill the memory.
         while True:
             for number in waiting:
+                talks[number] = _Relay(stop)
                 running[pool.submit(run, number)] = number
                 if len(running) >= max(1, at_once):
                     break
             if not running:
                 return
             done, _ = wait(running, _POLL, FIRST_COMPLETED)
-            for talk in talks:
+            for talk in talks.values():
                 talk.tell(progress)
-            progress(sum(talk.fraction * each for talk, each in zip(talks, weights)) / total)
+            under_way = sum(talk.fraction * weights[number] for number, talk in talks.items())
+            progress((ended + under_way) / total)
             for future in sorted(done, key=running.__getitem__):
                 number = running.pop(future)
                 result = future.result()
-                talks[number].fraction = 1.0
+                del talks[number]
+                ended += weights[number]
                 yield number, result
     finally:
         stop.set()

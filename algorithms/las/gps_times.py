@@ -33,7 +33,7 @@ def check_gps_times(layout: LasFile) -> None:
     BareEarthError
         If there are such.
     """
-    if layout.point_format not in _WITH_TIMES:
+    if not layout.laszip or layout.point_format not in _WITH_TIMES:
         return
     with open_source(layout.path) as file:
         pieces = _layers(layout, file) if layout.layers else _blocks(layout, file)

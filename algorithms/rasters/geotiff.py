@@ -249,19 +249,20 @@ def _check_local(source: str) -> None:
         raise BareEarthError(f"The name of {source} is not UTF-8, which GDAL needs. Rename it.")
     part = _PART.match(source)
     path = Path(source if os.path.exists(source) or part is None else part["file"])
-    remote = _REMOTE.search(source)
-    if not remote and path.is_file():
+    is_remote = _REMOTE.search(source) is not None
+    if not is_remote and path.is_file():
         with open(path, "rb") as file:
             # A raster itself is binary; its description, by GDAL, is XML or JSON.
             start = file.read(_DESCRIPTION)
         text = start.decode("utf-8", "replace")
-        remote = text.lstrip("\ufeff \t\r\n")[:1] in ("<", "{") and _REMOTE.search(text)
-    if remote:
+        is_description = text.lstrip("\ufeff \t\r\n")[:1] in ("<", "{")
+        is_remote = is_description and _REMOTE.search(text) is not None
+    if is_remote:
         raise BareEarthError(
             f"{source} is not on this computer, or names what is not. Download it first."
         )
     if not path.exists():
-        raise BareEarthError(f"{source} does not exist. Check the path.")
+        raise BareEarthError(f"Cannot read {source}: it does not exist. Check the path.")
 
 
 def _read_with_gdal(source: str, band: int) -> _Content:

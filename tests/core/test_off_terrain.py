@@ -208,7 +208,7 @@ BAD = {
     "geographic": (lambda path: write(path, terrain(), "EPSG:4326"), "not in a projected CRS"),
     "empty": (lambda path: path.write_bytes(b""), "Cannot read"),
     "text": (lambda path: path.write_text("not a raster"), "Cannot read"),
-    "missing": (lambda path: None, "Cannot read"),
+    "missing": (lambda path: None, "does not exist"),
     "no data": (lambda path: write(path, np.full((9, 9), np.nan)), "no height in band 1"),
     "complex": (lambda path: write(path, terrain(), dtype="complex64"), "no heights"),
 }

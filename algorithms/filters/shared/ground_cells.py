@@ -80,14 +80,14 @@ def ground_cells(
     filled = inpaint(heights, first=first).astype(np.float32)
     # Cells are taken together in fours, wherever the grid starts.
     lead = tuple((each % _TOGETHER, 0) for each in first)
-    part = progress.part(0.0, 0.7)
+    part = progress.part(0.0, 0.5)
     padded = np.pad(filled, lead, mode="edge")
     strict, limit = (
         each[lead[0][0] :, lead[1][0] :].copy()
         for each in _standing_out(padded, size, largest_window, allowance, part)
     )
     which, raised = np.flatnonzero(limit > 0.0), strict | objects
-    for _ in range(allowance.slopes_taken):
+    for part in progress.part(0.5, 0.8).shares(*[1.0] * allowance.slopes_taken):
         # The rim of a roof that is left makes a slope of its own, until what is round it is gone.
         surface = inpaint(np.where(known & ~raised, heights, np.nan), first=first)
         smooth = smoothed(surface, size, _SLOPE_SMOOTHING)
@@ -98,7 +98,7 @@ def ground_cells(
             raised |= suspects & known
         if plateaus is not None:
             raised |= _of_cut_plateaus(plateaus & known, raised)
-    progress(0.8)
+        part(1.0)
     surface = inpaint(np.where(known & ~raised, heights, np.nan), first=first)
     progress(0.85)
     trend = Trend(filled, size, first) if allowance.follows_slopes else None
