@@ -35,6 +35,10 @@ class Progress:
     def info(self, text: str) -> None:
         """Tell the user something worth knowing about the data or the choices made."""
 
+    def choice(self, text: str) -> None:
+        """Tell the user what was chosen for the data at hand, where nothing was asked for."""
+        self.info(text)
+
     def warning(self, text: str) -> None:
         """Tell the user something that may make the result worse than expected."""
 
@@ -63,6 +67,9 @@ class _Part(Progress):
 
     def info(self, text: str) -> None:
         self._whole.info(text)
+
+    def choice(self, text: str) -> None:
+        self._whole.choice(text)
 
     def warning(self, text: str) -> None:
         self._whole.warning(text)

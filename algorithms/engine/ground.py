@@ -260,6 +260,9 @@ class _Notes(Progress):
     def info(self, text: str) -> None:
         self._keep("info", text)
 
+    def choice(self, text: str) -> None:
+        self._keep("choice", text)
+
     def warning(self, text: str) -> None:
         self._keep("warning", text)
 

@@ -302,5 +302,8 @@ class _Notes(Progress):
     def info(self, text: str) -> None:
         self.messages.append(("info", text))
 
+    def choice(self, text: str) -> None:
+        self.messages.append(("choice", text))
+
     def warning(self, text: str) -> None:
         self.messages.append(("warning", text))

@@ -138,7 +138,8 @@ def classify_file(
     step, products = request.step, _products(request)
     tally = step.tally()
     # Reading and writing move in small steps, and need no large share however long they take.
-    made_too = 4.0 * ("rasters" in products), 3.0 * ("heights" in products)
+    drawn = len(request.rasters.wanted)
+    made_too = 3.0 * bool(drawn) + drawn, 3.0 * ("heights" in products)
     first, finding, drawing, measuring, last = progress.shares(1.5, 5.0, *made_too, 0.8)
     changes_more = request.output.changes_points or request.selection.remember_classes
     is_copied = not (changes_more or remembers(las)) and layers_kept(las, target) is not None

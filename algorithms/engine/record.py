@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from pathlib import Path
 from typing import Any, Iterable
 
@@ -13,6 +14,7 @@ from .steps import Step
 from .survey import BlockIndex, Survey
 
 _FOLDER, _LABELS = ".bare-earth", "labels"
+_LONGEST_NAME = 250
 
 # What `made_of` returns; equal where the output is.
 Record = dict
@@ -128,4 +130,7 @@ def remove_record(target: Path) -> None:
 
 
 def _place(target: Path) -> Path:
+    name = os.fsencode(target.name)
+    if len(name) > _LONGEST_NAME:  # which leaves no room for what follows it
+        return target.parent / _FOLDER / f"{hashlib.sha256(name).hexdigest()}.json"
     return target.parent / _FOLDER / f"{target.name}.json"

@@ -102,6 +102,9 @@ class _Relay(Progress):
     def info(self, text: str) -> None:
         self._messages.append(("info", text))
 
+    def choice(self, text: str) -> None:
+        self._messages.append(("choice", text))
+
     def warning(self, text: str) -> None:
         self._messages.append(("warning", text))
 

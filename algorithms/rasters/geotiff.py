@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import os
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
@@ -22,6 +24,10 @@ _MOST_CELLS = 400_000_000
 # because of a few points with stray coordinates.
 _MANY_CELLS, _SQUARE, _LEAST_COVERED = 10_000_000, 1000.0, 0.01
 _STEP = 1 << 20
+# What GDAL would ask another computer for, and how it names a part of a file.
+_REMOTE = re.compile(r"[a-z][a-z0-9+.-]+://|/vsi", re.IGNORECASE)
+_PART = re.compile(r'[A-Z][A-Z0-9_]+:"?(?P<file>.+?)"?(:[^:\\/]*)?$')
+_DESCRIPTION = 1 << 20
 _SURVEY_FOOT = 1200 / 3937
 # As files state the unit of their heights, in metres.
 _UNITS = {
@@ -171,7 +177,7 @@ def read_raster(source: str | Path, band: int = 1, progress: Progress = SILENT) 
     Parameters
     ----------
     source : str or Path
-        The file, or whatever else GDAL opens.
+        The file, or a part of one as GDAL names it: ``GPKG:survey.gpkg:dsm``.
     band : int
         Number of the band, from 1.
     progress : Progress
@@ -180,10 +186,11 @@ def read_raster(source: str | Path, band: int = 1, progress: Progress = SILENT) 
     Raises
     ------
     BareEarthError
-        If there is no library to read rasters with, the band cannot be read, or the CRS is not a
-        projected one.
+        If there is no library to read rasters with, the raster is not on this computer, the band
+        cannot be read, or the CRS is not a projected one.
     """
     read = library(_read_with_gdal, _read_with_rasterio, "Reading")
+    _check_local(str(source))
     content = read(str(source), band)
     values, valid = content.values, content.valid
     if values.dtype.kind not in "iuf":
@@ -234,6 +241,27 @@ def _frame_of(source: str | Path, content: _Content, progress: Progress) -> Fram
                 f" {unit_name(horizontal)}."
             )
     return Frame((0.0, 0.0), horizontal, vertical, content.wkt or None)
+
+
+def _check_local(source: str) -> None:
+    """Refuse what GDAL would fetch: a URL, or a description of a raster that names one."""
+    if any("\ud800" <= each <= "\udfff" for each in source):
+        raise BareEarthError(f"The name of {source} is not UTF-8, which GDAL needs. Rename it.")
+    part = _PART.match(source)
+    path = Path(source if os.path.exists(source) or part is None else part["file"])
+    remote = _REMOTE.search(source)
+    if not remote and path.is_file():
+        with open(path, "rb") as file:
+            # A raster itself is binary; its description, by GDAL, is XML or JSON.
+            start = file.read(_DESCRIPTION)
+        text = start.decode("utf-8", "replace")
+        remote = text.lstrip("\ufeff \t\r\n")[:1] in ("<", "{") and _REMOTE.search(text)
+    if remote:
+        raise BareEarthError(
+            f"{source} is not on this computer, or names what is not. Download it first."
+        )
+    if not path.exists():
+        raise BareEarthError(f"{source} does not exist. Check the path.")
 
 
 def _read_with_gdal(source: str, band: int) -> _Content:

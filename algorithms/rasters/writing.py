@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 from pathlib import Path
 from typing import Any, Callable, Iterable, Iterator, NamedTuple
 
@@ -29,7 +30,9 @@ def replacing_raster(path: Path) -> Iterator[Path]:
     with replacing(path) as temporary:
         yield temporary
     # Statistics of other cells: QGIS would stretch its colours by them.
-    path.with_name(f"{path.name}.aux.xml").unlink(missing_ok=True)
+    beside = path.with_name(f"{path.name}.aux.xml")
+    if os.path.lexists(beside):  # a name as long as can be has no room for one beside it
+        beside.unlink()
 
 
 class Rows(NamedTuple):

@@ -202,6 +202,10 @@ Lengths are metres, whatever the unit of the CRS.</source>
 Längen sind Meter, gleich welche Einheit das KBS hat.</translation>
     </message>
     <message>
+        <source>Chosen automatically: {text}</source>
+        <translation>Automatisch gewählt: {text}</translation>
+    </message>
+    <message>
         <source>City, large halls</source>
         <translation>Großstadt, große Hallen</translation>
     </message>
@@ -224,6 +228,10 @@ Längen sind Meter, gleich welche Einheit das KBS hat.</translation>
     <message>
         <source>Class of the ground</source>
         <translation>Klasse des Bodens</translation>
+    </message>
+    <message>
+        <source>Class {number} ({name}): {count:,} points ({share:.1%})</source>
+        <translation>Klasse {number} ({name}): {count:,} Punkte ({share:.1%})</translation>
     </message>
     <message>
         <source>Classes of known ground</source>
@@ -324,6 +332,10 @@ Längen sind Meter, gleich welche Einheit das KBS hat.</translation>
     <message>
         <source>Depth of low outliers</source>
         <translation>Tiefe tiefer Ausreißer</translation>
+    </message>
+    <message>
+        <source>Did you mean {name}?</source>
+        <translation>War {name} gemeint?</translation>
     </message>
     <message>
         <source>Difference in height of neighbouring lines, in the unit of the heights.</source>
@@ -1078,8 +1090,8 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Seite der Zellen der Raster, etwa der Abstand der Bodenpunkte.</translation>
     </message>
     <message>
-        <source>Side of the cells whose lowest points are compared in the automatic preset. Empty: 1 m, more if points are sparse.</source>
-        <translation>Seite der Zellen, deren tiefste Punkte in der automatischen Voreinstellung verglichen werden. Leer: 1 m, mehr bei geringer Punktdichte.</translation>
+        <source>Side of the cells whose lowest points are compared in the automatic preset. Empty: the usual distance between points, at least 1 m.</source>
+        <translation>Seite der Zellen, deren tiefste Punkte in der automatischen Voreinstellung verglichen werden. Leer: der übliche Abstand der Punkte, mindestens 1 m.</translation>
     </message>
     <message>
         <source>Side of the square cells whose lowest points are compared. Smaller ones follow finer terrain, if they hold a point, and hold more rims of low plants. Empty: from the preset; where such a cell would hold less than a point, more.</source>
@@ -1302,6 +1314,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Dasselbe Raster, mit dem Gelände an Stelle der Objekte.</translation>
     </message>
     <message>
+        <source>The same without QGIS:</source>
+        <translation>Dasselbe ohne QGIS:</translation>
+    </message>
+    <message>
         <source>The share of wrong points in each cell of a raster, 0 to 1.</source>
         <translation>Der Anteil falscher Punkte in jeder Zelle eines Rasters, 0 bis 1.</translation>
     </message>
@@ -1320,6 +1336,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>The window that is classified, such as the map's extent; at most 1,000 m wide, and quick up to about 250 x 250 m. It is transformed to the CRS of the points.</source>
         <translation>Das Fenster, das klassifiziert wird, etwa die Kartenausdehnung; höchstens 1.000 m breit, und schnell bis etwa 250 x 250 m. Es wird in das KBS der Punkte transformiert.</translation>
+    </message>
+    <message>
+        <source>There is no parameter {name}: it is ignored.</source>
+        <translation>Es gibt keinen Parameter {name}: er wird nicht beachtet.</translation>
     </message>
     <message>
         <source>There is not enough memory for this file.</source>
@@ -1360,6 +1380,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Tiles that are done stay, if they were made from the same files with the same parameters. All others are classified anew.</source>
         <translation>Fertige Kacheln bleiben, wenn sie aus denselben Dateien mit denselben Parametern entstanden. Alle anderen werden neu klassifiziert.</translation>
+    </message>
+    <message>
+        <source>Time: {seconds:.1f} s</source>
+        <translation>Dauer: {seconds:.1f} s</translation>
     </message>
     <message>
         <source>Tolerance above</source>

@@ -202,6 +202,10 @@ Lengths are metres, whatever the unit of the CRS.</source>
 Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
     </message>
     <message>
+        <source>Chosen automatically: {text}</source>
+        <translation>Choisi automatiquement : {text}</translation>
+    </message>
+    <message>
         <source>City, large halls</source>
         <translation>Grande ville, grandes halles</translation>
     </message>
@@ -224,6 +228,10 @@ Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
     <message>
         <source>Class of the ground</source>
         <translation>Classe du sol</translation>
+    </message>
+    <message>
+        <source>Class {number} ({name}): {count:,} points ({share:.1%})</source>
+        <translation>Classe {number} ({name}) : {count:,} points ({share:.1%})</translation>
     </message>
     <message>
         <source>Classes of known ground</source>
@@ -324,6 +332,10 @@ Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
     <message>
         <source>Depth of low outliers</source>
         <translation>Profondeur des points aberrants bas</translation>
+    </message>
+    <message>
+        <source>Did you mean {name}?</source>
+        <translation>Vouliez-vous dire {name} ?</translation>
     </message>
     <message>
         <source>Difference in height of neighbouring lines, in the unit of the heights.</source>
@@ -1078,8 +1090,8 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Côté des cellules des rasters, environ la distance entre points sol.</translation>
     </message>
     <message>
-        <source>Side of the cells whose lowest points are compared in the automatic preset. Empty: 1 m, more if points are sparse.</source>
-        <translation>Côté des cellules dont les points les plus bas sont comparés dans le préréglage automatique. Vide : 1 m, plus si la densité de points est faible.</translation>
+        <source>Side of the cells whose lowest points are compared in the automatic preset. Empty: the usual distance between points, at least 1 m.</source>
+        <translation>Côté des cellules dont les points les plus bas sont comparés dans le préréglage automatique. Vide : la distance habituelle entre les points, au moins 1 m.</translation>
     </message>
     <message>
         <source>Side of the square cells whose lowest points are compared. Smaller ones follow finer terrain, if they hold a point, and hold more rims of low plants. Empty: from the preset; where such a cell would hold less than a point, more.</source>
@@ -1302,6 +1314,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Le même raster, avec le terrain à la place des objets.</translation>
     </message>
     <message>
+        <source>The same without QGIS:</source>
+        <translation>La même chose sans QGIS :</translation>
+    </message>
+    <message>
         <source>The share of wrong points in each cell of a raster, 0 to 1.</source>
         <translation>La part de points faux dans chaque cellule d'un raster, de 0 à 1.</translation>
     </message>
@@ -1320,6 +1336,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>The window that is classified, such as the map's extent; at most 1,000 m wide, and quick up to about 250 x 250 m. It is transformed to the CRS of the points.</source>
         <translation>La fenêtre à classer, par exemple l'emprise de la carte ; au plus 1 000 m de large, et rapide jusqu'à environ 250 x 250 m. Elle est transformée dans le SCR des points.</translation>
+    </message>
+    <message>
+        <source>There is no parameter {name}: it is ignored.</source>
+        <translation>Il n'y a pas de paramètre {name} : il est ignoré.</translation>
     </message>
     <message>
         <source>There is not enough memory for this file.</source>
@@ -1360,6 +1380,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Tiles that are done stay, if they were made from the same files with the same parameters. All others are classified anew.</source>
         <translation>Les dalles terminées restent, si elles viennent des mêmes fichiers avec les mêmes paramètres. Toutes les autres sont reclassées.</translation>
+    </message>
+    <message>
+        <source>Time: {seconds:.1f} s</source>
+        <translation>Durée : {seconds:.1f} s</translation>
     </message>
     <message>
         <source>Tolerance above</source>

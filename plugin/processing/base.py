@@ -25,7 +25,7 @@ from ...algorithms.las.backends import install_hint, missing_packages
 from .. import compat
 from ..i18n import mark, tr
 from ..styles import layers
-from .feedback import FeedbackProgress
+from .feedback import FeedbackProgress, tell_of_unknown
 from .fields import field_of, parameters_of
 from .help_pages import address_of
 from .outputs import do_not_load
@@ -57,6 +57,8 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         all but those that are declared so.
     subject : str
         The name of the input; `find_inputs` sets it.
+    class_counts : mapping of int to int
+        Points of each class of what was made, which the log ends with; `compute` sets it.
     """
 
     identifier = title = section = summary = about = page = run_name = subject = ""
@@ -226,8 +228,10 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         feedback: QgsProcessingFeedback,
     ) -> bool:
         """Run `prepare`."""
+        tell_of_unknown(self, parameters, feedback)
         with _errors_for_qgis():
             self.prepare(parameters, context, FeedbackProgress(feedback))
+        self.class_counts: Mapping[int, int] = {}
         self._looks: dict[str, layers.Look] = {}
         names = [self.subject, tr(self.run_name or self.title)]
         self._group = layers.free_name(context, ": ".join(filter(None, names)))
@@ -240,16 +244,17 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         feedback: QgsProcessingFeedback,
     ) -> dict[str, Any]:
         """Run `compute`; when cancelled or failed, no output is left to be loaded."""
-        before = set(context.layersToLoadOnCompletion())
+        before, progress = set(context.layersToLoadOnCompletion()), FeedbackProgress(feedback)
         results: dict[str, Any] = {}
         try:
             with _errors_for_qgis():
-                results = self.compute(parameters, context, FeedbackProgress(feedback))
+                results = self.compute(parameters, context, progress)
         except Cancelled:
             feedback.pushInfo(tr(self.cancelled))
         finally:
             if not results:
                 do_not_load(context, set(context.layersToLoadOnCompletion()) - before)
+            progress.end(self.class_counts if results else {})
         self._arrange(results, context)
         return results
 

@@ -119,6 +119,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         progress.info(text.format(ground=ground, count=count, share=ground / count))
         look = summary.class_counts, request.selection.to_class, request.terrain.dtm_cell_size
         show_classified(self, output, *look, context, progress)
+        self.class_counts = summary.class_counts
         return {
             "OUTPUT": output,
             **paths,

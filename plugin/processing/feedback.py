@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
-from qgis.core import QgsProcessingFeedback
+import difflib
+import time
+from typing import Iterable, Mapping
+
+from qgis.core import QgsProcessingAlgorithm, QgsProcessingFeedback
 
 from ...algorithms.core.errors import Cancelled
 from ...algorithms.core.progress import Progress
+from ..i18n import tr
+from ..styles.clouds import categories_of
 
 
 class FeedbackProgress(Progress):
@@ -18,7 +24,9 @@ class FeedbackProgress(Progress):
     """
 
     def __init__(self, feedback: QgsProcessingFeedback) -> None:
-        self._feedback = feedback
+        self._feedback, self._begun = feedback, time.monotonic()
+        self._choices: list[str] = []
+        self._commands: list[str] = []
 
     def report(self, fraction: float) -> None:
         """Move the bar; raise `Cancelled` if the user pressed Cancel."""
@@ -30,10 +38,49 @@ class FeedbackProgress(Progress):
         """Write a line into the log."""
         self._feedback.pushInfo(text)
 
+    def choice(self, text: str) -> None:
+        """Write a line into the log, and once more at its end."""
+        self._choices.append(text)
+        self.info(text)
+
     def warning(self, text: str) -> None:
         """Write a line that stands out into the log."""
         self._feedback.pushWarning(text)
 
     def command(self, text: str) -> None:
-        """Write a command into the log."""
-        self._feedback.pushCommandInfo(text)
+        """Keep a command that does the same without QGIS, for the end of the log."""
+        self._commands.append(text)
+
+    def end(self, class_counts: Mapping[int, int]) -> None:
+        """End the log with classes, what was chosen, time and commands.
+
+        Parameters
+        ----------
+        class_counts : mapping of int to int
+            Points of each class of what was made; empty if no point cloud was.
+        """
+        every = max(sum(class_counts.values()), 1)
+        for value, (name, _) in categories_of(class_counts).items():
+            text = tr("Class {number} ({name}): {count:,} points ({share:.1%})")
+            count = class_counts[value]
+            self.info(text.format(number=value, name=name, count=count, share=count / every))
+        for each in self._choices:
+            self.info(tr("Chosen automatically: {text}").format(text=each))
+        self.info(tr("Time: {seconds:.1f} s").format(seconds=time.monotonic() - self._begun))
+        if self._commands:
+            self.info(tr("The same without QGIS:"))
+        for each in self._commands:
+            self._feedback.pushCommandInfo(each)
+
+
+def tell_of_unknown(
+    algorithm: QgsProcessingAlgorithm, given: Iterable[str], feedback: QgsProcessingFeedback
+) -> None:
+    """Warn of parameters that an algorithm does not have: QGIS ignores them without a word."""
+    known = [each.name() for each in algorithm.parameterDefinitions()]
+    for name in sorted(set(given) - set(known)):
+        text = tr("There is no parameter {name}: it is ignored.").format(name=name)
+        near = difflib.get_close_matches(name.upper(), known, 1)
+        if near:
+            text += " " + tr("Did you mean {name}?").format(name=near[0])
+        feedback.pushWarning(text)

@@ -55,5 +55,6 @@ class ModelKeyPointsAlgorithm(ProductAlgorithm):
                 share=summary.key_point_count / summary.ground_count,
             )
         )
+        self.class_counts = summary.class_counts
         self.show(output, layers.classes(summary.class_counts, mark("key points")))
         return {"OUTPUT": output, **self.numbers_of(summary)}

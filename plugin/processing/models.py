@@ -10,6 +10,7 @@ from qgis.core import QgsProcessingContext, QgsProcessingFeedback, QgsProcessing
 from ...algorithms.core.parameters import ParameterSet
 from ..i18n import tr
 from .base import BareEarthAlgorithm
+from .feedback import tell_of_unknown
 from .search_words import words_of
 
 _FOLDER = Path(__file__).parents[1] / "models"
@@ -73,6 +74,7 @@ class ShippedModel(QgsProcessingModelAlgorithm):
     ) -> dict[str, Any]:
         """Run it; for an input that is not given QGIS would hand on nothing, not its default."""
         defaults = {each.name(): each.defaultValue() for each in self.parameterDefinitions()}
+        tell_of_unknown(self, parameters, feedback)
         given = {**defaults, **parameters}
         return super().processAlgorithm(given, context, feedback)
 

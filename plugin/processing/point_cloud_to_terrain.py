@@ -16,6 +16,7 @@ from ..styles.layers import BELOW_TERRAIN, contours
 from . import outputs
 from .base import BareEarthAlgorithm
 from .classified import show_classified
+from .commands import terrain_commands
 from .corrections import add_corrections, corrections_of
 from .inputs import add_survey, names_of, survey_of
 
@@ -63,6 +64,9 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         paths = [path and Path(path) for path in (cloud, results.get("RELIEF"), lines)]
         files = MapFiles(paths[0], outputs.raster_files(results), *paths[1:])
         summary = make_maps(self._sources, files, request, progress)
+        made, chosen = str(cloud and summary.cloud), self.chosen(parameters, context)
+        for each in terrain_commands(self._sources, made, results, chosen):
+            progress.command(each)
         progress.info("\n".join(summary.lines))
         if lines:
             self.show(lines, contours(summary.contour_interval))

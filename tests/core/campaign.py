@@ -237,22 +237,26 @@ def main(folder, seed, count, first=0):
         source.write_bytes(data)
         return source, np.random.default_rng([seed, number, 1])
 
-    for start in range(first, first + count, A_CHILD):
-        numbers = range(start, min(start + A_CHILD, first + count))
-        for number, answer in answers_of(numbers, make, work):
-            suffix, data, done = mutant(before, seed, number)
-            is_right = answer in RIGHT
-            ends[answer if is_right else "wrong"] += 1
-            parts.update({suffix, *done})
-            if not is_right:
-                (folder / f"{seed}-{number}{suffix}").write_bytes(data)
-                print(f"mutant {seed} {number} {suffix} {done}: {answer}", flush=True)
-        if start % 5000 == 0:
-            print(f"{start} {dict(ends)} {time.monotonic() - begun:.0f} s", flush=True)
-    shutil.rmtree(work)
-    print(f"tried {count}: {dict(ends)}; of them with {dict(sorted(parts.items()))}")
+    try:
+        for start in range(first, first + count, A_CHILD):
+            numbers = range(start, min(start + A_CHILD, first + count))
+            for number, answer in answers_of(numbers, make, work):
+                suffix, data, done = mutant(before, seed, number)
+                is_right = answer in RIGHT
+                ends[answer if is_right else "wrong"] += 1
+                parts.update({suffix, *done})
+                if not is_right:
+                    (folder / f"{seed}-{number}{suffix}").write_bytes(data)
+                    print(f"mutant {seed} {number} {suffix} {done}: {answer}", flush=True)
+            if start % 1000 == 0:
+                print(f"{start} {dict(ends)} {time.monotonic() - begun:.0f} s", flush=True)
+    finally:  # whoever ends it early sees how far it came
+        shutil.rmtree(work)
+        said = f"{dict(ends)}; of them with {dict(sorted(parts.items()))}"
+        print(f"tried {sum(ends.values())}: {said}", flush=True)
     return ends["wrong"]
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
     sys.exit(1 if main(Path(sys.argv[1]), *map(int, sys.argv[2:])) else 0)

@@ -7,6 +7,7 @@ all types, waveforms, every flag, and integers as large as can be; and the files
 import contextlib
 import io
 import itertools
+import shutil
 import struct
 
 import independent
@@ -285,3 +286,82 @@ def awkward():
     return [pytest.param(each, id=each.name) for each in found] or [
         pytest.param(None, marks=missing)
     ]
+
+
+def outputs(path):
+    """Return what each command writes of a file: words, and the cloud it writes."""
+    folder, suffix = path.parent, ".las" if path.suffix == ".las" else ".laz"
+    classified, dtm = folder / f"classified{suffix}", folder / "dtm.tif"
+    box = ("--extent", "-99999999", "-99999999", "99999999", "99999999")
+    clouds = {
+        ".las": folder / "as.las", ".laz": folder / "as.laz", ".copc.laz": folder / "as.copc.laz",
+    }  # fmt: skip
+    yield "info", ["info", path], None
+    yield "classify", command("classify", path, classified), classified
+    for target in clouds.values():
+        yield "classify", command("classify", path, target), target
+    coarse = ("--dtm", dtm, "--dtm-cell-size", "20")
+    yield "classify", [*command("classify", path, folder / "r.las"), *coarse], folder / "r.las"
+    yield "tiles", ["classify-tiles", path, folder / "tiles", "--method", "slope"], None
+    for name in COMMANDS[1:]:
+        target = folder / f"{name}{suffix}".replace(" ", "-")
+        yield name, command(name, classified, target), target
+    yield "terrain", ["terrain", classified, *coarse, "--dsm", folder / "dsm.tif"], None
+    yield "assess", ["assess", classified, classified, "--report", folder / "a.html"], None
+    yield "compare", ["compare-settings", path, folder / "page.html", *box], None
+    yield "objects", ["remove-off-terrain-objects", dtm, folder / "bare.tif"], None
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("original", awkward())
+def test_files_of_other_projects_keep_what_they_say_or_are_refused_in_a_sentence(
+    original, tmp_path, capfd, record_property
+):
+    source = tmp_path / original.name
+    shutil.copy(original, source)
+    data, done = source.read_bytes(), 0
+    for name, words, target in outputs(source):
+        before = {path: path.stat() for path in tmp_path.rglob("*")}
+        code, errors = said(*words)
+        assert source.read_bytes() == data
+        assert not list(tmp_path.rglob("*.part.*"))
+        if code == 0:
+            done += 1
+        else:
+            lines = [line for line in errors.splitlines() if not line.startswith("Warning: ")]
+            assert code == 1 and len(lines) == 1, (words, errors)
+            assert "Unexpected" not in errors and errors.rstrip().endswith("."), errors
+            made = [each for each in tmp_path.rglob("*") if each not in before and each.is_file()]
+            assert not made, words
+            continue
+        if target is not None:
+            compare_real(name, source, words, target)
+        elif name == "tiles":
+            assert np.array_equal(
+                independent.read(tmp_path / "tiles" / source.name).points,
+                independent.read(tmp_path / f"classified{target_suffix(source)}").points,
+            )
+    assert capfd.readouterr().err == ""
+    record_property("commands", done)
+
+
+def target_suffix(source):
+    return ".las" if source.suffix == ".las" else ".laz"
+
+
+def compare_real(name, source, words, target):
+    """Compare what a command made of a file of another project; LASzip must be able to read it."""
+    try:
+        before = independent.read(words[1])
+    except RuntimeError:  # LASzip does not read what lazrs does
+        return
+    after = independent.read(target)
+    if target.name.endswith(".copc.laz"):
+        nodes_are_whole(after)
+        assert len(after.points) == len(before.points)
+        if before.format >= 6:
+            bits = (CLASS,)
+            old, new = (without(each.points, each.format, *bits) for each in (before, after))
+            assert np.array_equal(in_any_order(old), in_any_order(new))
+        return
+    kept_by(name, before, after)

@@ -40,11 +40,12 @@ def test_a_cancel_ends_the_classification(parameters):
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_a_hall_goes_where_points_are_sparse(method):
+@pytest.mark.parametrize(("kind", "density"), [("hall_stepped", 0.25), ("hall_slope_10", 1.0)])
+def test_a_hall_goes_where_points_are_sparse(method, kind, density):
     # Points two metres apart leave every second cell of a metre empty: none of these is a way down.
-    scene = make("hall_stepped", seed=4, density=0.25)
+    scene = make(kind, seed=4, density=density)
     found = METHODS[method].classify(scene.points, METHODS[method].parameters())
-    assert found[scene.classes == 6].mean() < 0.02
+    assert found[scene.classes == 6].mean() < 0.05
     assert found[scene.ground].mean() > 0.98
 
 

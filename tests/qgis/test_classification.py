@@ -1,6 +1,7 @@
 import importlib.util
 import json
 import os
+import re
 import shlex
 
 import laspy
@@ -273,3 +274,29 @@ def test_real_surveys(algorithm, data, out, context):
     found = np.asarray(laspy.read(results["OUTPUT"]).classification) == 2
     assert np.mean(found != truth) < 0.25
     assert os.path.getsize(results["DTM"])
+
+
+def test_the_log_ends_with_what_was_done(algorithm, scene, out, context, log):
+    from bare_earth.algorithms.cli import main
+
+    results, done = algorithm.run(everything(scene, out), context, log)
+    assert done
+    end = log.text[log.text.index("Class 2") :].splitlines()
+    share = scene.ground_count / scene.count
+    assert end[0] == f"Class 2 (Ground): {scene.ground_count:,} points ({share:.1%})"
+    assert end[1].startswith("Class 1 (") and end[1].endswith(f" points ({1 - share:.1%})")
+    assert re.match("Chosen automatically: .*maximum building size [0-9.]+ m", end[2])
+    assert re.fullmatch(r"Time: [0-9]+\.[0-9] s", end[3])
+    assert end[4] == "The same without QGIS:" and len(end) == 6
+    with open(results["OUTPUT"], "rb") as file:
+        before = file.read()
+    assert main(shlex.split(end[5])[1:]) == 0
+    with open(results["OUTPUT"], "rb") as file:
+        assert file.read() == before
+
+
+def test_a_run_that_is_cancelled_says_how_to_do_it_elsewhere(algorithm, scene, out, context):
+    log = Log(cancel_at=50)
+    algorithm.run(everything(scene, out), context, log)
+    assert log.said[-1].startswith("bare-earth classify ")
+    assert "Class 2" not in log.text

@@ -2,6 +2,7 @@
 
 import json
 import os
+import shlex
 import shutil
 import subprocess
 
@@ -51,6 +52,27 @@ def test_a_file_becomes_all_maps(scene, tmp_path):
     assert heights == [100.5 + 0.5 * step for step in range(11)] and lines.GetSpatialRef()
     assert f"Ground    {scene.ground_count:>15,}" in log.text
     assert not [each for each in os.listdir(tmp_path) if each.startswith(".") or "aux" in each]
+
+
+def test_the_commands_at_the_end_of_the_log_do_the_same(scene, tmp_path):
+    import processing
+
+    from bare_earth.algorithms.cli import main
+
+    outputs, log = everything(tmp_path), Log()
+    given = {"INPUT": str(scene.path), "PRESET": "town", "DTM_CELL_SIZE": 2, "TO_CLASS": 8}
+    processing.run(ALL_IN_ONE, {**given, **outputs}, feedback=log)
+    before = {name: band(outputs[name]) for name in ("DTM", "DSM", "CHM", "HILLSHADE")}
+    classes = laspy.read(outputs["OUTPUT"]).classification
+    commands = [shlex.split(each) for each in log.said if each.startswith("bare-earth ")]
+    assert [words[:2] for words in commands] == [["bare-earth", x] for x in ("classify", "terrain")]
+    for each in outputs.values():
+        os.remove(each)
+    for words in commands:
+        assert main(words[1:]) == 0
+    assert np.array_equal(laspy.read(outputs["OUTPUT"]).classification, classes)
+    for name, values in before.items():
+        assert np.array_equal(band(outputs[name]), values, equal_nan=True)
 
 
 def test_every_output_may_be_left_out(scene, tmp_path):

@@ -396,3 +396,29 @@ def test_its_page_holds_every_parameter_with_its_default(each, registry):
     if issubclass(type(each), ClassificationAlgorithm):
         page += shared
     assert all(f"`{name}`" in page for name in outputs)
+
+
+@pytest.mark.parametrize("name", [ALGORITHM, "bareearth:terraincontours"])
+def test_unknown_parameters_are_told(name, registry, scene, tmp_path, context, log):
+    algorithm = registry.createAlgorithmById(name)
+    given = {"INPUT": str(scene.path), "PRESETT": "flat", "NOSUCH": 1}
+    outputs = [each.name() for each in algorithm.destinationParameterDefinitions()]
+    files = {each: str(tmp_path / each.replace(":", "_")) for each in outputs}
+    endings = {"OUTPUT": ".laz", "DTM": ".tif", "HILLSHADE": ".tif", "ground:OUTPUT": ".laz"}
+    files = {each: f"{path}{endings.get(each, '.tif')}" for each, path in files.items()}
+    if "contours:OUTPUT" in files:
+        files["contours:OUTPUT"] = str(tmp_path / "contours.gpkg")
+    assert algorithm.run({**given, **files}, context, log)[1], log.text
+    told = [each for each in log.said if each.startswith("There is no parameter")]
+    assert len(told) == 2
+    assert "NOSUCH" in told[0] and "Did you mean" not in told[0]
+    assert "PRESETT" in told[1] and "Did you mean PRESET?" in told[1]
+
+
+def test_qgis_process_tells_of_unknown_parameters(qgis_process, scene, tmp_path):
+    words = f"INPUT={scene.path}", f"OUTPUT={tmp_path / 'ground.laz'}", "OUPUT=x.laz"
+    done = qgis_process("run", ALGORITHM, "--", *words)
+    assert done.returncode == 0, done.stderr
+    assert "There is no parameter OUPUT: it is ignored. Did you mean OUTPUT?" in (
+        done.stdout + done.stderr
+    )

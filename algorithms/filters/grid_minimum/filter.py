@@ -266,7 +266,7 @@ def classify(points: Points, parameters: GridMinimum, progress: Progress = SILEN
     cells = _counting_cells(points, parameters)
     resolved = parameters._resolved(cells)
     if resolved != parameters:
-        progress.info(_in_words(resolved))
+        progress.choice(_in_words(resolved))
     if parameters.cell_size is not None or parameters.preset == CLASSIC:
         _tell_of_gaps(_density(cells), resolved, progress)
     if cells.size != resolved.cell_size:

@@ -50,6 +50,8 @@ class Allowance:
         Whether a step between cells is no edge where those before or after it are as high: a
         steep slope, or a cliff, of which points lie on the face; or where the terrain at large
         rises as much.
+    slopes_taken : int
+        How often the slope of the terrain is taken, each time from what was not cut off before.
     judges_gaps : bool
         Whether cells without a point are told apart as well: they are raised where what fills them
         is, and beyond the survey they are no border.
@@ -71,6 +73,7 @@ class Allowance:
     border_height: float = 4.5
     rise_counts: bool = True
     follows_slopes: bool = True
+    slopes_taken: int = 2
     judges_gaps: bool = True
 
     def for_cells(self, size: float) -> Allowance:
@@ -86,5 +89,6 @@ CLASSIC = Allowance(
     border_area=np.inf,
     rise_counts=False,
     follows_slopes=False,
+    slopes_taken=1,
     judges_gaps=False,
 )

@@ -86,15 +86,18 @@ def ground_cells(
         each[lead[0][0] :, lead[1][0] :].copy()
         for each in _standing_out(padded, size, largest_window, allowance, part)
     )
-    surface = inpaint(np.where(known & ~strict & ~objects, heights, np.nan), first=first)
-    smooth, which = smoothed(surface, size, _SLOPE_SMOOTHING), np.flatnonzero(limit > 0.0)
-    slope = np.hypot(*(slope_at(smooth, axis, which, size) for axis in (0, 1)))
-    raised = objects.copy()
-    raised.ravel()[which] |= np.minimum(slope, _LARGEST_SLOPE) < limit.ravel()[which]
-    if suspects is not None:
-        raised |= suspects & known
-    if plateaus is not None:
-        raised |= _of_cut_plateaus(plateaus & known, raised)
+    which, raised = np.flatnonzero(limit > 0.0), strict | objects
+    for _ in range(allowance.slopes_taken):
+        # The rim of a roof that is left makes a slope of its own, until what is round it is gone.
+        surface = inpaint(np.where(known & ~raised, heights, np.nan), first=first)
+        smooth = smoothed(surface, size, _SLOPE_SMOOTHING)
+        slope = np.hypot(*(slope_at(smooth, axis, which, size) for axis in (0, 1)))
+        raised = objects.copy()
+        raised.ravel()[which] |= np.minimum(slope, _LARGEST_SLOPE) < limit.ravel()[which]
+        if suspects is not None:
+            raised |= suspects & known
+        if plateaus is not None:
+            raised |= _of_cut_plateaus(plateaus & known, raised)
     progress(0.8)
     surface = inpaint(np.where(known & ~raised, heights, np.nan), first=first)
     progress(0.85)

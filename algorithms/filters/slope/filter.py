@@ -284,7 +284,7 @@ def classify(points: Points, parameters: SlopeFilter, progress: Progress = SILEN
     """
     resolved = parameters.resolve(points)
     if resolved != parameters:
-        progress.info(_in_words(resolved))
+        progress.choice(_in_words(resolved))
     if resolved.preset == CLASSIC:
         return _on_one_scale(points, resolved, progress)
     return _on_many_scales(points, resolved, progress)

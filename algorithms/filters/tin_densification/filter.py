@@ -267,7 +267,7 @@ def classify(
     apart = spacing(points, _LEAST_SPACING)
     is_dense = apart <= NOISE_SPACING and not is_classic
     if resolved != parameters or is_dense:
-        progress.info(_in_words(resolved, apart, is_dense))
+        progress.choice(_in_words(resolved, apart, is_dense))
     size = _DENSE_CELL if is_dense else _CELL if is_classic else max(_CELL, apart)
     survey = LowestPoints(points, size, is_classic)
     progress(0.1)

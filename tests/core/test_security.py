@@ -1,0 +1,348 @@
+"""What comes from others does no harm: names, lists, links, archives; and nothing is fetched."""
+
+import ast
+import contextlib
+import html.parser
+import http.server
+import io
+import json
+import os
+import struct
+import sys
+import threading
+import warnings
+import zipfile
+from pathlib import Path
+
+import lazrs
+import numpy as np
+import pytest
+from conftest import make_records
+from test_laz_support import PACKAGE, make_wheel
+from test_walls import SHIPPED, _name, _tree
+
+from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.las.opening import open_las
+from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
+from bare_earth.plugin.libraries import wheels
+from bare_earth.plugin.libraries.build import Build
+
+UNIX = pytest.mark.skipif(os.name == "nt", reason="Windows has no such names")
+MORE = [UNIX, pytest.mark.long]
+NAMES = [
+    "Gr\u00fc\u00dfe '\u5730\u9762' \U0001f30d e\u0301 \u201e",
+    *(
+        pytest.param(each, marks=pytest.mark.long)
+        for each in ("with spaces  in it", "-rf", "100%s %n {0} $(id) `id` ; & #", "[a-c]{1,2}")
+    ),
+    pytest.param('double " and \\ back', marks=MORE),
+    pytest.param("not \udcff UTF-8", marks=UNIX),
+    pytest.param("two\nlines\r \x1b[31mred\x07\x9b", marks=MORE),
+    pytest.param("<script>alert(1)<\u2215script>&amp;<!--", marks=UNIX),
+    pytest.param("*?|:", marks=MORE),
+    pytest.param("x" * 251, marks=MORE),
+    pytest.param("\u00e9" * 125, marks=MORE),
+]
+
+
+def said(*words):
+    """Run the command; return its exit code, and what it says and of what went wrong."""
+    out, errors = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stderr(errors), contextlib.redirect_stdout(out):
+        code = main([*map(str, words)])
+    return code, out.getvalue(), errors.getvalue()
+
+
+def is_plain(text):
+    return all(line.isprintable() for line in text.splitlines()) and "\r" not in text
+
+
+class Page(html.parser.HTMLParser):
+    """Collects the tags of a page."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.tags, self.comments = [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.append(tag)
+
+    def handle_comment(self, data):
+        self.comments.append(data)
+
+
+def tags_of(path):
+    page = Page(path.read_text(encoding="utf-8"))
+    return sorted(page.tags), page.comments
+
+
+def outputs(folder, source, name):
+    """Run every command over a file of this name, with outputs of this name."""
+    out = folder / "out" / name
+    out.parent.mkdir()
+    box = ("--extent", "399980", "4999990", "400010", "5000010")
+    rasters = ("--dtm", out.with_name(f"{name}.tif"), "--dtm-cell-size", "5")
+    classified = out.with_name(f"{name}.las")
+    return {
+        "info": ("info", source),
+        "classify": ("classify", source, classified, "--method", "slope", *rasters),
+        "height": ("height", classified, out.with_name(f"{name}.laz")),
+        "key-points": ("key-points", classified, out.with_name(f"{name}.laz")),
+        "terrain": ("terrain", classified, *rasters),
+        "assess": ("assess", classified, classified, "--report", out.with_name(f"{name}.html")),
+        "compare-settings": ("compare-settings", source, out.with_name(f"{name}.html"), *box,
+                             "--settings", "slope:automatic", "slope:town"),
+        "classify-tiles": ("classify-tiles", source.parent, folder / "out" / "tiles",
+                           "--method", "slope", "--vpc", out.with_name(f"{name}.vpc")),
+        "remove-off-terrain-objects": ("remove-off-terrain-objects",
+                                       out.with_name(f"{name}.tif"), out.with_name(f"{name}.tiff")),
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_names_of_any_kind_go_through_every_command(las, tmp_path, monkeypatch, name):
+    place = tmp_path / "in"
+    place.mkdir()
+    source = place / f"{name}.las"
+    cut = name
+    while len(os.fsencode(f"{cut}.tiff")) > 255:
+        cut = cut[:-1]
+    data = bytearray(las.bytes(version=4, point_format=6, count=300))
+    struct.pack_into("<6d", data, 179, 400_008, 399_990, 5_000_017, 5_000_000, 110, 90)
+    source.write_bytes(data)
+    suffixes = {".las", ".laz", ".tif", ".tiff", ".html", ".vpc"}
+    for command, words in outputs(tmp_path, source, cut).items():
+        code, out, errors = said(*words)
+        assert is_plain(out) and is_plain(errors)
+        if command == "remove-off-terrain-objects" and "\udcff" in name:
+            assert code == 1 and "is not UTF-8, which GDAL needs" in errors
+            suffixes.remove(".tiff")
+            continue
+        errors = [line for line in errors.splitlines() if not line.startswith("Warning: ")]
+        assert (code, errors) == (0, []), command
+    made = tmp_path / "out"
+    names = {path.name for path in made.iterdir()}
+    assert names == {"tiles", *(f"{cut}{each}" for each in suffixes)}
+    (entry,) = read_vpc(made / f"{cut}.vpc")
+    assert entry.path.read_bytes() == (made / "tiles" / f"{name}.las").read_bytes()
+    pages = [made / f"{cut}.html", tmp_path / "plain.htm"]
+    plain = tmp_path / "plain.las"
+    plain.write_bytes((made / f"{cut}.las").read_bytes())
+    assert said("assess", plain, plain, "--report", pages[1])[0] == 0
+    assert said("assess", made / f"{cut}.las", plain, "--report", pages[0])[0] == 0
+    assert tags_of(pages[0]) == tags_of(pages[1])
+
+
+@pytest.mark.parametrize("name", ["-rf.las", "--help.las", "-.las"])
+def test_a_name_with_a_leading_dash_is_no_option(las, tmp_path, monkeypatch, name):
+    monkeypatch.chdir(tmp_path)
+    Path(name).write_bytes(las.bytes(version=4, point_format=6, count=300))
+    assert said("classify", "--method", "slope", "--", name, "-out.las")[0] == 0
+    assert said("info", f"./{name}")[0] == 0
+    assert Path("-out.las").is_file()
+
+
+# Nothing is fetched
+
+
+@pytest.fixture
+def server():
+    """Yield the address of a server on this computer, and what it is asked for."""
+    asked = []
+
+    class Handler(http.server.BaseHTTPRequestHandler):
+        def do_GET(self):
+            asked.append(self.path)
+            self.send_error(404)
+
+        do_HEAD = do_GET
+
+        def log_message(self, *words):
+            pass
+
+    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler) as listening:
+        thread = threading.Thread(target=listening.serve_forever)
+        thread.start()
+        yield f"http://127.0.0.1:{listening.server_port}", asked
+        listening.shutdown()
+        thread.join()
+
+
+VRT = """<VRTDataset rasterXSize="9" rasterYSize="9"><VRTRasterBand dataType="Float32" band="1">
+<SimpleSource><SourceFilename>{}</SourceFilename><SourceBand>1</SourceBand></SimpleSource>
+</VRTRasterBand></VRTDataset>"""
+
+
+@pytest.mark.parametrize("form", ["{}/a{}", "/vsicurl/{}/a{}", "/vsicurl_streaming/{}/a{}"])
+def test_no_command_fetches_what_is_named(las, tmp_path, server, form):
+    address, asked = server
+    sound = las.make("sound.las", version=4, point_format=6, count=300)
+    url, raster = form.format(address, ".las"), form.format(address, ".tif")
+    vrt, listed, vpc = tmp_path / "a.vrt", tmp_path / "a.txt", tmp_path / "a.vpc"
+    vrt.write_text(VRT.format(raster))
+    listed.write_text(f"{url}\n")
+    item = {"properties": {}, "assets": {"data": {"href": url}}}
+    vpc.write_text(json.dumps({"type": "FeatureCollection", "features": [item]}))
+    out = tmp_path / "out.las"
+    box = ("--extent", "0", "0", "100", "100")
+    for words in (
+        ("info", url),
+        ("classify", url, out),
+        ("classify", vpc, tmp_path / "out"),
+        ("classify", listed, tmp_path / "out"),
+        ("classify", sound, out, "--boundary", form.format(address, ".geojson")),
+        ("height", url, out),
+        ("key-points", url, out),
+        ("terrain", url, "--dtm", tmp_path / "out.tif"),
+        ("terrain", sound, "--dtm", tmp_path / "out.tif", "--water", form.format(address, ".wkt")),
+        ("assess", url, sound),
+        ("compare-settings", url, tmp_path / "page.html", *box),
+        ("remove-off-terrain-objects", raster, tmp_path / "out.tif"),
+        ("remove-off-terrain-objects", vrt, tmp_path / "out.tif"),
+        ("remove-off-terrain-objects", VRT.format(raster), tmp_path / "out.tif"),
+    ):
+        code, _, errors = said(*words)
+        assert code == 1 and errors.count("\n") == 1, (words, errors)
+    assert asked == []
+    assert not list(tmp_path.glob("out*")) and not list(tmp_path.glob("page*"))
+
+
+def test_the_server_would_hear_what_is_fetched(server):
+    """The test above could see a request."""
+    rasterio = pytest.importorskip("rasterio")
+    address, asked = server
+    with contextlib.suppress(rasterio.errors.RasterioError):
+        rasterio.open(f"{address}/a.tif")
+    assert asked
+
+
+# What code may do
+
+
+def calls(tree):
+    """Yield the names of what is called, with their modules, and the words given."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call):
+            yield ast.unparse(node.func), {each.arg: each.value for each in node.keywords}, node
+
+
+DANGEROUS = {
+    "eval", "exec", "compile", "__import__", "os.system", "os.popen", "tempfile.mktemp",
+    "input", "breakpoint",
+}  # fmt: skip
+UNPICKLING = {"pickle", "marshal", "shelve", "dill", "cloudpickle", "joblib", "yaml"}
+
+
+@pytest.mark.parametrize("shipped", SHIPPED, ids=_name)
+def test_shipped_code_runs_no_text_and_no_shell(shipped):
+    tree = _tree(shipped)
+    for node in ast.walk(tree):
+        if isinstance(node, (ast.Import, ast.ImportFrom)):
+            names = {each.name.split(".")[0] for each in node.names}
+            module = (getattr(node, "module", None) or "").split(".")[0]
+            assert not (names | {module}) & UNPICKLING
+    for name, words, node in calls(tree):
+        assert name not in DANGEROUS, node.lineno
+        assert not isinstance(words.get("shell"), ast.Constant) or words["shell"].value is False
+        if name.endswith(("np.load", "numpy.load")):
+            allowed = words.get("allow_pickle")
+            assert isinstance(allowed, ast.Constant) and allowed.value is False
+
+
+# Archives and points that grow when they are unpacked
+
+
+def identical(path, count=3_000_000):
+    """Write many points that are all the same, which take next to no bytes; return their file."""
+    records = np.repeat(make_records(6, 1), 1_000_000, axis=0)
+    header = bytearray(375)
+    laszip = lazrs.LazVlr.new_for_compression(6, 0)
+    record = bytes(laszip.record_data())
+    vlr = struct.pack("<H16sHH32s", 0, b"laszip encoded", 22204, len(record), b"") + record
+    header[:4] = b"LASF"
+    struct.pack_into("<BB", header, 24, 1, 4)
+    struct.pack_into("<HII", header, 94, 375, 375 + len(vlr), 1)
+    struct.pack_into("<BH", header, 104, 0x86, 30)
+    struct.pack_into("<6d", header, 131, 0.01, 0.01, 0.01, 0, 0, 0)
+    struct.pack_into("<Q", header, 247, count)
+    with open(path, "w+b") as file:
+        file.write(header + vlr)
+        compressor = lazrs.LasZipCompressor(file, laszip)
+        for _ in range(count // len(records)):
+            compressor.compress_many(records.reshape(-1))
+        compressor.done()
+    return path
+
+
+def test_points_of_next_to_no_bytes_are_read_and_more_than_that_refused(tmp_path):
+    path = identical(tmp_path / "bomb.laz")
+    assert path.stat().st_size < 40_000
+    assert open_las(path).count == 3_000_000
+    data = bytearray(path.read_bytes())
+    for count in (10**9, 10**12, 2**62):
+        struct.pack_into("<Q", data, 247, count)
+        path.write_bytes(data)
+        code, _, errors = said("info", path)
+        assert code == 1 and "damaged or cut off" in errors
+
+
+def test_a_raster_of_more_cells_than_memory_is_refused(tmp_path):
+    rasterio = pytest.importorskip("rasterio")
+    path = tmp_path / "bomb.tif"
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        with rasterio.open(path, "w", driver="GTiff", width=300_000, height=300_000, count=1,
+                           dtype="float32", SPARSE_OK=True, TILED=True, BLOCKXSIZE=4096,
+                           BLOCKYSIZE=4096, BIGTIFF="YES"):  # fmt: skip
+            pass
+    assert path.stat().st_size < 1_000_000
+    code, _, errors = said("remove-off-terrain-objects", path, tmp_path / "out.tif")
+    assert code == 1 and "too many to be held in memory" in errors
+
+
+def unpack(path, folder):
+    wheels.unpack(path, folder, PACKAGE, Build.here())
+
+
+@pytest.mark.parametrize("zeros", [80_000_000, 200_000_000])
+def test_a_wheel_that_grows_beyond_any_is_refused_before_it_is_unpacked(tmp_path, zeros):
+    path = tmp_path / "bomb.whl"
+    files = {f"{PACKAGE}/__init__.py": "0" * zeros}
+    make_wheel(path, files, compression=zipfile.ZIP_DEFLATED)
+    assert path.stat().st_size < 1_000_000
+    with pytest.raises(BareEarthError, match="larger than any wheel"):
+        unpack(path, tmp_path / "new")
+    assert not (tmp_path / "new").exists()
+
+
+def test_a_wheel_that_lies_about_its_lengths_is_refused(tmp_path):
+    path = tmp_path / "bomb.whl"
+    files = {f"{PACKAGE}/__init__.py": "0" * 80_000_000}
+    make_wheel(path, files, compression=zipfile.ZIP_DEFLATED)
+    data = path.read_bytes().replace(struct.pack("<I", 80_000_000), struct.pack("<I", 10))
+    path.write_bytes(data)
+    with pytest.raises(BareEarthError, match="damaged"):
+        unpack(path, tmp_path / "new")
+    found = list((tmp_path / "new").rglob("*.py"))
+    assert all(each.stat().st_size <= 10 for each in found)
+
+
+@pytest.mark.parametrize(
+    "name", ["/etc/x.py", "~/x.py", "tinylaz/../../x.py", "tinylaz\\..\\x.py", "C:x.py", "x.pth"]
+)
+def test_no_name_in_a_wheel_leads_out_of_its_folder(tmp_path, name):
+    path = make_wheel(tmp_path / "a.whl", {f"{PACKAGE}/__init__.py": "", name: "x"})
+    with pytest.raises(BareEarthError, match="has no place"):
+        unpack(path, tmp_path / "new")
+    assert sorted(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="links need a privilege there")
+def test_a_virtual_point_cloud_is_not_written_through_a_link(las, tmp_path):
+    secret, target = tmp_path / "secret", tmp_path / "all.vpc"
+    secret.write_text("old")
+    target.symlink_to(secret)
+    write_vpc(target, [las.make()])
+    assert secret.read_text() == "old" and not target.is_symlink()
