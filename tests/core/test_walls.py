@@ -31,7 +31,7 @@ FLOORS = {
     "survey": "core crs las",
     "rasters": "core crs",
     "filters": "core grids",
-    "products": "core crs grids las survey rasters filters engine",
+    "products": "core grids las survey rasters filters",
     "engine": "core crs grids las survey rasters filters products",
     "cli": "core crs grids las survey rasters filters products engine",
     "__main__": "cli",
