@@ -250,7 +250,7 @@ def test_an_empty_parameter_is_not_used_or_automatic_as_its_help_says(capsys):
             if each.default is None:
                 never = "Empty: never" in each.help
                 assert each.empty == ("not used" if never else "automatic"), each.name
-    assert "Empty: 1 m, more if points are sparse. (default: automatic)" in help_of(
+    assert "the usual distance between points, at least 1 m. (default: automatic)" in help_of(
         capsys, "--method", "slope"
     )
     text = help_of(capsys)
