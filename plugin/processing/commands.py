@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Iterator, Mapping, Sequence
+from typing import Any, Iterator, Mapping, Sequence
 
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.engine.memory import Resources
@@ -32,7 +32,7 @@ def terrain_commands(
     chosen : sequence of ParameterSet
         The parameters, each where one of its type belongs.
     """
-    of_type = {type(each): each for each in chosen}
+    of_type: dict[type, Any] = {type(each): each for each in chosen}
     made = cloud or "classified.laz"
     # Of many files, the folder that their virtual point cloud lies in.
     target = str(Path(made).parent) if made.endswith(".vpc") else made
