@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from .engine.key_points import KeyPointMark as KeyPointMark
     from .engine.memory import Resources as Resources
     from .engine.output import Output as Output
-    from .engine.rasters import RasterFiles as RasterFiles
+    from .engine.raster_files import RasterFiles as RasterFiles
     from .engine.requests import ClassifyRequest as ClassifyRequest
     from .engine.requests import HeightRequest as HeightRequest
     from .engine.requests import KeyPointRequest as KeyPointRequest
@@ -54,7 +54,7 @@ _MODULES = {
     "KeyPointMark": "engine.key_points",
     "Resources": "engine.memory",
     "Output": "engine.output",
-    "RasterFiles": "engine.rasters",
+    "RasterFiles": "engine.raster_files",
     "ClassifyRequest": "engine.requests",
     "HeightRequest": "engine.requests",
     "KeyPointRequest": "engine.requests",

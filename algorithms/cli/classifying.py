@@ -20,7 +20,7 @@ from .surveys import (
 from .terminal import Terminal, tell
 
 if TYPE_CHECKING:
-    from ..filters import Method
+    from ..filters.method import Method
     from ..survey.area import Area
 
 

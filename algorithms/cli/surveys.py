@@ -14,29 +14,25 @@ from .terminal import tell
 if TYPE_CHECKING:
     from ..engine.many_files import SurveySummary
     from ..engine.memory import Resources
-    from ..engine.rasters import RasterFiles
+    from ..engine.raster_files import RasterFiles
     from ..engine.workers import Workers
-
-_RASTERS = {
-    "dtm": "terrain model",
-    "dsm": "surface model, the top of all that stands on the terrain",
-    "chm": "canopy height, the surface above the terrain",
-    "hillshade": "hillshade of the terrain model",
-    "confidence": "probability, 0 to 1, that the terrain model is right",
-}
 
 
 def add_rasters(parser: argparse.ArgumentParser) -> None:
     """Add the options that name rasters."""
-    for name, what in _RASTERS.items():
-        parser.add_argument(f"--{name}", metavar="FILE", type=Path, help=f"write the {what} (.tif)")
+    from ..engine.raster_files import RASTERS
+
+    for name, each in RASTERS.items():
+        parser.add_argument(
+            f"--{name}", metavar="FILE", type=Path, help=f"GeoTIFF (.tif). {each.help}"
+        )
 
 
 def rasters_of(options: argparse.Namespace) -> RasterFiles:
     """Return the rasters that the options name."""
-    from ..engine.rasters import RasterFiles
+    from ..engine.raster_files import RASTERS, RasterFiles
 
-    return RasterFiles(**{name: getattr(options, name) for name in _RASTERS})
+    return RasterFiles(**{name: getattr(options, name) for name in RASTERS})
 
 
 def add_scheduler(parser: argparse.ArgumentParser) -> None:

@@ -10,7 +10,8 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
-from ..filters import Method, method_of
+from ..filters import method_of
+from ..filters.method import Method
 from ..filters.shared.below_ground import below_ground
 from ..filters.shared.bridges import bridge_decks
 from ..filters.shared.doubts import tell_of_extent, tell_of_little_ground

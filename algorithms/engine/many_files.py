@@ -18,8 +18,9 @@ from ..survey.vpc import SUFFIX as VPC_SUFFIX
 from ..survey.vpc import write_vpc
 from .blocks import Blocks
 from .output import Output
+from .raster_files import RasterFiles
 from .raster_jobs import make_rasters
-from .rasters import MakeRasters, RasterFiles, RasterSize
+from .rasters import MakeRasters, RasterSize
 from .record import folders_of
 from .requests import ClassifyRequest, Request, TerrainRequest
 from .steps import PointStep
@@ -110,7 +111,9 @@ def classify_files(
         steps = [replace(steps[0], output=Output()), heights]
     rasters = request.raster_step if request.rasters.wanted else None
     if request.output.ground_only and rasters is not None and not rasters.covers_ground:
-        raise BareEarthError("Of ground points alone no surface can be made. Write all points.")
+        raise BareEarthError(
+            "Of ground points alone only rasters of the terrain can be made. Write all points."
+        )
     return write_files(sources, folder, steps, request, progress, workers, vpc, rasters)
 
 

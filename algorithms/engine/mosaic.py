@@ -119,22 +119,23 @@ def _overlap(one: CellWindow, other: CellWindow) -> tuple[slice, slice] | None:
 
 
 def gathered_strips(
-    mosaic: Mosaic, make: Callable[[np.ndarray], np.ndarray], margin: int, progress: Progress
+    mosaics: Sequence[Mosaic], make: Callable[..., np.ndarray], margin: int, progress: Progress
 ) -> Iterator[np.ndarray]:
-    """Yield what is made of the rows of a mosaic, strip by strip from north to south.
+    """Yield what is made of the rows of mosaics, strip by strip from north to south.
 
     Parameters
     ----------
-    mosaic : Mosaic
-        The heights.
+    mosaics : sequence of Mosaic
+        One or more, of the same cells.
     make : callable
-        Takes rows of heights and returns as many rows.
+        Takes rows of each of them and returns as many rows.
     margin : int
         Rows beyond a strip that matter for it.
     progress : Progress
         Receives progress.
     """
-    for start, end in mosaic.strips():
-        first, last = max(start - margin, 0), min(end + margin, mosaic.window.rows)
-        yield make(mosaic.rows(first, last))[start - first : end - first]
-        progress(end / mosaic.window.rows)
+    count = mosaics[0].window.rows
+    for start, end in mosaics[0].strips():
+        first, last = max(start - margin, 0), min(end + margin, count)
+        yield make(*(each.rows(first, last) for each in mosaics))[start - first : end - first]
+        progress(end / count)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Sequence
+from typing import Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -24,8 +24,6 @@ from .planning import block_jobs
 from .rasters import MakeRasters, RasterSize, write_rasters
 from .survey import BlockIndex, Survey, frame_of, places_of
 from .workers import Workers
-
-_LARGE = ("terrain", "surface", "confidence")
 
 
 @dataclass(frozen=True)
@@ -71,45 +69,57 @@ class RasterJob(BlockJob):
 
 def _keep(file: Path, made: Sequence[BlockRasters]) -> None:
     """Write the rasters of a block, or of the parts of one."""
-    content = {
-        f"{name}_{number}": np.asarray(value)
-        for number, each in enumerate(made)
-        for name, value in each._asdict().items()
-    }
+    content: dict[str, np.ndarray] = {}
+    for number, each in enumerate(made):
+        small = {"window": np.array(each.window), "box": each.box, "counts": each.counts}
+        loose = {f"loose.{name}": value for name, value in each.loose.items()}
+        layers = {f"layers.{name}": value for name, value in each.layers.items()}
+        for name, value in {**small, **loose, **layers}.items():
+            content[f"{number}.{name}"] = value
     with replacing(file) as temporary, temporary.open("wb") as stream:
         np.savez(stream, count=len(made), **content)
 
 
-class _Kept:
-    """The rasters of a block, of which the large arrays stay in their file until they are needed.
+class _Kept(Mapping[str, np.ndarray]):
+    """Arrays that stay in a file until they are needed, each time.
 
     Parameters
     ----------
     file : Path
         As `_keep` wrote it.
-    number : int
-        Of the rasters in it.
+    start : str
+        How the names of these begin there.
     """
 
-    def __init__(self, file: Path, number: int) -> None:
-        self._file, self._number = file, number
+    def __init__(self, file: Path, start: str) -> None:
+        self._file, self._start = file, start
         with np.load(file, allow_pickle=False) as kept:
-            for name in BlockRasters._fields:
-                if name not in _LARGE:
-                    setattr(self, name, kept[f"{name}_{number}"])
-        self.window = CellWindow(*map(int, self.window))
+            self._names = [name[len(start) :] for name in kept.files if name.startswith(start)]
 
-    def __getattr__(self, name: str) -> np.ndarray:
-        if name not in _LARGE:
-            raise AttributeError(name)
+    def __getitem__(self, name: str) -> np.ndarray:
         with np.load(self._file, allow_pickle=False) as kept:
-            return kept[f"{name}_{self._number}"]
+            return kept[self._start + name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
 
 
-def _kept_in(file: Path) -> list[_Kept]:
+def _kept_in(file: Path) -> list[BlockRasters]:
+    """Return the rasters that `_keep` wrote; their large arrays stay in the file."""
+    made = []
     with np.load(file, allow_pickle=False) as kept:
-        count = int(kept["count"])
-    return [_Kept(file, number) for number in range(count)]
+        for number in map(str, range(int(kept["count"]))):
+            layers, loose = (_Kept(file, f"{number}.{each}.") for each in ("layers", "loose"))
+            window = CellWindow(*kept[f"{number}.window"].tolist())
+            made.append(
+                BlockRasters(
+                    window, layers, dict(loose), kept[f"{number}.box"], kept[f"{number}.counts"]
+                )
+            )
+    return made
 
 
 def make_rasters(

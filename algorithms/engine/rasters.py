@@ -6,22 +6,20 @@ import contextlib
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import Callable, Iterator, Sequence
+from typing import Callable, Sequence
 
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import check_distinct
 from ..core.points import Frame
 from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
-from ..grids.hillshade import hillshade
 from ..las.cloud import PointCloud
-from ..products.raster_block import BlockRasters, RasterStep
-from ..products.surface_model import SurfaceModel, canopy_height
+from ..products.raster_block import LAYERS, BlockRasters, RasterStep
+from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import TerrainModel
-from ..rasters.geotiff import NODATA, RasterGrid
-from ..rasters.writing import Rows, check_raster_output, replacing_raster, write_geotiff
+from ..rasters.geotiff import RasterGrid
+from ..rasters.writing import Rows, replacing_raster, write_geotiff
 from ..survey.ground_classes import GroundClasses, GroundTally
 from ..survey.selection import NOISE
 from .blocks import Block, Blocks, Store
@@ -29,48 +27,13 @@ from .constraints import FixedTerrain
 from .ground import over_blocks
 from .memory import Resources
 from .mosaic import Mosaic, Piece, gathered_strips
+from .raster_files import RASTERS, RasterFiles
 from .steps import Marks, Step
 
 _MOST_CELLS = 4_000_000_000
 # A raster of more cells must have blocks with points over this share of it: else it is large
 # because of a few points with stray coordinates.
 _MANY_CELLS, _LEAST_COVERED = 10_000_000, 0.01
-
-
-@dataclass(frozen=True)
-class RasterFiles:
-    """The rasters to make, GeoTIFF; None for those that are not wanted.
-
-    Attributes
-    ----------
-    dtm, dsm, chm, hillshade, confidence : Path or None
-        Terrain, surface (the top of all that stands on the terrain), canopy height (the difference
-        of the two), hillshade of the terrain, and how sure the terrain is.
-    """
-
-    dtm: Path | None = None
-    dsm: Path | None = None
-    chm: Path | None = None
-    hillshade: Path | None = None
-    confidence: Path | None = None
-
-    @property
-    def wanted(self) -> dict[str, Path]:
-        """Those that are wanted, by their names."""
-        return {name: Path(path) for name, path in vars(self).items() if path}
-
-    def check(self, others: tuple[Path, ...]) -> None:
-        """Refuse rasters that could not be written, or would replace another file of the run.
-
-        Raises
-        ------
-        BareEarthError
-            If a name does not do.
-        """
-        paths = list(self.wanted.values())
-        check_distinct(paths)
-        for each in paths:
-            check_raster_output(each, others)
 
 
 @dataclass(frozen=True)
@@ -92,26 +55,24 @@ class RasterRequest:
     surface: SurfaceModel = field(default_factory=SurfaceModel)
 
     @property
-    def needs_terrain(self) -> bool:
-        """Whether heights of the terrain are needed."""
-        files = self.files
-        return bool(files.dtm or files.chm or files.hillshade or files.confidence)
+    def needs_ground(self) -> bool:
+        """Whether none of them can be made without ground."""
+        return any(LAYERS[each].of_ground for each in self.files.layers)
 
     @property
     def needs_surface(self) -> bool:
         """Whether heights of the surface are needed."""
-        return bool(self.files.dsm or self.files.chm)
+        return "surface" in self.files.layers
+
+    @property
+    def needs_all(self) -> bool:
+        """Whether other points than the ground are needed, too."""
+        return any(LAYERS[each].of_all for each in self.files.layers)
 
     @property
     def step(self) -> RasterStep:
         """What is done with a block."""
-        return RasterStep(
-            self.model.dtm_cell_size,
-            self.needs_terrain,
-            self.needs_surface,
-            bool(self.files.confidence),
-            self.surface.max_edge,
-        )
+        return RasterStep(self.model.dtm_cell_size, self.files.layers, self.surface.max_edge)
 
 
 @dataclass(frozen=True)
@@ -166,7 +127,7 @@ class MakeRasters(Step):
         """Return which points are covered, are ground, and belong to the surface."""
         nothing = np.zeros(part.count, dtype=bool)
         ground = self.ground.of(part, tally)
-        if not self.request.needs_terrain:
+        if not self.request.needs_ground:
             ground = nothing
         if self.fixed is not None:
             stays = self.fixed.is_ground(part, ground)
@@ -183,7 +144,7 @@ class MakeRasters(Step):
 
     def tell(self, tally: RasterTally, path: Path, progress: Progress) -> None:
         """Refuse a file that has nothing to make the rasters of."""
-        if self.request.needs_terrain:
+        if self.request.needs_ground:
             self.ground.check(tally, path)
             if tally.ground == tally.excluded:
                 raise BareEarthError(
@@ -282,18 +243,20 @@ def write_rasters(
     window = _window_of(made, cell)
     grid = _grid_of(window, cell, frame)
     mosaics = {}
-    for name in ("terrain", "surface", "confidence"):
-        if getattr(request.step, name):
-            pieces = [Piece(each.window, partial(getattr, each, name)) for each in made]
-            mosaics[name] = Mosaic(pieces, window, cell)
-            if name != "confidence" and request.surface.max_edge is None:
-                points = [getattr(each, f"{name}_points") for each in made]
-                mosaics[name].fill_gaps(np.concatenate(points), progress.part(0.0, 0.3))
+    for name in request.files.layers:
+        pieces = [Piece(each.window, partial(each.layers.__getitem__, name)) for each in made]
+        mosaics[name] = Mosaic(pieces, window, cell)
+        loose = [each.loose[name] for each in made if name in each.loose]
+        if loose and request.surface.max_edge is None:
+            mosaics[name].fill_gaps(np.concatenate(loose), progress.part(0.0, 0.3))
     for number, (name, path) in enumerate(files.items()):
         part = progress.part(0.3 + 0.7 * number / len(files), 0.3 + 0.7 * (number + 1) / len(files))
-        kind, nodata, strips = _STRIPS[name](mosaics, request, grid, part)
+        raster = RASTERS[name]
+        make = partial(raster.make, grid=grid, model=request.model)
+        layers = [mosaics[each] for each in raster.layers]
+        rows = Rows(window.shape, raster.kind, gathered_strips(layers, make, raster.margin, part))
         temporary = outputs.enter_context(replacing_raster(path))
-        write_geotiff(temporary, Rows(window.shape, kind, strips), grid, nodata, progress)
+        write_geotiff(temporary, rows, grid, raster.nodata, progress)
     counts = np.sum([each.counts for each in made], axis=0)
     return RasterSize(int(counts[0]), int(counts[1]), window.columns, window.rows)
 
@@ -322,66 +285,3 @@ def _grid_of(window: CellWindow, cell: float, frame: Frame) -> RasterGrid:
     size = cell / frame.horizontal_unit
     north = (window.row + window.rows) * size
     return RasterGrid(window.column * size, north, size, window.columns, window.rows, frame)
-
-
-_Strips = tuple[str, float, Iterator[np.ndarray]]
-
-
-def _heights(
-    name: str,
-    mosaics: dict[str, Mosaic],
-    request: RasterRequest,
-    grid: RasterGrid,
-    progress: Progress,
-) -> _Strips:
-    def make(heights: np.ndarray) -> np.ndarray:
-        return _in_unit(heights, grid)
-
-    return "float32", NODATA, gathered_strips(mosaics[name], make, 0, progress)
-
-
-def _canopy(
-    mosaics: dict[str, Mosaic], request: RasterRequest, grid: RasterGrid, progress: Progress
-) -> _Strips:
-    def strips() -> Iterator[np.ndarray]:
-        for start, end in mosaics["surface"].strips():
-            surface, terrain = (mosaics[each].rows(start, end) for each in ("surface", "terrain"))
-            yield _in_unit(canopy_height(surface, terrain), grid)
-            progress(end / grid.rows)
-
-    return "float32", NODATA, strips()
-
-
-def _shade(
-    mosaics: dict[str, Mosaic], request: RasterRequest, grid: RasterGrid, progress: Progress
-) -> _Strips:
-    light = request.model.hillshade_azimuth, request.model.hillshade_altitude
-
-    def make(heights: np.ndarray) -> np.ndarray:
-        return hillshade(heights, grid.cell_metres, *light)
-
-    return "uint8", 0, gathered_strips(mosaics["terrain"], make, 1, progress)
-
-
-def _confidence(
-    mosaics: dict[str, Mosaic], request: RasterRequest, grid: RasterGrid, progress: Progress
-) -> _Strips:
-    def make(values: np.ndarray) -> np.ndarray:
-        return np.where(np.isnan(values), np.float32(NODATA), values)
-
-    return "float32", NODATA, gathered_strips(mosaics["confidence"], make, 0, progress)
-
-
-def _in_unit(heights: np.ndarray, grid: RasterGrid) -> np.ndarray:
-    """Return heights in the vertical unit of the CRS, as the file has them."""
-    values = heights.astype(np.float64) / grid.frame.vertical_unit
-    return np.where(np.isnan(values), NODATA, values).astype(np.float32)
-
-
-_STRIPS = {
-    "dtm": partial(_heights, "terrain"),
-    "dsm": partial(_heights, "surface"),
-    "chm": _canopy,
-    "hillshade": _shade,
-    "confidence": _confidence,
-}

@@ -24,7 +24,8 @@ from .labelling import LabelGround
 from .memory import Resources
 from .options import TileInput, TileMethod, TileOutput
 from .output import Output
-from .rasters import MakeRasters, RasterFiles, RasterRequest
+from .raster_files import RasterFiles
+from .rasters import MakeRasters, RasterRequest
 
 _Request = TypeVar("_Request", bound="Request")
 
@@ -112,7 +113,7 @@ class ClassifyRequest(Request):
     def raster_step(self) -> MakeRasters:
         """What makes the rasters of the classified points."""
         request = RasterRequest(self.rasters, self.terrain, self.surface)
-        return MakeRasters(request, self._ground, covers_ground=not request.needs_surface)
+        return MakeRasters(request, self._ground, covers_ground=not request.needs_all)
 
     @property
     def height_step(self) -> MeasureHeights:

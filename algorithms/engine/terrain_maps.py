@@ -21,7 +21,7 @@ from ..survey.selection import Selection
 from .many_files import classify_files
 from .one_file import classify_file
 from .options import TileOutput
-from .rasters import RasterFiles
+from .raster_files import RasterFiles
 from .requests import ClassifyRequest, Request
 
 # The longest first: each ends as the one after it does.

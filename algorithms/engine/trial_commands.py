@@ -11,12 +11,6 @@ from ..survey.collection import is_one_file
 from .options import TileMethod
 from .trial_options import Setting
 
-# The ids in the toolbox of QGIS; they never change.
-_ALGORITHMS = {
-    "tin-densification": "bareearth:tindensification",
-    "grid-minimum": "bareearth:gridminimum",
-    "slope": "bareearth:slopefilter",
-}
 _MANY_FILES = "bareearth:classifytiles"
 
 
@@ -36,7 +30,8 @@ def commands_for(paths: Sequence[Path], setting: Setting) -> Commands:
     # QGIS works in a folder of its own.
     *sources, output = (str(path.absolute()) for path in (*paths, output))
     if is_one:
-        call = _ALGORITHMS[method], {"INPUT": sources[0], "PRESET": preset, "OUTPUT": output}
+        algorithm = f"bareearth:{setting.method.toolbox.identifier}"
+        call = algorithm, {"INPUT": sources[0], "PRESET": preset, "OUTPUT": output}
     else:
         choices = {each.name: each.choices for each in TileMethod.declarations()}
         if preset not in choices["preset"]:

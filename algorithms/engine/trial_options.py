@@ -7,7 +7,8 @@ from typing import NamedTuple
 
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter
-from ..filters import METHODS, Method
+from ..filters import METHODS
+from ..filters.method import Method
 
 # Metres round the window beyond which nothing is read unless it is asked for.
 USUAL_CONTEXT = 50.0

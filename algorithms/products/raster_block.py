@@ -1,10 +1,10 @@
-"""What a block of a survey adds to the rasters of terrain and surface."""
+"""What a block of a survey adds to the rasters of terrain and surface, layer by layer."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Callable, Mapping, NamedTuple
 
 import numpy as np
 
@@ -33,13 +33,12 @@ class BlockRasters(NamedTuple):
     ----------
     window : CellWindow
         Its cells.
-    terrain, surface : numpy.ndarray of float32, shape (rows, columns)
-        Metres, rows from south to north, NaN where there is none; of shape (0, 0) if not wanted.
-    confidence : numpy.ndarray of float32, shape (rows, columns)
-        Probability from 0 to 1 that the terrain is right; else as the others.
-    terrain_points, surface_points : numpy.ndarray of float64, shape (n, 3)
-        Points of the block that matter for wide gaps: corners of the convex hull, and those in
-        cells without a height.
+    layers : mapping of str to numpy.ndarray of float32, shape (rows, columns)
+        The layers that are wanted, by their names in `LAYERS`; rows from south to north, NaN where
+        there is none.
+    loose : mapping of str to numpy.ndarray of float64, shape (n, 3)
+        Of the layers whose gaps are filled, the points of the block that matter for wide ones:
+        corners of the convex hull, and those in cells without a height.
     box : numpy.ndarray of float64, shape (4,)
         Smallest x and y, largest x and y of the points in the block; NaN if it has none.
     counts : numpy.ndarray of int64, shape (2,)
@@ -47,13 +46,36 @@ class BlockRasters(NamedTuple):
     """
 
     window: CellWindow
-    terrain: np.ndarray
-    surface: np.ndarray
-    confidence: np.ndarray
-    terrain_points: np.ndarray
-    surface_points: np.ndarray
+    layers: Mapping[str, np.ndarray]
+    loose: Mapping[str, np.ndarray]
     box: np.ndarray
     counts: np.ndarray
+
+
+class Seen(NamedTuple):
+    """What a block sees.
+
+    Attributes
+    ----------
+    window : CellWindow
+        Its cells.
+    points : Points
+        Those of the block and round it, relative to `corner`.
+    ground, top, core : numpy.ndarray of bool, shape (n,)
+        Which are ground, which belong to the surface, and which lie in the block.
+    corner : tuple of float
+        x and y in the frame of the survey.
+    edges : numpy.ndarray of bool, shape (n,), or None
+        Which ground points lie on lines that no triangle may cross.
+    """
+
+    window: CellWindow
+    points: Points
+    ground: np.ndarray
+    top: np.ndarray
+    core: np.ndarray
+    corner: tuple[float, float]
+    edges: np.ndarray | None = None
 
 
 @dataclass(frozen=True)
@@ -64,16 +86,14 @@ class RasterStep:
     ----------
     cell : float
         Side of a cell in metres.
-    terrain, surface, confidence : bool
-        Which are wanted.
+    layers : tuple of str
+        Which of `LAYERS` are wanted.
     max_edge : float or None
         Triangles with a longer edge, in metres, are gaps; none are, if it is None.
     """
 
     cell: float
-    terrain: bool = True
-    surface: bool = False
-    confidence: bool = False
+    layers: tuple[str, ...] = ("terrain",)
     max_edge: float | None = None
 
     @property
@@ -115,124 +135,136 @@ class RasterStep:
             Receives progress.
         """
         window = CellWindow.with_centres_in(_within(box, points, corner, self.cell), self.cell)
-        wanted = 3.0 * self.terrain, 4.0 * self.surface, 1.5 * self.confidence
-        parts = progress.shares(*wanted)
-        none = np.zeros((0, 0), dtype=np.float32), np.zeros((0, 3))
-        terrain = surface = none
-        if self.terrain:
-            inside = core[ground]
-            terrain = self._terrain(points.take(ground), inside, window, corner, parts[0])
-            if edges is not None and edges.any() and terrain[0].size:
-                some = points.take(ground), edges[ground]
-                follow_edges(terrain[0], window, self.cell, *some, corner)
-        if self.surface:
-            surface = self._surface(points.take(top), core[top], window, corner, parts[1])
-        sure = none[0]
-        if self.confidence:
-            sure = self._confidence(points, ground, window, corner)
+        seen = Seen(window, points, ground, top, core, corner, edges)
+        made, loose = {}, {}
+        parts = progress.shares(*(LAYERS[name].cost for name in self.layers))
+        for name, part in zip(self.layers, parts):
+            made[name], points_at_gaps = LAYERS[name].make(self, seen, part)
+            if points_at_gaps is not None:
+                loose[name] = points_at_gaps
         counts = [np.count_nonzero(each & core) for each in (ground, top)]
         progress(1.0)
-        return BlockRasters(
-            window, terrain[0], surface[0], sure, terrain[1], surface[1],
-            _extent(points, core, corner), np.array(counts),
-        )  # fmt: skip
+        return BlockRasters(window, made, loose, _extent(points, core, corner), np.array(counts))
 
-    def _terrain(
-        self,
-        points: Points,
-        core: np.ndarray,
-        window: CellWindow,
-        corner: tuple[float, float],
-        progress: Progress,
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """Return heights of the terrain, and the points that matter for wide gaps."""
-        if not points.count or not min(window.shape):
-            return np.full(window.shape, np.nan, dtype=np.float32), _placed(points, corner, core)
-        anchor = tuple(at - by for at, by in zip(window.corner(self.cell), corner))
-        surface = DenseSurface(points, self.cell, anchor, progress.part(0.05, 0.3))
-        part = progress.part(0.3, 0.95)
-        heights = surface.raster((0, 0), window.shape, self.longest_edge, part)
-        loose = np.zeros(points.count, dtype=bool)
-        if self.max_edge is None:
-            if np.isnan(heights).any():
-                vertices = surface.vertices
-                row, column = window.places(*points.take(vertices)[:2], corner, self.cell)
-                row, column = (
-                    np.clip(each, 0, most - 1) for each, most in zip((row, column), window.shape)
-                )
-                near_gap = within_square(np.maximum, np.isnan(heights), 1)
-                loose[vertices[near_gap[row, column]]] = True
-            loose[surface.hull] = True
-        return heights.astype(np.float32), _placed(points, corner, loose & core)
 
-    def _surface(
-        self,
-        points: Points,
-        core: np.ndarray,
-        window: CellWindow,
-        corner: tuple[float, float],
-        progress: Progress,
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """Return the highest point of each cell, between them heights on the TIN of these."""
-        heights = np.full(window.shape, np.nan)
-        if not points.count or not min(window.shape):
-            return heights.astype(np.float32), _placed(points, corner, core)
-        wide = window.wider(math.ceil(self.reach / self.cell))
-        row, column = wide.places(points.x, points.y, corner, self.cell)
-        inside = np.flatnonzero(
-            (row >= 0) & (row < wide.rows) & (column >= 0) & (column < wide.columns)
-        )
-        progress(0.1)
-        index = row[inside] * wide.columns + column[inside]
-        keys = -points.z[inside], points.x[inside], points.y[inside]
-        progress(0.25)
-        top = inside[first_of_each(index, wide.rows * wide.columns, *keys)]
-        every = np.full(wide.shape, np.nan)
-        every[row[top], column[top]] = points.z[top]
-        margin = window.row - wide.row
-        heights[:] = every[margin : margin + window.rows, margin : margin + window.columns]
-        progress(0.4)
-        empty_row, empty_column = np.nonzero(np.isnan(heights))
-        highest = points.take(top)
-        start_x, start_y = (at - by for at, by in zip(window.corner(self.cell), corner))
-        part = progress.part(0.4, 0.6)
-        surface = DenseSurface(highest, VERTICES_A_SIDE * self.cell, (start_x, start_y), part)
-        if len(empty_row):
-            heights[empty_row, empty_column] = surface.heights(
-                start_x + (empty_column + 0.5) * self.cell,
-                start_y + (empty_row + 0.5) * self.cell,
-                self.longest_edge,
-                progress.part(0.6, 1.0),
+# The cells of a layer, and the points that matter for wide gaps; None where these stay open.
+Made = tuple[np.ndarray, "np.ndarray | None"]
+
+
+def _terrain(step: RasterStep, seen: Seen, progress: Progress) -> Made:
+    """Return heights of the terrain."""
+    window, corner, cell = seen.window, seen.corner, step.cell
+    points, core = seen.points.take(seen.ground), seen.core[seen.ground]
+    if not points.count or not min(window.shape):
+        return np.full(window.shape, np.nan, dtype=np.float32), _placed(points, corner, core)
+    anchor = tuple(at - by for at, by in zip(window.corner(cell), corner))
+    surface = DenseSurface(points, cell, anchor, progress.part(0.05, 0.3))
+    part = progress.part(0.3, 0.95)
+    heights = surface.raster((0, 0), window.shape, step.longest_edge, part)
+    loose = np.zeros(points.count, dtype=bool)
+    if step.max_edge is None:
+        if np.isnan(heights).any():
+            vertices = surface.vertices
+            row, column = window.places(*points.take(vertices)[:2], corner, cell)
+            row, column = (
+                np.clip(each, 0, most - 1) for each, most in zip((row, column), window.shape)
             )
-        loose = np.zeros(points.count, dtype=bool)
-        if self.max_edge is None:
-            loose[top[surface.hull]] = True
-        return heights.astype(np.float32), _placed(points, corner, loose & core)
+            near_gap = within_square(np.maximum, np.isnan(heights), 1)
+            loose[vertices[near_gap[row, column]]] = True
+        loose[surface.hull] = True
+    heights = heights.astype(np.float32)
+    if seen.edges is not None and seen.edges.any():
+        follow_edges(heights, window, cell, points, seen.edges[seen.ground], corner)
+    return heights, _placed(points, corner, loose & core)
 
-    def _confidence(
-        self,
-        points: Points,
-        ground: np.ndarray,
-        window: CellWindow,
-        corner: tuple[float, float],
-    ) -> np.ndarray:
-        """Return the confidence of the cell of 1 m in which the centre of each cell lies."""
-        values = np.full(window.shape, np.nan, dtype=np.float32)
-        if not points.count or not min(window.shape):
-            return values
-        cells, known = confidence(points, ground)
-        x, y = (
-            ((first + np.arange(count) + 0.5) * self.cell - at) / cells.size
-            for first, count, at in zip(window[1::-1], window[:1:-1], corner)
+
+def _surface(step: RasterStep, seen: Seen, progress: Progress) -> Made:
+    """Return the highest point of each cell, between them heights on the TIN of these."""
+    window, corner, cell = seen.window, seen.corner, step.cell
+    points, core = seen.points.take(seen.top), seen.core[seen.top]
+    heights = np.full(window.shape, np.nan)
+    if not points.count or not min(window.shape):
+        return heights.astype(np.float32), _placed(points, corner, core)
+    wide = window.wider(math.ceil(step.reach / cell))
+    row, column = wide.places(points.x, points.y, corner, cell)
+    inside = np.flatnonzero(
+        (row >= 0) & (row < wide.rows) & (column >= 0) & (column < wide.columns)
+    )
+    progress(0.1)
+    index = row[inside] * wide.columns + column[inside]
+    keys = -points.z[inside], points.x[inside], points.y[inside]
+    progress(0.25)
+    top = inside[first_of_each(index, wide.rows * wide.columns, *keys)]
+    every = np.full(wide.shape, np.nan)
+    every[row[top], column[top]] = points.z[top]
+    margin = window.row - wide.row
+    heights[:] = every[margin : margin + window.rows, margin : margin + window.columns]
+    progress(0.4)
+    empty_row, empty_column = np.nonzero(np.isnan(heights))
+    highest = points.take(top)
+    start_x, start_y = (at - by for at, by in zip(window.corner(cell), corner))
+    part = progress.part(0.4, 0.6)
+    surface = DenseSurface(highest, VERTICES_A_SIDE * cell, (start_x, start_y), part)
+    if len(empty_row):
+        heights[empty_row, empty_column] = surface.heights(
+            start_x + (empty_column + 0.5) * cell,
+            start_y + (empty_row + 0.5) * cell,
+            step.longest_edge,
+            progress.part(0.6, 1.0),
         )
-        row = np.floor(y).astype(np.int64) - cells.first_row
-        column = np.floor(x).astype(np.int64) - cells.first_column
-        rows, columns = (
-            np.flatnonzero((at >= 0) & (at < count))
-            for at, count in ((row, cells.rows), (column, cells.columns))
-        )
-        values[np.ix_(rows, columns)] = known[np.ix_(row[rows], column[columns])]
-        return values
+    loose = np.zeros(points.count, dtype=bool)
+    if step.max_edge is None:
+        loose[top[surface.hull]] = True
+    return heights.astype(np.float32), _placed(points, corner, loose & core)
+
+
+def _confidence(step: RasterStep, seen: Seen, progress: Progress) -> Made:
+    """Return the confidence of the cell of 1 m in which the centre of each cell lies."""
+    window = seen.window
+    values = np.full(window.shape, np.nan, dtype=np.float32)
+    if not seen.points.count or not min(window.shape):
+        return values, None
+    cells, known = confidence(seen.points, seen.ground)
+    x, y = (
+        ((first + np.arange(count) + 0.5) * step.cell - at) / cells.size
+        for first, count, at in zip(window[1::-1], window[:1:-1], seen.corner)
+    )
+    row = np.floor(y).astype(np.int64) - cells.first_row
+    column = np.floor(x).astype(np.int64) - cells.first_column
+    rows, columns = (
+        np.flatnonzero((at >= 0) & (at < count))
+        for at, count in ((row, cells.rows), (column, cells.columns))
+    )
+    values[np.ix_(rows, columns)] = known[np.ix_(row[rows], column[columns])]
+    return values, None
+
+
+class Layer(NamedTuple):
+    """One of the layers that rasters are made of.
+
+    Attributes
+    ----------
+    make : callable
+        ``make(step, seen, progress)`` returns its cells, and the points that matter for wide gaps.
+    cost : float
+        How long it takes, beside the others.
+    of_ground : bool
+        Whether there is none without ground.
+    of_all : bool
+        Whether it is made of other points than the ground, too.
+    """
+
+    make: Callable[[RasterStep, Seen, Progress], Made]
+    cost: float
+    of_ground: bool
+    of_all: bool
+
+
+LAYERS = {
+    "terrain": Layer(_terrain, 3.0, of_ground=True, of_all=False),
+    "surface": Layer(_surface, 4.0, of_ground=False, of_all=True),
+    "confidence": Layer(_confidence, 1.5, of_ground=True, of_all=True),
+}
 
 
 def _within(box: Box, points: Points, corner: tuple[float, float], margin: float) -> Box:

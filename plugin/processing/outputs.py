@@ -15,31 +15,21 @@ from qgis.core import (
     QgsProcessingParameterVectorDestination,
 )
 
-from ...algorithms.engine.rasters import RasterFiles
+from ...algorithms.engine.raster_files import RASTERS as MODELS
+from ...algorithms.engine.raster_files import RasterFiles
 from ...algorithms.las.backends import WRITING_COPC, missing_packages
 from .. import compat
 from ..i18n import tr
 
-# Name, label and help of each raster that can be made.
+_MODELS = {name.upper(): each for name, each in MODELS.items()}
+# Label and help of each raster that can be made, by the name of its field.
 RASTERS = {
-    "DTM": ("Terrain model (DTM)", "Heights of the bare ground."),
-    "DSM": ("Surface model (DSM)", "The highest point of each cell, noise left out."),
-    "CHM": (
-        "Canopy height (CHM)",
-        "Surface minus terrain: the height of trees, and of buildings too.",
-    ),
-    "HILLSHADE": ("Hillshade", "The terrain model, lit from one side."),
-    "CONFIDENCE": (
-        "Confidence of the terrain model",
-        "The probability, 0 to 1, that the terrain model is right: low under dense trees, across"
-        " gaps and at breaks.",
-    ),
+    **{name: (each.label, each.help) for name, each in _MODELS.items()},
     "RELIEF": (
         "Local relief",
         "The terrain model less a smoothed one: mounds, ditches and old paths stand out.",
     ),
 }
-_MODELS = ("DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE")
 
 
 def add_rasters(

@@ -4,28 +4,20 @@ from __future__ import annotations
 
 import dataclasses
 from html import escape
-from typing import Any, Mapping, Sequence
+from typing import Any, Sequence
 
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.engine.options import TileMethod
-from ...algorithms.filters import METHODS, Method
-from ...algorithms.filters.grid_minimum import filter as grid_minimum
-from ...algorithms.filters.slope import filter as slope
-from ...algorithms.filters.tin_densification import filter as tin_densification
+from ...algorithms.filters import METHODS
+from ...algorithms.filters.method import Method
 from ..i18n import tr
 from .fields import title_of
-
-_PRESETS: dict[str, Mapping[str, Any]] = {
-    "tin-densification": tin_densification.PRESETS,
-    "grid-minimum": grid_minimum.PRESETS,
-    "slope": slope.MANY_SCALES,
-}
 
 
 def presets_of(sets: Sequence[type[ParameterSet]]) -> str:
     """Return what the presets among some parameters stand for, in HTML; empty if there are none."""
     methods = [each for each in METHODS.values() if each.parameters in sets or TileMethod in sets]
-    tables = "".join(f"{tr(each.label)}:{_table(each)}" for each in methods)
+    tables = "".join(f"{tr(each.label)}:{_table(each)}" for each in methods if each.presets)
     words = tr("<b>Values of the presets</b>, where they differ and a field is left empty")
     return f"{words}<br/>{tables}" if tables else ""
 
@@ -33,7 +25,7 @@ def presets_of(sets: Sequence[type[ParameterSet]]) -> str:
 def _table(method: Method) -> str:
     declared = {each.name: each for each in method.parameters.declarations()}
     labels = declared["preset"].choices
-    rows = {name: _values_of(preset) for name, preset in _PRESETS[method.name].items()}
+    rows = {name: _values_of(preset) for name, preset in method.presets.items()}
     # Too many columns do not fit; a classic preset alone, which differs in all, needs none.
     usual = [row for name, row in rows.items() if name != method.classic]
     columns = [name for name in declared if len({row.get(name) for row in usual}) > 1]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ...algorithms.filters import METHODS
 from ..i18n import mark, tr
 
 _CLOUD = mark("lidar,laser scanning,als,uav,drone,las,laz,copc,point cloud")
@@ -20,9 +21,10 @@ _WORDS = {
     "pointcloudtoterrain": (
         _CLOUD, _GROUND, _TERRAIN, _CANOPY, _TILES, mark("contours,workflow"),
     ),
-    "tindensification": (_CLOUD, _GROUND, _TERRAIN, _TIN, mark("ptd,axelsson,densification")),
-    "gridminimum": (_CLOUD, _GROUND, _TERRAIN, _RASTER, mark("lowest,minimum")),
-    "slopefilter": (_CLOUD, _GROUND, _TERRAIN, mark("slope,vosselman,whitebox,top-hat")),
+    **{
+        each.toolbox.identifier: (_CLOUD, _GROUND, _TERRAIN, *each.toolbox.words)
+        for each in METHODS.values()
+    },
     "classifytiles": (_CLOUD, _GROUND, _TERRAIN, _TILES),
     "terrainmodel": (_CLOUD, _TERRAIN, _CANOPY, _TIN, _RASTER),
     "heightaboveground": (_CLOUD, _CANOPY, _TIN, mark("height,extra bytes")),

@@ -13,10 +13,10 @@ from surveys import write as write_strip
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.core.progress import Progress
-from bare_earth.algorithms.engine import rasters
+from bare_earth.algorithms.engine import raster_files
 from bare_earth.algorithms.engine.heights import HeightOutput
 from bare_earth.algorithms.engine.key_points import KeyPointMark
-from bare_earth.algorithms.engine.rasters import RasterFiles
+from bare_earth.algorithms.engine.raster_files import RasterFiles
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.products.surface_model import SurfaceModel, canopy_height
@@ -354,7 +354,7 @@ def test_all_rasters_or_none(tmp_path, monkeypatch):
     def fail(*_):
         raise BareEarthError("the disk is full")
 
-    monkeypatch.setattr(rasters, "hillshade", fail)
+    monkeypatch.setattr(raster_files, "hillshade", fail)
     files = all_files(tmp_path / "out")
     with pytest.raises(BareEarthError, match="the disk is full"):
         write_terrain_models(tmp_path / "in.las", files)

@@ -1,6 +1,7 @@
 """The rasters of a survey are those of one triangulation, however it is cut into blocks."""
 
 import contextlib
+import dataclasses
 import json
 import os
 
@@ -17,16 +18,13 @@ from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.engine import blocks as blocks_module
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
-from bare_earth.algorithms.engine.rasters import (
-    MakeRasters,
-    RasterFiles,
-    RasterRequest,
-    write_rasters,
-)
+from bare_earth.algorithms.engine.raster_files import RASTERS, RasterFiles
+from bare_earth.algorithms.engine.rasters import MakeRasters, RasterRequest, write_rasters
 from bare_earth.algorithms.engine.workers import Processes, Threads
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 from bare_earth.algorithms.grids.tin import Tin
 from bare_earth.algorithms.las.cloud import PointCloud, survey_frame
+from bare_earth.algorithms.products.raster_block import LAYERS
 from bare_earth.algorithms.products.surface_model import SurfaceModel
 from bare_earth.algorithms.products.terrain_model import TerrainModel, vertices_of
 
@@ -90,6 +88,11 @@ CLOUDS = {
     "lake": _hills(60_000, keep=lambda x, y: ~_is_lake(x, y)),
     "sparse": _hills(200),
 }
+
+
+def test_each_raster_can_be_asked_for():
+    assert list(RASTERS) == [each.name for each in dataclasses.fields(RasterFiles)]
+    assert {name for each in RASTERS.values() for name in each.layers} == set(LAYERS)
 
 
 @pytest.mark.parametrize("name", CLOUDS)

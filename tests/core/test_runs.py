@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import laspy
@@ -18,8 +19,13 @@ from bare_earth.algorithms.engine import runs as runs_module
 from bare_earth.algorithms.engine.many_files import write_files
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.output import Output
-from bare_earth.algorithms.engine.rasters import RasterFiles
-from bare_earth.algorithms.engine.requests import ClassifyRequest, HeightRequest, KeyPointRequest
+from bare_earth.algorithms.engine.raster_files import RasterFiles
+from bare_earth.algorithms.engine.requests import (
+    ClassifyRequest,
+    HeightRequest,
+    KeyPointRequest,
+    TerrainRequest,
+)
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
 from bare_earth.algorithms.survey.area import Area
@@ -82,6 +88,18 @@ def test_of_ground_alone_there_is_no_surface_of_many_files(survey, tmp_path):
             [tmp_path / "in"], tmp_path / "out", SLOPE, points=Output(ground_only=True),
             rasters=RasterFiles(dsm=tmp_path / "dsm.tif"),
         )  # fmt: skip
+
+
+def test_the_confidence_of_a_run_that_classifies_is_that_of_its_output(survey, tmp_path):
+    # It is told from the points that are not ground as well.
+    one, many, after = (tmp_path / f"{name}.tif" for name in ("one", "many", "after"))
+    request = ClassifyRequest(parameters=SLOPE, rasters=RasterFiles(confidence=one))
+    runs_module.classify(survey, tmp_path / "out.laz", request)
+    request = replace(request, rasters=RasterFiles(confidence=many))
+    runs_module.classify([tmp_path / "in"], tmp_path / "many", request)
+    again = TerrainRequest(rasters=RasterFiles(confidence=after))
+    runs_module.terrain(tmp_path / "out.laz", again)
+    assert one.read_bytes() == many.read_bytes() == after.read_bytes()
 
 
 def test_an_area_is_for_one_file(survey, tmp_path):

@@ -41,6 +41,8 @@ def test_labels_and_help_of_the_ground_filters_have_a_translation(language):
         assert issubclass(method.parameters, ParameterSet)
         for each in method.parameters.declarations():
             assert {each.label, each.help, *each.choices.values()} <= sources
+        told = method.toolbox
+        assert {method.label, told.title, told.summary, told.about, *told.words} <= sources
 
 
 @pytest.mark.parametrize(

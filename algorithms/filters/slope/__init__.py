@@ -1,1 +1,32 @@
 """The slope-based filter."""
+
+from ..method import Method, Toolbox
+from .filter import CLASSIC, MANY_SCALES, SlopeFilter, classify, largest_object, reach
+
+_ABOUT = (
+    "Finds the ground points of airborne or drone lidar by slopes, and writes the point cloud"
+    " anew with their class; nothing else in it changes. A point that stands above a neighbour"
+    " by more than the terrain can is not ground. The preset Automatic compares on many scales"
+    " and follows the terrain; the preset Whitebox repeats WhiteboxTools'"
+    " LidarGroundPointFilter.\nLengths are metres and angles degrees, whatever the unit of the"
+    " CRS. The terrain model and its hillshade are GeoTIFFs."
+)
+METHOD = Method(
+    "slope",
+    "Slope filter",
+    SlopeFilter,
+    classify,
+    reach,
+    largest_object,
+    "max_building_size",
+    CLASSIC,
+    MANY_SCALES,
+    Toolbox(
+        "slopefilter",
+        "Classify ground (slope filter)",
+        "Finds the ground points of a lidar point cloud by the slopes between neighbours.",
+        _ABOUT,
+        "slope-filter",
+        ("slope,vosselman,whitebox,top-hat",),
+    ),
+)

@@ -1,0 +1,141 @@
+"""Each raster that can be made, declared once: command line, dialog and writing come from here."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Callable, NamedTuple
+
+import numpy as np
+
+from ..core.files import check_distinct
+from ..grids.hillshade import hillshade
+from ..products.surface_model import canopy_height
+from ..products.terrain_model import TerrainModel
+from ..rasters.geotiff import NODATA, RasterGrid
+from ..rasters.writing import check_raster_output
+
+
+class Raster(NamedTuple):
+    """What is said of a raster, beside its name.
+
+    Attributes
+    ----------
+    label, help : str
+        The field's title in the dialog, and a sentence on what it shows.
+    layers : tuple of str
+        What it is made of: names in `LAYERS` of `products/raster_block.py`.
+    make : callable
+        ``make(*rows, grid, model)`` returns rows of it, from as many rows of each layer; both from
+        north to south, and NaN where a layer has nothing. `grid` is a `RasterGrid`, and `model` a
+        `TerrainModel`.
+    margin : int
+        Rows beyond those asked for that matter for them.
+    kind : str
+        The type of its values.
+    nodata : float
+        The value where there is nothing.
+    """
+
+    label: str
+    help: str
+    layers: tuple[str, ...]
+    make: Callable[..., np.ndarray]
+    margin: int = 0
+    kind: str = "float32"
+    nodata: float = NODATA
+
+
+def plain(values: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.ndarray:
+    """Return values as they are, with no data where there are none."""
+    return np.where(np.isnan(values), NODATA, values).astype(np.float32)
+
+
+def _heights(heights: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.ndarray:
+    """Return heights in the vertical unit of the CRS, as the file has them."""
+    return plain(heights.astype(np.float64) / grid.frame.vertical_unit, grid, model)
+
+
+def _canopy(
+    surface: np.ndarray, terrain: np.ndarray, grid: RasterGrid, model: TerrainModel
+) -> np.ndarray:
+    return _heights(canopy_height(surface, terrain), grid, model)
+
+
+def _shade(heights: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.ndarray:
+    light = model.hillshade_azimuth, model.hillshade_altitude
+    return hillshade(heights, grid.cell_metres, *light)
+
+
+RASTERS = {
+    "dtm": Raster("Terrain model (DTM)", "Heights of the bare ground.", ("terrain",), _heights),
+    "dsm": Raster(
+        "Surface model (DSM)",
+        "The highest point of each cell, noise left out.",
+        ("surface",),
+        _heights,
+    ),
+    "chm": Raster(
+        "Canopy height (CHM)",
+        "Surface minus terrain: the height of trees, and of buildings too.",
+        ("surface", "terrain"),
+        _canopy,
+    ),
+    "hillshade": Raster(
+        "Hillshade",
+        "The terrain model, lit from one side.",
+        ("terrain",),
+        _shade,
+        margin=1,
+        kind="uint8",
+        nodata=0,
+    ),
+    "confidence": Raster(
+        "Confidence of the terrain model",
+        "The probability, 0 to 1, that the terrain model is right: low under dense trees, across"
+        " gaps and at breaks.",
+        ("confidence",),
+        plain,
+    ),
+}
+
+
+@dataclass(frozen=True)
+class RasterFiles:
+    """The rasters to make, GeoTIFF; None for those that are not wanted.
+
+    Attributes
+    ----------
+    dtm, dsm, chm, hillshade, confidence : Path or None
+        Terrain, surface (the top of all that stands on the terrain), canopy height (the difference
+        of the two), hillshade of the terrain, and how sure the terrain is.
+    """
+
+    dtm: Path | None = None
+    dsm: Path | None = None
+    chm: Path | None = None
+    hillshade: Path | None = None
+    confidence: Path | None = None
+
+    @property
+    def wanted(self) -> dict[str, Path]:
+        """Those that are wanted, by their names."""
+        return {name: Path(path) for name, path in vars(self).items() if path}
+
+    @property
+    def layers(self) -> tuple[str, ...]:
+        """The layers that those are made of, each once."""
+        return tuple(dict.fromkeys(each for name in self.wanted for each in RASTERS[name].layers))
+
+    def check(self, others: tuple[Path, ...]) -> None:
+        """Refuse rasters that could not be written, or would replace another file of the run.
+
+        Raises
+        ------
+        BareEarthError
+            If a name does not do.
+        """
+        paths = list(self.wanted.values())
+        check_distinct(paths)
+        for each in paths:
+            check_raster_output(each, others)

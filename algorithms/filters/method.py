@@ -1,0 +1,97 @@
+"""What is said of a ground filter: the command line, the dialogs and the runs go by it."""
+
+from __future__ import annotations
+
+from typing import Any, Callable, Mapping, NamedTuple
+
+import numpy as np
+
+from ..core.parameters import ParameterSet
+
+# Metres: few buildings are wider.
+_USUAL_OBJECT = 50.0
+
+
+class Toolbox(NamedTuple):
+    """A ground filter in the toolbox of QGIS.
+
+    Attributes
+    ----------
+    identifier : str
+        Second half of the id; it never changes.
+    title, summary : str
+        Name and tooltip.
+    about : str
+        First paragraphs of the help.
+    page : str
+        Its page in the folder docs.
+    words : tuple of str
+        What people search it by, with commas between; each is translated as a whole.
+    """
+
+    identifier: str
+    title: str
+    summary: str
+    about: str
+    page: str
+    words: tuple[str, ...]
+
+
+class Method(NamedTuple):
+    """One ground filter.
+
+    Attributes
+    ----------
+    name : str
+        As on the command line.
+    label : str
+        As in the toolbox.
+    parameters : type
+        Its `ParameterSet`, of which one field is `preset`, with a choice ``automatic``.
+    classify : callable
+        ``classify(points, parameters, progress)``, a pure function that returns the ground mask.
+    reach : callable
+        ``reach(parameters)``, the metres beyond which a point does not matter for another.
+    largest_object : callable
+        ``largest_object(parameters)``, the width in metres of the largest object looked for.
+    size_parameter : str
+        Name of the parameter that says so.
+    classic : str
+        The preset that does just what an original does: nothing is added to it.
+    presets : mapping of str to dataclass or NamedTuple
+        The values of each preset that has some, for the help.
+    toolbox : Toolbox
+        What the toolbox says of it.
+    takes_known_ground : bool
+        Whether `classify` takes the keyword ``known_ground``, a mask of points that are surely
+        ground, and starts from them.
+    """
+
+    name: str
+    label: str
+    parameters: type[ParameterSet]
+    classify: Callable[..., np.ndarray]
+    reach: Callable[..., float]
+    largest_object: Callable[..., float]
+    size_parameter: str
+    classic: str
+    presets: Mapping[str, Any]
+    toolbox: Toolbox
+    takes_known_ground: bool = False
+
+    def is_classic(self, parameters: ParameterSet) -> bool:
+        """Return whether parameters ask for what an original does."""
+        return vars(parameters)["preset"] == self.classic
+
+    def largest(self, parameters: ParameterSet) -> tuple[float, str]:
+        """Return the width in metres of the largest object to be expected, and what says so.
+
+        Where nobody said so, it is that of a usual one: larger ones are looked for, but are few.
+        """
+        labels = {each.name: each.label for each in parameters.declarations()}
+        size = self.largest_object(parameters)
+        if vars(parameters)["preset"] == "automatic" and size == self.largest_object(
+            self.parameters()
+        ):
+            size = min(size, _USUAL_OBJECT)
+        return size, labels[self.size_parameter]

@@ -1,0 +1,15 @@
+"""Each ground filter as an algorithm of the toolbox."""
+
+from __future__ import annotations
+
+from ...algorithms.filters import METHODS
+from .classification import ClassificationAlgorithm
+
+GROUND_FILTERS = tuple(
+    type(
+        method.toolbox.identifier,
+        (ClassificationAlgorithm,),
+        {"__doc__": method.toolbox.title, "method": method.name, **method.toolbox._asdict()},
+    )
+    for method in METHODS.values()
+)
