@@ -1,7 +1,8 @@
 """COPC files edited in place as QGIS does it from 3.42 on: chunks anew, all else as it was.
 
 Its `QgsCopcUpdate` copies header and VLRs, writes the chunks in their order, those with changes
-compressed anew, then the chunk table, the hierarchy, and the other EVLRs.
+compressed anew, then the chunk table, the hierarchy, and the other EVLRs. The edits of QGIS 3.44.15
+gave the bytes that these functions give, but for the description of the record of the hierarchy.
 """
 
 import io
