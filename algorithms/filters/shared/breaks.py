@@ -7,8 +7,6 @@ either side tell both.
 
 from __future__ import annotations
 
-import warnings
-
 import numpy as np
 
 from ...core.points import Points
@@ -64,14 +62,11 @@ def checked_seeds(
         The same after some changed sides.
     """
     reach = max(_LEAST_REACH, _SPACINGS * spacing)
-    with warnings.catch_warnings():
-        # Points without neighbours on any side have no rise: nanmin warns of them.
-        warnings.simplefilter("ignore", RuntimeWarning)
-        wrong = _wrong(points, seeds, cells, spacing, reach)
-        waiting, seeds = np.append(waiting, seeds[wrong]), seeds[~wrong]
-        for _ in range(_PASSES if has_gaps else 0):
-            joins = _level(points, seeds, waiting, cells, spacing, reach)
-            seeds, waiting = np.append(seeds, waiting[joins]), waiting[~joins]
+    wrong = _wrong(points, seeds, cells, spacing, reach)
+    waiting, seeds = np.append(waiting, seeds[wrong]), seeds[~wrong]
+    for _ in range(_PASSES if has_gaps else 0):
+        joins = _level(points, seeds, waiting, cells, spacing, reach)
+        seeds, waiting = np.append(seeds, waiting[joins]), waiting[~joins]
     return seeds, waiting
 
 
@@ -94,8 +89,9 @@ def _wrong(
     rise, misfit = Sides(points.take(seeds[near]), reach).rises(
         points.take(seeds[doubtful]), own=True
     )
-    plant = np.nanmin(rise - misfit, axis=1) > _PLANT
-    fault = np.nanmax(rise + misfit, axis=1) < -_FAULT
+    # Seeds without neighbours on any side have no rise, and stay.
+    plant = np.fmin.reduce(rise - misfit, axis=1) > _PLANT
+    fault = np.fmax.reduce(rise + misfit, axis=1) < -_FAULT
     wrong = np.zeros(len(seeds), dtype=bool)
     wrong[doubtful] = plant | fault
     return wrong
