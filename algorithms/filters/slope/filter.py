@@ -327,14 +327,15 @@ def _on_many_scales(points: Points, parameters: SlopeFilter, progress: Progress)
     pits = low_clusters(heights, cells.size, _CLUSTER_SLOPE, _CLUSTER_WIDTH, around, cells.first)
     heights[pits] = np.nan
     tell_of_outliers(len(survey.lowest), heights, progress)
-    steep = _objects(heights, cells, parameters, progress.part(0.3, 0.5))
+    steep = _objects(heights, cells, parameters, progress.part(0.25, 0.4))
     widest = parameters.max_building_size
-    tall, plateaus = survey.objects(widest, progress.part(0.5, 0.6))
+    tall, plateaus = survey.objects(widest, progress.part(0.4, 0.5))
     ground = ground_cells(
         heights,
         cells.size,
         tall,
         widest / 2.0,
+        progress=progress.part(0.5, 0.75),
         first=cells.first,
         suspects=steep,
         plateaus=plateaus,
@@ -344,11 +345,10 @@ def _on_many_scales(points: Points, parameters: SlopeFilter, progress: Progress)
             "No point can be taken for ground with certainty. Check the thresholds and the"
             " selection of points."
         )
-    progress(0.7)
     free = np.isfinite(heights) & ~tall
     candidates = Candidates.of_cells(survey.lowest, survey.cell, ground, free)
     tolerance = Tolerance(parameters.ground_tolerance, parameters.slope_tolerance)
-    return near_ground(points, cells, candidates, tolerance, progress.part(0.7, 1.0))
+    return near_ground(points, cells, candidates, tolerance, progress.part(0.75, 1.0))
 
 
 def _objects(
