@@ -83,6 +83,35 @@ class _Quiet(Progress):
         self._whole(fraction)
 
 
+class Notes(Progress):
+    """Keeps messages, to be told later or elsewhere.
+
+    Attributes
+    ----------
+    messages : list of tuple of str
+        Kind (the name of the method that was called) and text of each.
+    """
+
+    def __init__(self) -> None:
+        self.messages: list[tuple[str, str]] = []
+
+    def info(self, text: str) -> None:
+        """Keep it."""
+        self.keep("info", text)
+
+    def choice(self, text: str) -> None:
+        """Keep it."""
+        self.keep("choice", text)
+
+    def warning(self, text: str) -> None:
+        """Keep it."""
+        self.keep("warning", text)
+
+    def keep(self, kind: str, text: str) -> None:
+        """Keep a message."""
+        self.messages.append((kind, text))
+
+
 def paced(count: int, most: int) -> Iterator[slice]:
     """Yield the pieces of a range, each as long as the pace of the last one lets it be.
 

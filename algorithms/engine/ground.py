@@ -9,7 +9,7 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet
-from ..core.progress import SILENT, Progress
+from ..core.progress import SILENT, Notes, Progress
 from ..filters import method_of
 from ..filters.method import Method
 from ..filters.shared.below_ground import below_ground
@@ -239,41 +239,30 @@ def _labels(
     return labels
 
 
-class _Notes(Progress):
+class _Notes(Notes):
     """Passes on the progress of a block, and keeps its messages until all blocks are done.
 
     Attributes
     ----------
     count : int
         Points that the block was to label.
-    messages : list of tuple of str
-        Kind and text of each.
     failure : BareEarthError or None
         Why it has no ground.
     """
 
     def __init__(self, whole: Progress, count: int, is_only: bool) -> None:
+        super().__init__()
         self._whole, self._is_only, self.count = whole, is_only, count
-        self.messages: list[tuple[str, str]] = []
         self.failure: BareEarthError | None = None
 
     def report(self, fraction: float) -> None:
         self._whole(fraction)
 
-    def info(self, text: str) -> None:
-        self._keep("info", text)
-
-    def choice(self, text: str) -> None:
-        self._keep("choice", text)
-
-    def warning(self, text: str) -> None:
-        self._keep("warning", text)
-
-    def _keep(self, kind: str, text: str) -> None:
+    def keep(self, kind: str, text: str) -> None:
         if self._is_only:  # nothing to wait for
             getattr(self._whole, kind)(text)
         else:
-            self.messages.append((kind, text))
+            super().keep(kind, text)
 
 
 def _tell(progress: Progress, blocks: list[_Notes]) -> None:

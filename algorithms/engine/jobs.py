@@ -14,7 +14,7 @@ import numpy as np
 
 from ..core.errors import BareEarthError, Cancelled
 from ..core.files import replacing
-from ..core.progress import Progress
+from ..core.progress import Notes, Progress
 from ..core.threads import may_use
 from ..las.cloud import PointCloud
 from ..las.writing import layers_kept, write_changed
@@ -289,21 +289,12 @@ def attempt(job: BlockJob | TileJob, resources: Resources, progress: Progress) -
     return JobResult(None, tuple(notes.messages), failure)
 
 
-class _Notes(Progress):
-    """Passes on progress and keeps the messages, each with its kind."""
+class _Notes(Notes):
+    """Passes on progress and keeps the messages."""
 
     def __init__(self, whole: Progress) -> None:
+        super().__init__()
         self._whole = whole
-        self.messages: list[tuple[str, str]] = []
 
     def report(self, fraction: float) -> None:
         self._whole(fraction)
-
-    def info(self, text: str) -> None:
-        self.messages.append(("info", text))
-
-    def choice(self, text: str) -> None:
-        self.messages.append(("choice", text))
-
-    def warning(self, text: str) -> None:
-        self.messages.append(("warning", text))

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import collections
 import threading
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from typing import Any, Callable, Iterator, Sequence
 
 from ..core.errors import Cancelled
-from ..core.progress import Progress
+from ..core.progress import Notes, Progress
 from ..core.threads import may_use
 
 _POLL = 0.1
@@ -89,30 +88,21 @@ def run_jobs(
         pool.shutdown(wait=False, cancel_futures=True)
 
 
-class _Relay(Progress):
+class _Relay(Notes):
     """The progress of a job: a note that the calling thread reads."""
 
     def __init__(self, stop: threading.Event) -> None:
+        super().__init__()
         self.fraction = 0.0
         self._stop = stop
-        self._messages: collections.deque[tuple[str, str]] = collections.deque()
 
     def report(self, fraction: float) -> None:
         if self._stop.is_set():
             raise Cancelled
         self.fraction = fraction
 
-    def info(self, text: str) -> None:
-        self._messages.append(("info", text))
-
-    def choice(self, text: str) -> None:
-        self._messages.append(("choice", text))
-
-    def warning(self, text: str) -> None:
-        self._messages.append(("warning", text))
-
     def tell(self, progress: Progress) -> None:
         """Pass on the messages since the last time."""
-        while self._messages:
-            kind, text = self._messages.popleft()
+        while self.messages:
+            kind, text = self.messages.pop(0)
             getattr(progress, kind)(text)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 
-from ..core.progress import SILENT, Progress
+from ..core.progress import SILENT, Notes, Progress
 from ..crs.geokeys import read_geokeys
 from ..crs.provider import library
 from ..crs.system import Crs, crs_of_geokeys, crs_of_wkt
@@ -56,24 +56,11 @@ def _stated(
         lambda notes: crs_of_wkt(text, notes),
     ]
     for reader in reversed(readers) if is_wkt else readers:
-        notes = _Notes()
+        notes = Notes()
         crs = reader(notes)
         if crs is not None:
             return crs, tuple(notes.messages)
     return None, ()
-
-
-class _Notes(Progress):
-    """Keeps what it is told."""
-
-    def __init__(self) -> None:
-        self.messages: list[tuple[str, str]] = []
-
-    def info(self, text: str) -> None:
-        self.messages.append(("info", text))
-
-    def warning(self, text: str) -> None:
-        self.messages.append(("warning", text))
 
 
 def wkt_text(data: bytes) -> str:
