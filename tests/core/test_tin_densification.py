@@ -40,6 +40,19 @@ def test_a_terrace_with_a_bank_too_steep_for_the_seeds_is_regained_by_densificat
     assert error(classify(points, TinDensification()), np.ones(points.count, dtype=bool)) < 2.0
 
 
+def test_a_bush_in_a_gap_below_trees_is_not_ground_and_a_mound_is():
+    x, y = scatter()
+    around = np.hypot(x - 40.0, y - 40.0) > 8.0
+    x, y = x[around], y[around]
+    bush = Points(*np.array([[37.5, 42.5, 40.5], [38.5, 37.5, 42.5], [0.8, 1.2, 0.9]]))
+    mound = Points(*np.array([[39.5, 40.5, 40.5], [39.5, 39.5, 40.5], [1.05, 1.15, 1.1]]))
+    for extra, expected in ((bush, False), (mound, True)):
+        points = Points(*map(np.append, Points(x, y, surveyed(x, y, 0.0 * x)), extra))
+        found = classify(points, TinDensification())
+        assert found[:-3].all()
+        assert (found[-3:] == expected).all()
+
+
 def test_a_building_wider_than_the_maximum_building_size_is_taken_for_a_hill():
     x, y = scatter(density=2.0)
     roof = (np.abs(x - 40.0) < 12.0) & (np.abs(y - 40.0) < 12.0)

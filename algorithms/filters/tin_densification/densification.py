@@ -8,6 +8,7 @@ International Archives of Photogrammetry and Remote Sensing 33 (B4), section 3.
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -51,6 +52,9 @@ class DensificationRules:
         Triangles whose longest edge is shorter take no point.
     noise_distance : float
         A point as close to the facet is taken whatever its angle.
+    level : float or None
+        A candidate that is farther than `noise_distance` from the surface of the seeds must have a
+        neighbour as close to its level; None if it need not.
     """
 
     iteration_angle: float
@@ -59,6 +63,7 @@ class DensificationRules:
     reduce_angle_edge: float | None
     stop_edge: float | None
     noise_distance: float
+    level: float | None = None
 
 
 def densified(
@@ -98,8 +103,13 @@ def densified(
     numpy.ndarray of intp
     """
     surface, holding = inpaint(heights, first=cells.first), np.isfinite(heights)
-    in_gap = _counts_round(holding) <= _MOST_VERTICES_ROUND
-    waiting = waiting[in_gap.ravel()[cells.index[waiting]]]
+    may_join = _counts_round(holding) <= _MOST_VERTICES_ROUND
+    if rules.level is not None:
+        above = with_lower(heights, cells, points, waiting) - surface
+        may_join &= _has_level_neighbour(above, rules.level) | (
+            np.abs(above) <= rules.noise_distance
+        )
+    waiting = waiting[may_join.ravel()[cells.index[waiting]]]
     candidates = points.take(waiting)
     distance = np.abs(candidates.z - cells.at(surface, candidates.x, candidates.y))
     slope = _steepness_at(cells, surface, candidates)
@@ -167,6 +177,18 @@ def _counts_round(mask: np.ndarray) -> np.ndarray:
     padded = np.pad(mask.astype(np.int8), 1)
     rows = padded[:-2] + padded[1:-1] + padded[2:]
     return rows[:, :-2] + rows[:, 1:-1] + rows[:, 2:]
+
+
+def _has_level_neighbour(above: np.ndarray, level: float) -> np.ndarray:
+    """Return which cells have one of their eight neighbours within some metres of their height."""
+    rows, columns = above.shape
+    padded = np.pad(above, 1, constant_values=np.nan)
+    found = np.zeros(above.shape, dtype=bool)
+    for row, column in itertools.product(range(3), repeat=2):
+        if (row, column) != (1, 1):
+            near = padded[row : row + rows, column : column + columns]
+            found |= np.abs(near - above) <= level
+    return found
 
 
 def _ring(cells: Cells, surface: np.ndarray) -> Points:

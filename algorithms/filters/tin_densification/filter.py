@@ -40,6 +40,9 @@ _CROWDED = 0.36
 _LEAST_SPACING = 0.01
 # Metres beyond which points do not matter: so many times the largest building, but at least this.
 _REACH_BUILDINGS, _LEAST_REACH = 1.2, 100.0
+# Metres within which one of the eight cells round a candidate must lie, apart from the rise of the
+# seeds' surface: ground goes on, while bushes below trees have points at any height.
+_LEVEL = 0.3
 # The preset that keeps the rules of another program.
 CLASSIC = "lidar360"
 
@@ -339,8 +342,9 @@ def _lowest_of(points: Points, which: np.ndarray) -> np.ndarray:
 
 
 def _rules(parameters: TinDensification) -> DensificationRules:
-    names = (each.name for each in dataclasses.fields(DensificationRules))
-    return DensificationRules(**{name: getattr(parameters, name) for name in names})
+    names = (each.name for each in dataclasses.fields(DensificationRules) if each.name != "level")
+    level = None if parameters.preset == CLASSIC else _LEVEL
+    return DensificationRules(*(getattr(parameters, name) for name in names), level=level)
 
 
 def _key_points(
