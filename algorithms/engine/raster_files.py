@@ -9,7 +9,7 @@ from typing import Callable, NamedTuple
 import numpy as np
 
 from ..core.files import check_distinct
-from ..grids.hillshade import hillshade
+from ..grids.hillshade import hillshade, multidirectional_hillshade
 from ..products.surface_model import canopy_height
 from ..products.terrain_model import TerrainModel
 from ..rasters.geotiff import NODATA, RasterGrid
@@ -63,8 +63,10 @@ def _canopy(
 
 
 def _shade(heights: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.ndarray:
-    light = model.hillshade_azimuth, model.hillshade_altitude
-    return hillshade(heights, grid.cell_metres, *light)
+    altitude = model.hillshade_altitude
+    if model.hillshade_light == "multidirectional":
+        return multidirectional_hillshade(heights, grid.cell_metres, altitude)
+    return hillshade(heights, grid.cell_metres, model.hillshade_azimuth, altitude)
 
 
 RASTERS = {
@@ -83,7 +85,7 @@ RASTERS = {
     ),
     "hillshade": Raster(
         "Hillshade",
-        "The terrain model, lit from one side.",
+        "The terrain model, lit by one light or by four.",
         ("terrain",),
         _shade,
         margin=1,

@@ -14,7 +14,7 @@ from ..filters import DEFAULT_METHOD, METHODS
 from ..products.contours import Contours, write_contours
 from ..products.local_relief import LocalRelief, write_local_relief
 from ..products.surface_model import SurfaceModel
-from ..products.terrain_model import TerrainModel
+from ..products.terrain_model import MapTerrain
 from ..survey.collection import is_one_file
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.selection import Selection
@@ -53,7 +53,7 @@ class MapRequest(Request):
 
     parameters: ParameterSet = field(default_factory=METHODS[DEFAULT_METHOD].parameters)
     selection: Selection = field(default_factory=Selection)
-    terrain: TerrainModel = field(default_factory=TerrainModel)
+    terrain: MapTerrain = field(default_factory=MapTerrain)
     surface: SurfaceModel = field(default_factory=SurfaceModel)
     contours: Contours = field(default_factory=Contours)
     relief: LocalRelief = field(default_factory=LocalRelief)

@@ -9,7 +9,7 @@ from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.options import TileMethod
 from ...algorithms.products.surface_model import SurfaceModel
-from ...algorithms.products.terrain_model import TerrainModel
+from ...algorithms.products.terrain_model import MapTerrain, TerrainModel
 from ...algorithms.survey.selection import GROUND, Selection
 from .base import command_line
 
@@ -40,5 +40,7 @@ def terrain_commands(
     if models:
         ground = of_type[Selection].to_class
         options = {"ground-classes": "" if ground == GROUND else str(ground), **models}
-        drawing = [of_type[each] for each in (TerrainModel, SurfaceModel, Resources)]
+        # What is a default in one step need not be one of the command.
+        model = TerrainModel(**vars(of_type[MapTerrain]))
+        drawing = [model, *(of_type[each] for each in (SurfaceModel, Resources))]
         yield command_line("terrain", [made], drawing, options)

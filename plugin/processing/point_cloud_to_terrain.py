@@ -9,7 +9,7 @@ from ...algorithms.engine.options import TileMethod
 from ...algorithms.products.contours import Contours
 from ...algorithms.products.local_relief import LocalRelief
 from ...algorithms.products.surface_model import SurfaceModel
-from ...algorithms.products.terrain_model import TerrainModel
+from ...algorithms.products.terrain_model import MapTerrain
 from ...algorithms.survey.selection import Selection
 from ..i18n import mark
 from ..styles.layers import BELOW_TERRAIN, contours
@@ -35,7 +35,7 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
 
     def parameter_sets(self):
         """Return method, cells, and all that may be left as it is."""
-        return TileMethod, TerrainModel, Selection, SurfaceModel, Contours, LocalRelief, Resources
+        return TileMethod, MapTerrain, Selection, SurfaceModel, Contours, LocalRelief, Resources
 
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""

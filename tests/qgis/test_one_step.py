@@ -75,6 +75,18 @@ def test_the_commands_at_the_end_of_the_log_do_the_same(scene, tmp_path):
         assert np.array_equal(band(outputs[name]), values, equal_nan=True)
 
 
+def test_the_hillshade_has_four_lights_unless_told_otherwise(scene, tmp_path):
+    import processing
+
+    outputs = {name: everything(tmp_path)[name] for name in ("DTM", "HILLSHADE")}
+    lit = {}
+    for light in ({}, {"HILLSHADE_LIGHT": "one"}, {"HILLSHADE_LIGHT": "multidirectional"}):
+        processing.run(ALL_IN_ONE, {"INPUT": str(scene.path), **light, **outputs})
+        lit[light.get("HILLSHADE_LIGHT")] = band(outputs["HILLSHADE"])
+    assert np.array_equal(lit[None], lit["multidirectional"])
+    assert not np.array_equal(lit[None], lit["one"])
+
+
 def test_every_output_may_be_left_out(scene, tmp_path):
     import processing
 
