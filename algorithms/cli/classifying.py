@@ -37,11 +37,11 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
         help="the file to write (.las, .laz or .copc.laz); of many inputs a folder",
     )  # fmt: skip
     add_rasters(parser)
-    add_extent(parser, "of one file, classify only points in this rectangle")
+    add_extent(parser, "classify only points in this rectangle")
     parser.add_argument(
         "--boundary", metavar="FILE", type=Path,
-        help="of one file, classify only points in these polygons (.geojson, .json, .wkt), in the"
-        " CRS of the points",
+        help="classify only points in these polygons (.geojson, .json, .wkt), in the CRS of the"
+        " points",
     )  # fmt: skip
     parser.add_argument(
         "--corrections", metavar="FILE", type=Path,

@@ -78,7 +78,7 @@ class ClassifyRequest(Request):
     selection : Selection
         Which points take part, and what their classes become.
     area : Area or None
-        Where points are classified; everywhere if it is None. Of one file only.
+        Where points are classified; everywhere if it is None.
     corrections : Corrections
         Polygons in which the class is known.
     output : Output
@@ -97,6 +97,9 @@ class ClassifyRequest(Request):
     rasters: RasterFiles = field(default_factory=RasterFiles)
     terrain: TerrainModel = field(default_factory=TerrainModel)
     surface: SurfaceModel = field(default_factory=SurfaceModel)
+
+    def __post_init__(self) -> None:
+        self.output.check_area(self.area is not None)
 
     @property
     def step(self) -> LabelGround:
@@ -118,7 +121,7 @@ class ClassifyRequest(Request):
     @property
     def height_step(self) -> MeasureHeights:
         """What measures the heights of the classified points."""
-        return MeasureHeights(self._ground)
+        return MeasureHeights(self._ground, area=self.area if self.output.area_only else None)
 
 
 @dataclass(frozen=True)

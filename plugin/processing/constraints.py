@@ -13,7 +13,6 @@ from qgis.core import (
     QgsProcessingParameterFeatureSource,
 )
 
-from ...algorithms.survey.collection import find_files
 from .. import compat
 from .inputs import crs_of, features_of, is_empty, polygons_of
 
@@ -69,7 +68,7 @@ def constraints_of(
     given = [name for name in _FIELDS if not is_empty(parameters.get(name))]
     if not given:
         return {}
-    crs, found = crs_of(find_files([cloud])[0]), {}
+    crs, found = crs_of(cloud), {}
     for name in given:
         label, kind, _ = _FIELDS[name]
         source = algorithm.parameterAsSource(parameters, name, context)

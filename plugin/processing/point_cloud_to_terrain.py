@@ -74,6 +74,6 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         if cloud:
             results["OUTPUT"] = made = str(summary.cloud)
             outputs.do_not_load(context, {cloud} - {made})
-            how = request.selection.to_class, request.terrain.dtm_cell_size, context, progress
-            show_classified(self, made, summary.class_counts, *how, BELOW_TERRAIN)
+            look = request, context, progress, BELOW_TERRAIN
+            show_classified(self, made, summary.class_counts, *look)
         return {**results, "POINT_COUNT": summary.point_count, "GROUND_COUNT": summary.ground_count}
