@@ -256,7 +256,7 @@ def write_rasters(
         layers = [mosaics[each] for each in raster.layers]
         rows = Rows(window.shape, raster.kind, gathered_strips(layers, make, raster.margin, part))
         temporary = outputs.enter_context(replacing_raster(path))
-        write_geotiff(temporary, rows, grid, raster.nodata, progress)
+        write_geotiff(temporary, rows, grid, raster.nodata, progress, raster.shows)
     counts = np.sum([each.counts for each in made], axis=0)
     return RasterSize(int(counts[0]), int(counts[1]), window.columns, window.rows)
 
