@@ -1,4 +1,4 @@
-"""Makes of the pages in docs/ what the Help button opens, HTML, and of README.md what leads there."""
+"""Makes the help of the pages in docs/: HTML; and the README of the zip, whose links lead there."""
 
 from __future__ import annotations
 
