@@ -253,9 +253,8 @@ def rasters_of_files(
     beside = next(iter(request.rasters.wanted.values())).parent
     workers = workers or Threads(request.resources)
     with tempfile.TemporaryDirectory(prefix=".bare-earth-", dir=beside) as folder:
-        opened = [each.file for each in collection.tiles]
-        step = request.raster_step(opened, progress.part(0.05, 0.1))
-        return make_rasters(collection, Path(folder), step, workers, progress.part(0.1, 1.0))
+        waiting, part = Path(folder), progress.part(0.05, 1.0)
+        return make_rasters(collection, waiting, request.raster_step, workers, part)
 
 
 def _check_survey(

@@ -18,6 +18,7 @@ from ..products.terrain_model import MapTerrain
 from ..survey.collection import is_one_file
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.selection import Selection
+from .constraints import NO_CONSTRAINTS, Constraints
 from .many_files import classify_files
 from .one_file import classify_file
 from .options import TileOutput
@@ -49,7 +50,7 @@ class MapFiles(NamedTuple):
 
 @dataclass(frozen=True)
 class MapRequest(Request):
-    """How it is to be made: the declared parameters of each step, and what is known by hand."""
+    """How it is to be made: the declared parameters of each step, and what is known besides."""
 
     parameters: ParameterSet = field(default_factory=METHODS[DEFAULT_METHOD].parameters)
     selection: Selection = field(default_factory=Selection)
@@ -58,6 +59,7 @@ class MapRequest(Request):
     contours: Contours = field(default_factory=Contours)
     relief: LocalRelief = field(default_factory=LocalRelief)
     corrections: Corrections = NO_CORRECTIONS
+    constraints: Constraints = NO_CONSTRAINTS
 
     def classify(self, rasters: RasterFiles) -> ClassifyRequest:
         """Return the request to classify, with the rasters that are made in the same run."""
@@ -71,6 +73,7 @@ class MapRequest(Request):
             rasters=rasters,
             terrain=self.terrain,
             surface=self.surface,
+            constraints=self.constraints,
         )
 
 
