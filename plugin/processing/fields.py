@@ -52,6 +52,8 @@ def field_of(declaration: Declaration, is_shown: bool = True) -> QgsProcessingPa
         field = QgsProcessingParameterBoolean(name, label, default, True)
     elif declaration.kind == "choice":
         # The values themselves, not their places in the list: they stay true in saved models.
+        # As for booleans: what is advanced may be newer than a stored model.
+        optional = optional or declaration.advanced
         field = ChoiceParameter(
             name, label, list(declaration.choices), False, default, optional, True
         )
@@ -134,7 +136,7 @@ def _value(
         return algorithm.parameterAsBool(parameters, name, context)
     if name in parameters and (compat.is_null(given) or given == ""):
         # Emptied on purpose; parameterAs... would return the default instead.
-        return None
+        return declaration.default if declaration.kind == "choice" else None
     if declaration.kind == "choice":
         if isinstance(given, (str, int)):
             return value_of(given, list(declaration.choices))
