@@ -42,6 +42,25 @@ def test_a_building_in_a_corner_of_the_survey_is_not_ground():
     assert not found[roof].any() and found[~roof].all()
 
 
+def test_a_rock_with_walls_all_round_is_ground_and_buildings_as_high_are_not():
+    rows, columns = np.indices((60, 60)) - 30.0
+    inside = np.hypot(rows, columns) < 12.0
+    rock = np.where(inside, 28.0 + columns, 0.0)
+    assert _ground(rock, inside).all()
+    assert not _ground(rock, inside, rock_area=1e9)[inside].any()
+    # Two roofs one above the other, joined by what fills a gap between them.
+    stairs = np.interp(columns, (-2.0, 2.0), (8.0, 24.0))
+    assert not _ground(np.where(inside, stairs, 0.0), inside)[inside].any()
+
+
+def test_a_dam_is_ground_where_cells_are_wide_and_some_of_its_sides_empty():
+    rows, columns = np.indices((60, 60)) - 30.0
+    dam = np.clip(11.0 - 1.7 * np.abs(columns), 0.0, 6.0)
+    dam[np.abs(columns) == 4 + rows % 3] = np.nan
+    none = np.zeros(dam.shape, dtype=bool)
+    ground = ground_cells(dam, 2.4, none, 60.0)
+    assert ground[np.isfinite(dam)].all()
+
 def test_a_plateau_goes_as_a_whole_where_a_window_cuts_off_part_of_it():
     heights = np.tile(0.08 * np.arange(160.0), (160, 1))
     roof = np.zeros(heights.shape, dtype=bool)

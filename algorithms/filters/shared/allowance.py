@@ -46,6 +46,9 @@ class Allowance:
     border_height : float
         But not if it stands so many metres above the ground, on average: the border of the survey
         cuts buildings.
+    rock_area : float
+        A region of so many square metres or more is terrain as well if it rises by itself as no
+        building does.
     follows_slopes : bool
         Whether a step between cells is no edge where those before or after it are as high: a
         steep slope, or a cliff, of which points lie on the face; or where the terrain at large
@@ -71,6 +74,7 @@ class Allowance:
     hall_per_slope: float = 0.1
     border_area: float = 800.0
     border_height: float = 4.5
+    rock_area: float = 200.0
     rise_counts: bool = True
     follows_slopes: bool = True
     slopes_taken: int = 2
@@ -87,6 +91,7 @@ CLASSIC = Allowance(
     wide_share=0.5,
     usual_window=1e9,
     border_area=np.inf,
+    rock_area=np.inf,
     rise_counts=False,
     follows_slopes=False,
     slopes_taken=1,

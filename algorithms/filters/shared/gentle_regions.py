@@ -16,8 +16,12 @@ from .objects import covered
 
 # How often regions join the ground that others have joined before.
 _JOINING_PASSES = 4
-# Steps are alike if the least is at least this share of the largest.
-_ALIKE = 0.4
+# Steps are alike if the least is at least this share of the largest; if they cross a cell without
+# a point, this larger share.
+_ALIKE, _ALIKE_ACROSS = 0.4, 0.55
+# Metres from which on a cell is so wide that one of four on a slope may have no point: what fills
+# it spreads the drop at a wall over two cells, not over three.
+_WIDE_CELL = 2.0
 # Metres over which the surface is smoothed to tell a step from the terrain's own rise.
 _TREND_SMOOTHING = 2.0
 # Share of the trend that the ground round must rise, so that a trend is that of the terrain.
@@ -25,6 +29,9 @@ _LEAST_OF_TREND = 0.25
 # Share of a large region's border above which that of the survey tells too little to be judged by:
 # less than half, as the sides of cells make a slanted edge longer than it is.
 _OPEN_SHARE = 0.45
+# Standard deviation in metres of the heights of a rock. A roof is lower, or level: a band of so
+# many metres holds more than a share of it.
+_ROCK_DEVIATION, _BAND, _BAND_SHARE = 5.0, 3.0, 1.0 / 3.0
 
 
 def gentle_regions(
@@ -35,11 +42,12 @@ def gentle_regions(
     trend: Trend | None,
     size: float,
     allowance: Allowance,
-) -> np.ndarray:
-    """Return the raised cells whose region passes into the ground without an edge.
+) -> tuple[np.ndarray, np.ndarray]:
+    """Find the raised cells whose region passes into the ground without an edge, or is a rock.
 
     A region is what hangs together without a step. Its border is gentle where it touches the
-    ground without a step, and sharp where it drops to anything.
+    ground without a step, and sharp where it drops to anything. A rock rises so much by itself
+    that it is no building, whatever its border.
 
     Parameters
     ----------
@@ -60,7 +68,8 @@ def gentle_regions(
 
     Returns
     -------
-    numpy.ndarray of bool, shape (rows, columns)
+    terrain, rocks : numpy.ndarray of bool, shape (rows, columns)
+        All cells that are ground after all, and those of them that are rocks.
     """
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
@@ -94,13 +103,55 @@ def gentle_regions(
         )
     ]
     open_ = np.bincount(region[cells], _unsurveyed(surveyed).ravel()[cells], count)
-    above = np.bincount(region[cells], (filled - surface).ravel()[cells], count) * size**2 / area
+    heights = filled.ravel()[cells]
+    above = heights - surface.ravel()[cells]
+    rocks = _rocks(region[cells], heights, above, area, allowance)
+    above = np.bincount(region[cells], above, count) * size**2 / area
     # As high as that it may be a building that the border of the survey cuts.
     open_[(area < allowance.border_area) | (above > allowance.border_height)] = 0.0
-    is_terrain = _joined(borders, area, open_, allowance)
-    result = np.zeros(up.size, dtype=bool)
-    result[cells] = is_terrain[region[cells]]
-    return result.reshape(raised.shape)
+    result = np.zeros((2, up.size), dtype=bool)
+    for which, grid in zip((_joined(borders, area, open_, rocks, allowance), rocks), result):
+        grid[cells] = which[region[cells]]
+    terrain, rocks = result.reshape(2, *raised.shape)
+    return terrain, rocks
+
+
+def _rocks(
+    region: np.ndarray,
+    heights: np.ndarray,
+    above: np.ndarray,
+    area: np.ndarray,
+    allowance: Allowance,
+) -> np.ndarray:
+    """Return which regions rise by themselves as no roof, bridge or wood does.
+
+    A roof or a bridge is level; a wood on a slope is as high above the ground all over.
+
+    Parameters
+    ----------
+    region : numpy.ndarray of int64, shape (n,)
+        Region of each raised cell.
+    heights, above : numpy.ndarray of float, shape (n,)
+        Height of each, and its height above the ground, in metres.
+    area : numpy.ndarray of float, shape (regions,)
+        Square metres.
+    allowance : Allowance
+        How large a rock is at least.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (regions,)
+    """
+    is_rock = area >= allowance.rock_area
+    for values in (heights, above):
+        number = np.bincount(region, minlength=len(area))
+        apart = values - (np.bincount(region, values, len(area)) / number)[region]
+        is_rock &= np.bincount(region, apart**2, len(area)) >= _ROCK_DEVIATION**2 * number
+    for each in np.flatnonzero(is_rock):
+        z = np.sort(heights[region == each])
+        in_band = np.searchsorted(z, z + _BAND) - np.arange(len(z))
+        is_rock[each] = in_band.max() <= _BAND_SHARE * len(z)
+    return is_rock
 
 
 def _unsurveyed(surveyed: np.ndarray) -> np.ndarray:
@@ -127,7 +178,11 @@ def _border(
 
 
 def _joined(
-    borders: list[list[_Pairs]], area: np.ndarray, open_: np.ndarray, allowance: Allowance
+    borders: list[list[_Pairs]],
+    area: np.ndarray,
+    open_: np.ndarray,
+    rocks: np.ndarray,
+    allowance: Allowance,
 ) -> np.ndarray:
     """Return which regions pass into the ground, or into others that do.
 
@@ -139,6 +194,8 @@ def _joined(
         Square metres.
     open_ : numpy.ndarray of float, shape (regions,)
         Sides of cells at the border of the survey; 0 where that tells nothing.
+    rocks : numpy.ndarray of bool, shape (regions,)
+        Which are ground whatever their border.
     allowance : Allowance
         Which share of the border must be gentle.
 
@@ -148,7 +205,7 @@ def _joined(
     """
     count = len(area)
     sharp = sum(np.bincount(drop[0], minlength=count) for _, drop, _ in borders)
-    joined = np.zeros(count, dtype=bool)
+    joined = rocks.copy()
     for _ in range(_JOINING_PASSES):
         ground = np.append(joined, True)  # the last one is what is not raised
         level, rising = np.zeros((2, count))
@@ -209,26 +266,31 @@ def _steps(
         sign[stepped[alike]] = 0
     if allowance.follows_slopes:
         stepped = np.flatnonzero(sign)
-        sign[stepped[_on_slope(filled, known, one[stepped], axis)]] = 0
+        sign[stepped[_on_slope(filled, known, one[stepped], axis, size)]] = 0
     return one, other, sign
 
 
-def _on_slope(filled: np.ndarray, known: np.ndarray, one: np.ndarray, axis: int) -> np.ndarray:
+def _on_slope(
+    filled: np.ndarray, known: np.ndarray, one: np.ndarray, axis: int, size: float
+) -> np.ndarray:
     """Return which steps from cells to the next ones are part of a slope: two more are alike.
 
-    Cells without a point do not count: what fills them makes a slope of any wall.
+    Cells without a point do not count, but for one between wide cells: what fills them makes a
+    slope of any wall.
     """
-    flat = np.where(known, filled, np.nan).ravel()
     offset = filled.shape[1] if axis == 0 else 1
     place, count = np.divmod(one, filled.shape[1])[axis], filled.shape[axis]
-    at = [flat[one + offset * (np.clip(place + k, 0, count - 1) - place)] for k in range(-2, 4)]
-    rises = [after - before for before, after in zip(at, at[1:])]  # the third is that of the step
+    across = [one + offset * (np.clip(place + k, 0, count - 1) - place) for k in range(-2, 4)]
+    empty = ~known.ravel()[np.stack(across)]
+    rises = np.diff(filled.ravel()[np.stack(across)], axis=0)  # the third is that of the step
     on = np.zeros(len(one), dtype=bool)
     for first in range(3):
-        three = np.stack(rises[first : first + 3])
-        same = (three > 0).all(axis=0) | (three < 0).all(axis=0)
+        three, gaps = rises[first : first + 3], empty[first : first + 4]
+        on_slope = (three > 0).all(axis=0) | (three < 0).all(axis=0)
+        on_slope &= gaps.sum(axis=0) <= int(size >= _WIDE_CELL)
+        alike = np.where(gaps[1:3].any(axis=0), _ALIKE_ACROSS, _ALIKE)
         three = np.abs(three)
-        on |= same & (three.min(axis=0) >= _ALIKE * three.max(axis=0))
+        on |= on_slope & (three.min(axis=0) >= alike * three.max(axis=0))
     return on
 
 
