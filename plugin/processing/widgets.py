@@ -27,6 +27,8 @@ from .. import compat
 from .choices import LABELS, ChoiceParameter, value_of, values_of
 
 _STATE = Qt.ItemDataRole.CheckStateRole
+# Qt.CheckState as items keep it: PyQt 5 and 6 do not make the same of its names there.
+_UNCHECKED, _CHECKED = 0, 2
 
 
 class ChoiceWidget:
@@ -141,5 +143,4 @@ def _check(box: QComboBox, values: list[str]) -> None:
     # What QGIS gives back of the box is known as a QComboBox only, which has no word for it.
     for place in range(box.count()):
         is_chosen = box.itemData(place) in values
-        state = Qt.CheckState.Checked if is_chosen else Qt.CheckState.Unchecked
-        box.setItemData(place, state, _STATE)
+        box.setItemData(place, _CHECKED if is_chosen else _UNCHECKED, _STATE)
