@@ -61,6 +61,7 @@ def test_a_dam_is_ground_where_cells_are_wide_and_some_of_its_sides_empty():
     ground = ground_cells(dam, 2.4, none, 60.0)
     assert ground[np.isfinite(dam)].all()
 
+
 def test_a_plateau_goes_as_a_whole_where_a_window_cuts_off_part_of_it():
     heights = np.tile(0.08 * np.arange(160.0), (160, 1))
     roof = np.zeros(heights.shape, dtype=bool)
