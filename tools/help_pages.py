@@ -1,8 +1,9 @@
-"""Makes of the pages in docs/ what the Help button opens: HTML that needs nothing else."""
+"""Makes the help of the pages in docs/: HTML; and the README of the zip, whose links lead there."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 from html import escape
 
 import markdown
@@ -58,6 +59,38 @@ def help_pages(docs: dict[str, bytes], repository: str) -> dict[str, bytes]:
             for picture in re.findall(r"\]\((images/[^)]*)\)", text):
                 found[picture] = docs[picture]
     return found
+
+
+def packed_readme(
+    readme: bytes, docs: dict[str, bytes], packed: Collection[str], repository: str
+) -> dict[str, bytes]:
+    """Return README.md for the zip, and the pictures that it shows.
+
+    Parameters
+    ----------
+    readme : bytes
+        README.md as it is in the repository.
+    docs : dict of str to bytes
+        As for `help_pages`.
+    packed : collection of str
+        The other files in the zip, those of the help in ``help/``. Links to what is not among them
+        lead to the repository.
+    repository : str
+        Its address.
+    """
+    shown = {}
+
+    def link(match: re.Match) -> str:
+        name, anchor = match.groups()
+        page = name[len("docs/") :] if name.startswith("docs/") else ""
+        if page.startswith("images/"):
+            shown[f"help/{page}"] = docs[page]
+            return f"](help/{page})"
+        here = f"help/{_new_name(page)}" if page else name
+        return f"]({here if here in packed else f'{repository}/blob/main/{name}'}{anchor})"
+
+    text = re.sub(r"\]\((?!https?:)([\w./-]+)((?:#[\w.-]*)?)\)", link, readme.decode())
+    return {"README.md": text.encode(), **shown}
 
 
 def _page(text: str, repository: str) -> str:

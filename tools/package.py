@@ -16,9 +16,10 @@ import zipfile
 from pathlib import Path
 
 import qm
-from help_pages import help_pages
+from help_pages import help_pages, packed_readme
 
 ROOT = Path(__file__).parents[1]
+README = "README.md"
 BUNDLED = ROOT / "bundled.txt"
 # safe.directory: a clone may belong to another user than the one who packs it.
 GIT = ["git", "-c", f"safe.directory={ROOT}", "-C", str(ROOT)]
@@ -35,8 +36,14 @@ def main(folder: Path = ROOT / "dist") -> None:
     target = folder / f"bare_earth-{metadata['general']['version']}.zip"
     if _git("status", "--porcelain"):
         print("Changes that are not committed are left out.")
-    _git("archive", "--format=zip", "--prefix=bare_earth/", f"--output={target.resolve()}", "HEAD")
-    files = {**_packages(), **_help(metadata["general"]["repository"]), **_translations()}
+    # README.md is packed with other links: most of what it leads to is elsewhere in the zip.
+    _git(
+        "archive", "--format=zip", "--prefix=bare_earth/", f"--output={target.resolve()}", "HEAD",
+        ".", f":(exclude){README}",
+    )  # fmt: skip
+    with zipfile.ZipFile(target) as archive:
+        packed = {name.partition("/")[2] for name in archive.namelist()}
+    files = {**_packages(), **_help(metadata["general"]["repository"], packed), **_translations()}
     with zipfile.ZipFile(target, "a", zipfile.ZIP_DEFLATED) as archive:
         # With the date of the commit, so that the bytes stay the same.
         date = archive.infolist()[0].date_time
@@ -69,11 +76,12 @@ def _packages() -> dict[str, bytes]:
     return found
 
 
-def _help(repository: str) -> dict[str, bytes]:
-    """Make the pages that the Help button opens."""
+def _help(repository: str, packed: set[str]) -> dict[str, bytes]:
+    """Make the pages that the Help button opens, and README.md with links to them."""
     docs = {name[len("docs/") :]: content for name, content in _committed("docs").items()}
-    pages = help_pages(docs, repository)
-    return {f"help/{name}": content for name, content in pages.items()}
+    pages = {f"help/{name}": content for name, content in help_pages(docs, repository).items()}
+    readme = _git("show", f"HEAD:{README}")
+    return {**pages, **packed_readme(readme, docs, packed | set(pages), repository)}
 
 
 def _translations() -> dict[str, bytes]:

@@ -10,8 +10,10 @@ from ..core.errors import BareEarthError
 from .command import DONE, Command
 from .options import UsageError, add_extent, add_inputs, add_json, add_parameters, chosen
 from .surveys import (
+    add_constraints,
     add_rasters,
     add_scheduler,
+    constraints_of,
     finished_files_stay,
     rasters_of,
     tell_of_survey,
@@ -37,11 +39,12 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
         help="the file to write (.las, .laz or .copc.laz); of many inputs a folder",
     )  # fmt: skip
     add_rasters(parser)
-    add_extent(parser, "of one file, classify only points in this rectangle")
+    add_constraints(parser, "for the rasters, ")
+    add_extent(parser, "classify only points in this rectangle")
     parser.add_argument(
         "--boundary", metavar="FILE", type=Path,
-        help="of one file, classify only points in these polygons (.geojson, .json, .wkt), in the"
-        " CRS of the points",
+        help="classify only points in these polygons (.geojson, .json, .wkt), in the CRS of the"
+        " points",
     )  # fmt: skip
     parser.add_argument(
         "--corrections", metavar="FILE", type=Path,
@@ -93,8 +96,9 @@ def _classify(options: argparse.Namespace) -> int:
     if options.corrections is not None:
         corrections = read_corrections(options.corrections)
     request = ClassifyRequest.of(
-        chosen(options), rasters=rasters_of(options), area=area, corrections=corrections
-    )
+        chosen(options), rasters=rasters_of(options), area=area, corrections=corrections,
+        constraints=constraints_of(options),
+    )  # fmt: skip
     if options.command != _TILES and not options.scheduler and is_one_file(options.input):
         with Terminal(options.verbose) as progress:
             summary = classify_file(options.input[0], options.output, request, progress)

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, Sequence
 from .command import DONE, Command
 from .options import add_inputs, add_json, add_parameters, chosen
 from .surveys import (
+    add_constraints,
     add_rasters,
     add_scheduler,
+    constraints_of,
     finished_files_stay,
     rasters_of,
     tell_of_survey,
@@ -20,16 +22,7 @@ from .terminal import Terminal, tell
 
 if TYPE_CHECKING:
     from ..core.parameters import ParameterSet
-    from ..engine.constraints import Constraints
     from ..engine.requests import HeightRequest, KeyPointRequest
-
-_CONSTRAINTS = {
-    "breaklines": "lines that no triangle of the terrain crosses; without z they get the height of"
-    " the nearest ground point",
-    "water": "polygons of water, flattened to one level",
-    "rivers": "lines along which the water in such polygons falls",
-    "no-ground": "polygons in which no point is ground, such as bridges and roofs",
-}
 
 
 def _add_remove_objects(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
@@ -121,36 +114,17 @@ def _add_terrain(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> N
 
     add_inputs(parser)
     add_rasters(parser)
-    for name, what in _CONSTRAINTS.items():
-        parser.add_argument(
-            f"--{name}", metavar="FILE", type=Path,
-            help=f"{what} (.geojson, .json, .wkt), in the CRS of the points",
-        )  # fmt: skip
+    add_constraints(parser)
     add_scheduler(parser)
     add_json(parser)
     add_parameters(parser, GroundClasses, TerrainModel, SurfaceModel, TileInput, Resources)
-
-
-def _constraints_of(options: argparse.Namespace) -> Constraints:
-    """Return the lines and polygons that the options name."""
-    from ..engine.constraints import Constraints
-    from ..survey.vector_files import read_boundary, read_lines
-
-    found = {}
-    for name in _CONSTRAINTS:
-        attribute = name.replace("-", "_")
-        path = getattr(options, attribute)
-        if path is not None:
-            read = read_lines if attribute in ("breaklines", "rivers") else read_boundary
-            found[attribute] = read(path)
-    return Constraints(**found)
 
 
 def _terrain(options: argparse.Namespace) -> int:
     from ..engine.requests import TerrainRequest
     from ..engine.runs import terrain
 
-    known = _constraints_of(options)
+    known = constraints_of(options)
     request = TerrainRequest.of(chosen(options), rasters=rasters_of(options), constraints=known)
     with Terminal(options.verbose) as progress:
         workers = workers_of(options, request.resources)

@@ -5,17 +5,27 @@ from __future__ import annotations
 import argparse
 import contextlib
 from pathlib import Path
-from typing import TYPE_CHECKING, Iterator
+from typing import TYPE_CHECKING, Any, Iterator
 
 from ..core.errors import BareEarthError, Cancelled
 from .command import DONE, FAILED
 from .terminal import tell
 
 if TYPE_CHECKING:
+    from ..engine.constraints import Constraints
     from ..engine.many_files import SurveySummary
     from ..engine.memory import Resources
     from ..engine.raster_files import RasterFiles
     from ..engine.workers import Workers
+
+
+_CONSTRAINTS = {
+    "breaklines": "lines that no triangle of the terrain crosses; without z they get the height of"
+    " the nearest ground point",
+    "water": "polygons of water, flattened to one level",
+    "rivers": "lines along which the water in such polygons falls",
+    "no-ground": "polygons in which no point is ground, such as bridges and roofs",
+}
 
 
 def add_rasters(parser: argparse.ArgumentParser) -> None:
@@ -33,6 +43,30 @@ def rasters_of(options: argparse.Namespace) -> RasterFiles:
     from ..engine.raster_files import RASTERS, RasterFiles
 
     return RasterFiles(**{name: getattr(options, name) for name in RASTERS})
+
+
+def add_constraints(parser: argparse.ArgumentParser, note: str = "") -> None:
+    """Add the options that name what the terrain must respect; a note may say more of them."""
+    for name, what in _CONSTRAINTS.items():
+        parser.add_argument(
+            f"--{name}", metavar="FILE", type=Path,
+            help=f"{note}{what} (.geojson, .json, .wkt), in the CRS of the points",
+        )  # fmt: skip
+
+
+def constraints_of(options: argparse.Namespace) -> Constraints:
+    """Return the lines and polygons that the options name."""
+    from ..engine.constraints import Constraints
+    from ..survey.vector_files import read_boundary, read_lines
+
+    found: dict[str, Any] = {}
+    for name in _CONSTRAINTS:
+        attribute = name.replace("-", "_")
+        path = getattr(options, attribute)
+        if path is not None:
+            read = read_lines if attribute in ("breaklines", "rivers") else read_boundary
+            found[attribute] = read(path)
+    return Constraints(**found)
 
 
 def add_scheduler(parser: argparse.ArgumentParser) -> None:

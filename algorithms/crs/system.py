@@ -12,6 +12,7 @@ from .wkt import WktFacts, read_wkt
 
 _SURVEY_FOOT = 1200 / 3937
 _UNIT_NAMES = {1.0: "metre", 0.3048: "foot", _SURVEY_FOOT: "US survey foot"}
+_SYMBOLS = {"metre": "m", "foot": "ft", "US survey foot": "US survey ft"}
 
 
 @dataclass(frozen=True)
@@ -52,6 +53,18 @@ def unit_name(metres: float) -> str:
         if math.isclose(metres, known, rel_tol=1e-8):
             return name
     return f"{metres:g} m"
+
+
+def unit_symbol(metres: float) -> str:
+    """Return the symbol of the unit that has so many metres.
+
+    Examples
+    --------
+    >>> unit_symbol(1.0)
+    'm'
+    """
+    name = unit_name(metres)
+    return _SYMBOLS.get(name, f"units of {name}")
 
 
 def crs_of_wkt(text: str, progress: Progress = SILENT) -> Crs | None:

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Iterator, Sequence
+from typing import Iterable, Iterator, Sequence
 
 import numpy as np
 
 from ..core.points import Frame, Points
 from ..core.progress import SILENT, Progress
 from ..grids.lines import NearestHeights, NearPlaces, along, falling, inside_grid, squares
-from ..las.cloud import PointCloud, survey_frame
-from ..las.crs_records import read_crs
+from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
 from ..las.reading import read_parts
 from ..survey.area import Area, Polygon
@@ -57,6 +56,21 @@ class Constraints:
         """Whether there are any."""
         return bool(self.breaklines or self.water or self.no_ground)
 
+    def is_ground(self, part: PointCloud, ground: np.ndarray) -> np.ndarray:
+        """Return which of the ground points of a part stay; boolean, shape (n,)."""
+        if self._excluded is None or not ground.any():
+            return ground
+        return ground & ~self._excluded.of(part)
+
+    @cached_property
+    def _excluded(self) -> Area | None:
+        """Where points are no ground."""
+        excluded = (*self.no_ground, *self.water)
+        return Area(None, excluded) if excluded else None
+
+
+NO_CONSTRAINTS = Constraints()
+
 
 @dataclass(frozen=True, eq=False)
 class FixedTerrain:
@@ -66,22 +80,13 @@ class FixedTerrain:
     ----------
     edges, inside : numpy.ndarray of float64, shape (n, 3)
         Places along lines and borders, and inside of water: metres, in the frame of the survey.
-    excluded : Area or None
-        Where points are no ground.
     cell : float
         Side in metres of the cells in which points are thinned.
     """
 
     edges: np.ndarray
     inside: np.ndarray
-    excluded: Area | None
     cell: float
-
-    def is_ground(self, part: PointCloud, ground: np.ndarray) -> np.ndarray:
-        """Return which of the ground points of a part stay; boolean, shape (n,)."""
-        if self.excluded is None or not ground.any():
-            return ground
-        return ground & ~self.excluded.of(part)
 
     def added_to(
         self, points: Points, ground: np.ndarray, corner: tuple[float, float]
@@ -130,7 +135,8 @@ class FixedTerrain:
 
 def fixed_terrain(
     constraints: Constraints,
-    files: Sequence[LasFile],
+    clouds: Iterable[PointCloud],
+    frame: Frame,
     ground: GroundClasses,
     cell: float,
     progress: Progress = SILENT,
@@ -141,8 +147,11 @@ def fixed_terrain(
     ----------
     constraints : Constraints
         What is known.
-    files : sequence of LasFile
-        The survey. It is read once for the ground near lines and water.
+    clouds : iterable of PointCloud
+        All points of the survey, part by part, for the ground near lines and water; none of them
+        is asked for where there is no line and no water.
+    frame : Frame
+        That of the survey.
     ground : GroundClasses
         Which points are ground.
     cell : float
@@ -159,15 +168,18 @@ def fixed_terrain(
     """
     if not constraints.any:
         return None
-    shapes = _Shapes(constraints, files, ground, cell / _PER_CELL, progress)
+    shapes = _Shapes(constraints, clouds, frame, ground, cell / _PER_CELL, progress)
     borders, insides = zip(*shapes.water()) if constraints.water else ((), ())
-    none, excluded = np.zeros((0, 3)), (*constraints.no_ground, *constraints.water)
-    return FixedTerrain(
-        np.concatenate([none, *shapes.breaklines(), *borders]),
-        np.concatenate([none, *insides]),
-        Area(None, excluded) if excluded else None,
-        cell,
-    )
+    none = np.zeros((0, 3))
+    edges = np.concatenate([none, *shapes.breaklines(), *borders])
+    return FixedTerrain(edges, np.concatenate([none, *insides]), cell)
+
+
+def parts_of(files: Sequence[LasFile], progress: Progress = SILENT) -> Iterator[PointCloud]:
+    """Yield all points of some files, part by part."""
+    for number, las in enumerate(files):
+        part = progress.part(number / len(files), (number + 1) / len(files))
+        yield from read_parts(las, part.quiet())
 
 
 class _Shapes:
@@ -176,13 +188,14 @@ class _Shapes:
     def __init__(
         self,
         constraints: Constraints,
-        files: Sequence[LasFile],
+        clouds: Iterable[PointCloud],
+        frame: Frame,
         ground: GroundClasses,
         step: float,
         progress: Progress,
     ) -> None:
         self._constraints, self._step, self._progress = constraints, step, progress
-        self._frame = frame = survey_frame(read_crs(files[0]))
+        self._frame = frame
         unit = frame.horizontal_unit
         self._lines = [
             along(line * (unit, unit, frame.vertical_unit), step) for line in constraints.breaklines
@@ -195,7 +208,7 @@ class _Shapes:
             np.concatenate([along(ring, step, is_closed=True) for ring in polygon])
             for polygon in self._waters
         ]
-        near = _ground_near([*self._lines, *self._borders], files, ground, frame, progress)
+        near = _ground_near([*self._lines, *self._borders], clouds, ground, frame)
         if self._waters:
             # What lies in water is no bank.
             water = Area(None, tuple(tuple(ring[:, :2] for ring in each) for each in self._waters))
@@ -250,21 +263,18 @@ class _Shapes:
 
 def _ground_near(
     lines: Sequence[np.ndarray],
-    files: Sequence[LasFile],
+    clouds: Iterable[PointCloud],
     ground: GroundClasses,
     frame: Frame,
-    progress: Progress,
 ) -> np.ndarray:
     """Return the ground points in the cells of lines and those round them, shape (n, 3)."""
     if not lines:
         return np.zeros((0, 3))
     wanted = NearPlaces(*np.concatenate(lines)[:, :2].T, _NEAR)
     found, tally = [np.zeros((0, 3))], GroundTally()
-    for number, las in enumerate(files):
-        part = progress.part(number / len(files), (number + 1) / len(files))
-        for some in read_parts(las, part.quiet()):
-            which = np.flatnonzero(ground.of(some, tally))
-            places = some.places(which, frame)
-            near = which[wanted.of(*places)]
-            found.append(np.column_stack(some.points(near, frame)))
+    for some in clouds:
+        which = np.flatnonzero(ground.of(some, tally))
+        places = some.places(which, frame)
+        near = which[wanted.of(*places)]
+        found.append(np.column_stack(some.points(near, frame)))
     return np.concatenate(found)

@@ -15,6 +15,7 @@ from ..crs.system import unit_name
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
 from ..products.height_above_ground import height_above_ground
+from ..survey.area import Area
 from ..survey.ground_classes import GroundClasses, GroundTally
 from ..survey.selection import ground_of
 from .blocks import Block, Blocks, Store
@@ -85,11 +86,14 @@ class MeasureHeights(PointStep):
         Whether the heights are an extra dimension or replace z; both in the vertical unit.
     ground_only : bool
         Whether only ground points are written.
+    area : Area or None
+        Where heights are wanted; everywhere if it is None.
     """
 
     ground: GroundClasses = field(default_factory=GroundClasses)
     output: HeightOutput = field(default_factory=HeightOutput)
     ground_only: bool = False
+    area: Area | None = None
 
     kind = np.float64
     blocks = _BLOCKS
@@ -101,9 +105,10 @@ class MeasureHeights(PointStep):
         return GroundTally()
 
     def marks(self, part: PointCloud, tally: GroundTally) -> Marks:
-        """Return all points, and which of them are ground."""
+        """Return all points, which of them are ground, and which lie in the area."""
         every = np.ones(part.count, dtype=bool)
-        return Marks(every, self.ground.of(part, tally), every)
+        inside = every if self.area is None else self.area.of(part)
+        return Marks(every, self.ground.of(part, tally), inside)
 
     def tell(self, tally: GroundTally, path: Path, progress: Progress) -> None:
         """Refuse a file without ground."""

@@ -40,6 +40,8 @@ class JobQueue:
     ----------
     done : list of object
         The summaries of the tiles that were written.
+    empty_count : int
+        Tiles of which there was nothing to write.
     failures : dict of Path to str
         Why the others were not, by their inputs.
     lost : list of str
@@ -50,6 +52,7 @@ class JobQueue:
         self, blocks: list[BlockJob], tiles: list[TileJob], workers: Workers, progress: Progress
     ) -> None:
         self.done: list[Any] = []
+        self.empty_count = 0
         self.failures: dict[Path, str] = {}
         self.lost: list[str] = []
         self._workers, self._progress = workers, progress
@@ -159,6 +162,8 @@ class JobQueue:
     def _end_tile(self, job: TileJob, outcome: JobResult) -> None:
         if outcome.failure is not None:
             self.failures[job.tile.path] = outcome.failure
+        elif outcome.result is None:
+            self.empty_count += 1
         else:
             self.done.append(outcome.result)
             self._progress.info(outcome.result.text)

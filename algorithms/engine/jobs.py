@@ -195,7 +195,7 @@ class TileJob:
     record: Record
 
     def run(self, resources: Resources, progress: Progress) -> Any:
-        """Do it; return the summary of the step."""
+        """Do it; return the summary of the step, or None if there is nothing to write."""
         step, las, path = self.step, self.tile.file, self.tile.path
         tally, kept = step.tally(), KeptValues(self)
         is_copied = layers_kept(las, self.target) is not None
@@ -208,6 +208,8 @@ class TileJob:
             kept.check()
             step.tell_of_tile(tally, path, progress)
             result.check(kept.failure)
+            if result.is_empty:
+                return None
             edits = result.edits(points.cloud, progress)
             write_changed(las, self.target, edits, progress.part(0.4, 1.0), points.cloud)
         summary = result.summary(self.target.name)

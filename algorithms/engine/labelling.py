@@ -5,11 +5,13 @@ from __future__ import annotations
 import dataclasses
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Sequence
 
 import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet
+from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..filters import method_of
 from ..las.cloud import PointCloud
@@ -37,12 +39,16 @@ class ClassifiedSummary:
     name : str
         Of the output.
     point_count, ground_count : int
-        Its points, and those of the target class.
+        Its points, and those of the target class; of the area, if only they are written.
+    area_count, by_hand_count : int
+        Points in the area, and those whose class is known by hand.
     """
 
     name: str
     point_count: int
     ground_count: int
+    area_count: int = 0
+    by_hand_count: int = 0
 
     @property
     def text(self) -> str:
@@ -111,11 +117,40 @@ class LabelGround(PointStep):
 
     def count(self, part: PointCloud, tally: ChosenTally) -> None:
         """Count which points take part."""
-        self.selection.choose(part, tally, by_hand=self.chooser.by_hand(part))
+        self.chooser.choose(part, tally)
 
     def tell_of_tile(self, tally: ChosenTally, path: Path, progress: Progress) -> None:
-        """Tell how many points of a file took part; refuse one in which none does."""
-        self.selection.tell(tally, path, progress)
+        """Tell how many points of a file took part; refuse one in which none does.
+
+        Of an area a file need not have any.
+        """
+        if self.area is None or tally.of_returns:
+            self.selection.tell(tally, path, progress)
+
+    def check_survey(self, box: Box) -> None:
+        """Refuse files that reach so far, if the area lies elsewhere."""
+        if self.area is not None and not self.area.may_touch(box):
+            raise self.chooser.no_point_in_area("the files", box)
+
+    def skips(self, tile: Tile) -> bool:
+        """Return whether only the area is written, and a file lies outside."""
+        if self.area is None or not self.output.area_only:
+            return False
+        # Headers are rounded: what touches must be seen to touch.
+        west, south, east, north = tile.box
+        x, y = tile.scale[:2]
+        box = west - x, south - y, east + x, north + y
+        return not self.area.may_touch(box)
+
+    def tell_of_survey(self, done: Sequence[ClassifiedSummary], progress: Progress) -> None:
+        """Tell of an area, and of corrections, that meet no point of any file."""
+        if self.area is not None and not any(each.area_count for each in done):
+            progress.warning(
+                "No point lies in the area. Give the extent or the boundary in the CRS of the"
+                " points."
+            )
+        elif not any(each.by_hand_count for each in done):
+            self.chooser.tell_of_corrections(progress)
 
     def work(self, store: Store, resources: Resources, progress: Progress) -> None:
         """Label the points."""
@@ -144,7 +179,7 @@ class ClassifiedPoints(PointResult):
     classification : numpy.ndarray of uint8, shape (n,)
         The new class of every point, in file order.
     class_counts : numpy.ndarray of int64, shape (256,)
-        Points of each class.
+        Points of each class, of those that are written.
     area_ground_count, area_low_count, area_deck_count : int
         Points in the area of the class of the ground, those labelled as low outliers, and those on
         decks of bridges.
@@ -153,9 +188,11 @@ class ClassifiedPoints(PointResult):
     def __init__(self, step: LabelGround, path: Path, room: Room) -> None:
         self._step, self._path = step, path
         self.classification = room(np.uint8)
+        self._inside = room(bool) if step.output.area_only else None
         self._memory = Memory(room, step.selection.remember_classes)
         self.class_counts = np.zeros(256, dtype=np.int64)
         self.area_ground_count = self.area_low_count = self.area_deck_count = 0
+        self._area_count = self._by_hand_count = 0
         self._has_ground = False
 
     def add(self, where: slice, part: PointCloud, values: np.ndarray) -> None:
@@ -163,10 +200,16 @@ class ClassifiedPoints(PointResult):
         selection, chooser = self._step.selection, self._step.chooser
         inside = chooser.inside(part)
         ground, low, decks = (values == each for each in (GROUND, LOW, BRIDGE))
-        classes = selection.classes(part, ground, low, inside, decks, chooser.by_hand(part))
+        by_hand = chooser.by_hand(part)
+        classes = selection.classes(part, ground, low, inside, decks, by_hand)
         self.classification[where] = classes
         self._memory.add(where, part, classes)
-        self.class_counts += count_classes(classes)
+        if self._inside is not None:
+            self._inside[where] = inside
+        self.class_counts += count_classes(classes if self._inside is None else classes[inside])
+        self._area_count += int(np.count_nonzero(inside))
+        if by_hand is not None:
+            self._by_hand_count += int(np.count_nonzero(by_hand.known & inside))
         self._has_ground |= bool(ground.any())
         ground = classes == selection.to_class
         self.area_ground_count += int(np.count_nonzero(ground & inside))
@@ -174,12 +217,27 @@ class ClassifiedPoints(PointResult):
         self.area_deck_count += int(np.count_nonzero(decks & inside))
 
     def part(self, where: slice, part: PointCloud) -> PointCloud:
-        """Return some points with their new classes."""
-        return dataclasses.replace(part, classification=self.classification[where])
+        """Return some points with their new classes; those that are not written are withheld."""
+        part = dataclasses.replace(part, classification=self.classification[where])
+        if self._inside is not None:
+            part = dataclasses.replace(part, withheld=part.withheld | ~self._inside[where])
+        return part
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether there is nothing to write: no point of the area, or none of its ground."""
+        if self._inside is None:
+            return False
+        return not (self.area_ground_count if self._step.output.ground_only else self._area_count)
 
     def check(self, why: str = "") -> None:
-        """Refuse to write a file without ground."""
-        if not self._has_ground:
+        """Refuse to write a file without ground.
+
+        Where an area ends, a file may have few points in it, and no ground among them.
+        """
+        if self._has_ground:
+            return
+        if self._step.area is None or (why and self._area_count):
             raise BareEarthError(why or f"No ground was found in {self._path}.")
 
     def tell(self, progress: Progress) -> None:
@@ -202,12 +260,14 @@ class ClassifiedPoints(PointResult):
     ) -> Edits:
         """Return the new classes, and what else the output is to have."""
         output, ground = self._step.output, None
-        if output.changes_points:
+        if output.needs_ground:
             ground = self.classification == self._step.selection.to_class
-        edits = output.edits(cloud, self.classification, ground, heights, progress)
+        new = self.classification, ground, self._inside
+        edits = output.edits(cloud, *new, heights, progress)
         return self._memory.added_to(edits)
 
     def summary(self, name: str) -> ClassifiedSummary:
         """Return how many points there are, and how many of them are ground."""
+        written = len(self.classification) if self._inside is None else self._area_count
         ground = int(self.class_counts[self._step.selection.to_class])
-        return ClassifiedSummary(name, len(self.classification), ground)
+        return ClassifiedSummary(name, written, ground, self._area_count, self._by_hand_count)

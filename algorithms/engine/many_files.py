@@ -103,12 +103,10 @@ def classify_files(
     Cancelled
         If the user asked to stop; finished files stay, and nothing is half written.
     """
-    if request.area is not None:
-        raise BareEarthError("An area can be given for one file only, not for many.")
     steps: list[PointStep] = [replace(request.step, cut=blocks)]
     if request.output.height_above_ground:
         heights = replace(request.height_step, ground_only=request.output.ground_only)
-        steps = [replace(steps[0], output=Output()), heights]
+        steps = [replace(steps[0], output=Output(area_only=request.output.area_only)), heights]
     rasters = request.raster_step if request.rasters.wanted else None
     if request.output.ground_only and rasters is not None and not rasters.covers_ground:
         raise BareEarthError(
@@ -169,6 +167,7 @@ def write_files(
     recursive = request.files.recursive
     collection = open_collection(sources, recursive, progress.part(0.0, 0.02))
     _check_survey(collection, folder, vpc, sources if recursive else [])
+    steps[0].check_survey(collection.box)
     targets = _targets_of(collection, folder, request.tiles.format)
     if rasters is not None:
         _check_rasters(rasters.request.files, folder, (vpc, *targets, *targets.values()))
@@ -185,6 +184,10 @@ def write_files(
         run.work(workers, request.tiles.resume, part, None if number else rasters)
         for path, reason in run.failures.items():
             failures[path.name] = inputs[path.name], reason
+        if not number:
+            empty_count = run.empty_count
+            if run.done or empty_count:
+                step.tell_of_survey(run.done, progress)
         if not run.done:
             break
         if not is_last:
@@ -194,12 +197,18 @@ def write_files(
     for path, reason in reasons.items():
         progress.warning(f"{path} is left out. {reason}")
     if not run.done:
-        raise BareEarthError(f"None of the {len(reasons):,} files could be done.")
+        raise BareEarthError(
+            f"None of the {len(reasons):,} files could be done."
+            if reasons
+            else "None of the files has points in the area that are to be written."
+        )
+    if empty_count:
+        progress.info(f"{empty_count:,} files are not written: they have nothing in the area.")
     for each in waiting:
         shutil.rmtree(each, ignore_errors=True)
     write_vpc(vpc, [folder / each.name for each in run.done], progress.part(0.98, 1.0))
     return SurveySummary(
-        tile_count=len(inputs) + len(failures.keys() - inputs.keys()),
+        tile_count=len(inputs) - empty_count + len(failures.keys() - inputs.keys()),
         done_count=len(run.done),
         kept_count=run.kept_count,
         point_count=sum(each.point_count for each in run.done),
@@ -244,9 +253,8 @@ def rasters_of_files(
     beside = next(iter(request.rasters.wanted.values())).parent
     workers = workers or Threads(request.resources)
     with tempfile.TemporaryDirectory(prefix=".bare-earth-", dir=beside) as folder:
-        opened = [each.file for each in collection.tiles]
-        step = request.raster_step(opened, progress.part(0.05, 0.1))
-        return make_rasters(collection, Path(folder), step, workers, progress.part(0.1, 1.0))
+        waiting, part = Path(folder), progress.part(0.05, 1.0)
+        return make_rasters(collection, waiting, request.raster_step, workers, part)
 
 
 def _check_survey(

@@ -138,8 +138,8 @@ def classify_file(
     step, products = request.step, _products(request)
     tally = step.tally()
     # Reading and writing move in small steps, and need no large share however long they take.
-    drawn = len(request.rasters.wanted)
-    made_too = 3.0 * bool(drawn) + drawn, 3.0 * ("heights" in products)
+    raster_count = len(request.rasters.wanted)
+    made_too = 3.0 * bool(raster_count) + raster_count, 3.0 * ("heights" in products)
     first, finding, drawing, measuring, last = progress.shares(1.5, 5.0, *made_too, 0.8)
     changes_more = request.output.changes_points or request.selection.remember_classes
     is_copied = not (changes_more or remembers(las)) and layers_kept(las, target) is not None
@@ -154,9 +154,11 @@ def classify_file(
         # All outputs or none: the rasters get their names after the cloud is written.
         if "rasters" in products:
             part, writing = drawing.shares(4.0, 1.0)
-            made = products["rasters"].work(waiting["rasters"], points.resources, part)
             frame = survey_frame(points.cloud.crs)
-            write_rasters(made, frame, products["rasters"].request, outputs, writing)
+            parts = (result.part(*each) for each in points.parts())
+            drawn = products["rasters"].seeing(parts, frame, progress)
+            made = drawn.work(waiting["rasters"], points.resources, part)
+            write_rasters(made, frame, drawn.request, outputs, writing)
         if "heights" in products:
             heights = _worked(points, products["heights"], waiting["heights"], measuring).heights
         edits = result.edits(points.cloud, progress, heights)
@@ -263,14 +265,15 @@ def rasters_of_file(
     resources = request.resources.now()
     beside = next(iter(request.rasters.wanted.values()))
     with may_use(resources.thread_count), contextlib.ExitStack() as outputs:
-        las, first = open_las(source), progress.part(0.05, 0.1)
-        step = request.raster_step([las], progress.part(0.0, 0.05))
+        las, first = open_las(source), progress.part(0.0, 0.1)
+        step = request.raster_step
         points = FilePoints.opened(las, beside, resources, False, first)
         outputs.enter_context(points)
         parts = points.parts(progress.part(0.1, 0.13))
         (store,) = points.gathered([(step, step.tally())], parts, progress.part(0.13, 0.15))
-        made = step.work(store, points.resources, progress.part(0.15, 0.9))
         frame = survey_frame(points.cloud.crs)
+        step = step.seeing((part for _, part in points.parts()), frame, progress)
+        made = step.work(store, points.resources, progress.part(0.15, 0.9))
         return write_rasters(made, frame, step.request, outputs, progress.part(0.9, 1.0))
 
 

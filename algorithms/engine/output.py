@@ -28,6 +28,13 @@ class Output(ParameterSet):
         help="Leaves all points out of the output that are not of the class of the ground. The log"
         " says how many.",
     )
+    area_only: bool = parameter(
+        False,
+        label="Write points of the area only",
+        advanced=True,
+        help="Leaves all points out of the output that lie outside of the extent and the boundary,"
+        " and out of the rasters. Files of a survey that have none in the area are not written.",
+    )
     height_above_ground: bool = parameter(
         False,
         label="Add the height above ground",
@@ -36,15 +43,28 @@ class Output(ParameterSet):
     )
 
     @property
+    def needs_ground(self) -> bool:
+        """Whether there is nothing to write without ground."""
+        return self.ground_only or self.height_above_ground
+
+    @property
     def changes_points(self) -> bool:
         """Whether points change in more than their classes."""
-        return self.ground_only or self.height_above_ground
+        return self.needs_ground or self.area_only
+
+    def check_area(self, is_given: bool) -> None:
+        """Refuse to write an area alone where none is given."""
+        if self.area_only and not is_given:
+            raise BareEarthError(
+                "Give an extent or a boundary to write the points of the area only, or write all."
+            )
 
     def edits(
         self,
         cloud: PointCloud,
         classification: np.ndarray,
         ground: np.ndarray | None,
+        inside: np.ndarray | None,
         heights: np.ndarray | None = None,
         progress: Progress = SILENT,
     ) -> Edits:
@@ -57,7 +77,9 @@ class Output(ParameterSet):
         classification : numpy.ndarray of uint8, shape (n,)
             Their new classes.
         ground : numpy.ndarray of bool, shape (n,), or None
-            Which of them are ground; needed if more changes than the classes.
+            Which of them are ground; needed where there is nothing to write without.
+        inside : numpy.ndarray of bool, shape (n,), or None
+            Which of them lie in the area; needed if only they are written.
         heights : numpy.ndarray of float, shape (n,), optional
             Their heights above ground, if they are wanted.
         progress : Progress
@@ -68,8 +90,11 @@ class Output(ParameterSet):
         BareEarthError
             If nothing would be left to write, or no height can be measured.
         """
-        extra = kept = None
-        if self.changes_points and not ground.any():
+        extra, kept = None, inside if self.area_only else None
+        if kept is not None:
+            count = np.count_nonzero(~kept)
+            progress.info(f"{count:,} points outside of the area are left out of the output.")
+        if self.needs_ground and not (ground if kept is None else ground & kept).any():
             raise BareEarthError(
                 f"{cloud.path} has no ground points, so that there is nothing to write of the"
                 " ground alone, and no height above it. Check the parameters and the selection of"
@@ -78,8 +103,8 @@ class Output(ParameterSet):
         if heights is not None:
             extra = height_dimension(cloud, heights)
         if self.ground_only:
-            kept = ground
-            count = np.count_nonzero(~ground)
+            count = np.count_nonzero(~ground if kept is None else kept & ~ground)
+            kept = ground if kept is None else kept & ground
             progress.info(f"{count:,} points that are not ground are left out of the output.")
         return Edits(classification=classification, extra=extra, kept=kept)
 

@@ -9,7 +9,7 @@ from typing import Callable, NamedTuple
 import numpy as np
 
 from ..core.files import check_distinct
-from ..grids.hillshade import hillshade
+from ..grids.hillshade import hillshade, multidirectional_hillshade
 from ..products.surface_model import canopy_height
 from ..products.terrain_model import TerrainModel
 from ..rasters.geotiff import NODATA, RasterGrid
@@ -23,6 +23,8 @@ class Raster(NamedTuple):
     ----------
     label, help : str
         The field's title in the dialog, and a sentence on what it shows.
+    shows : str
+        What its cells hold, for legends; ``{unit}`` stands for the vertical unit.
     layers : tuple of str
         What it is made of: names in `LAYERS` of `products/raster_block.py`.
     make : callable
@@ -39,6 +41,7 @@ class Raster(NamedTuple):
 
     label: str
     help: str
+    shows: str
     layers: tuple[str, ...]
     make: Callable[..., np.ndarray]
     margin: int = 0
@@ -63,27 +66,38 @@ def _canopy(
 
 
 def _shade(heights: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.ndarray:
-    light = model.hillshade_azimuth, model.hillshade_altitude
-    return hillshade(heights, grid.cell_metres, *light)
+    altitude = model.hillshade_altitude
+    if model.hillshade_light == "multidirectional":
+        return multidirectional_hillshade(heights, grid.cell_metres, altitude)
+    return hillshade(heights, grid.cell_metres, model.hillshade_azimuth, altitude)
 
 
 RASTERS = {
-    "dtm": Raster("Terrain model (DTM)", "Heights of the bare ground.", ("terrain",), _heights),
+    "dtm": Raster(
+        "Terrain model (DTM)",
+        "Heights of the bare ground.",
+        "Height, {unit}",
+        ("terrain",),
+        _heights,
+    ),
     "dsm": Raster(
         "Surface model (DSM)",
         "The highest point of each cell, noise left out.",
+        "Height, {unit}",
         ("surface",),
         _heights,
     ),
     "chm": Raster(
         "Canopy height (CHM)",
         "Surface minus terrain: the height of trees, and of buildings too.",
+        "Height above ground, {unit}",
         ("surface", "terrain"),
         _canopy,
     ),
     "hillshade": Raster(
         "Hillshade",
-        "The terrain model, lit from one side.",
+        "The terrain model, lit by one light or by four.",
+        "Brightness, 1 to 255",
         ("terrain",),
         _shade,
         margin=1,
@@ -94,6 +108,7 @@ RASTERS = {
         "Confidence of the terrain model",
         "The probability, 0 to 1, that the terrain model is right: low under dense trees, across"
         " gaps and at breaks.",
+        "Confidence, 0 to 1",
         ("confidence",),
         plain,
     ),

@@ -16,6 +16,7 @@ from ..grids.cell_window import CellWindow
 from ..products.raster_block import BlockRasters
 from ..survey.collection import Collection
 from .blocks import Block
+from .constraints import parts_of
 from .job_queue import worked_off
 from .jobs import BlockJob
 from .memory import Resources
@@ -152,6 +153,8 @@ def make_rasters(
         If the user asked to stop.
     """
     survey = Survey(frame_of(collection), step.blocks)
+    seen, progress = progress.part(0.0, 0.05), progress.part(0.05, 1.0)
+    step = step.seeing(parts_of([each.file for each in collection.tiles], seen), survey.frame, seen)
     places = sorted({place for tile in collection.tiles for place in places_of(survey, tile)})
     files = {each: folder / f"rasters_{each.column}_{each.row}.npz" for each in places}
     jobs = block_jobs(RasterJob, survey, collection, files, folder, 0, workers, step=step)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import contextlib
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import Callable, Sequence
+from typing import Callable, Iterable, Sequence
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from ..core.errors import BareEarthError
 from ..core.points import Frame
 from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
+from ..grids.dense_surface import VERTICES_A_SIDE
 from ..las.cloud import PointCloud
 from ..products.raster_block import LAYERS, BlockRasters, RasterStep
 from ..products.surface_model import SurfaceModel
@@ -23,7 +24,7 @@ from ..rasters.writing import Rows, replacing_raster, write_geotiff
 from ..survey.ground_classes import GroundClasses, GroundTally
 from ..survey.selection import NOISE
 from .blocks import Block, Blocks, Store
-from .constraints import FixedTerrain
+from .constraints import NO_CONSTRAINTS, Constraints, FixedTerrain, fixed_terrain
 from .ground import over_blocks
 from .memory import Resources
 from .mosaic import Mosaic, Piece, gathered_strips
@@ -105,14 +106,35 @@ class MakeRasters(Step):
         Which points are ground.
     covers_ground : bool
         Whether the rasters reach as far as the ground does, not as all points but noise.
+    constraints : Constraints
+        Breaklines, water, and where there is no ground.
     fixed : FixedTerrain or None
-        What is known of the terrain besides.
+        The vertices that follow from them; `seeing` finds these.
     """
 
     request: RasterRequest = field(default_factory=RasterRequest)
     ground: GroundClasses = field(default_factory=GroundClasses)
     covers_ground: bool = False
+    constraints: Constraints = NO_CONSTRAINTS
     fixed: FixedTerrain | None = None
+
+    def seeing(
+        self, clouds: Iterable[PointCloud], frame: Frame, progress: Progress = SILENT
+    ) -> MakeRasters:
+        """Return the step that knows the vertices of its constraints.
+
+        Parameters
+        ----------
+        clouds : iterable of PointCloud
+            All points with their classes, part by part; see `fixed_terrain`.
+        frame : Frame
+            That of the survey.
+        progress : Progress
+            Told what cannot be used.
+        """
+        cell = self.request.model.dtm_cell_size / VERTICES_A_SIDE
+        fixed = fixed_terrain(self.constraints, clouds, frame, self.ground, cell, progress)
+        return replace(self, fixed=fixed)
 
     @property
     def blocks(self) -> Blocks:
@@ -129,10 +151,9 @@ class MakeRasters(Step):
         ground = self.ground.of(part, tally)
         if not self.request.needs_ground:
             ground = nothing
-        if self.fixed is not None:
-            stays = self.fixed.is_ground(part, ground)
-            tally.excluded += int(np.count_nonzero(ground & ~stays))
-            ground = stays
+        stays = self.constraints.is_ground(part, ground)
+        tally.excluded += int(np.count_nonzero(ground & ~stays))
+        ground = stays
         if self.covers_ground:
             return Marks(ground, ground, nothing)
         shown = ground | (~np.isin(part.classification, NOISE) & ~part.withheld)
@@ -256,7 +277,7 @@ def write_rasters(
         layers = [mosaics[each] for each in raster.layers]
         rows = Rows(window.shape, raster.kind, gathered_strips(layers, make, raster.margin, part))
         temporary = outputs.enter_context(replacing_raster(path))
-        write_geotiff(temporary, rows, grid, raster.nodata, progress)
+        write_geotiff(temporary, rows, grid, raster.nodata, progress, raster.shows)
     counts = np.sum([each.counts for each in made], axis=0)
     return RasterSize(int(counts[0]), int(counts[1]), window.columns, window.rows)
 

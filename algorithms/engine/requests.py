@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, Iterable, Sequence, TypeVar
+from typing import Any, Iterable, TypeVar
 
+from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet
-from ..core.progress import Progress
 from ..filters import DEFAULT_METHOD, METHODS
-from ..grids.dense_surface import VERTICES_A_SIDE
 from ..grids.model_key_points import ModelKeyPoints
-from ..las.lasfile import LasFile
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import TerrainModel
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
-from .constraints import Constraints, fixed_terrain
+from .constraints import NO_CONSTRAINTS, Constraints
 from .heights import HeightOutput, MeasureHeights
 from .key_points import FindKeyPoints, KeyPointMark
 from .labelling import LabelGround
@@ -78,7 +76,7 @@ class ClassifyRequest(Request):
     selection : Selection
         Which points take part, and what their classes become.
     area : Area or None
-        Where points are classified; everywhere if it is None. Of one file only.
+        Where points are classified; everywhere if it is None.
     corrections : Corrections
         Polygons in which the class is known.
     output : Output
@@ -87,6 +85,8 @@ class ClassifyRequest(Request):
         Rasters to write as well.
     terrain, surface : TerrainModel, SurfaceModel
         Their cell size and light, and which points make the surface.
+    constraints : Constraints
+        Breaklines, water, and where there is no ground, for the rasters.
     """
 
     parameters: ParameterSet = field(default_factory=METHODS[DEFAULT_METHOD].parameters)
@@ -97,6 +97,15 @@ class ClassifyRequest(Request):
     rasters: RasterFiles = field(default_factory=RasterFiles)
     terrain: TerrainModel = field(default_factory=TerrainModel)
     surface: SurfaceModel = field(default_factory=SurfaceModel)
+    constraints: Constraints = NO_CONSTRAINTS
+
+    def __post_init__(self) -> None:
+        self.output.check_area(self.area is not None)
+        if self.constraints.any and not self.rasters.wanted:
+            raise BareEarthError(
+                "Breaklines, water and places without ground shape rasters: name one to make, such"
+                " as the terrain model."
+            )
 
     @property
     def step(self) -> LabelGround:
@@ -113,12 +122,13 @@ class ClassifyRequest(Request):
     def raster_step(self) -> MakeRasters:
         """What makes the rasters of the classified points."""
         request = RasterRequest(self.rasters, self.terrain, self.surface)
-        return MakeRasters(request, self._ground, covers_ground=not request.needs_all)
+        covers_ground = not request.needs_all
+        return MakeRasters(request, self._ground, covers_ground, self.constraints)
 
     @property
     def height_step(self) -> MeasureHeights:
         """What measures the heights of the classified points."""
-        return MeasureHeights(self._ground)
+        return MeasureHeights(self._ground, area=self.area if self.output.area_only else None)
 
 
 @dataclass(frozen=True)
@@ -186,11 +196,10 @@ class TerrainRequest(Request):
     ground: GroundClasses = field(default_factory=GroundClasses)
     terrain: TerrainModel = field(default_factory=TerrainModel)
     surface: SurfaceModel = field(default_factory=SurfaceModel)
-    constraints: Constraints = field(default_factory=Constraints)
+    constraints: Constraints = NO_CONSTRAINTS
 
-    def raster_step(self, files: Sequence[LasFile], progress: Progress) -> MakeRasters:
-        """Return what makes the rasters of some files, which may be read for it."""
-        request, ground = RasterRequest(self.rasters, self.terrain, self.surface), self.ground
-        cell = self.terrain.dtm_cell_size / VERTICES_A_SIDE
-        fixed = fixed_terrain(self.constraints, files, ground, cell, progress)
-        return MakeRasters(request, ground, fixed=fixed)
+    @property
+    def raster_step(self) -> MakeRasters:
+        """What makes the rasters."""
+        request = RasterRequest(self.rasters, self.terrain, self.surface)
+        return MakeRasters(request, self.ground, constraints=self.constraints)

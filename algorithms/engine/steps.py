@@ -10,11 +10,12 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 from pathlib import Path
-from typing import Any, Callable, NamedTuple
+from typing import Any, Callable, NamedTuple, Sequence
 
 import numpy as np
 
 from ..core.parameters import ParameterSet
+from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
@@ -109,11 +110,21 @@ class PointStep(Step):
     def check_tile(self, tile: Tile) -> None:
         """Refuse, before any work, a file that cannot hold what is found."""
 
+    def check_survey(self, box: Box) -> None:
+        """Refuse, before any work, files whose points have these bounds in units of the CRS."""
+
+    def skips(self, tile: Tile) -> bool:
+        """Return whether nothing of a file is to be written, as its header says."""
+        return False
+
     def count(self, part: PointCloud, tally: Any) -> None:
         """Count what `tell_of_tile` tells of the points of one of many files."""
 
     def tell_of_tile(self, tally: Any, path: Path, progress: Progress) -> None:
         """Tell what was counted in one of many files, or refuse it."""
+
+    def tell_of_survey(self, done: Sequence[Any], progress: Progress) -> None:
+        """Tell what is to be said of all files together, given their summaries."""
 
     def result(self, path: Path, room: Room) -> PointResult:
         """Return what takes in the values of a file."""
@@ -122,6 +133,11 @@ class PointStep(Step):
 
 class PointResult:
     """What was found of the points of a file."""
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether nothing of them is to be written."""
+        return False
 
     def add(self, where: slice, part: PointCloud, values: np.ndarray) -> None:
         """Take in the values of some points.

@@ -14,10 +14,11 @@ from ..filters import DEFAULT_METHOD, METHODS
 from ..products.contours import Contours, write_contours
 from ..products.local_relief import LocalRelief, write_local_relief
 from ..products.surface_model import SurfaceModel
-from ..products.terrain_model import TerrainModel
+from ..products.terrain_model import MapTerrain
 from ..survey.collection import is_one_file
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.selection import Selection
+from .constraints import NO_CONSTRAINTS, Constraints
 from .many_files import classify_files
 from .one_file import classify_file
 from .options import TileOutput
@@ -49,15 +50,16 @@ class MapFiles(NamedTuple):
 
 @dataclass(frozen=True)
 class MapRequest(Request):
-    """How it is to be made: the declared parameters of each step, and what is known by hand."""
+    """How it is to be made: the declared parameters of each step, and what is known besides."""
 
     parameters: ParameterSet = field(default_factory=METHODS[DEFAULT_METHOD].parameters)
     selection: Selection = field(default_factory=Selection)
-    terrain: TerrainModel = field(default_factory=TerrainModel)
+    terrain: MapTerrain = field(default_factory=MapTerrain)
     surface: SurfaceModel = field(default_factory=SurfaceModel)
     contours: Contours = field(default_factory=Contours)
     relief: LocalRelief = field(default_factory=LocalRelief)
     corrections: Corrections = NO_CORRECTIONS
+    constraints: Constraints = NO_CONSTRAINTS
 
     def classify(self, rasters: RasterFiles) -> ClassifyRequest:
         """Return the request to classify, with the rasters that are made in the same run."""
@@ -71,6 +73,7 @@ class MapRequest(Request):
             rasters=rasters,
             terrain=self.terrain,
             surface=self.surface,
+            constraints=self.constraints,
         )
 
 

@@ -51,6 +51,8 @@ class TileRun:
         What became of the files that are done, by their names.
     kept_count : int
         How many of them a run before had done.
+    empty_count : int
+        Files of which there is nothing to write.
     failures : dict of Path to str
         Files that cannot be done, and why.
     """
@@ -64,7 +66,7 @@ class TileRun:
         progress: Progress,
     ) -> None:
         self.done: list[Any] = []
-        self.kept_count, self.failures = 0, {}
+        self.kept_count, self.empty_count, self.failures = 0, 0, {}
         self._survey = Survey(frame_of(collection), step.blocks)
         self._collection, self._folder, self._targets = collection, folder, targets
         self._step = step
@@ -73,6 +75,9 @@ class TileRun:
         self._states = {each.path: state_of(each.path) for each in collection.tiles}
         self._todo: list[_Needs] = []
         for number, tile in enumerate(collection.tiles, start=1):
+            if step.skips(tile):
+                self.empty_count += 1
+                continue
             try:
                 step.check_tile(tile)
                 self._todo.append(self._needs(tile))
@@ -117,6 +122,7 @@ class TileRun:
             end = 0.8 if rasters else 1.0
             queue = worked_off(blocks, tiles, workers, progress.part(0.02, end))
             self.done, self.kept_count = sorted([*kept, *queue.done]), len(kept)
+            self.empty_count += queue.empty_count
             self.failures.update(queue.failures)
             if self.done and rasters is not None:
                 paths = [self._folder / each.name for each in self.done]

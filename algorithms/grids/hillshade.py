@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+# Azimuths of the lights of a multidirectional hillshade, in degrees.
+_LIGHTS = (225.0, 270.0, 315.0, 360.0)
+
 
 def hillshade(
     heights: np.ndarray, cell_size: float, azimuth: float = 315.0, altitude: float = 45.0
@@ -29,14 +32,57 @@ def hillshade(
     Horn, B. K. P. (1981): Hill shading and the reflectance map. Proceedings of the IEEE 69.
     """
     dx, dy = _gradient(heights, cell_size)
-    slope = np.hypot(dx, dy)
+    return _as_bytes(heights, _lit(dx, dy, azimuth, altitude))
+
+
+def multidirectional_hillshade(
+    heights: np.ndarray, cell_size: float, altitude: float = 45.0
+) -> np.ndarray:
+    """Return how brightly a surface is lit from the southwest, west, northwest and north at once.
+
+    Each light counts most on slopes that face it or turn away from it, so that ridges and valleys
+    of any direction stand out.
+
+    Parameters
+    ----------
+    heights, cell_size, altitude
+        As for `hillshade`.
+
+    Returns
+    -------
+    numpy.ndarray of uint8, shape (rows, columns)
+        1 (dark) to 255 (bright); 0 where there is no height.
+
+    References
+    ----------
+    Mark, R. K. (1992): A multidirectional, oblique-weighted, shaded-relief image of the Island of
+    Hawaii. U.S. Geological Survey Open-File Report 92-422. The four lights are his. He weighs them
+    by the squared sine between light and aspect, the latter of a smooth surface; that of each cell
+    would leave little contrast. The weights here, squared cosines, and the altitude are those of
+    ``gdaldem hillshade -multidirectional``.
+    """
+    dx, dy = _gradient(heights, cell_size)
+    # Level land has no aspect, and is as bright from all sides.
+    aspect = np.arctan2(dx, dy)
+    # The angles are 45 degrees apart, so that the sum of the weights is 2.
+    lit = sum(
+        np.cos(aspect - np.radians(azimuth)) ** 2 * _lit(dx, dy, azimuth, altitude) / 2.0
+        for azimuth in _LIGHTS
+    )
+    return _as_bytes(heights, lit)
+
+
+def _lit(dx: np.ndarray, dy: np.ndarray, azimuth: float, altitude: float) -> np.ndarray:
+    """Return how brightly slopes are lit by one light, 0 to 1."""
     azimuth, altitude = np.radians(azimuth), np.radians(altitude)
     # The light's direction times the surface's normal, without the angles in between.
     lit = np.sin(altitude) - np.cos(altitude) * (dx * np.sin(azimuth) + dy * np.cos(azimuth))
-    lit = np.clip(lit / np.sqrt(1.0 + slope**2), 0.0, 1.0)
-    return np.where(np.isnan(heights), 0, np.rint(1.0 + 254.0 * np.nan_to_num(lit))).astype(
-        np.uint8
-    )
+    return np.clip(lit / np.sqrt(1.0 + dx**2 + dy**2), 0.0, 1.0)
+
+
+def _as_bytes(heights: np.ndarray, lit: np.ndarray) -> np.ndarray:
+    lit = np.where(np.isnan(heights), 0.0, 1.0 + 254.0 * np.nan_to_num(lit))
+    return np.rint(lit).astype(np.uint8)
 
 
 def _gradient(heights: np.ndarray, cell_size: float) -> tuple[np.ndarray, np.ndarray]:

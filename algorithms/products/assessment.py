@@ -111,7 +111,8 @@ def _write_error_map(
     progress(0.8)
     errors = np.bincount(place[wrong[counted]], minlength=cells)
     share = np.where(count > 0, errors / np.maximum(count, 1), NODATA).astype(np.float32)
-    write_geotiff(target, share.reshape(grid.rows, grid.columns), grid, NODATA, progress)
+    shares = share.reshape(grid.rows, grid.columns)
+    write_geotiff(target, shares, grid, NODATA, progress, "Share of wrong points, 0 to 1")
 
 
 def _matching_orders(one: PointCloud, other: PointCloud) -> tuple[np.ndarray | slice, ...]:

@@ -100,7 +100,7 @@ def write_class_raster(
             cells = ClassCells(grid.rows * grid.columns, ground_class)
         cells.add(_cells_of(part, grid), part.classification)
     values = cells.values().reshape(grid.rows, grid.columns)
-    write_geotiff(target, values, grid, NO_CLASS, progress)
+    write_geotiff(target, values, grid, NO_CLASS, progress, "Class")
 
 
 def _grid_of(las: LasFile, part: PointCloud, cell_size: float) -> RasterGrid:

@@ -115,5 +115,5 @@ def write_local_relief(
     relief = local_relief(raster.heights, raster.cell_metres, parameters.relief_radius)
     progress(0.9)
     values = np.where(np.isnan(relief), np.float32(NODATA), relief)
-    write_geotiff(target, values, raster, NODATA, progress)
+    write_geotiff(target, values, raster, NODATA, progress, "Local relief, {unit}")
     progress(1.0)

@@ -123,7 +123,7 @@ def remove_objects_file(
     heights = np.where(removed, heights / unit, raster.heights)
     values = np.where(known, heights, NODATA).astype(np.float32)
     progress(1.0)  # the last moment to cancel: after this the file is there
-    write_geotiff(target, values, raster, NODATA, progress)
+    write_geotiff(target, values, raster, NODATA, progress, "Height, {unit}")
     return Removal(int(np.count_nonzero(known)), int(np.count_nonzero(removed)))
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.parameters import ParameterSet, parameter
+from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
@@ -27,6 +27,17 @@ class TerrainModel(ParameterSet):
         help="Side of a cell of the terrain model and of its hillshade. About the distance between "
         "ground points is sensible; smaller cells only make the file larger.",
     )
+    hillshade_light: str = parameter(
+        "one",
+        label="Light of the hillshade",
+        choices={
+            "one": "One light",
+            "multidirectional": "Four lights, from southwest to north",
+        },
+        advanced=True,
+        help="One light shows best what lies across it, and leaves slopes that turn away in the"
+        " dark. Four lights show landforms of any direction.",
+    )
     hillshade_azimuth: float = parameter(
         315.0,
         label="Hillshade azimuth",
@@ -34,7 +45,7 @@ class TerrainModel(ParameterSet):
         minimum=0.0,
         maximum=360.0,
         advanced=True,
-        help="Where the light comes from, clockwise from north.",
+        help="Where one light comes from, clockwise from north; four have their own directions.",
     )
     hillshade_altitude: float = parameter(
         45.0,
@@ -45,6 +56,13 @@ class TerrainModel(ParameterSet):
         advanced=True,
         help="How high the light stands above the horizon.",
     )
+
+
+@dataclass(frozen=True)
+class MapTerrain(TerrainModel):
+    """The same for a map of any land, whose landforms run in any direction."""
+
+    hillshade_light: str = parameter_of(TerrainModel, "hillshade_light", default="multidirectional")
 
 
 def interpolate(

@@ -12,6 +12,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.files import check_output, replacing, shown
 from ..core.progress import Progress
+from ..crs.system import unit_symbol
 from .geotiff import Raster, RasterGrid
 from .libraries import GdalErrors, library
 
@@ -53,12 +54,20 @@ class Rows(NamedTuple):
     strips: Iterable[np.ndarray]
 
 
+class Band(NamedTuple):
+    """What a file says of its band: the value that stands for none, and what the cells hold."""
+
+    nodata: float
+    description: str
+
+
 def write_geotiff(
     target: Path,
     values: np.ndarray | Rows,
     grid: RasterGrid | Raster,
     nodata: float,
     progress: Progress,
+    shows: str,
 ) -> None:
     """Write a single-band, cloud-optimised GeoTIFF.
 
@@ -74,6 +83,9 @@ def write_geotiff(
         The value that stands for none.
     progress : Progress
         Warned if the file has to go without its CRS.
+    shows : str
+        What the cells hold, which programs show as the name of the band; ``{unit}`` stands for the
+        symbol of the vertical unit.
 
     Raises
     ------
@@ -83,8 +95,9 @@ def write_geotiff(
     check_output(target)
     if isinstance(values, np.ndarray):
         values = Rows(values.shape, values.dtype.name, [values])
+    band = Band(nodata, shows.format(unit=unit_symbol(grid.frame.vertical_unit)))
     with replacing_raster(target) as temporary:
-        _writer()(temporary, values, grid, nodata, progress)
+        _writer()(temporary, values, grid, band, progress)
 
 
 def check_raster_output(target: Path, sources: tuple[Path, ...] = ()) -> None:
@@ -109,7 +122,7 @@ def _waiting_file(path: Path, rows: Rows) -> Path | None:
 
 
 def _write_with_gdal(
-    path: Path, rows: Rows, grid: RasterGrid | Raster, nodata: float, progress: Progress
+    path: Path, rows: Rows, grid: RasterGrid | Raster, about: Band, progress: Progress
 ) -> None:
     from osgeo import gdal, osr
 
@@ -131,7 +144,8 @@ def _write_with_gdal(
                     _warn_without_crs(progress)
                 errors.clear()
             band, start = dataset.GetRasterBand(1), 0
-            band.SetNoDataValue(nodata)
+            band.SetNoDataValue(about.nodata)
+            band.SetDescription(about.description)
             if grid.unit:
                 band.SetUnitType(grid.unit)
             for strip in rows.strips:
@@ -154,7 +168,7 @@ def _words(options: dict[str, str]) -> list[str]:
 
 
 def _write_with_rasterio(
-    path: Path, rows: Rows, grid: RasterGrid | Raster, nodata: float, progress: Progress
+    path: Path, rows: Rows, grid: RasterGrid | Raster, about: Band, progress: Progress
 ) -> None:
     import rasterio
     import rasterio.shutil
@@ -167,7 +181,7 @@ def _write_with_rasterio(
     waiting = _waiting_file(path, rows)
     profile: dict[str, Any] = dict(
         driver="GTiff", width=rows.shape[1], height=rows.shape[0], count=1, dtype=rows.kind,
-        nodata=nodata, crs=crs, transform=Affine.from_gdal(*grid.geotransform), **_WAITING,
+        nodata=about.nodata, crs=crs, transform=Affine.from_gdal(*grid.geotransform), **_WAITING,
     )  # fmt: skip
     try:
         # No side-car file: it would stay behind under the temporary name.
@@ -179,6 +193,7 @@ def _write_with_rasterio(
                     window = Window(0, start, rows.shape[1], len(strip))
                     dataset.write(strip, 1, window=window)
                     start += len(strip)
+                dataset.descriptions = (about.description,)
                 if grid.unit:
                     dataset.units = (grid.unit,)
             # In memory first: of a disk that is full at the close rasterio raises no error.

@@ -68,6 +68,11 @@ class Area:
         west, south, east, north = self.bounds
         return west - distance, south - distance, east + distance, north + distance
 
+    def may_touch(self, box: Box) -> bool:
+        """Return whether the bounds share a place with a box, their borders included."""
+        west, south, east, north = self.bounds
+        return west <= box[2] and east >= box[0] and south <= box[3] and north >= box[1]
+
     def contains(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Return which places lie in the area.
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from ..core.errors import BareEarthError
+from ..core.points import Box
 from ..core.progress import Progress
 from ..las.cloud import PointCloud
 from ..las.records import check_class
@@ -118,20 +119,28 @@ class PointChooser:
         """
         if self.area is not None:
             if not tally.inside:
-                wanted, there = box_in_words(self.area.bounds), box_in_words(tally.bounds)
-                raise BareEarthError(
-                    f"No point of {path} lies in the area ({wanted}): the points have"
-                    f" {there}. Give the area in the CRS of the points."
-                )
+                raise self.no_point_in_area(str(path), tally.bounds)
             progress.info(f"{tally.inside:,} of {tally.points:,} points lie in the area.")
         self.selection.tell(tally, path, progress, self.area is not None)
-        if self.corrections.polygons and not tally.by_hand:
-            progress.warning(
-                "No point gets its class by the polygons of the corrections. Give them in the CRS"
-                " of the points."
-            )
+        if not tally.by_hand:
+            self.tell_of_corrections(progress)
         if not tally.wanted:
             raise BareEarthError(
                 f"None of the {tally.inside:,} points in the area takes part. Choose"
                 " another area, or other returns or classes."
+            )
+
+    def no_point_in_area(self, of: str, box: Box) -> BareEarthError:
+        """Return the error for an area without points; those `of` some files have such bounds."""
+        return BareEarthError(
+            f"No point of {of} lies in the area ({box_in_words(self.area.bounds)}): the points have"
+            f" {box_in_words(box)}. Give the area in the CRS of the points."
+        )
+
+    def tell_of_corrections(self, progress: Progress) -> None:
+        """Tell that no point gets its class by hand, if there are polygons that say one."""
+        if self.corrections.polygons:
+            progress.warning(
+                "No point gets its class by the polygons of the corrections. Give them in the CRS"
+                " of the points."
             )

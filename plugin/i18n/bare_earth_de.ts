@@ -4,6 +4,14 @@
 <context>
     <name>BareEarth</name>
     <message>
+        <source>0 to 1</source>
+        <translation>0 bis 1</translation>
+    </message>
+    <message>
+        <source>1 to 255</source>
+        <translation>1 bis 255</translation>
+    </message>
+    <message>
         <source>&lt;b&gt;Values of the presets&lt;/b&gt;, where they differ and a field is left empty</source>
         <translation>&lt;b&gt;Werte der Voreinstellungen&lt;/b&gt;, wo sie sich unterscheiden und ein Feld leer bleibt</translation>
     </message>
@@ -136,6 +144,10 @@
         <translation>Brücken</translation>
     </message>
     <message>
+        <source>Brightness</source>
+        <translation>Helligkeit</translation>
+    </message>
+    <message>
         <source>COPC, which QGIS shows without an index of its own</source>
         <translation>COPC, das QGIS ohne eigenen Index zeigt</translation>
     </message>
@@ -208,6 +220,10 @@ Längen sind Meter, gleich welche Einheit das KBS hat.</translation>
     <message>
         <source>City, large halls</source>
         <translation>Großstadt, große Hallen</translation>
+    </message>
+    <message>
+        <source>Class</source>
+        <translation>Klasse</translation>
     </message>
     <message>
         <source>Class of bridges</source>
@@ -308,6 +324,10 @@ Längen sind Meter, gleich welche Einheit das KBS hat.</translation>
     <message>
         <source>Compressed point clouds (.laz, .copc.laz) need the package lazrs, which few builds of QGIS have. Here you get it from the Python Package Index (0.6 MB), or, without the internet, from a wheel file of lazrs for {}. It goes into your profile; QGIS itself is left as it is.</source>
         <translation>Komprimierte Punktwolken (.laz, .copc.laz) brauchen das Paket lazrs, das kaum ein QGIS mitbringt. Hier bekommen Sie es aus dem Python Package Index (0,6 MB) oder, ohne Internet, aus einer Wheel-Datei von lazrs für {}. Es kommt in Ihr Profil; QGIS selbst bleibt, wie es ist.</translation>
+    </message>
+    <message>
+        <source>Confidence</source>
+        <translation>Verlässlichkeit</translation>
     </message>
     <message>
         <source>Confidence of the terrain model</source>
@@ -456,6 +476,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Format der Ausgabe</translation>
     </message>
     <message>
+        <source>Four lights, from southwest to north</source>
+        <translation>Vier Lichter, von Südwest bis Nord</translation>
+    </message>
+    <message>
         <source>From a raw point cloud to heights above ground, of points and as a raster.</source>
         <translation>Von der rohen Punktwolke zu Höhen über Grund, an den Punkten und als Raster.</translation>
     </message>
@@ -558,6 +582,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>HTML files (*.html)</source>
         <translation>HTML-Dateien (*.html)</translation>
+    </message>
+    <message>
+        <source>Height</source>
+        <translation>Höhe</translation>
     </message>
     <message>
         <source>Height above ground</source>
@@ -728,8 +756,16 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Lässt in der Ausgabe alle Punkte weg, die nicht die Klasse des Bodens haben. Das Protokoll sagt, wie viele es sind.</translation>
     </message>
     <message>
+        <source>Leaves all points out of the output that lie outside of the extent and the boundary, and out of the rasters. Files of a survey that have none in the area are not written.</source>
+        <translation>Lässt alle Punkte außerhalb von Ausdehnung und Begrenzung weg, in der Ausgabe und in den Rastern. Dateien einer Befliegung, die im Gebiet keine haben, werden nicht geschrieben.</translation>
+    </message>
+    <message>
         <source>LiDAR360's values</source>
         <translation>Werte von LiDAR360</translation>
+    </message>
+    <message>
+        <source>Light of the hillshade</source>
+        <translation>Licht der Schummerung</translation>
     </message>
     <message>
         <source>Line of the profile</source>
@@ -860,6 +896,14 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Of the ground, keep only the points that a terrain model needs: those whose TIN lies within the two tolerances below of every other ground point.</source>
         <translation>Vom Boden bleiben nur die Punkte, die ein Geländemodell braucht: jene, deren TIN innerhalb der beiden folgenden Toleranzen an jedem anderen Bodenpunkt liegt.</translation>
+    </message>
+    <message>
+        <source>One light</source>
+        <translation>Ein Licht</translation>
+    </message>
+    <message>
+        <source>One light shows best what lies across it, and leaves slopes that turn away in the dark. Four lights show landforms of any direction.</source>
+        <translation>Ein Licht zeigt am besten, was quer zu ihm liegt, und lässt abgewandte Hänge im Dunkeln. Vier Lichter zeigen Geländeformen jeder Richtung.</translation>
     </message>
     <message>
         <source>One pass for each, from the largest: of two neighbouring cells that differ by more, the higher is the rim of an object. Empty: from the preset.</source>
@@ -1060,6 +1104,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Share of the ground's rise from point to point, over a metre at most, that is added to the ground tolerance; in the paper's preset, of its rise over one cell. Empty: from the preset.</source>
         <translation>Anteil des Anstiegs des Bodens von Punkt zu Punkt, über höchstens einen Meter, der zur Bodentoleranz hinzukommt; in der Voreinstellung der Veröffentlichung von seinem Anstieg über eine Zelle. Leer: aus der Voreinstellung.</translation>
+    </message>
+    <message>
+        <source>Share of wrong points</source>
+        <translation>Anteil falscher Punkte</translation>
     </message>
     <message>
         <source>Shorter side of the largest building or other object. Whatever is narrower and stands out from its surroundings gives no seed of the ground. Too large costs time and sharp hilltops. Empty: from the preset.</source>
@@ -1322,8 +1370,8 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Das Geländemodell abzüglich eines geglätteten: Hügel, Gräben und alte Wege treten hervor.</translation>
     </message>
     <message>
-        <source>The terrain model, lit from one side.</source>
-        <translation>Das Geländemodell, von einer Seite beleuchtet.</translation>
+        <source>The terrain model, lit by one light or by four.</source>
+        <translation>Das Geländemodell, von einem Licht oder von vieren beleuchtet.</translation>
     </message>
     <message>
         <source>The values of the method, by terrain. Values of one's own can be given on the command line.</source>
@@ -1454,12 +1502,12 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Wheel-Dateien (*.whl)</translation>
     </message>
     <message>
-        <source>Where the classified files go, each under its name.</source>
-        <translation>Wohin die klassifizierten Dateien kommen, jede unter ihrem Namen.</translation>
+        <source>Where one light comes from, clockwise from north; four have their own directions.</source>
+        <translation>Woher ein Licht kommt, von Norden aus im Uhrzeigersinn; vier haben ihre eigenen Richtungen.</translation>
     </message>
     <message>
-        <source>Where the light comes from, clockwise from north.</source>
-        <translation>Woher das Licht kommt, von Norden aus im Uhrzeigersinn.</translation>
+        <source>Where the classified files go, each under its name.</source>
+        <translation>Wohin die klassifizierten Dateien kommen, jede unter ihrem Namen.</translation>
     </message>
     <message>
         <source>Where the values come from that are left empty: from the points (automatic), or from what suits a kind of terrain. The log says which values were used.</source>
@@ -1492,6 +1540,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Write ground points only</source>
         <translation>Nur Bodenpunkte schreiben</translation>
+    </message>
+    <message>
+        <source>Write points of the area only</source>
+        <translation>Nur Punkte des Gebiets schreiben</translation>
     </message>
     <message>
         <source>Write the heights as</source>

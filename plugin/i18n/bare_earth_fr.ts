@@ -4,6 +4,14 @@
 <context>
     <name>BareEarth</name>
     <message>
+        <source>0 to 1</source>
+        <translation>0 à 1</translation>
+    </message>
+    <message>
+        <source>1 to 255</source>
+        <translation>1 à 255</translation>
+    </message>
+    <message>
         <source>&lt;b&gt;Values of the presets&lt;/b&gt;, where they differ and a field is left empty</source>
         <translation>&lt;b&gt;Valeurs des préréglages&lt;/b&gt;, là où elles diffèrent et où un champ reste vide</translation>
     </message>
@@ -136,6 +144,10 @@
         <translation>Ponts</translation>
     </message>
     <message>
+        <source>Brightness</source>
+        <translation>Luminosité</translation>
+    </message>
+    <message>
         <source>COPC, which QGIS shows without an index of its own</source>
         <translation>COPC, que QGIS affiche sans index à part</translation>
     </message>
@@ -208,6 +220,10 @@ Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
     <message>
         <source>City, large halls</source>
         <translation>Grande ville, grandes halles</translation>
+    </message>
+    <message>
+        <source>Class</source>
+        <translation>Classe</translation>
     </message>
     <message>
         <source>Class of bridges</source>
@@ -308,6 +324,10 @@ Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
     <message>
         <source>Compressed point clouds (.laz, .copc.laz) need the package lazrs, which few builds of QGIS have. Here you get it from the Python Package Index (0.6 MB), or, without the internet, from a wheel file of lazrs for {}. It goes into your profile; QGIS itself is left as it is.</source>
         <translation>Les nuages de points compressés (.laz, .copc.laz) demandent le paquet lazrs, que peu de versions de QGIS contiennent. Vous l'obtenez ici depuis le Python Package Index (0,6 Mo) ou, sans internet, depuis un fichier wheel de lazrs pour {}. Il va dans votre profil ; QGIS lui-même reste tel quel.</translation>
+    </message>
+    <message>
+        <source>Confidence</source>
+        <translation>Fiabilité</translation>
     </message>
     <message>
         <source>Confidence of the terrain model</source>
@@ -456,6 +476,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Format de sortie</translation>
     </message>
     <message>
+        <source>Four lights, from southwest to north</source>
+        <translation>Quatre lumières, du sud-ouest au nord</translation>
+    </message>
+    <message>
         <source>From a raw point cloud to heights above ground, of points and as a raster.</source>
         <translation>Du nuage de points brut aux hauteurs au-dessus du sol, des points et en raster.</translation>
     </message>
@@ -558,6 +582,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>HTML files (*.html)</source>
         <translation>Fichiers HTML (*.html)</translation>
+    </message>
+    <message>
+        <source>Height</source>
+        <translation>Altitude</translation>
     </message>
     <message>
         <source>Height above ground</source>
@@ -728,8 +756,16 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Laisse hors de la sortie tous les points qui n'ont pas la classe du sol. Le journal dit combien.</translation>
     </message>
     <message>
+        <source>Leaves all points out of the output that lie outside of the extent and the boundary, and out of the rasters. Files of a survey that have none in the area are not written.</source>
+        <translation>Laisse hors de la sortie et des rasters tous les points en dehors de l'emprise et de la limite. Les fichiers d'un levé qui n'en ont aucun dans la zone ne sont pas écrits.</translation>
+    </message>
+    <message>
         <source>LiDAR360's values</source>
         <translation>Valeurs de LiDAR360</translation>
+    </message>
+    <message>
+        <source>Light of the hillshade</source>
+        <translation>Lumière de l'ombrage</translation>
     </message>
     <message>
         <source>Line of the profile</source>
@@ -860,6 +896,14 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Of the ground, keep only the points that a terrain model needs: those whose TIN lies within the two tolerances below of every other ground point.</source>
         <translation>Ne garder du sol que les points dont un modèle de terrain a besoin : ceux dont le TIN reste dans les deux tolérances ci-dessous autour de chaque autre point sol.</translation>
+    </message>
+    <message>
+        <source>One light</source>
+        <translation>Une lumière</translation>
+    </message>
+    <message>
+        <source>One light shows best what lies across it, and leaves slopes that turn away in the dark. Four lights show landforms of any direction.</source>
+        <translation>Une seule lumière montre le mieux ce qui lui est perpendiculaire et laisse dans l'ombre les versants qui s'en détournent. Quatre lumières montrent les formes du terrain de toute direction.</translation>
     </message>
     <message>
         <source>One pass for each, from the largest: of two neighbouring cells that differ by more, the higher is the rim of an object. Empty: from the preset.</source>
@@ -1060,6 +1104,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Share of the ground's rise from point to point, over a metre at most, that is added to the ground tolerance; in the paper's preset, of its rise over one cell. Empty: from the preset.</source>
         <translation>Part de la montée du sol d'un point à l'autre, sur un mètre au plus, qui s'ajoute à la tolérance du sol ; dans le préréglage de l'article, de sa montée sur une cellule. Vide : d'après le préréglage.</translation>
+    </message>
+    <message>
+        <source>Share of wrong points</source>
+        <translation>Part des points erronés</translation>
     </message>
     <message>
         <source>Shorter side of the largest building or other object. Whatever is narrower and stands out from its surroundings gives no seed of the ground. Too large costs time and sharp hilltops. Empty: from the preset.</source>
@@ -1322,8 +1370,8 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Le modèle de terrain moins un modèle lissé : les buttes, les fossés et les anciens chemins ressortent.</translation>
     </message>
     <message>
-        <source>The terrain model, lit from one side.</source>
-        <translation>Le modèle de terrain, éclairé d'un côté.</translation>
+        <source>The terrain model, lit by one light or by four.</source>
+        <translation>Le modèle de terrain, éclairé par une lumière ou par quatre.</translation>
     </message>
     <message>
         <source>The values of the method, by terrain. Values of one's own can be given on the command line.</source>
@@ -1454,12 +1502,12 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Fichiers wheel (*.whl)</translation>
     </message>
     <message>
-        <source>Where the classified files go, each under its name.</source>
-        <translation>Où vont les fichiers classés, chacun sous son nom.</translation>
+        <source>Where one light comes from, clockwise from north; four have their own directions.</source>
+        <translation>D'où vient une lumière seule, dans le sens horaire depuis le nord ; les quatre ont leurs propres directions.</translation>
     </message>
     <message>
-        <source>Where the light comes from, clockwise from north.</source>
-        <translation>D'où vient la lumière, depuis le nord dans le sens des aiguilles d'une montre.</translation>
+        <source>Where the classified files go, each under its name.</source>
+        <translation>Où vont les fichiers classés, chacun sous son nom.</translation>
     </message>
     <message>
         <source>Where the values come from that are left empty: from the points (automatic), or from what suits a kind of terrain. The log says which values were used.</source>
@@ -1492,6 +1540,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Write ground points only</source>
         <translation>N'écrire que les points sol</translation>
+    </message>
+    <message>
+        <source>Write points of the area only</source>
+        <translation>N'écrire que les points de la zone</translation>
     </message>
     <message>
         <source>Write the heights as</source>

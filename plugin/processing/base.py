@@ -25,6 +25,7 @@ from ...algorithms.las.backends import install_hint, missing_packages
 from .. import compat
 from ..i18n import mark, tr
 from ..styles import layers
+from .area import check_area_only
 from .feedback import FeedbackProgress, tell_of_unknown
 from .fields import field_of, parameters_of
 from .help_pages import address_of
@@ -92,7 +93,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
 
     def check(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
         """Refuse values, before anything runs, by raising BareEarthError."""
-        self.chosen(parameters, context)
+        check_area_only(parameters, self.chosen(parameters, context))
         self.find_inputs(parameters, context)
 
     def chosen(

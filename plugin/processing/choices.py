@@ -34,6 +34,12 @@ def value_of(given: Any, values: list[str]) -> Any:
     return values[int(text)] if int(text) < len(values) else given
 
 
+def values_of(given: Any, values: list[str]) -> list[Any]:
+    """Return the values of a choice of several: a list, or a text with commas, of them."""
+    several = given.split(",") if isinstance(given, str) else given
+    return [value_of(each, values) for each in several]
+
+
 def with_labels(field: ChoiceParameter, labels: list[str]) -> ChoiceParameter:
     """Let dialogs show labels in place of the values; the modeler's goes on showing values."""
     field.setMetadata({"widget_wrapper": {"class": _WIDGET}, LABELS: labels})

@@ -14,15 +14,13 @@ from ...algorithms.filters import METHODS
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
 from ..i18n import tr
+from .area import add_limits, area_options, limits_of
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified
-from .corrections import add_corrections, corrections_of
 from .feedback import FeedbackProgress
 from .inputs import (
     CLOUD_HELP,
     PointCloudInput,
-    add_area,
-    area_of,
     ignored_filter,
     name_of,
     source_path,
@@ -65,8 +63,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         """Declare the fields of the dialog and the results."""
         self.addParameter(PointCloudInput("INPUT", "Point cloud"), CLOUD_HELP)
         self.add_declared()
-        add_area(self)
-        add_corrections(self)
+        add_limits(self)
         add_cloud(self)
         add_rasters(self, ("DTM", "HILLSHADE"))
         self.addOutput(QgsProcessingOutputNumber("POINT_COUNT", "Points"))
@@ -89,8 +86,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         super().prepare(parameters, context, progress)
         if ignored_filter(self, parameters, "INPUT", context):
             progress.warning(tr("The layer's filter is not applied: all points are read."))
-        self._area = area_of(self, parameters, context, self._source)
-        self._corrections = corrections_of(self, parameters, context, self._source, progress)
+        self._limits = limits_of(self, parameters, context, self._source, progress)
 
     def compute(
         self,
@@ -108,17 +104,15 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         paths = raster_paths(self, parameters, context)
         options = {"method": self.method, **paths}
         command = command_line("classify", [str(self._source), output], chosen, options)
-        progress.command(" ".join([command, *self._area_options(progress)]))
-        known = {"area": self._area, "corrections": self._corrections}
-        request = ClassifyRequest.of(chosen, rasters=raster_files(paths), **known)
+        progress.command(" ".join([command, *area_options(self._limits["area"], progress)]))
+        request = ClassifyRequest.of(chosen, rasters=raster_files(paths), **self._limits)
         summary = classify_file(self._source, Path(output), request, progress)
         ground, count = summary.area_ground_count, summary.area_count
         text = tr("{ground:,} of {count:,} points are ground ({share:.1%}).")
-        if self._area:
+        if self._limits["area"]:
             text = tr("{ground:,} of {count:,} points in the area are ground ({share:.1%}).")
         progress.info(text.format(ground=ground, count=count, share=ground / count))
-        look = summary.class_counts, request.selection.to_class, request.terrain.dtm_cell_size
-        show_classified(self, output, *look, context, progress)
+        show_classified(self, output, summary.class_counts, request, context, progress)
         self.class_counts = summary.class_counts
         return {
             "OUTPUT": output,
@@ -128,16 +122,3 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
             "SELECTED_COUNT": summary.selected_count,
             "GROUND_COUNT": summary.ground_count,
         }
-
-    def _area_options(self, progress: FeedbackProgress) -> list[str]:
-        """Return the options of the command line that name the area, as far as it can."""
-        if self._area is None:
-            return []
-        if self._area.polygons:
-            progress.info(
-                tr(
-                    "In the command line the boundary is missing: save it in the CRS of the points"
-                    " as boundary.geojson, and add --boundary boundary.geojson."
-                )
-            )
-        return ["--extent", *map(repr, self._area.box)] if self._area.box else []

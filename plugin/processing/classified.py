@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Iterable
+from typing import TYPE_CHECKING, Iterable
 
 from qgis.core import QgsProcessingContext, QgsProcessingUtils
 
@@ -13,13 +13,16 @@ from ..styles import clouds, layers
 from .base import BareEarthAlgorithm
 from .feedback import FeedbackProgress
 
+if TYPE_CHECKING:
+    from ...algorithms.engine.requests import ClassifyRequest
+    from ...algorithms.engine.terrain_maps import MapRequest
+
 
 def show_classified(
     algorithm: BareEarthAlgorithm,
     cloud: str,
     classes: Iterable[int],
-    ground_class: int,
-    cell_size: float,
+    request: ClassifyRequest | MapRequest,
     context: QgsProcessingContext,
     progress: FeedbackProgress,
     hides: int = layers.CLOUD,
@@ -34,10 +37,8 @@ def show_classified(
         The file; a virtual point cloud if it is of many.
     classes : iterable of int
         Its classes; the usual ones if there are none.
-    ground_class : int
-        That of the ground.
-    cell_size : float
-        Side of the cells of the raster in metres.
+    request : ClassifyRequest or MapRequest
+        Says the class of the ground, and the cells of the raster.
     context : QgsProcessingContext
         What takes the place of the points is made only where other layers are loaded.
     progress : FeedbackProgress
@@ -45,6 +46,7 @@ def show_classified(
     hides : int
         As for `layers.Look`.
     """
+    ground_class = request.selection.to_class
     classes = list(classes) or clouds.usual_classes(ground_class)
     is_virtual = cloud.endswith(".vpc")
     if is_virtual and hides == layers.CLOUD:
@@ -63,6 +65,7 @@ def show_classified(
     from ...algorithms.products.class_raster import write_class_raster
 
     path = QgsProcessingUtils.generateTempFilename("classes.tif")
+    cell_size = request.terrain.dtm_cell_size
     write_class_raster(Path(cloud), Path(path), cell_size, ground_class, progress)
     hint = QgsProcessingUtils.LayerHint.Raster
     details = QgsProcessingContext.LayerDetails("classes", context.project(), "classes", hint)

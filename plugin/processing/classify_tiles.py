@@ -6,12 +6,13 @@ from pathlib import Path
 
 from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.options import TileInput, TileMethod, TileOutput
+from ...algorithms.engine.output import Output
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
 from ..i18n import mark
+from .area import add_limits, area_options, limits_of
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified
-from .corrections import add_corrections, corrections_of
 from .inputs import add_clouds, clouds_of, names_of
 from .outputs import add_rasters, add_tiles, raster_files, raster_paths
 
@@ -37,14 +38,14 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
     shown = "method", "preset"
 
     def parameter_sets(self):
-        """Return method, points and classes, files, terrain model, and what may be used."""
-        return TileMethod, Selection, TileInput, TileOutput, TerrainModel, Resources
+        """Return method, points and classes, files, outputs, and what may be used."""
+        return TileMethod, Selection, TileInput, TileOutput, Output, TerrainModel, Resources
 
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""
         add_clouds(self)
         self.add_declared()
-        add_corrections(self)
+        add_limits(self, advanced=("EXTENT", "BOUNDARY"))
         add_tiles(self)
         add_rasters(self, ("DTM", "HILLSHADE"))
         self.add_numbers(_NUMBERS)
@@ -53,6 +54,11 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         """Find the files."""
         self._sources = clouds_of(self, parameters, context)
         self.subject = names_of(self._sources)
+
+    def prepare(self, parameters, context, progress):
+        """Find the files, and read area and corrections in the CRS of the points."""
+        super().prepare(parameters, context, progress)
+        self._limits = limits_of(self, parameters, context, self._sources[0], progress)
 
     def compute(self, parameters, context, progress):
         """Classify the files."""
@@ -63,13 +69,11 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         folder = Path(self.parameterAsFileOutput(parameters, "OUTPUT_FOLDER", context))
         vpc = self.parameterAsFileOutput(parameters, "OUTPUT_VPC", context)
         paths = raster_paths(self, parameters, context)
-        words, options = [*map(str, sources), str(folder)], {"VPC": vpc, **paths}
-        progress.command(command_line("classify-tiles", words, chosen, options))
-        known = corrections_of(self, parameters, context, sources[0], progress)
-        request = ClassifyRequest.of(chosen, rasters=raster_files(paths), corrections=known)
+        words = [*map(str, sources), str(folder), *area_options(self._limits["area"], progress)]
+        progress.command(command_line("classify-tiles", words, chosen, {"VPC": vpc, **paths}))
+        request = ClassifyRequest.of(chosen, rasters=raster_files(paths), **self._limits)
         summary = classify_files(sources, folder, request, progress, vpc=vpc or None)
         progress.info(f"{summary.text}.")
-        ground_class, cell = request.selection.to_class, request.terrain.dtm_cell_size
-        show_classified(self, summary.vpc, (), ground_class, cell, context, progress)
+        show_classified(self, summary.vpc, (), request, context, progress)
         results = {name: getattr(summary, name.lower()) for name in _NUMBERS}
         return {"OUTPUT_FOLDER": str(folder), "OUTPUT_VPC": summary.vpc, **paths, **results}

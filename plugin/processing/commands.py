@@ -9,15 +9,18 @@ from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.options import TileMethod
 from ...algorithms.products.surface_model import SurfaceModel
-from ...algorithms.products.terrain_model import TerrainModel
+from ...algorithms.products.terrain_model import MapTerrain, TerrainModel
 from ...algorithms.survey.selection import GROUND, Selection
 from .base import command_line
+
+# Maps that no command makes.
+_OF_QGIS = ("RELIEF", "CONTOURS")
 
 
 def terrain_commands(
     sources: Sequence[Path], cloud: str, rasters: Mapping[str, str], chosen: Sequence[ParameterSet]
 ) -> Iterator[str]:
-    """Yield the commands for a classified cloud and its rasters; local relief is QGIS's alone.
+    """Yield the commands for a classified cloud and its rasters, but for what QGIS alone makes.
 
     Parameters
     ----------
@@ -36,9 +39,11 @@ def terrain_commands(
     target = str(Path(made).parent) if made.endswith(".vpc") else made
     finding = [of_type[each] for each in (TileMethod, Selection, Resources)]
     yield command_line("classify", [*map(str, sources), target], finding, {})
-    models = {name: path for name, path in rasters.items() if name != "RELIEF"}
+    models = {name: path for name, path in rasters.items() if name not in _OF_QGIS}
     if models:
         ground = of_type[Selection].to_class
         options = {"ground-classes": "" if ground == GROUND else str(ground), **models}
-        drawing = [of_type[each] for each in (TerrainModel, SurfaceModel, Resources)]
+        # What is a default in one step need not be one of the command.
+        model = TerrainModel(**vars(of_type[MapTerrain]))
+        drawing = [model, *(of_type[each] for each in (SurfaceModel, Resources))]
         yield command_line("terrain", [made], drawing, options)

@@ -13,8 +13,11 @@ from qgis.core import (
     QgsProcessingParameterFeatureSource,
 )
 
-from ...algorithms.survey.collection import find_files
+from ...algorithms.core.progress import Progress
+from ...algorithms.engine.constraints import Constraints
 from .. import compat
+from ..i18n import tr
+from .corrections import add_corrections, corrections_of
 from .inputs import crs_of, features_of, is_empty, polygons_of
 
 # Name, label, kind of the layer and help of each field.
@@ -53,13 +56,35 @@ def add_constraints(algorithm: QgsProcessingAlgorithm) -> None:
         algorithm.addParameter(field)
 
 
+def add_known(algorithm: QgsProcessingAlgorithm) -> None:
+    """Add the fields of these layers, and of corrections of the classes."""
+    add_corrections(algorithm)
+    add_constraints(algorithm)
+
+
+def known_of(
+    algorithm: QgsProcessingAlgorithm,
+    parameters: dict[str, Any],
+    context: QgsProcessingContext,
+    cloud: Path,
+    progress: Progress,
+) -> dict[str, Any]:
+    """Return corrections and constraints, as `MapRequest` names them; see their functions."""
+    given = parameters, context, cloud, progress
+    return {
+        "corrections": corrections_of(algorithm, *given),
+        "constraints": constraints_of(algorithm, *given),
+    }
+
+
 def constraints_of(
     algorithm: QgsProcessingAlgorithm,
     parameters: dict[str, Any],
     context: QgsProcessingContext,
     cloud: Path,
-) -> dict[str, tuple[Any, ...]]:
-    """Return what the layers hold, in the CRS of a cloud, by the names of `Constraints`.
+    progress: Progress,
+) -> Constraints:
+    """Return what the layers hold, in the CRS of a cloud; progress is told what commands lack.
 
     Raises
     ------
@@ -68,8 +93,8 @@ def constraints_of(
     """
     given = [name for name in _FIELDS if not is_empty(parameters.get(name))]
     if not given:
-        return {}
-    crs, found = crs_of(find_files([cloud])[0]), {}
+        return Constraints()
+    crs, found = crs_of(cloud), {}
     for name in given:
         label, kind, _ = _FIELDS[name]
         source = algorithm.parameterAsSource(parameters, name, context)
@@ -78,7 +103,8 @@ def constraints_of(
         )
         features = features_of(source, label, crs, context)
         found[name.lower()] = tuple(each for one in features for each in shapes(one.geometry()))
-    return found
+    progress.info(tr("In the command line the layers are missing: save them as GeoJSON."))
+    return Constraints(**found)
 
 
 def _lines_of(geometry: QgsGeometry) -> Iterator[np.ndarray]:

@@ -14,7 +14,6 @@ from qgis.core import (
 
 from ...algorithms.core.errors import BareEarthError
 from ...algorithms.core.progress import SILENT, Progress
-from ...algorithms.survey.collection import find_files
 from ...algorithms.survey.corrections import CLASS_FIELD, NO_CORRECTIONS, Corrections
 from .. import compat
 from ..i18n import tr
@@ -78,7 +77,7 @@ def corrections_of(
         " corrections.geojson."
     )
     progress.info(text.format(CLASS_FIELD))
-    crs = crs_of(find_files([cloud])[0])
+    crs = crs_of(cloud)
     found = [
         (polygon, feature[name])
         for feature in features_of(source, _TEXTS[_LAYER][0], crs, context, [name])

@@ -18,7 +18,7 @@ from ...algorithms.core.errors import BareEarthError
 from ...algorithms.core.parameters import Declaration, ParameterSet
 from .. import compat
 from ..i18n import tr
-from .choices import ChoiceParameter, value_of, with_labels
+from .choices import ChoiceParameter, value_of, values_of, with_labels
 
 _SYMBOLS = {"deg": "°"}
 _LISTS = ("numbers", "integers")
@@ -46,11 +46,14 @@ def field_of(declaration: Declaration, is_shown: bool = True) -> QgsProcessingPa
         field = ChoiceParameter(
             name, label, list(declaration.choices), True, list(default), optional, True
         )
+        field = with_labels(field, list(map(tr, declaration.choices.values())))
     elif declaration.kind == "boolean":
         # The designer asks for all that is not optional, in models of before it was there as well.
         field = QgsProcessingParameterBoolean(name, label, default, True)
     elif declaration.kind == "choice":
         # The values themselves, not their places in the list: they stay true in saved models.
+        # As for booleans: what is advanced may be newer than a stored model.
+        optional = optional or declaration.advanced
         field = ChoiceParameter(
             name, label, list(declaration.choices), False, default, optional, True
         )
@@ -133,15 +136,14 @@ def _value(
         return algorithm.parameterAsBool(parameters, name, context)
     if name in parameters and (compat.is_null(given) or given == ""):
         # Emptied on purpose; parameterAs... would return the default instead.
-        return None
+        return declaration.default if declaration.kind == "choice" else None
     if declaration.kind == "choice":
         if isinstance(given, (str, int)):
             return value_of(given, list(declaration.choices))
         return algorithm.parameterAsEnumString(parameters, name, context) or None
     if declaration.kind == "choices":
-        several = given.split(",") if isinstance(given, str) else given
-        if isinstance(several, (list, tuple)):
-            return [value_of(each, list(declaration.choices)) for each in several]
+        if isinstance(given, (str, list, tuple)):
+            return values_of(given, list(declaration.choices))
         return algorithm.parameterAsEnumStrings(parameters, name, context)
     if declaration.kind in _LISTS:
         if isinstance(given, (list, tuple)):

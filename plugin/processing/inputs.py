@@ -1,4 +1,4 @@
-"""Point clouds as input, files among them that QGIS cannot load, and areas to limit the work to."""
+"""Point clouds as input, files among them that QGIS cannot load, and features of layers."""
 
 from __future__ import annotations
 
@@ -16,8 +16,6 @@ from qgis.core import (
     QgsProcessingAlgorithm,
     QgsProcessingContext,
     QgsProcessingFeatureSource,
-    QgsProcessingParameterExtent,
-    QgsProcessingParameterFeatureSource,
     QgsProcessingParameterFile,
     QgsProcessingParameterMultipleLayers,
     QgsProcessingParameterPointCloudLayer,
@@ -29,23 +27,10 @@ from qgis.PyQt.QtCore import QUrl
 from ...algorithms.core.errors import BareEarthError
 from ...algorithms.las.crs_records import read_crs
 from ...algorithms.las.opening import open_las
-from ...algorithms.survey.area import Area, Polygon
+from ...algorithms.survey.area import Polygon
+from ...algorithms.survey.collection import find_files
 from .. import compat
 from ..i18n import tr
-
-# Name, label and help of the fields of an area.
-_AREA_FIELDS = {
-    "EXTENT": (
-        "Extent",
-        "Only points in this rectangle are classified. The others keep their class, but those near"
-        " it help to judge. Empty: all points.",
-    ),
-    "BOUNDARY": (
-        "Boundary",
-        "Only points in these polygons are classified, of an extent too if there is one. The others"
-        " keep their class, but those near them help to judge. Empty: all points.",
-    ),
-}
 
 # By its name: QGIS makes one for a dialog, and qgis_process imports no widgets.
 _WIDGET = f"{__package__}.widgets.PointCloudWidget"
@@ -233,57 +218,17 @@ def ignored_filter(
     return layer.subsetString() if hasattr(layer, "subsetString") else ""
 
 
-def add_area(algorithm: QgsProcessingAlgorithm) -> None:
-    """Add the fields of an area to a dialog."""
-    extent, boundary = (label for label, _ in _AREA_FIELDS.values())
-    fields = (
-        QgsProcessingParameterExtent("EXTENT", extent, None, True),
-        QgsProcessingParameterFeatureSource("BOUNDARY", boundary, [compat.POLYGONS], None, True),
-    )
-    for field in fields:
-        if field.name() == "BOUNDARY":
-            field.setFlags(field.flags() | compat.ADVANCED)
-        algorithm.addParameter(field, _AREA_FIELDS[field.name()][1])
-
-
-def area_of(
-    algorithm: QgsProcessingAlgorithm,
-    parameters: dict[str, Any],
-    context: QgsProcessingContext,
-    cloud: Path,
-) -> Area | None:
-    """Return what the fields of `add_area` hold, in the CRS of a cloud if it states one.
-
-    Raises
-    ------
-    BareEarthError
-        If they hold no area, or the cloud cannot be read.
-    """
-    given = [name for name in _AREA_FIELDS if not is_empty(parameters.get(name))]
-    if not given:
-        return None
-    crs = crs_of(cloud)
-    box, polygons = None, ()
-    if "EXTENT" in given:
-        extent = algorithm.parameterAsExtent(parameters, "EXTENT", context, crs)
-        box = extent.xMinimum(), extent.yMinimum(), extent.xMaximum(), extent.yMaximum()
-    if "BOUNDARY" in given:
-        source = algorithm.parameterAsSource(parameters, "BOUNDARY", context)
-        features = features_of(source, _AREA_FIELDS["BOUNDARY"][0], crs, context)
-        polygons = tuple(each for one in features for each in polygons_of(one.geometry()))
-        if not polygons:
-            raise BareEarthError(tr("The boundary holds no polygon. Choose one that does."))
-    return Area(box, polygons)
-
-
 def is_empty(value: Any) -> bool:
     """Return whether a field holds nothing."""
     return compat.is_null(value) or value == ""
 
 
 def crs_of(cloud: Path) -> QgsCoordinateReferenceSystem:
-    """Return the CRS that a file states; invalid, so that nothing is transformed, if none."""
-    crs = read_crs(open_las(cloud))
+    """Return the CRS that a cloud states, which may be a folder or a list of files.
+
+    It is invalid, so that nothing is transformed, if none is stated.
+    """
+    crs = read_crs(open_las(find_files([cloud], recursive=True)[0]))
     if crs.epsg:
         return QgsCoordinateReferenceSystem.fromEpsgId(crs.epsg)
     return QgsCoordinateReferenceSystem.fromWkt(crs.wkt or "")

@@ -88,9 +88,9 @@ def raster_paths(
     parameters: dict[str, Any],
     context: QgsProcessingContext,
 ) -> dict[str, str]:
-    """Return the paths of the rasters that are wanted, by the names of their fields."""
+    """Return the paths of rasters and contour lines that are wanted, by their fields' names."""
     paths = {}
-    for name in RASTERS:
+    for name in (*RASTERS, "CONTOURS"):
         if algorithm.parameterDefinition(name) is not None:
             path = algorithm.parameterAsOutputLayer(parameters, name, context)
             if path:
@@ -99,7 +99,7 @@ def raster_paths(
 
 
 def raster_files(paths: dict[str, str]) -> RasterFiles:
-    """Return the same for the classifier."""
+    """Return those of the same that the classifier makes."""
     given = {name.lower(): Path(path) for name, path in paths.items() if name in _MODELS}
     return RasterFiles(**given)
 

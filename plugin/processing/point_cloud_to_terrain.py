@@ -9,7 +9,7 @@ from ...algorithms.engine.options import TileMethod
 from ...algorithms.products.contours import Contours
 from ...algorithms.products.local_relief import LocalRelief
 from ...algorithms.products.surface_model import SurfaceModel
-from ...algorithms.products.terrain_model import TerrainModel
+from ...algorithms.products.terrain_model import MapTerrain
 from ...algorithms.survey.selection import Selection
 from ..i18n import mark
 from ..styles.layers import BELOW_TERRAIN, contours
@@ -17,7 +17,7 @@ from . import outputs
 from .base import BareEarthAlgorithm
 from .classified import show_classified
 from .commands import terrain_commands
-from .corrections import add_corrections, corrections_of
+from .constraints import add_known, known_of
 from .inputs import add_survey, names_of, survey_of
 
 
@@ -35,13 +35,13 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
 
     def parameter_sets(self):
         """Return method, cells, and all that may be left as it is."""
-        return TileMethod, TerrainModel, Selection, SurfaceModel, Contours, LocalRelief, Resources
+        return TileMethod, MapTerrain, Selection, SurfaceModel, Contours, LocalRelief, Resources
 
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""
         add_survey(self)
         self.add_declared()
-        add_corrections(self)
+        add_known(self)
         outputs.add_cloud(self, optional=True)
         outputs.add_rasters(self, outputs.RASTERS, ("DTM", "HILLSHADE", "DSM", "CHM"))
         outputs.add_contours(self)
@@ -56,24 +56,23 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         """Make what is wanted."""
         from ...algorithms.engine.terrain_maps import MapFiles, MapRequest, make_maps
 
-        known = corrections_of(self, parameters, context, self._sources[0])
-        request = MapRequest.of(self.chosen(parameters, context), corrections=known)
+        known = known_of(self, parameters, context, self._sources[0], progress)
+        chosen = self.chosen(parameters, context)
+        request = MapRequest.of(chosen, **known)
         cloud = self.point_cloud_destination(parameters, "OUTPUT", context)
         results = outputs.raster_paths(self, parameters, context)
-        lines = self.parameterAsOutputLayer(parameters, "CONTOURS", context)
-        paths = [path and Path(path) for path in (cloud, results.get("RELIEF"), lines)]
-        files = MapFiles(paths[0], outputs.raster_files(results), *paths[1:])
+        paths = [path and Path(path) for path in map(results.get, ("RELIEF", "CONTOURS"))]
+        files = MapFiles(cloud and Path(cloud), outputs.raster_files(results), *paths)
         summary = make_maps(self._sources, files, request, progress)
-        made, chosen = str(cloud and summary.cloud), self.chosen(parameters, context)
+        made = str(cloud and summary.cloud)
         for each in terrain_commands(self._sources, made, results, chosen):
             progress.command(each)
         progress.info("\n".join(summary.lines))
-        if lines:
-            self.show(lines, contours(summary.contour_interval))
-            results["CONTOURS"] = lines
+        if "CONTOURS" in results:
+            self.show(results["CONTOURS"], contours(summary.contour_interval))
         if cloud:
-            results["OUTPUT"] = made = str(summary.cloud)
+            results["OUTPUT"] = made
             outputs.do_not_load(context, {cloud} - {made})
-            how = request.selection.to_class, request.terrain.dtm_cell_size, context, progress
-            show_classified(self, made, summary.class_counts, *how, BELOW_TERRAIN)
+            look = request, context, progress, BELOW_TERRAIN
+            show_classified(self, made, summary.class_counts, *look)
         return {**results, "POINT_COUNT": summary.point_count, "GROUND_COUNT": summary.ground_count}

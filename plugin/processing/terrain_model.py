@@ -41,7 +41,6 @@ class TerrainModelAlgorithm(ProductAlgorithm):
 
     def compute(self, parameters, context, progress):
         """Make those that are wanted."""
-        from ...algorithms.engine.constraints import Constraints
         from ...algorithms.engine.requests import TerrainRequest
         from ...algorithms.engine.runs import terrain
 
@@ -50,9 +49,7 @@ class TerrainModelAlgorithm(ProductAlgorithm):
         if not paths:
             raise BareEarthError(tr("Choose at least one raster to make."))
         progress.command(command_line("terrain", [str(self.source)], chosen, paths))
-        known = Constraints(**constraints_of(self, parameters, context, self.source))
-        if known.any:
-            progress.info(tr("In the command line the layers are missing: save them as GeoJSON."))
+        known = constraints_of(self, parameters, context, self.source, progress)
         request = TerrainRequest.of(chosen, rasters=raster_files(paths), constraints=known)
         summary = terrain(self.source, request, progress)
         size = summary.columns, summary.rows

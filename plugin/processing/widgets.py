@@ -15,14 +15,20 @@ from qgis.core import (
 )
 from qgis.gui import (
     QgsAbstractProcessingParameterWidgetWrapper,
+    QgsCheckableComboBox,
     QgsGui,
     QgsProcessingGui,
     QgsProcessingModelerParameterWidget,
 )
+from qgis.PyQt.QtCore import Qt
 from qgis.PyQt.QtWidgets import QComboBox, QWidget
 
 from .. import compat
-from .choices import LABELS, ChoiceParameter, value_of
+from .choices import LABELS, ChoiceParameter, value_of, values_of
+
+_STATE = Qt.ItemDataRole.CheckStateRole
+# Qt.CheckState as items keep it: PyQt 5 and 6 do not make the same of its names there.
+_UNCHECKED, _CHECKED = 0, 2
 
 
 class ChoiceWidget:
@@ -32,7 +38,8 @@ class ChoiceWidget:
         """Return it, and nothing of this class."""
         if _is_designer(dialog):
             return _designer_widget(parameter, dialog)
-        return _ChoiceBox(parameter, _kind(dialog), dialog)
+        box = _ChoicesBox if parameter.allowMultiple() else _ChoiceBox
+        return box(parameter, _kind(dialog), dialog)
 
 
 class PointCloudWidget:
@@ -100,3 +107,40 @@ class _ChoiceBox(QgsAbstractProcessingParameterWidgetWrapper):
     def widgetValue(self) -> Any:
         """Return the value that is chosen."""
         return self.wrappedWidget().currentData()
+
+
+class _ChoicesBox(QgsAbstractProcessingParameterWidgetWrapper):
+    """A box with the labels that the parameter's metadata holds, of which several are chosen."""
+
+    def createWidget(self) -> QWidget:
+        """Return the box, with the defaults chosen."""
+        parameter = self.parameterDefinition()
+        box = QgsCheckableComboBox()
+        # Labels have commas.
+        box.setSeparator("; ")
+        for label, value in zip(parameter.metadata()[LABELS], parameter.options()):
+            box.addItemWithCheckState(label, Qt.CheckState.Unchecked, value)
+        _check(box, parameter.defaultValue())
+        box.checkedItemsChanged.connect(lambda _: self.widgetValueHasChanged.emit(self))
+        return box
+
+    def setWidgetValue(self, value: Any, context: QgsProcessingContext) -> None:
+        """Choose values; called with those of a run before, too."""
+        box = self.wrappedWidget()
+        if box is not None and not compat.is_null(value):
+            _check(box, values_of(value, self.parameterDefinition().options()))
+
+    def widgetValue(self) -> Any:
+        """Return the values that are chosen, in the order of the list."""
+        box = self.wrappedWidget()
+        states = [Qt.CheckState(box.itemData(place, _STATE)) for place in range(box.count())]
+        chosen = [place for place, state in enumerate(states) if state == Qt.CheckState.Checked]
+        return [box.itemData(place) for place in chosen]
+
+
+def _check(box: QComboBox, values: list[str]) -> None:
+    """Choose the items of these values, and no others."""
+    # What QGIS gives back of the box is known as a QComboBox only, which has no word for it.
+    for place in range(box.count()):
+        is_chosen = box.itemData(place) in values
+        box.setItemData(place, _CHECKED if is_chosen else _UNCHECKED, _STATE)

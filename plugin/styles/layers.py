@@ -7,9 +7,11 @@ from typing import Any, Callable, Iterable, Mapping, NamedTuple
 from qgis.core import (
     QgsLayerTreeGroup,
     QgsMapLayer,
+    QgsMapLayerLegendUtils,
     QgsProcessingContext,
     QgsProcessingFeedback,
     QgsProcessingLayerPostProcessorInterface,
+    QgsRasterLayer,
 )
 
 from ..i18n import mark, tr
@@ -154,6 +156,10 @@ class _Show(QgsProcessingLayerPostProcessorInterface):
         if self._group:
             layer.setCustomProperty(_HEIGHT, self._look.height)
             node = _moved(node, self._group, self._look.height)
+        if isinstance(layer, QgsRasterLayer) and (shown := rasters.shown_by(layer)):
+            # In place of "Band 1 (Gray)".
+            QgsMapLayerLegendUtils.setLegendNodeUserLabel(node, 0, shown)
+            layer.legendChanged.emit()
         node.setItemVisibilityChecked(self._is_visible)
         node.setExpanded(self._is_visible and self._look is not HILLSHADE)
 

@@ -20,6 +20,7 @@ from qgis.core import (
 from qgis.PyQt.QtGui import QColor, QPainter
 
 from .. import compat
+from ..i18n import mark, tr
 from . import ramps
 
 _MULTIPLY = QPainter.CompositionMode.CompositionMode_Multiply
@@ -30,6 +31,19 @@ _LOW, _HIGH, _SAMPLE = 0.02, 0.98, 600
 # so that colours over it stay what they are in the legend.
 _DARK, _BRIGHT = 20.0, 210.0
 _LEAST_RANGE = 0.5
+# What bands say that they show, besides units.
+SHOWN = (
+    mark("Height"), mark("Height above ground"), mark("Local relief"),
+    mark("Confidence"), mark("Share of wrong points"), mark("Brightness"), mark("Class"),
+    mark("0 to 1"), mark("1 to 255"),
+)  # fmt: skip
+
+
+def shown_by(layer: QgsRasterLayer) -> str:
+    """Return what a raster shows, as its file says it, in the user's language; empty if nothing."""
+    raster = gdal.Open(layer.source())
+    said = raster.GetRasterBand(1).GetDescription()
+    return ", ".join(tr(each) if each in SHOWN else each for each in said.split(", "))
 
 
 def terrain(layer: QgsRasterLayer) -> None:

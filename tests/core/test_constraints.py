@@ -1,6 +1,7 @@
 """Terrain models that respect breaklines, water and places without ground; the truth is known."""
 
 import json
+from dataclasses import replace
 
 import laspy
 import numpy as np
@@ -9,10 +10,13 @@ from surveys import cut
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.engine import file_points
 from bare_earth.algorithms.engine.constraints import Constraints
+from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.rasters import RasterFiles
-from bare_earth.algorithms.engine.requests import TerrainRequest
-from bare_earth.algorithms.engine.runs import terrain
+from bare_earth.algorithms.engine.requests import ClassifyRequest, TerrainRequest
+from bare_earth.algorithms.engine.runs import classify, terrain
+from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 from bare_earth.algorithms.grids.lines import along
 from bare_earth.algorithms.survey.vector_files import read_lines
 from benchmarks.scenes.simple import scatter
@@ -162,6 +166,49 @@ def test_many_files_give_the_raster_of_one(wall, tmp_path):
     assert np.array_equal(*rasters, equal_nan=True)
 
 
+@pytest.mark.parametrize("how", ["one", "parts", "many"])
+def test_a_run_that_classifies_makes_the_terrain_of_what_it_writes(tmp_path, how, monkeypatch, las):
+    # A lake with points on it, in a slope; a wall that a line knows.
+    x, y = scatter(SIZE, 1.0, seed=4)
+    z = 10.0 + 0.05 * x + np.where(y > 80.0, 4.0, 0.0)
+    source = _write(tmp_path / "in.laz", x, y, z)
+    known = Constraints(
+        breaklines=(_line((0.0, 80.0, np.nan), (SIZE, 80.0, np.nan)),),
+        water=(_square(20.0, 20.0, 60.0, 50.0),),
+    )
+    # With a surface, so that the rasters reach as far as all points in both runs.
+    rasters = [RasterFiles(tmp_path / f"{i}.tif", tmp_path / f"dsm{i}.tif") for i in range(2)]
+    request = ClassifyRequest(parameters=SlopeFilter(), rasters=rasters[0], constraints=known)
+    if how == "many":
+        cloud = laspy.read(source)
+        integers = np.column_stack((cloud.X, cloud.Y, cloud.Z)) // 10
+        source, target = [cut(tmp_path / "tiles", integers, 4)], tmp_path / "out"
+        made = [target]
+    else:
+        target = made = tmp_path / "out.laz"
+    if how == "parts":
+        monkeypatch.setattr(file_points, "_BYTES_A_POINT_KEPT", 3000)
+        request = replace(request, resources=Resources(memory=0.001))
+    heard = las.Heard()
+    classify(source, target, request, heard)
+    assert any("do not fit into the memory" in each for each in heard.infos) == (how == "parts")
+    terrain(made, TerrainRequest(rasters=rasters[1], constraints=known))
+    assert rasters[0].dtm.read_bytes() == rasters[1].dtm.read_bytes()
+    with rasterio.open(rasters[0].dtm) as raster:
+        south, west = raster.index(EAST + 22.0, NORTH + 22.0)
+        north, east = raster.index(EAST + 58.0, NORTH + 48.0)
+        lake = raster.read(1)[north:south, west:east]
+        above, below = (next(raster.sample([(EAST + 40.5, NORTH + at)]))[0] for at in (80.9, 79.1))
+    assert lake.size > 500 and np.ptp(lake) < 1e-3
+    assert above - below > 3.9
+
+
+def test_a_run_without_rasters_takes_no_lines(tmp_path):
+    line = (_line((0.0, 80.0, 1.0), (SIZE, 80.0, 1.0)),)
+    with pytest.raises(BareEarthError, match="name one to make"):
+        ClassifyRequest(constraints=Constraints(breaklines=line))
+
+
 def test_the_terrain_command_takes_files_of_lines_and_polygons(wall, tmp_path, capsys):
     source, lines = wall
     features = [
@@ -179,6 +226,11 @@ def test_the_terrain_command_takes_files_of_lines_and_polygons(wall, tmp_path, c
     assert main([*words, "--breaklines", str(tmp_path / "lines.geojson")]) == 0
     with rasterio.open(tmp_path / "dtm.tif") as raster:
         assert np.array_equal(raster.read(1, masked=True).filled(np.nan), expected, equal_nan=True)
+    files = [str(source), str(tmp_path / "out.laz"), "--dtm", str(tmp_path / "once.tif")]
+    known = ["--dsm", str(tmp_path / "dsm.tif"), "--breaklines", str(tmp_path / "lines.geojson")]
+    assert main(["classify", *files, "--method", "slope", *known]) == 0
+    assert main(["terrain", *files[1:2], "--dtm", str(tmp_path / "again.tif"), *known]) == 0
+    assert (tmp_path / "once.tif").read_bytes() == (tmp_path / "again.tif").read_bytes()
     assert main([*words, "--water", str(tmp_path / "lines.geojson")]) == 1
     assert "lines.geojson holds no polygon" in capsys.readouterr().err
 

@@ -146,6 +146,25 @@ def test_the_help_is_whole_and_needs_nothing_else(names, package, metadata):
     assert pages["terrain-model.html"].count("<table>") >= 3
 
 
+def test_the_links_of_the_readme_in_the_zip_lead_somewhere(names, package, metadata):
+    archive = zipfile.ZipFile(package[0])
+    text = archive.read("bare_earth/README.md").decode()
+    links = re.findall(r"\]\(([^)]*)\)", text)
+    there = re.findall(r"\]\(([^)]*)\)", (ROOT / "README.md").read_text(encoding="utf-8"))
+    assert len(links) == len(there) > 20
+    elsewhere = {link for link in links if link.startswith(metadata["repository"])}
+    for link in set(links) - elsewhere:
+        file, _, anchor = link.partition("#")
+        assert f"bare_earth/{file}" in names, link
+        if anchor:
+            assert f'id="{anchor}"' in archive.read(f"bare_earth/{file}").decode(), link
+    for link in elsewhere:
+        assert (ROOT / link.partition("/blob/main/")[2].partition("#")[0]).is_file(), link
+    # What is for users is in the zip.
+    assert {"help/tutorial.html", "help/images/before-after.png", "LICENSE"} <= set(links)
+    assert len(elsewhere) < 5
+
+
 def test_addresses_that_are_to_be_set_stand_in_one_place(metadata):
     known = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True)
     for name in known.stdout.splitlines():

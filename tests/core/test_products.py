@@ -344,6 +344,9 @@ def test_rasters_are_in_the_units_of_the_crs(tmp_path):
     files = all_files(tmp_path / "out")
     write_terrain_models(tmp_path / "in.las", files, model=TerrainModel(dtm_cell_size=0.6096))
     chm, transform = read(files.chm)
+    with rasterio.open(files.dtm) as dtm, rasterio.open(files.hillshade) as shade:
+        assert dtm.descriptions == ("Height, ft",)
+        assert shade.descriptions == ("Brightness, 1 to 255",)
     assert transform.a == pytest.approx(2.0)
     assert np.nanmax(chm) == pytest.approx(120 - 103, abs=0.5)
 

@@ -51,7 +51,7 @@ def test_the_geotiff_is_tiled_deflated_and_has_nodata_and_crs(tmp_path, kind):
     grid = RasterGrid.over(square(300.0), Frame(origin=(5e5, 5.7e6), wkt=wkt), 1.0)
     values = np.arange(grid.rows * grid.columns).reshape(grid.rows, grid.columns).astype(kind)
     nodata = NODATA if kind == "float32" else 0
-    write_geotiff(tmp_path / "a.tif", values, grid, nodata, SILENT)
+    write_geotiff(tmp_path / "a.tif", values, grid, nodata, SILENT, "Height")
     with rasterio.open(tmp_path / "a.tif") as raster:
         assert np.array_equal(raster.read(1), values)
         assert raster.profile["tiled"] and raster.profile["compress"] == "deflate"
@@ -68,7 +68,9 @@ def test_a_crs_that_is_not_understood_is_left_out_with_a_warning(tmp_path):
             warnings.append(text)
 
     grid = RasterGrid.over(square(3.0), Frame(wkt="LOCAL"), 1.0)
-    write_geotiff(tmp_path / "a.tif", np.zeros((3, 3), np.float32), grid, NODATA, Listener())
+    write_geotiff(
+        tmp_path / "a.tif", np.zeros((3, 3), np.float32), grid, NODATA, Listener(), "Height"
+    )
     assert "without a CRS" in warnings[0]
 
 
@@ -85,12 +87,12 @@ from bare_earth.algorithms.rasters.writing import write_geotiff
 values = np.random.default_rng(1).random((300, 300)).astype(np.float32)
 grid = RasterGrid(0.0, 300.0, 1.0, 300, 300, Frame())
 target = Path(sys.argv[1])
-write_geotiff(target.with_name("whole.tif"), values, grid, -9999.0, SILENT)
+write_geotiff(target.with_name("whole.tif"), values, grid, -9999.0, SILENT, "Height")
 size = target.with_name("whole.tif").stat().st_size
 for missing in (size - 1, 100_000, 20_000, 200, 1):  # the end is written when the file is closed
     resource.setrlimit(resource.RLIMIT_FSIZE, (size - missing, resource.RLIM_INFINITY))
     try:
-        write_geotiff(target, values, grid, -9999.0, SILENT)
+        write_geotiff(target, values, grid, -9999.0, SILENT, "Height")
         print("written all the same")
     except BareEarthError as error:
         print(error)
@@ -121,7 +123,9 @@ def test_a_crs_that_geotiff_cannot_hold_is_left_out_with_a_warning_and_no_side_c
         'VERT_CS["Ellipsoid",VERT_DATUM["Ellipsoid",2002],UNIT["metre",1],AXIS["Up",UP]]]'
     )
     grid = RasterGrid.over(square(3.0), Frame(wkt=wkt), 1.0)
-    write_geotiff(tmp_path / "a.tif", np.zeros((3, 3), np.float32), grid, NODATA, Listener())
+    write_geotiff(
+        tmp_path / "a.tif", np.zeros((3, 3), np.float32), grid, NODATA, Listener(), "Height"
+    )
     with rasterio.open(tmp_path / "a.tif") as raster:
         assert "without a CRS" in warnings[0] and raster.crs is None
     assert [path.name for path in tmp_path.iterdir()] == ["a.tif"]
@@ -132,5 +136,5 @@ def test_statistics_of_the_raster_before_are_removed(tmp_path):
     statistics = tmp_path / "a.tif.aux.xml"
     statistics.write_text("<PAMDataset></PAMDataset>")
     values = np.zeros((grid.rows, grid.columns), np.float32)
-    write_geotiff(target, values, grid, NODATA, SILENT)
+    write_geotiff(target, values, grid, NODATA, SILENT, "Height")
     assert target.exists() and not statistics.exists()

@@ -28,7 +28,6 @@ from bare_earth.algorithms.engine.requests import (
 )
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
-from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
 
@@ -100,12 +99,6 @@ def test_the_confidence_of_a_run_that_classifies_is_that_of_its_output(survey, t
     again = TerrainRequest(rasters=RasterFiles(confidence=after))
     runs_module.terrain(tmp_path / "out.laz", again)
     assert one.read_bytes() == many.read_bytes() == after.read_bytes()
-
-
-def test_an_area_is_for_one_file(survey, tmp_path):
-    request = ClassifyRequest(parameters=SLOPE, area=Area((0.0, 0.0, 1.0, 1.0)))
-    with pytest.raises(BareEarthError, match="for one file only"):
-        runs_module.classify([tmp_path / "in"], tmp_path / "out", request)
 
 
 def test_heights_go_on_where_a_run_ended(survey, tmp_path):

@@ -243,3 +243,56 @@ def test_known_ground_and_low_outliers(local, scene, tmp_path, context, log):
     assert (found[roof[::10]] == 2).all() and (found[roof[5::10]] == 1).all()
     assert np.flatnonzero(found == 7).tolist() == [np.flatnonzero(scene.ground)[5000]]
     assert "--seed-classes 2 8 --low-noise-class --low-noise-depth 2.5" in log.text
+
+
+@pytest.mark.parametrize("suffix", [".laz", ".copc.laz"])
+def test_the_points_of_the_area_alone_are_written(local, parameters, context, log, suffix):
+    parameters |= {"BOUNDARY": layer_of([TRIANGLE]), "AREA_ONLY": True}
+    parameters["OUTPUT"] = parameters["OUTPUT"].replace(".laz", suffix)
+    before = laspy.read(parameters["INPUT"])
+    count = in_triangle(np.asarray(before.x) - EAST, np.asarray(before.y) - NORTH).sum()
+    results, done = local.run(parameters, context, log)
+    assert done, log.text
+    x, y, _ = changed(results)
+    assert len(x) == count == results["AREA_COUNT"] and in_triangle(x, y).all()
+    assert results["POINT_COUNT"] == len(before.points)
+    assert f"{len(before.points) - count:,} points outside of the area are left out" in log.text
+    command = next(shlex.split(line) for line in log.said if line.startswith("bare-earth "))
+    assert "--area-only" in command
+
+
+@pytest.mark.parametrize("name", [SLOPE, "bareearth:classifytiles"])
+def test_the_area_alone_needs_an_area(registry, parameters, context, tmp_path, name):
+    algorithm = registry.createAlgorithmById(name)
+    given = {**parameters, "AREA_ONLY": True, "OUTPUT_FOLDER": str(tmp_path / "out")}
+    possible, text = algorithm.checkParameterValues(given, context)
+    assert not possible and "Give an extent or a boundary" in text
+
+
+def test_an_area_of_many_files(registry, scene, context, log, tmp_path):
+    from bare_earth.algorithms.cli import main
+
+    tiles, out = tmp_path / "tiles", tmp_path / "out"
+    tiles.mkdir()
+    for number in range(3):
+        write_scene(tiles / f"{number}.laz", origin=(EAST + 80.0 * number, NORTH))
+    given = {
+        "INPUT_FOLDER": str(tiles), "METHOD": "slope", "OUTPUT_FOLDER": str(out),
+        "EXTENT": f"{EAST + 50},{EAST + 120},{NORTH + 20},{NORTH + 60} [EPSG:25832]",
+        "AREA_ONLY": True,
+    }  # fmt: skip
+    algorithm = registry.createAlgorithmById("bareearth:classifytiles")
+    results, done = algorithm.run(given, context, log)
+    assert done, log.text
+    clouds = [laspy.read(each) for each in sorted(out.glob("*.laz"))]
+    x = np.concatenate([each.x for each in clouds]) - EAST
+    assert len(clouds) == results["DONE_COUNT"] == results["TILE_COUNT"] == 2
+    assert x.min() >= 50 and x.max() <= 120 and len(x) == results["POINT_COUNT"] == 140 * 80
+    before = [(each.X, each.classification) for each in clouds]
+    command = next(shlex.split(line) for line in log.said if line.startswith("bare-earth "))
+    for each in out.glob("*.laz"):
+        each.unlink()
+    assert main([*command[1:], "--threads", "1"]) == 0
+    for each, (positions, classes) in zip(sorted(out.glob("*.laz")), before):
+        again = laspy.read(each)
+        assert np.array_equal(again.X, positions) and np.array_equal(again.classification, classes)

@@ -2,6 +2,7 @@
 
 import pytest
 from qgis.core import QgsApplication, QgsProcessingContext
+from qgis.PyQt.QtCore import Qt
 from qgis.PyQt.QtWidgets import QComboBox
 from support import remove
 
@@ -71,3 +72,40 @@ def test_others_are_not(algorithm, value):
     assert not algorithm.parameterDefinition("PRESET").checkValueIsAcceptable(
         value, QgsProcessingContext()
     )
+
+
+COMPARE = "bareearth:comparesettings"
+SETTINGS = ["tin-densification:automatic", "slope:town"]
+LABELS = ["TIN densification, Automatic", "Slope filter, Town"]
+
+
+@pytest.mark.parametrize("given", [SETTINGS, ",".join(SETTINGS), None])
+def test_several_choices_show_labels_and_give_ids(dialog, scene, given):
+    dialog = dialog(COMPARE)
+    values = {
+        "INPUT": str(scene.path), "OUTPUT": "a.html",
+        "EXTENT": "500010,500070,5700010,5700070 [EPSG:25832]",
+    }  # fmt: skip
+    dialog.setParameters({**values, **({"SETTINGS": given} if given else {})})
+    box = box_of(dialog, LABELS[1])
+    assert box.findText("slope:town") < 0
+    if given is None:
+        assert len(dialog.createProcessingParameters()["SETTINGS"]) == 3
+        for place in range(box.count()):
+            is_chosen = box.itemText(place) in LABELS
+            state = Qt.CheckState.Checked if is_chosen else Qt.CheckState.Unchecked
+            box.setItemData(place, state, Qt.ItemDataRole.CheckStateRole)
+    values = dialog.createProcessingParameters()
+    assert values["SETTINGS"] == SETTINGS
+    algorithm = QgsApplication.processingRegistry().createAlgorithmById(COMPARE)
+    context = QgsProcessingContext()
+    assert algorithm.checkParameterValues(values, context) == (True, "")
+    assert list(algorithm.chosen(values, context)[0].settings) == SETTINGS
+
+
+def test_a_table_of_several_choices_has_labels_too(plugin):
+    from processing.gui.BatchAlgorithmDialog import BatchAlgorithmDialog
+
+    dialog = BatchAlgorithmDialog(QgsApplication.processingRegistry().createAlgorithmById(COMPARE))
+    assert box_of(dialog, LABELS[1]).currentText().startswith(f"{LABELS[0]}; ")
+    remove(dialog)

@@ -21,6 +21,9 @@ class Example(ParameterSet):
     classes: Optional[tuple] = parameter(None, kind="integers", label="Classes", help="C.")
     edge: Optional[float] = parameter(5.0, kind="number", optional=True, label="Edge", help="E.")
     stop: Optional[float] = parameter(None, kind="number", label="Stop", minimum=0.0, help="S.")
+    light: str = parameter(
+        "a", label="Light", choices={"a": "A", "b": "B"}, help="L.", advanced=True
+    )
 
 
 class ExampleAlgorithm(BareEarthAlgorithm):
@@ -45,6 +48,14 @@ def chosen(example, values):
 
 def test_without_values_the_defaults_are_taken(example):
     assert chosen(example, {}) == Example()
+
+
+def test_a_choice_that_a_stored_model_does_not_know_is_the_default(example):
+    assert example.checkParameterValues({}, QgsProcessingContext())[0]
+    assert example.parameterDefinition("LIGHT").checkValueIsAcceptable(None)
+    assert not example.parameterDefinition("WAY").checkValueIsAcceptable("sideways")
+    assert chosen(example, {"LIGHT": None}).light == "a"
+    assert chosen(example, {"LIGHT": "b"}).light == "b"
 
 
 def test_the_defaults_of_the_dialog_are_those(example):

@@ -10,7 +10,14 @@ import laspy
 import numpy as np
 import pytest
 from osgeo import gdal, ogr
-from qgis.core import QgsProcessingException, QgsProcessingOutputLayerDefinition, QgsProject
+from qgis.core import (
+    QgsFeature,
+    QgsGeometry,
+    QgsProcessingException,
+    QgsProcessingOutputLayerDefinition,
+    QgsProject,
+    QgsVectorLayer,
+)
 from support import Log, write_scene
 
 ALL_IN_ONE = "bareearth:pointcloudtoterrain"
@@ -73,6 +80,54 @@ def test_the_commands_at_the_end_of_the_log_do_the_same(scene, tmp_path):
     assert np.array_equal(laspy.read(outputs["OUTPUT"]).classification, classes)
     for name, values in before.items():
         assert np.array_equal(band(outputs[name]), values, equal_nan=True)
+
+
+def test_the_hillshade_has_four_lights_unless_told_otherwise(scene, tmp_path):
+    import processing
+
+    outputs = {name: everything(tmp_path)[name] for name in ("DTM", "HILLSHADE")}
+    lit = {}
+    for light in ({}, {"HILLSHADE_LIGHT": "one"}, {"HILLSHADE_LIGHT": "multidirectional"}):
+        processing.run(ALL_IN_ONE, {"INPUT": str(scene.path), **light, **outputs})
+        lit[light.get("HILLSHADE_LIGHT")] = band(outputs["HILLSHADE"])
+    assert np.array_equal(lit[None], lit["multidirectional"])
+    assert not np.array_equal(lit[None], lit["one"])
+
+
+@pytest.mark.parametrize("how", ["file", "folder"])
+def test_the_terrain_respects_lines_and_polygons(scene, tmp_path, how):
+    import processing
+
+    tiles = tmp_path / "tiles"
+    tiles.mkdir()
+    shutil.copy(scene.path, tiles)
+    given = {"file": {"INPUT": str(scene.path)}, "folder": {"INPUT_FOLDER": str(tiles)}}[how]
+    outputs = {name: str(tmp_path / f"{name}.tif") for name in ("DTM", "DSM", "RELIEF")}
+    # A line 50 m above the slope, and a lake in it.
+    x, y = 500_000.0, 5_700_000.0
+    line = layer_of("LineStringZ", f"LINESTRINGZ({x + 5} {y + 60.5} 150, {x + 70} {y + 60.5} 150)")
+    ring = [(5, 5), (25, 5), (25, 18), (5, 18), (5, 5)]
+    corners = ", ".join(f"{x + east} {y + north}" for east, north in ring)
+    known = {"BREAKLINES": line, "WATER": layer_of("Polygon", f"POLYGON(({corners}))")}
+    log = Log()
+    processing.run(ALL_IN_ONE, {**given, **outputs}, feedback=log)
+    plain = band(outputs["DTM"])
+    processing.run(ALL_IN_ONE, {**given, **outputs, **known}, feedback=log)
+    fixed = band(outputs["DTM"])
+    assert np.nanmax(plain) < 106.0 and np.nanmax(fixed) > 145.0
+    # Rows from the north: y from 7 to 16 m above the south edge, x from 7 to 23 m.
+    lake = np.s_[-16:-7, 7:23]
+    assert np.ptp(fixed[lake]) < 0.01 < 0.5 < np.ptp(plain[lake])
+    assert np.nanmax(band(outputs["RELIEF"])) > 10.0
+    assert "the layers are missing" in log.text
+
+
+def layer_of(kind, wkt):
+    layer = QgsVectorLayer(f"{kind}?crs=EPSG:25832", "layer", "memory")
+    feature = QgsFeature()
+    feature.setGeometry(QgsGeometry.fromWkt(wkt))
+    assert layer.dataProvider().addFeatures([feature])[0]
+    return layer
 
 
 def test_every_output_may_be_left_out(scene, tmp_path):

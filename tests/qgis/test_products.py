@@ -98,6 +98,26 @@ def test_rasters(labelled, out):
     assert results["SURFACE_COUNT"] == labelled.count
 
 
+def test_four_lights_are_those_of_gdal(labelled, out):
+    import processing
+
+    las = laspy.read(labelled.path)
+    las.z = 100 + 6 * np.sin(np.asarray(las.x) / 5) + 4 * np.cos(np.asarray(las.y) / 7)
+    las.classification[:] = 2
+    las.write(str(labelled.path))
+    paths = parameters_for(TERRAIN, labelled, out)
+    lit = []
+    for light in ("multidirectional", "one"):
+        processing.run(TERRAIN, {**paths, "HILLSHADE_LIGHT": light})
+        lit.append(gdal.Open(paths["HILLSHADE"]).ReadAsArray().astype(int)[2:-2, 2:-2])
+    expected = str(out / "expected.tif")
+    gdal.DEMProcessing(expected, paths["DTM"], "hillshade", multiDirectional=True)
+    expected = gdal.Open(expected).ReadAsArray().astype(int)[2:-2, 2:-2]
+    assert np.ptp(expected) > 150
+    assert np.abs(lit[0] - expected).max() <= 1
+    assert np.abs(lit[1] - expected).max() > 50
+
+
 @pytest.mark.parametrize("name", [HEIGHT, KEY_POINTS, TERRAIN])
 def test_the_log_tells_the_same_command_line(registry, labelled, out, context, log, name):
     from bare_earth.algorithms.cli import main

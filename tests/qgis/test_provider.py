@@ -25,8 +25,8 @@ from bare_earth.plugin.processing.classification import ClassificationAlgorithm
 SHARED_PARAMETERS = [
     "FROM_CLASSES", "SEED_CLASSES", "TO_CLASS", "RETURNS", "OTHERS",
     "LOW_NOISE_CLASS", "LOW_NOISE_DEPTH", "BRIDGES", "BRIDGE_CLASS", "REMEMBER_CLASSES",
-    "DTM_CELL_SIZE", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
-    "GROUND_ONLY", "HEIGHT_ABOVE_GROUND", "THREADS", "MEMORY",
+    "DTM_CELL_SIZE", "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
+    "GROUND_ONLY", "AREA_ONLY", "HEIGHT_ABOVE_GROUND", "THREADS", "MEMORY",
     "EXTENT", "BOUNDARY", "CORRECTIONS", "CORRECTIONS_FIELD",
     "OUTPUT", "DTM", "HILLSHADE",
 ]  # fmt: skip
@@ -44,11 +44,12 @@ PARAMETERS = {
     ],
     "bareearth:pointcloudtoterrain": [
         "INPUT", "INPUT_FOLDER",
-        "METHOD", "PRESET", "DTM_CELL_SIZE", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
+        "METHOD", "PRESET",
+        "DTM_CELL_SIZE", "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
         "FROM_CLASSES", "SEED_CLASSES", "TO_CLASS", "RETURNS", "OTHERS",
         "LOW_NOISE_CLASS", "LOW_NOISE_DEPTH", "BRIDGES", "BRIDGE_CLASS", "REMEMBER_CLASSES",
         "SURFACE_RETURNS", "MAX_EDGE", "CONTOUR_INTERVAL", "RELIEF_RADIUS", "THREADS", "MEMORY",
-        "CORRECTIONS", "CORRECTIONS_FIELD",
+        "CORRECTIONS", "CORRECTIONS_FIELD", "BREAKLINES", "WATER", "RIVERS", "NO_GROUND",
         "OUTPUT", "DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE", "RELIEF", "CONTOURS",
     ],
     "bareearth:gridminimum": [
@@ -68,9 +69,9 @@ PARAMETERS = {
         "METHOD", "PRESET",
         "FROM_CLASSES", "SEED_CLASSES", "TO_CLASS", "RETURNS", "OTHERS",
         "LOW_NOISE_CLASS", "LOW_NOISE_DEPTH", "BRIDGES", "BRIDGE_CLASS", "REMEMBER_CLASSES",
-        "RECURSIVE", "FORMAT", "RESUME",
-        "DTM_CELL_SIZE", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
-        "THREADS", "MEMORY", "CORRECTIONS", "CORRECTIONS_FIELD",
+        "RECURSIVE", "FORMAT", "RESUME", "GROUND_ONLY", "AREA_ONLY", "HEIGHT_ABOVE_GROUND",
+        "DTM_CELL_SIZE", "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
+        "THREADS", "MEMORY", "EXTENT", "BOUNDARY", "CORRECTIONS", "CORRECTIONS_FIELD",
         "OUTPUT_FOLDER", "OUTPUT_VPC", "DTM", "HILLSHADE",
     ],
     "bareearth:heightaboveground": [
@@ -84,7 +85,7 @@ PARAMETERS = {
     ],
     "bareearth:terrainmodel": [
         "INPUT", "GROUND_CLASSES",
-        "DTM_CELL_SIZE", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
+        "DTM_CELL_SIZE", "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
         "SURFACE_RETURNS", "MAX_EDGE",
         "THREADS", "MEMORY",
         "BREAKLINES", "WATER", "RIVERS", "NO_GROUND",
@@ -374,9 +375,11 @@ def test_its_page_holds_every_parameter_with_its_default(each, registry):
     page = page_of(each)
     # What all ground classifications share stands on the page of one of them.
     shared = page_of(registry.createAlgorithmById(ALGORITHM))
+    sets = (Selection, TerrainModel, Output, Resources)
+    of_all = [parameter for declared in sets for parameter in declared.declarations()]
     for declared in each.parameter_sets():
-        holds = shared if declared in (Selection, TerrainModel, Output, Resources) else page
         for parameter in declared.declarations():
+            holds = shared if parameter in of_all else page
             row = f"| **{parameter.label}** `{parameter.name.upper()}` | "
             assert row in holds
             cells = holds.partition(row)[2].partition("\n")[0].split(" | ")[:-1]

@@ -6,14 +6,17 @@ from osgeo import gdal
 from qgis.core import (
     Qgis,
     QgsLayerTreeGroup,
+    QgsLayerTreeModel,
     QgsPointCloudLayer,
     QgsProcessingOutputLayerDefinition,
     QgsProject,
     QgsRasterLayer,
 )
+from qgis.PyQt.QtCore import Qt
 from qgis.PyQt.QtGui import QPainter
 from support import ALGORITHM
 
+from bare_earth.algorithms.engine.raster_files import RASTERS
 from bare_earth.plugin.styles import clouds, rasters
 
 MULTIPLY = QPainter.CompositionMode.CompositionMode_Multiply
@@ -198,3 +201,37 @@ def test_a_layer_that_a_model_has_named_keeps_its_name_and_place(run, scene, tmp
     assert {each.renderer().type() for each in layers} == {
         "singlebandgray", "singlebandpseudocolor",
     }  # fmt: skip
+
+
+def test_legends_say_what_is_shown_and_its_unit(run, scene, tmp_path, monkeypatch):
+    import processing
+
+    ground = str(tmp_path / "ground.laz")
+    processing.run(ALGORITHM, {"INPUT": str(scene.path), "OUTPUT": ground})
+    # As in a window: the tree is there before the layers are.
+    project = QgsProject.instance()
+    model = QgsLayerTreeModel(project.layerTreeRoot())
+    names = ("DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE", "RELIEF")
+    outputs = {each: tmp_path / f"{each}.tif" for each in names}
+    outputs["OUTPUT"] = tmp_path / "out.las"
+    run("bareearth:pointcloudtoterrain", {"INPUT": str(scene.path)}, outputs)
+    told = {}
+    for layer in project.mapLayers().values():
+        node = project.layerTreeRoot().findLayer(layer.id())
+        texts = [each.data(Qt.ItemDataRole.DisplayRole) for each in model.layerLegendNodes(node)]
+        told[layer.name().partition(": ")[2]] = texts
+    assert "Ground" in told.pop("classes")
+    assert {name: texts[0] for name, texts in told.items()} == {
+        "terrain model": "Height, m", "surface model": "Height, m",
+        "canopy height": "Height above ground, m", "hillshade": "Brightness, 1 to 255",
+        "confidence": "Confidence, 0 to 1", "local relief": "Local relief, m",
+    }  # fmt: skip
+    monkeypatch.setattr(rasters, "tr", {"Height": "Höhe"}.get)
+    layer = QgsRasterLayer(str(outputs["DTM"]))
+    assert rasters.shown_by(layer) == "Höhe, m"
+
+
+def test_all_that_bands_say_is_translated():
+    said = [each.shows for each in RASTERS.values()]
+    pieces = {piece for each in said for piece in each.split(", ")} - {"{unit}"}
+    assert pieces <= set(rasters.SHOWN)

@@ -1,0 +1,123 @@
+"""Where the classes of points may change: an extent, a boundary, and what is known by hand."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Sequence
+
+from qgis.core import (
+    QgsProcessingAlgorithm,
+    QgsProcessingContext,
+    QgsProcessingParameterExtent,
+    QgsProcessingParameterFeatureSource,
+)
+
+from ...algorithms.core.errors import BareEarthError
+from ...algorithms.core.parameters import ParameterSet
+from ...algorithms.core.progress import Progress
+from ...algorithms.engine.output import Output
+from ...algorithms.survey.area import Area, Polygon
+from .. import compat
+from ..i18n import tr
+from .corrections import add_corrections, corrections_of
+from .inputs import crs_of, features_of, is_empty, polygons_of
+
+# Name, label and help of the fields of an area.
+_AREA_FIELDS = {
+    "EXTENT": (
+        "Extent",
+        "Only points in this rectangle are classified. The others keep their class, but those near"
+        " it help to judge. Empty: all points.",
+    ),
+    "BOUNDARY": (
+        "Boundary",
+        "Only points in these polygons are classified, of an extent too if there is one. The others"
+        " keep their class, but those near them help to judge. Empty: all points.",
+    ),
+}
+
+
+def add_area(algorithm: QgsProcessingAlgorithm, advanced: Sequence[str] = ("BOUNDARY",)) -> None:
+    """Add the fields of an area to a dialog; the dialog folds away those that are `advanced`."""
+    extent, boundary = (label for label, _ in _AREA_FIELDS.values())
+    fields = (
+        QgsProcessingParameterExtent("EXTENT", extent, None, True),
+        QgsProcessingParameterFeatureSource("BOUNDARY", boundary, [compat.POLYGONS], None, True),
+    )
+    for field in fields:
+        if field.name() in advanced:
+            field.setFlags(field.flags() | compat.ADVANCED)
+        algorithm.addParameter(field, _AREA_FIELDS[field.name()][1])
+
+
+def area_of(
+    algorithm: QgsProcessingAlgorithm,
+    parameters: dict[str, Any],
+    context: QgsProcessingContext,
+    cloud: Path,
+) -> Area | None:
+    """Return what the fields of `add_area` hold, in the CRS that a cloud states, if any.
+
+    Raises
+    ------
+    BareEarthError
+        If they hold no area, or the cloud cannot be read.
+    """
+    given = [name for name in _AREA_FIELDS if not is_empty(parameters.get(name))]
+    if not given:
+        return None
+    crs = crs_of(cloud)
+    box = None
+    polygons: tuple[Polygon, ...] = ()
+    if "EXTENT" in given:
+        extent = algorithm.parameterAsExtent(parameters, "EXTENT", context, crs)
+        box = extent.xMinimum(), extent.yMinimum(), extent.xMaximum(), extent.yMaximum()
+    if "BOUNDARY" in given:
+        source = algorithm.parameterAsSource(parameters, "BOUNDARY", context)
+        features = features_of(source, _AREA_FIELDS["BOUNDARY"][0], crs, context)
+        polygons = tuple(each for one in features for each in polygons_of(one.geometry()))
+        if not polygons:
+            raise BareEarthError(tr("The boundary holds no polygon. Choose one that does."))
+    return Area(box, polygons)
+
+
+def check_area_only(parameters: dict[str, Any], chosen: Sequence[ParameterSet]) -> None:
+    """Refuse to write an area alone where the fields of `add_area` hold none."""
+    is_given = not all(is_empty(parameters.get(name)) for name in _AREA_FIELDS)
+    for each in chosen:
+        if isinstance(each, Output):
+            each.check_area(is_given)
+
+
+def area_options(area: Area | None, progress: Progress) -> list[str]:
+    """Return the options of the command line that name an area; tell what they cannot say."""
+    if area is None:
+        return []
+    if area.polygons:
+        progress.info(
+            tr(
+                "In the command line the boundary is missing: save it in the CRS of the points"
+                " as boundary.geojson, and add --boundary boundary.geojson."
+            )
+        )
+    return ["--extent", *map(repr, area.box)] if area.box else []
+
+
+def add_limits(algorithm: QgsProcessingAlgorithm, advanced: Sequence[str] = ("BOUNDARY",)) -> None:
+    """Add the fields of an area, some of them `advanced`, and of corrections to a dialog."""
+    add_area(algorithm, advanced)
+    add_corrections(algorithm)
+
+
+def limits_of(
+    algorithm: QgsProcessingAlgorithm,
+    parameters: dict[str, Any],
+    context: QgsProcessingContext,
+    cloud: Path,
+    progress: Progress,
+) -> dict[str, Any]:
+    """Return area and corrections, as `ClassifyRequest` names them; see their functions."""
+    return {
+        "area": area_of(algorithm, parameters, context, cloud),
+        "corrections": corrections_of(algorithm, parameters, context, cloud, progress),
+    }
