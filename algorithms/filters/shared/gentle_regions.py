@@ -29,6 +29,9 @@ _LEAST_OF_TREND = 0.25
 # Share of a large region's border above which that of the survey tells too little to be judged by:
 # less than half, as the sides of cells make a slanted edge longer than it is.
 _OPEN_SHARE = 0.45
+# What is as small (m2) and stands as high (m) as a house must have such a share of its border
+# gentle: on a slope one side of a roof may be level with the ground.
+_HOUSE_AREA, _HOUSE_HEIGHT, _HOUSE_SHARE = 400.0, 2.5, 0.5
 # Standard deviation in metres of the heights of a rock. A roof is lower, or level: a band of so
 # many metres holds more than a share of it.
 _ROCK_DEVIATION, _BAND, _BAND_SHARE = 5.0, 3.0, 1.0 / 3.0
@@ -71,9 +74,6 @@ def gentle_regions(
     terrain, rocks : numpy.ndarray of bool, shape (rows, columns)
         All cells that are ground after all, and those of them that are rocks.
     """
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
     allowance = allowance.for_cells(size)
     surveyed = covered(known)
     if allowance.judges_gaps:
@@ -87,14 +87,8 @@ def gentle_regions(
         both = surveyed.ravel()[one] & surveyed.ravel()[other]
         one, other, sign = one[both], other[both], sign[both]
     up = raised.ravel()
-    cells = np.flatnonzero(up)
-    region = np.full(up.size, -1, dtype=np.int64)
-    region[cells] = np.arange(len(cells))
     inside = (sign == 0) & up[one] & up[other]
-    pairs = (region[one[inside]], region[other[inside]])
-    graph = coo_matrix((np.ones(len(pairs[0]), dtype=bool), pairs), shape=(len(cells),) * 2)
-    count, region[cells] = connected_components(graph, directed=False)
-    area = np.bincount(region[cells], minlength=count) * size**2
+    region, count = _numbered(up, one[inside], other[inside])
     borders = [
         _border(region, up, from_, to, (sign == 0, drop, rise))
         for from_, to, drop, rise in (
@@ -102,18 +96,41 @@ def gentle_regions(
             (other, one, sign == 1, sign == -1),
         )
     ]
-    open_ = np.bincount(region[cells], _unsurveyed(surveyed).ravel()[cells], count)
+    cells = np.flatnonzero(up)
+    number = region[cells]
+    area = np.bincount(number, minlength=count) * size**2
+    open_ = np.bincount(number, _unsurveyed(surveyed).ravel()[cells], count)
     heights = filled.ravel()[cells]
     above = heights - surface.ravel()[cells]
-    rocks = _rocks(region[cells], heights, above, area, allowance)
-    above = np.bincount(region[cells], above, count) * size**2 / area
-    # As high as that it may be a building that the border of the survey cuts.
-    open_[(area < allowance.border_area) | (above > allowance.border_height)] = 0.0
+    rocks = _rocks(number, heights, above, area, allowance)
+    above = np.bincount(number, above, count) * size**2 / area
     result = np.zeros((2, up.size), dtype=bool)
-    for which, grid in zip((_joined(borders, area, open_, rocks, allowance), rocks), result):
-        grid[cells] = which[region[cells]]
+    for which, grid in zip((_joined(borders, area, above, open_, rocks, allowance), rocks), result):
+        grid[cells] = which[number]
     terrain, rocks = result.reshape(2, *raised.shape)
     return terrain, rocks
+
+
+def _numbered(up: np.ndarray, one: np.ndarray, other: np.ndarray) -> tuple[np.ndarray, int]:
+    """Return the region of each cell, -1 where none is raised, and how many there are.
+
+    Parameters
+    ----------
+    up : numpy.ndarray of bool, shape (cells,)
+        Raised cells.
+    one, other : numpy.ndarray of intp, shape (pairs,)
+        Raised cells that hang together.
+    """
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    cells = np.flatnonzero(up)
+    region = np.full(up.size, -1, dtype=np.int64)
+    region[cells] = np.arange(len(cells))
+    pairs = region[one], region[other]
+    graph = coo_matrix((np.ones(len(one), dtype=bool), pairs), shape=(len(cells),) * 2)
+    count, region[cells] = connected_components(graph, directed=False)
+    return region, count
 
 
 def _rocks(
@@ -180,6 +197,7 @@ def _border(
 def _joined(
     borders: list[list[_Pairs]],
     area: np.ndarray,
+    above: np.ndarray,
     open_: np.ndarray,
     rocks: np.ndarray,
     allowance: Allowance,
@@ -192,8 +210,10 @@ def _joined(
         Level pairs, drops and rises of each region, for both directions.
     area : numpy.ndarray of float, shape (regions,)
         Square metres.
+    above : numpy.ndarray of float, shape (regions,)
+        Mean height above the ground in metres.
     open_ : numpy.ndarray of float, shape (regions,)
-        Sides of cells at the border of the survey; 0 where that tells nothing.
+        Sides of cells at the border of the survey.
     rocks : numpy.ndarray of bool, shape (regions,)
         Which are ground whatever their border.
     allowance : Allowance
@@ -205,6 +225,11 @@ def _joined(
     """
     count = len(area)
     sharp = sum(np.bincount(drop[0], minlength=count) for _, drop, _ in borders)
+    # As high as that it may be a building that the border of the survey cuts.
+    is_open = (area >= allowance.border_area) & (above <= allowance.border_height)
+    open_ = np.where(is_open, open_, 0.0)
+    is_house = (area < _HOUSE_AREA) & (above > _HOUSE_HEIGHT)
+    share = np.where(is_house, max(_HOUSE_SHARE, allowance.gentle_share), allowance.gentle_share)
     joined = rocks.copy()
     for _ in range(_JOINING_PASSES):
         ground = np.append(joined, True)  # the last one is what is not raised
@@ -214,7 +239,7 @@ def _joined(
             rising += np.bincount(rise[0][ground[rise[1]]], minlength=count)
         gentle = level + rising if allowance.rise_counts else level
         bounded = gentle + sharp
-        new = gentle >= allowance.gentle_share * bounded
+        new = gentle >= share * bounded
         # A ramp is level with the ground: the side of a roof rises to the next one.
         new |= (level >= allowance.wide_share * bounded) & (area >= allowance.wide_area)
         new &= gentle > 0
