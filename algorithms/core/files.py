@@ -8,6 +8,8 @@ import functools
 import itertools
 import os
 import re
+import secrets
+import shutil
 import socket
 import sys
 import time
@@ -16,9 +18,8 @@ from typing import Container, Iterable, Iterator
 
 from .errors import BareEarthError
 
-_numbers = itertools.count()
-# The computer and the process that hold a temporary file, and a number.
-_TEMPORARY = re.compile(r"\.(\w+)-(\d+)-(\d+)\.part\.")
+# The computer and the process that hold a temporary file, and what nobody can foresee.
+_TEMPORARY = re.compile(r"\.(\w+)-(\d+)-(\w+)\.part\.")
 _LONGEST_NAME = 255
 # Whether a process of another computer is gone cannot be seen, but whether it still writes.
 _FORGOTTEN_SECONDS = 86_400.0
@@ -34,6 +35,9 @@ _REASONS = {
     errno.EPERM: "you have no permission to write there. Choose another folder",
     errno.EROFS: "the disk is read-only. Choose another folder",
     errno.ENAMETOOLONG: "the name is too long. Choose a shorter one",
+    errno.ESTALE: "the network disk lost the file. Run it again",
+    errno.EBUSY: "another program holds it. Close it there, or choose another name",
+    errno.EXDEV: "the folder lies across two disks. Choose another folder",
 }
 
 
@@ -126,7 +130,7 @@ def replacing(target: Path) -> Iterator[Path]:
         if mode is not None:
             with contextlib.suppress(OSError):  # not every file system has them
                 os.chmod(temporary, mode)
-        os.replace(temporary, target)
+        _rename(temporary, target)
     except OSError as error:
         raise describe_write_error(target, error) from error
     finally:
@@ -134,12 +138,58 @@ def replacing(target: Path) -> Iterator[Path]:
             _remove(temporary)
 
 
+@contextlib.contextmanager
+def temporary_folder(beside: Path) -> Iterator[Path]:
+    """Give a folder within `beside` that is removed, with all in it, when the block ends.
+
+    If the process is killed, `remove_leftovers` removes it.
+
+    Raises
+    ------
+    BareEarthError
+        If the operating system refuses to make it.
+    """
+    folder = beside / f"{_new_marks()}work"
+    try:
+        try:
+            folder.mkdir(mode=0o700)
+        except OSError as error:
+            raise describe_write_error(beside, error) from error
+        yield folder
+    finally:
+        _remove(folder)
+
+
+def _rename(temporary: Path, target: Path) -> None:
+    """Put a temporary file into the place of its target.
+
+    A network disk may report an error for what it has done: its first answer was lost, and to the
+    same question once more it says that there is no such file.
+    """
+    written = os.stat(temporary)
+    try:
+        os.replace(temporary, target)
+    except OSError:
+        with contextlib.suppress(OSError):
+            if os.path.samestat(written, os.stat(target)):
+                return
+        raise
+
+
 def _remove(temporary: Path) -> None:
-    """Remove a temporary file, if it is still there, and hold it no longer."""
-    with contextlib.suppress(OSError):
-        temporary.unlink()
+    """Remove a temporary file or folder, if it is still there, and hold it no longer."""
+    _delete(temporary)
     if marks := _TEMPORARY.match(temporary.name):
         _held.discard(marks[0])
+
+
+def _delete(path: str | Path) -> None:
+    """Remove a file, or a folder with all in it, as far as that can be done; follow no link."""
+    with contextlib.suppress(OSError):
+        if os.path.isdir(path) and not os.path.islink(path):
+            shutil.rmtree(path)
+        else:
+            os.unlink(path)
 
 
 def _mode_of(target: Path) -> int | None:
@@ -156,10 +206,8 @@ def _make_temporary(target: Path, mode: int | None = None) -> Path:
     Never one that is there already: whoever knew the name could have put a link in its place.
     """
     while True:
-        marks = f".{_computer()}-{os.getpid()}-{next(_numbers)}.part."
+        marks = _new_marks()
         temporary = target.with_name(marks + _cut(target.name, len(marks)))
-        # Before it is there: another thread must not take it for one that was left.
-        _held.add(marks)
         try:
             flags = os.O_CREAT | os.O_EXCL | os.O_WRONLY
             os.close(os.open(temporary, flags, 0o666 if mode is None else mode | 0o600))
@@ -170,6 +218,16 @@ def _make_temporary(target: Path, mode: int | None = None) -> Path:
             _held.discard(marks)
             raise
         return temporary
+
+
+def _new_marks() -> str:
+    """Return how the name of a new temporary file begins, and hold it.
+
+    Before it is there: another thread must not take it for one that was left.
+    """
+    marks = f".{_computer()}-{os.getpid()}-{secrets.token_hex(8)}.part."
+    _held.add(marks)
+    return marks
 
 
 def _cut(name: str, taken: int) -> str:
@@ -254,7 +312,7 @@ def remove_leftovers(folder: Path, processes: Container[int] | None = None) -> N
         if marks and (processes is None or int(marks[2]) in processes):
             with contextlib.suppress(OSError):
                 if _is_left(entry, marks):
-                    os.unlink(entry.path)
+                    _delete(entry.path)
 
 
 def _is_left(entry: os.DirEntry[str], marks: re.Match[str]) -> bool:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import os
 import shutil
-import tempfile
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Iterable, Sequence
 
 from ..core.errors import BareEarthError
-from ..core.files import check_output, is_same_file
+from ..core.files import check_output, is_same_file, temporary_folder
 from ..core.progress import SILENT, Progress
 from ..las.writing import check_writable
 from ..survey.collection import Collection, open_collection
@@ -243,10 +242,10 @@ def rasters_of_files(
         progress.warning(f"{each.path} is left out. {each.reason}")
     beside = next(iter(request.rasters.wanted.values())).parent
     workers = workers or Threads(request.resources)
-    with tempfile.TemporaryDirectory(prefix=".bare-earth-", dir=beside) as folder:
+    with temporary_folder(beside) as folder:
         opened = [each.file for each in collection.tiles]
         step = request.raster_step(opened, progress.part(0.05, 0.1))
-        return make_rasters(collection, Path(folder), step, workers, progress.part(0.1, 1.0))
+        return make_rasters(collection, folder, step, workers, progress.part(0.1, 1.0))
 
 
 def _check_survey(

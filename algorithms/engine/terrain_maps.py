@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import NamedTuple, Sequence
 
-from ..core.files import check_output
+from ..core.files import check_output, temporary_folder
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
 from ..filters import DEFAULT_METHOD, METHODS
@@ -131,14 +131,13 @@ def make_maps(
     """
     wanted = [files.cloud, *files.rasters.wanted.values(), files.relief, files.contours]
     folders = [path.parent for path in wanted if path]
-    with tempfile.TemporaryDirectory(
-        prefix=".bare-earth-", dir=next((each for each in folders if each.is_dir()), None)
-    ) as waiting:
-        cloud = files.cloud or Path(waiting, "cloud.las")
+    beside = next((each for each in folders if each.is_dir()), Path(tempfile.gettempdir()))
+    with temporary_folder(beside) as waiting:
+        cloud = files.cloud or waiting / "cloud.las"
         rasters = files.rasters
         for each in filter(None, (files.relief, files.contours)):
             check_output(each, tuple(sources))
-            rasters = replace(rasters, dtm=rasters.dtm or Path(waiting, "dtm.tif"))
+            rasters = replace(rasters, dtm=rasters.dtm or waiting / "dtm.tif")
         rasters.check((*sources, cloud))
         part, smoothing, tracing = progress.shares(
             5.0 + 4.4 * bool(rasters.wanted), 0.3 * bool(files.relief), 0.3 * bool(files.contours)
