@@ -160,6 +160,33 @@ def temporary_folder(beside: Path) -> Iterator[Path]:
         _remove(folder)
 
 
+def replace_with_files_of(folder: Path, target: Path, beside: Iterable[str]) -> None:
+    """Put the files of a temporary folder into that of `target`, for formats of several files.
+
+    Parameters
+    ----------
+    folder : Path
+        What `temporary_folder` gave, with `target.name` and what belongs to it.
+    target : Path
+        The file to be made.
+    beside : iterable of str
+        Names of what may belong to the former target: what is not replaced of it is removed.
+
+    Raises
+    ------
+    BareEarthError
+        If the operating system refuses to write.
+    """
+    try:
+        new = sorted(each.name for each in folder.iterdir())
+        for name in new:
+            _rename(folder / name, target.with_name(name))
+        for name in set(beside) - set(new):
+            target.with_name(name).unlink(missing_ok=True)
+    except OSError as error:
+        raise describe_write_error(target, error) from error
+
+
 def _rename(temporary: Path, target: Path) -> None:
     """Put a temporary file into the place of its target.
 

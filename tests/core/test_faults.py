@@ -4,6 +4,7 @@ Nothing is lost, nothing half written. `BARE_EARTH_KILLS=200 make test-long` kil
 each command. All of it can be run by the Python of QGIS, too, so that GDAL writes the rasters.
 """
 
+import errno
 import json
 import os
 import shutil
@@ -20,6 +21,7 @@ from surveys import cut, strip, write
 
 import bare_earth.algorithms as package
 from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.engine import workers
 
 pytestmark = pytest.mark.skipif(
     sys.platform != "linux", reason="it needs namespaces, and kills by signals"
@@ -164,7 +166,7 @@ def test_a_full_disk_changes_nothing_and_is_told_in_a_sentence(name, place, inpu
     done = _run(*_words(name, inputs, enough))
     assert done.returncode == 0, done.stderr
     needed = sum(path.stat().st_size for path in enough.rglob("*") if path.is_file()) // 1024
-    sizes = [int(share * needed) + 4 * len(old) for share in (0.0, 0.3, 0.6, 0.9, 0.99, 3.0)]
+    sizes = [int(share * needed) + 4 * len(old) for share in (0.0, 0.3, 0.6, 0.9, 0.99, 20.0)]
     # The mount is gone with the process that made it, and is seen by nobody else.
     script = f"""
 import sys
@@ -219,3 +221,46 @@ def test_killed_runs_leave_old_files_or_whole_new_ones(name, inputs, tmp_path):
     assert _run(*_words(name, inputs, out)).returncode == 0
     assert {path: Path(path).read_bytes() for path in old} == expected
     assert not _hidden(out)
+
+
+@pytest.fixture(scope="module")
+def small_inputs(tmp_path_factory):
+    def run(*words):
+        return main([*map(str, words)])
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(workers, "Processes", workers.Threads)
+        return _made_inputs(tmp_path_factory.mktemp("small"), 3_000, 100.0, run)
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_a_rename_that_fails_is_told_and_one_that_was_done_counts(
+    name, small_inputs, tmp_path, monkeypatch, capsys, threads_for_processes
+):
+    out, rename = tmp_path / "out", os.replace
+
+    def run(number, is_done):
+        """Let each rename report an error, as a network disk may; return the old outputs."""
+
+        def report_an_error(source, target):
+            if is_done:
+                rename(source, target)
+            raise OSError(number, os.strerror(number), str(source), None, str(target))
+
+        shutil.rmtree(out, ignore_errors=True)
+        old = _old_outputs(name, small_inputs, out)
+        with monkeypatch.context() as patch:
+            patch.setattr(os, "replace", report_an_error)
+            code = main(_words(name, small_inputs, out))
+        assert not _hidden(out)
+        return code, old
+
+    code, old = run(errno.ESTALE, False)
+    said = capsys.readouterr().err
+    assert code == 1 and "the network disk lost the file" in said
+    assert len([line for line in said.splitlines() if line.startswith("bare-earth: ")]) == 1
+    assert {path: Path(path).read_bytes() for path in old} == old
+    assert not list(out.rglob("*.laz")) or name not in SURVEYS
+    code, old = run(errno.ENOENT, True)
+    assert code == 0, capsys.readouterr().err
+    assert all(Path(path).read_bytes() != b"old" for path in old)
