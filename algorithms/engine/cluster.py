@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import functools
 import threading
-import uuid
+import time
 from concurrent.futures import Executor
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..core.errors import BareEarthError
+from ..core.files import temporary_folder
 from ..las.backends import require
 from .jobs import JobResult, attempt
 from .memory import Resources, free_memory
@@ -20,6 +22,8 @@ if TYPE_CHECKING:
     from distributed import Client
 
 _CONNECTING = "15s"
+# Seconds between two looks at the workers, and those that a scheduler may take to answer.
+_LOOKING, _ANSWERING = 2.0, 15.0
 # Share of the free memory of a computer that the jobs there may use.
 _SHARE = 0.5
 # How many jobs there are for each thread of a worker, so that it need not wait for the next.
@@ -49,12 +53,17 @@ class Cluster(Workers):
     resources : Resources
         The memory is that of one job; by default half of what is free on the computer of a worker,
         divided by its threads. The number of threads is that of the cluster.
+    patience : float
+        Seconds after which a run ends when there is no worker any more.
     """
 
-    def __init__(self, address: str, resources: Resources = Resources()) -> None:
+    def __init__(
+        self, address: str, resources: Resources = Resources(), patience: float = 60.0
+    ) -> None:
         require("distributed")
         super().__init__(resources)
-        self._address = address
+        self._address, self._patience = address, patience
+        self._looked = self._seen = 0.0
         self._client: Client | None = None
         self._pool: Executor | None = None
 
@@ -68,15 +77,18 @@ class Cluster(Workers):
         """
         from distributed import Client
 
+        _check_encryption(self._address)
         try:
             self._client = Client(self._address, timeout=_CONNECTING, set_as_default=False)
         except (OSError, ValueError) as error:
             raise BareEarthError(
-                f"There is no Dask scheduler at {self._address}. Start one with 'dask scheduler',"
-                " and give the address that it prints."
+                f"There is no Dask scheduler at {self._address} that answers this computer. Start"
+                " one with 'dask scheduler', and give the address that it prints. With TLS, the"
+                " certificates must be of one authority."
             ) from error
         facts = self._check(folder)
-        threads = self._client.nthreads()
+        self._seen = time.monotonic()
+        threads = self._threads()
         memory = self.resources.bytes
         if self.resources.memory is None:
             # Several workers may be on one computer.
@@ -91,24 +103,34 @@ class Cluster(Workers):
         self._pool = self._client.get_executor(pure=False)
 
     def _room(self) -> int:
-        return max(1, _AHEAD * sum(self._client.nthreads().values()))
+        return max(1, _AHEAD * sum(self._threads().values()))
+
+    def _threads(self) -> dict[str, int]:
+        """Return how many threads each worker has.
+
+        Raises
+        ------
+        BareEarthError
+            If the scheduler does not answer.
+        """
+        client = self._client
+        try:
+            return client.sync(client.scheduler.ncores, callback_timeout=_ANSWERING)
+        except (OSError, asyncio.TimeoutError) as error:
+            raise BareEarthError(SCHEDULER_GONE) from error
 
     def _check(self, folder: Path) -> dict[str, _Facts]:
         """Return what the workers say of themselves; refuse those that could not work."""
         from ..core.version import __version__
 
-        marker = folder / f".{uuid.uuid4().hex}.part"
-        marker.touch()
-        try:
-            facts = self._client.run(_facts, str(marker), on_error="return")
-        except Exception as error:
-            raise BareEarthError(
-                f"The workers of {self._address} cannot load this package ({error}). Install"
-                f" bare-earth {__version__} there."
-            ) from error
-        finally:
-            with contextlib.suppress(OSError):
-                marker.unlink()
+        with temporary_folder(folder) as marker:
+            try:
+                facts = self._client.run(_facts, str(marker), on_error="return")
+            except Exception as error:
+                raise BareEarthError(
+                    f"The workers of {self._address} cannot load this package ({error}). Install"
+                    f" bare-earth {__version__} there."
+                ) from error
         if not facts:
             raise BareEarthError(
                 f"The scheduler {self._address} has no workers. Start some with 'dask worker"
@@ -148,6 +170,26 @@ class Cluster(Workers):
             raise BareEarthError(SCHEDULER_GONE) from error
         return Running(future, JobProgress(threading.Event()))
 
+    def check(self) -> None:
+        """Look whether the scheduler answers and has workers, from time to time.
+
+        Raises
+        ------
+        BareEarthError
+            If the scheduler is gone, or had no workers for too long.
+        """
+        now = time.monotonic()
+        if now - self._looked < _LOOKING:
+            return
+        if self._threads():
+            self._seen = now
+        elif now - self._seen > self._patience:  # one that died may be started again
+            raise BareEarthError(
+                f"All workers of {self._address} are gone. Start some with 'dask worker"
+                f" {self._address}', and go on with --resume."
+            )
+        self._looked = time.monotonic()
+
     def stop(self) -> None:
         """Take back the jobs that have not begun, and leave the scheduler."""
         with contextlib.suppress(OSError):  # the scheduler is gone
@@ -155,6 +197,27 @@ class Cluster(Workers):
                 self._pool.shutdown(wait=False)
         if self._client is not None:
             self._client.close()
+
+
+def _check_encryption(address: str) -> None:
+    """Refuse an address that the configuration of Dask on this computer has no keys for.
+
+    Dask would tell so by errors of many kinds, and leave threads that never end.
+    """
+    from distributed.security import Security
+
+    what = f"The scheduler {address} cannot be reached"
+    where = "See 'distributed.comm' in the configuration of Dask on this computer."
+    try:
+        security = Security()
+        has_keys = security.get_connection_args("client")["ssl_context"] is not None
+    except (OSError, ValueError, ImportError) as error:
+        raise BareEarthError(f"{what}: certificate or key do not do ({error}). {where}") from error
+    is_secret = address.startswith("tls://")
+    if is_secret and not has_keys:
+        raise BareEarthError(f"{what}: TLS needs a certificate, a key and an authority. {where}")
+    if security.require_encryption and not is_secret:
+        raise BareEarthError(f"{what}: encryption is required. {where}")
 
 
 def _facts(marker: str) -> _Facts:

@@ -88,6 +88,15 @@ class Workers:
         """Begin a job."""
         raise NotImplementedError
 
+    def check(self) -> None:
+        """Look whether there is still somebody to do the jobs that were begun.
+
+        Raises
+        ------
+        BareEarthError
+            If there is not.
+        """
+
     def restart(self) -> None:
         """Be ready again after a worker died."""
 
