@@ -4,27 +4,14 @@ from __future__ import annotations
 
 import contextlib
 import errno
-import functools
 import itertools
 import os
-import re
-import secrets
-import shutil
-import socket
 import sys
-import time
 from pathlib import Path
-from typing import Container, Iterable, Iterator
+from typing import Iterable, Iterator
 
 from .errors import BareEarthError
-
-# The computer and the process that hold a temporary file, and what nobody can foresee.
-_TEMPORARY = re.compile(r"\.(\w+)-(\d+)-(\w+)\.part\.")
-_LONGEST_NAME = 255
-# Whether a process of another computer is gone cannot be seen, but whether it still writes.
-_FORGOTTEN_SECONDS = 86_400.0
-# The marks of what this process writes right now.
-_held: set[str] = set()
+from .temporary import make_temporary, new_marks, remove_leftovers, remove_temporary, shown
 
 # What a system says of a file that another process has locked.
 _LOCKED = (errno.EACCES, errno.EAGAIN, errno.EDEADLK)
@@ -78,7 +65,7 @@ def check_output(target: Path, sources: tuple[Path, ...] = ()) -> None:
                     f"Input and output are the same file, {source}. Choose another output."
                 )
         remove_leftovers(target.parent)
-        _remove(_make_temporary(target))
+        remove_temporary(make_temporary(target))
     except (OSError, ValueError) as error:  # a name with a null character is a ValueError
         raise describe_write_error(target, error) from error
 
@@ -125,7 +112,7 @@ def replacing(target: Path) -> Iterator[Path]:
     temporary = None
     try:
         mode = _mode_of(target)
-        temporary = _make_temporary(target, mode)
+        temporary = make_temporary(target, mode)
         yield temporary
         if mode is not None:
             with contextlib.suppress(OSError):  # not every file system has them
@@ -135,7 +122,7 @@ def replacing(target: Path) -> Iterator[Path]:
         raise describe_write_error(target, error) from error
     finally:
         if temporary is not None:
-            _remove(temporary)
+            remove_temporary(temporary)
 
 
 @contextlib.contextmanager
@@ -149,7 +136,7 @@ def temporary_folder(beside: Path) -> Iterator[Path]:
     BareEarthError
         If the operating system refuses to make it.
     """
-    folder = beside / f"{_new_marks()}work"
+    folder = beside / f"{new_marks()}work"
     try:
         try:
             folder.mkdir(mode=0o700)
@@ -157,7 +144,7 @@ def temporary_folder(beside: Path) -> Iterator[Path]:
             raise describe_write_error(beside, error) from error
         yield folder
     finally:
-        _remove(folder)
+        remove_temporary(folder)
 
 
 def replace_with_files_of(folder: Path, target: Path, beside: Iterable[str]) -> None:
@@ -203,73 +190,12 @@ def _rename(temporary: Path, target: Path) -> None:
         raise
 
 
-def _remove(temporary: Path) -> None:
-    """Remove a temporary file or folder, if it is still there, and hold it no longer."""
-    _delete(temporary)
-    if marks := _TEMPORARY.match(temporary.name):
-        _held.discard(marks[0])
-
-
-def _delete(path: str | Path) -> None:
-    """Remove a file, or a folder with all in it, as far as that can be done; follow no link."""
-    with contextlib.suppress(OSError):
-        if os.path.isdir(path) and not os.path.islink(path):
-            shutil.rmtree(path)
-        else:
-            os.unlink(path)
-
-
 def _mode_of(target: Path) -> int | None:
     """Return the permissions of a file, None if there is none."""
     try:
         return os.stat(target).st_mode & 0o777
     except FileNotFoundError:
         return None
-
-
-def _make_temporary(target: Path, mode: int | None = None) -> Path:
-    """Make an empty file beside the target whose name says who writes it.
-
-    Never one that is there already: whoever knew the name could have put a link in its place.
-    """
-    while True:
-        marks = _new_marks()
-        temporary = target.with_name(marks + _cut(target.name, len(marks)))
-        try:
-            flags = os.O_CREAT | os.O_EXCL | os.O_WRONLY
-            os.close(os.open(temporary, flags, 0o666 if mode is None else mode | 0o600))
-        except FileExistsError:
-            _held.discard(marks)
-            continue
-        except OSError:
-            _held.discard(marks)
-            raise
-        return temporary
-
-
-def _new_marks() -> str:
-    """Return how the name of a new temporary file begins, and hold it.
-
-    Before it is there: another thread must not take it for one that was left.
-    """
-    marks = f".{_computer()}-{os.getpid()}-{secrets.token_hex(8)}.part."
-    _held.add(marks)
-    return marks
-
-
-def _cut(name: str, taken: int) -> str:
-    """Return the end of a file name, so long that it fits behind some other bytes."""
-    if len(os.fsencode(name)) > _LONGEST_NAME:
-        return name  # too long by itself, which the operating system says better
-    while len(os.fsencode(name)) + taken > _LONGEST_NAME:
-        name = name[1:]
-    return name
-
-
-@functools.cache
-def _computer() -> str:
-    """Return the name of this computer, as it stands in the names of temporary files."""
-    return re.sub(r"\W", "_", socket.gethostname(), flags=re.ASCII)[:32] or "_"
 
 
 @contextlib.contextmanager
@@ -318,75 +244,9 @@ def _lock(number: int) -> None:
         fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
-def remove_leftovers(folder: Path, processes: Container[int] | None = None) -> None:
-    """Remove what `replacing` left in a folder when its process was killed.
-
-    Files of processes that are still there stay. Of those of other computers, on a disk that
-    several share, only what nobody wrote to for a day is removed.
-
-    Parameters
-    ----------
-    folder : Path
-        The folder.
-    processes : container of int, optional
-        Only the files of these processes; of all if it is not given.
-    """
-    if not folder.is_dir():
-        return
-    with os.scandir(folder) as entries:
-        found = [(each, _TEMPORARY.match(each.name)) for each in entries]
-    for entry, marks in found:
-        if marks and (processes is None or int(marks[2]) in processes):
-            with contextlib.suppress(OSError):
-                if _is_left(entry, marks):
-                    _delete(entry.path)
-
-
-def _is_left(entry: os.DirEntry[str], marks: re.Match[str]) -> bool:
-    """Return whether nobody writes a temporary file any more."""
-    computer, process = marks[1], int(marks[2])
-    if computer != _computer():
-        age = time.time() - entry.stat(follow_symlinks=False).st_mtime
-        return age > _FORGOTTEN_SECONDS
-    if process == os.getpid():
-        return marks[0] not in _held
-    return not _is_running(process)
-
-
-def _is_running(process: int) -> bool:
-    """Return whether a process of this computer is there."""
-    if sys.platform == "win32":
-        import ctypes
-
-        kernel, code = ctypes.windll.kernel32, ctypes.c_ulong()
-        handle = kernel.OpenProcess(0x1000, False, process)  # to ask for its state, no more
-        if not handle:
-            return kernel.GetLastError() == 5  # access denied: it is there
-        try:
-            return bool(kernel.GetExitCodeProcess(handle, ctypes.byref(code))) and code.value == 259
-        finally:
-            kernel.CloseHandle(handle)
-    try:
-        os.kill(process, 0)
-    except (ProcessLookupError, OverflowError):
-        return False
-    except PermissionError:
-        return True
-    try:
-        state = Path(f"/proc/{process}/stat").read_bytes().rpartition(b")")[2].split()[:1]
-    except OSError:  # not every system has it
-        return True
-    return state not in ([b"Z"], [b"X"])  # one that ended, but nobody asked how
-
-
 def describe_write_error(target: Path, error: OSError | ValueError) -> BareEarthError:
     """Turn an operating system error met while writing `target` into a sentence."""
     reason = str(error)
     if isinstance(error, OSError):
         reason = _REASONS.get(error.errno or 0, error.strerror or reason)
     return BareEarthError(f"Cannot write {shown(target)}: {reason}.")
-
-
-def shown(path: object) -> str:
-    """Return a path, or a text that names one, without the marks of `replacing`."""
-    return _TEMPORARY.sub("", str(path))

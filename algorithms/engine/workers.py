@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import NamedTuple, Union
 
 from ..core.errors import Cancelled
-from ..core.files import remove_leftovers
 from ..core.progress import Progress
+from ..core.temporary import remove_leftovers
 from .jobs import BlockJob, JobResult, TileJob, attempt
 from .memory import GIGABYTE, Resources
 from .record import folders_of
