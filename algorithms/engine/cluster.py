@@ -5,14 +5,17 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import functools
+import os
 import threading
 import time
 from concurrent.futures import Executor
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from ..core.errors import BareEarthError
-from ..core.files import temporary_folder
+from ..core.errors import BareEarthError, Cancelled
+from ..core.files import describe_write_error
+from ..core.progress import Progress
+from ..core.temporary import make_temporary, remove_temporary
 from ..las.backends import require
 from .jobs import JobResult, attempt
 from .memory import Resources, free_memory
@@ -24,6 +27,8 @@ if TYPE_CHECKING:
 _CONNECTING = "15s"
 # Seconds between two looks at the workers, and those that a scheduler may take to answer.
 _LOOKING, _ANSWERING = 2.0, 15.0
+# Seconds after which a job looks whether anybody still waits for it.
+_LISTENING = 0.5
 # Share of the free memory of a computer that the jobs there may use.
 _SHARE = 0.5
 # How many jobs there are for each thread of a worker, so that it need not wait for the next.
@@ -64,6 +69,8 @@ class Cluster(Workers):
         super().__init__(resources)
         self._address, self._patience = address, patience
         self._looked = self._seen = 0.0
+        # A file that is there as long as the run is: without it, its jobs end.
+        self._mark: Path | None = None
         self._client: Client | None = None
         self._pool: Executor | None = None
 
@@ -86,6 +93,15 @@ class Cluster(Workers):
                 " one with 'dask scheduler', and give the address that it prints. With TLS, the"
                 " certificates must be of one authority."
             ) from error
+        try:
+            self._mark = _marked(folder)
+            self._prepare(folder)
+        except BaseException:
+            self.stop()
+            raise
+
+    def _prepare(self, folder: Path) -> None:
+        """Check the workers, and share out what they have."""
         facts = self._check(folder)
         self._seen = time.monotonic()
         threads = self._threads()
@@ -123,14 +139,13 @@ class Cluster(Workers):
         """Return what the workers say of themselves; refuse those that could not work."""
         from ..core.version import __version__
 
-        with temporary_folder(folder) as marker:
-            try:
-                facts = self._client.run(_facts, str(marker), on_error="return")
-            except Exception as error:
-                raise BareEarthError(
-                    f"The workers of {self._address} cannot load this package ({error}). Install"
-                    f" bare-earth {__version__} there."
-                ) from error
+        try:
+            facts = self._client.run(_facts, str(self._mark), on_error="return")
+        except Exception as error:
+            raise BareEarthError(
+                f"The workers of {self._address} cannot load this package ({error}). Install"
+                f" bare-earth {__version__} there."
+            ) from error
         if not facts:
             raise BareEarthError(
                 f"The scheduler {self._address} has no workers. Start some with 'dask worker"
@@ -164,7 +179,9 @@ class Cluster(Workers):
         """
         try:
             # As a function without arguments: Dask would look into these for results of others.
-            future = self._pool.submit(functools.partial(_on_cluster, job, self.share))
+            future = self._pool.submit(
+                functools.partial(_on_cluster, job, self.share, str(self._mark))
+            )
             self.at_once = self._room()
         except OSError as error:
             raise BareEarthError(SCHEDULER_GONE) from error
@@ -191,7 +208,9 @@ class Cluster(Workers):
         self._looked = time.monotonic()
 
     def stop(self) -> None:
-        """Take back the jobs that have not begun, and leave the scheduler."""
+        """Take back the jobs, those that have begun as well, and leave the scheduler."""
+        if self._mark is not None:
+            remove_temporary(self._mark)
         with contextlib.suppress(OSError):  # the scheduler is gone
             if self._pool is not None:
                 self._pool.shutdown(wait=False)
@@ -220,6 +239,14 @@ def _check_encryption(address: str) -> None:
         raise BareEarthError(f"{what}: encryption is required. {where}")
 
 
+def _marked(folder: Path) -> Path:
+    """Make the file that says that a run is there."""
+    try:
+        return make_temporary(folder / "run")
+    except OSError as error:
+        raise describe_write_error(folder, error) from error
+
+
 def _facts(marker: str) -> _Facts:
     import socket
 
@@ -228,5 +255,19 @@ def _facts(marker: str) -> _Facts:
     return _Facts(__version__, Path(marker).exists(), free_memory(), socket.gethostname())
 
 
-def _on_cluster(job: Job, share: Resources) -> JobResult:
-    return attempt(job, share, JobProgress(threading.Event()))
+class _Listening(Progress):
+    """Ends a job once its run has ended or was killed: it must not write over what comes next."""
+
+    def __init__(self, mark: str) -> None:
+        self._mark, self._looked = mark, 0.0
+
+    def report(self, fraction: float) -> None:
+        now = time.monotonic()
+        if fraction >= 1.0 or now - self._looked > _LISTENING:
+            self._looked = now
+            if not os.path.exists(self._mark):
+                raise Cancelled
+
+
+def _on_cluster(job: Job, share: Resources, mark: str) -> JobResult:
+    return attempt(job, share, _Listening(mark))
