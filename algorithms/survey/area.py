@@ -80,26 +80,41 @@ class Area:
         -------
         numpy.ndarray of bool, shape (n,)
         """
-        west, south, east, north = self.bounds
-        inside = (x >= west) & (x <= east) & (y >= south) & (y <= north)
-        if self.polygons:
-            which = np.flatnonzero(inside)
-            for first in range(0, len(which), _POINTS_A_STEP):
-                part = which[first : first + _POINTS_A_STEP]
-                inside[part] = last_polygon(x[part], y[part], self.polygons) > 0
-        return inside
+        return self._numbers(x, y) > 0
 
     def of(self, cloud: PointCloud, progress: Progress = SILENT) -> np.ndarray:
         """Return which points of a cloud lie in the area, in file order."""
-        inside = np.empty(cloud.count, dtype=bool)
+        return self.polygon_of(cloud, progress) > 0
+
+    def polygon_of(self, cloud: PointCloud, progress: Progress = SILENT) -> np.ndarray:
+        """Return the number of the last polygon that holds each point of a cloud.
+
+        Returns
+        -------
+        numpy.ndarray of int32, shape (n,)
+            In file order. The first polygon is 1; 0 for points outside of the area. Without
+            polygons, 1 for those in the box.
+        """
+        numbers = np.empty(cloud.count, dtype=np.int32)
         for first in range(0, cloud.count, _POINTS_A_STEP):
             part = slice(first, first + _POINTS_A_STEP)
-            inside[part] = self.contains(
+            numbers[part] = self._numbers(
                 cloud.x[part] * cloud.scale[0] + cloud.offset[0],
                 cloud.y[part] * cloud.scale[1] + cloud.offset[1],
             )
             progress(min(part.stop / cloud.count, 1.0))
-        return inside
+        return numbers
+
+    def _numbers(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        west, south, east, north = self.bounds
+        inside = (x >= west) & (x <= east) & (y >= south) & (y <= north)
+        numbers = inside.astype(np.int32)
+        if self.polygons:
+            which = np.flatnonzero(inside)
+            for first in range(0, len(which), _POINTS_A_STEP):
+                part = which[first : first + _POINTS_A_STEP]
+                numbers[part] = _last_polygon(x[part], y[part], self.polygons)
+        return numbers
 
 
 def box_in_words(box: Box) -> str:
@@ -113,7 +128,7 @@ def _bounds(polygon: Polygon) -> Box:
     return (*corners.min(axis=0), *corners.max(axis=0))
 
 
-def last_polygon(x: np.ndarray, y: np.ndarray, polygons: tuple[Polygon, ...]) -> np.ndarray:
+def _last_polygon(x: np.ndarray, y: np.ndarray, polygons: tuple[Polygon, ...]) -> np.ndarray:
     """Return the number of the last of some polygons that holds each place.
 
     Parameters

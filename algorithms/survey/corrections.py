@@ -9,7 +9,7 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..las.cloud import PointCloud
-from .area import Area, Polygon, last_polygon
+from .area import Area, Polygon
 
 # Never classified: a point that gets this class by hand is judged anew.
 _NEVER_CLASSIFIED = 0
@@ -48,17 +48,10 @@ class Corrections:
 
     def classes_of(self, part: PointCloud) -> np.ndarray:
         """Return the class that the polygons give each point; int16, shape (n,), -1 for none."""
-        found = np.full(part.count, -1, dtype=np.int16)
-        if self.polygons:
-            inside = np.flatnonzero(Area(None, self.polygons).of(part))
-            if len(inside):
-                x, y = (
-                    values[inside] * part.scale[axis] + part.offset[axis]
-                    for axis, values in enumerate((part.x, part.y))
-                )
-                numbers = last_polygon(x, y, self.polygons)
-                found[inside] = np.array(self.classes, dtype=np.int16)[numbers - 1]
-        return found
+        if not self.polygons:
+            return np.full(part.count, -1, dtype=np.int16)
+        numbers = Area(None, self.polygons).polygon_of(part)
+        return np.array([-1, *self.classes], dtype=np.int16)[numbers]
 
 
 def _class(value: Any) -> int:

@@ -1210,10 +1210,6 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Das Attribut dieser Polygone, das ihre Klasse angibt: 2 ist Boden, 1 keines von allem.</translation>
     </message>
     <message>
-        <source>The boundary cannot be read. Choose a layer of polygons.</source>
-        <translation>Die Begrenzung lässt sich nicht lesen. Wählen Sie einen Layer mit Polygonen.</translation>
-    </message>
-    <message>
         <source>The boundary holds no polygon. Choose one that does.</source>
         <translation>Die Begrenzung enthält kein Polygon. Wählen Sie eine, die eines enthält.</translation>
     </message>

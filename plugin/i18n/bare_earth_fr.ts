@@ -1210,10 +1210,6 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>L'attribut de ces polygones qui donne leur classe : 2 est le sol, 1 rien de plus.</translation>
     </message>
     <message>
-        <source>The boundary cannot be read. Choose a layer of polygons.</source>
-        <translation>La limite ne peut pas être lue. Choisissez une couche de polygones.</translation>
-    </message>
-    <message>
         <source>The boundary holds no polygon. Choose one that does.</source>
         <translation>La limite ne contient aucun polygone. Choisissez-en une qui en contient.</translation>
     </message>

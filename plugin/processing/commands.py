@@ -10,10 +10,8 @@ from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.options import TileMethod
 from ...algorithms.products.surface_model import SurfaceModel
 from ...algorithms.products.terrain_model import TerrainModel
-from ...algorithms.survey.selection import Selection
+from ...algorithms.survey.selection import GROUND, Selection
 from .base import command_line
-
-_GROUND = 2
 
 
 def terrain_commands(
@@ -41,6 +39,6 @@ def terrain_commands(
     models = {name: path for name, path in rasters.items() if name != "RELIEF"}
     if models:
         ground = of_type[Selection].to_class
-        options = {"ground-classes": "" if ground == _GROUND else str(ground), **models}
+        options = {"ground-classes": "" if ground == GROUND else str(ground), **models}
         drawing = [of_type[each] for each in (TerrainModel, SurfaceModel, Resources)]
         yield command_line("terrain", [made], drawing, options)

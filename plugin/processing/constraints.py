@@ -3,25 +3,19 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Callable, Iterator, Sequence
+from typing import Any, Callable, Iterator
 
 import numpy as np
 from qgis.core import (
-    QgsCoordinateReferenceSystem,
-    QgsFeature,
-    QgsFeatureRequest,
     QgsGeometry,
     QgsProcessingAlgorithm,
     QgsProcessingContext,
-    QgsProcessingFeatureSource,
     QgsProcessingParameterFeatureSource,
 )
 
-from ...algorithms.core.errors import BareEarthError
 from ...algorithms.survey.collection import find_files
 from .. import compat
-from ..i18n import tr
-from .inputs import crs_of, is_empty, polygons_of
+from .inputs import crs_of, features_of, is_empty, polygons_of
 
 # Name, label, kind of the layer and help of each field.
 _FIELDS = {
@@ -85,27 +79,6 @@ def constraints_of(
         features = features_of(source, label, crs, context)
         found[name.lower()] = tuple(each for one in features for each in shapes(one.geometry()))
     return found
-
-
-def features_of(
-    source: QgsProcessingFeatureSource | None,
-    label: str,
-    crs: QgsCoordinateReferenceSystem,
-    context: QgsProcessingContext,
-    attributes: Sequence[str] = (),
-) -> Iterator[QgsFeature]:
-    """Yield the features of a layer in a CRS, with some attributes.
-
-    Raises
-    ------
-    BareEarthError
-        If the layer, whose label is given, cannot be read.
-    """
-    if source is None:
-        raise BareEarthError(tr('The layer "{}" cannot be read.').format(tr(label)))
-    request = QgsFeatureRequest().setSubsetOfAttributes(attributes, source.fields())
-    request.setDestinationCrs(crs, context.transformContext())
-    yield from source.getFeatures(request)
 
 
 def _lines_of(geometry: QgsGeometry) -> Iterator[np.ndarray]:

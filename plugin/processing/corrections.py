@@ -18,8 +18,7 @@ from ...algorithms.survey.collection import find_files
 from ...algorithms.survey.corrections import CLASS_FIELD, NO_CORRECTIONS, Corrections
 from .. import compat
 from ..i18n import tr
-from .constraints import features_of
-from .inputs import crs_of, is_empty, polygons_of
+from .inputs import crs_of, features_of, is_empty, polygons_of
 
 _LAYER, _FIELD = "CORRECTIONS", "CORRECTIONS_FIELD"
 # Label and help of each field.

@@ -8,12 +8,14 @@ from typing import Any, Iterator, Sequence
 import numpy as np
 from qgis.core import (
     QgsCoordinateReferenceSystem,
+    QgsFeature,
     QgsFeatureRequest,
     QgsGeometry,
     QgsMapLayer,
     QgsPointCloudLayer,
     QgsProcessingAlgorithm,
     QgsProcessingContext,
+    QgsProcessingFeatureSource,
     QgsProcessingParameterExtent,
     QgsProcessingParameterFeatureSource,
     QgsProcessingParameterFile,
@@ -267,12 +269,8 @@ def area_of(
         box = extent.xMinimum(), extent.yMinimum(), extent.xMaximum(), extent.yMaximum()
     if "BOUNDARY" in given:
         source = algorithm.parameterAsSource(parameters, "BOUNDARY", context)
-        if source is None:
-            raise BareEarthError(tr("The boundary cannot be read. Choose a layer of polygons."))
-        request = QgsFeatureRequest().setSubsetOfAttributes([])
-        request.setDestinationCrs(crs, context.transformContext())
-        geometries = (feature.geometry() for feature in source.getFeatures(request))
-        polygons = tuple(each for geometry in geometries for each in polygons_of(geometry))
+        features = features_of(source, _AREA_FIELDS["BOUNDARY"][0], crs, context)
+        polygons = tuple(each for one in features for each in polygons_of(one.geometry()))
         if not polygons:
             raise BareEarthError(tr("The boundary holds no polygon. Choose one that does."))
     return Area(box, polygons)
@@ -289,6 +287,27 @@ def crs_of(cloud: Path) -> QgsCoordinateReferenceSystem:
     if crs.epsg:
         return QgsCoordinateReferenceSystem.fromEpsgId(crs.epsg)
     return QgsCoordinateReferenceSystem.fromWkt(crs.wkt or "")
+
+
+def features_of(
+    source: QgsProcessingFeatureSource | None,
+    label: str,
+    crs: QgsCoordinateReferenceSystem,
+    context: QgsProcessingContext,
+    attributes: Sequence[str] = (),
+) -> Iterator[QgsFeature]:
+    """Yield the features of a layer in a CRS, with some attributes.
+
+    Raises
+    ------
+    BareEarthError
+        If the layer, whose label is given, cannot be read.
+    """
+    if source is None:
+        raise BareEarthError(tr('The layer "{}" cannot be read.').format(tr(label)))
+    request = QgsFeatureRequest().setSubsetOfAttributes(attributes, source.fields())
+    request.setDestinationCrs(crs, context.transformContext())
+    yield from source.getFeatures(request)
 
 
 def polygons_of(geometry: QgsGeometry) -> Iterator[Polygon]:

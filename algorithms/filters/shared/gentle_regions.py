@@ -66,17 +66,17 @@ def gentle_regions(
     from scipy.sparse.csgraph import connected_components
 
     allowance = allowance.for_cells(size)
-    surveyed = np.ones(known.shape, dtype=bool)
+    surveyed = covered(known)
     if allowance.judges_gaps:
         # A gap in a roof is not the ground beside it.
         raised = raised | (~known & (filled - surface > allowance.gentle_step))
-        surveyed = covered(known)
     smooth = smoothed(surface, size, _TREND_SMOOTHING)
     sides = [_steps(filled, known, raised, smooth, trend, axis, size, allowance) for axis in (0, 1)]
     one, other, sign = (np.concatenate(each) for each in zip(*sides))
-    # What fills a gap in the survey slopes down gently from any roof.
-    inside = surveyed.ravel()[one] & surveyed.ravel()[other]
-    one, other, sign = one[inside], other[inside], sign[inside]
+    if allowance.judges_gaps:
+        # What fills a gap in the survey slopes down gently from any roof.
+        both = surveyed.ravel()[one] & surveyed.ravel()[other]
+        one, other, sign = one[both], other[both], sign[both]
     up = raised.ravel()
     cells = np.flatnonzero(up)
     region = np.full(up.size, -1, dtype=np.int64)
@@ -93,7 +93,7 @@ def gentle_regions(
             (other, one, sign == 1, sign == -1),
         )
     ]
-    open_ = np.bincount(region[cells], _unsurveyed(known).ravel()[cells], count)
+    open_ = np.bincount(region[cells], _unsurveyed(surveyed).ravel()[cells], count)
     above = np.bincount(region[cells], (filled - surface).ravel()[cells], count) * size**2 / area
     # As high as that it may be a building that the border of the survey cuts.
     open_[(area < allowance.border_area) | (above > allowance.border_height)] = 0.0
@@ -103,9 +103,9 @@ def gentle_regions(
     return result.reshape(raised.shape)
 
 
-def _unsurveyed(known: np.ndarray) -> np.ndarray:
+def _unsurveyed(surveyed: np.ndarray) -> np.ndarray:
     """Return how many of the four cells round each lie beyond the survey."""
-    beyond = np.pad(~covered(known), 1, constant_values=True).astype(np.int8)
+    beyond = np.pad(~surveyed, 1, constant_values=True).astype(np.int8)
     rows = beyond[:-2, 1:-1] + beyond[2:, 1:-1]
     return rows + beyond[1:-1, :-2] + beyond[1:-1, 2:]
 

@@ -76,6 +76,8 @@ def ground_cells(
     numpy.ndarray of bool, shape (rows, columns)
         False also where there is no height.
     """
+    from scipy import ndimage
+
     known = np.isfinite(heights)
     filled = inpaint(heights, first=first).astype(np.float32)
     # Cells are taken together in fours, wherever the grid starts.
@@ -87,6 +89,7 @@ def ground_cells(
         for each in _standing_out(padded, size, largest_window, allowance, part)
     )
     which, raised = np.flatnonzero(limit > 0.0), strict | objects
+    numbers = None if plateaus is None else ndimage.label(plateaus & known)[0]
     for part in progress.part(0.5, 0.8).shares(*[1.0] * allowance.slopes_taken):
         # The rim of a roof that is left makes a slope of its own, until what is round it is gone.
         surface = inpaint(np.where(known & ~raised, heights, np.nan), first=first)
@@ -96,8 +99,8 @@ def ground_cells(
         raised.ravel()[which] |= np.minimum(slope, _LARGEST_SLOPE) < limit.ravel()[which]
         if suspects is not None:
             raised |= suspects & known
-        if plateaus is not None:
-            raised |= _of_cut_plateaus(plateaus & known, raised)
+        if numbers is not None:
+            raised |= _of_cut_plateaus(numbers, raised)
         part(1.0)
     surface = inpaint(np.where(known & ~raised, heights, np.nan), first=first)
     progress(0.85)
@@ -108,15 +111,12 @@ def ground_cells(
     return known & ~raised
 
 
-def _of_cut_plateaus(plateaus: np.ndarray, raised: np.ndarray) -> np.ndarray:
-    """Return the cells of the plateaus of which so much is raised that all is."""
-    from scipy import ndimage
-
-    number, count = ndimage.label(plateaus)
-    total, cut = (np.bincount(number[which], minlength=count + 1) for which in (plateaus, raised))
-    is_cut = cut >= _CUT_SHARE * total
+def _of_cut_plateaus(numbers: np.ndarray, raised: np.ndarray) -> np.ndarray:
+    """Return the cells of the plateaus, numbered from 1, of which so much is raised that all is."""
+    total = np.bincount(numbers.ravel())
+    is_cut = np.bincount(numbers[raised], minlength=len(total)) >= _CUT_SHARE * total
     is_cut[0] = False
-    return is_cut[number]
+    return is_cut[numbers]
 
 
 def _standing_out(
