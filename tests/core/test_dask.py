@@ -39,7 +39,7 @@ def free_port():
 @contextlib.contextmanager
 def running_cluster(folder, secret=None, count=2):
     """Start a scheduler and workers, each a process: the address, the workers, the scheduler."""
-    parent = str(Path(many_files_module.__file__).parents[2])
+    parent = str(Path(many_files_module.__file__).parents[3])
     path = os.pathsep.join([parent, os.environ.get("PYTHONPATH", "")])
     address = f"{'tls' if secret else 'tcp'}://127.0.0.1:{free_port()}"
     # As Dask reads its configuration from the environment.
