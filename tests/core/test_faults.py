@@ -168,7 +168,8 @@ def _look_at(name, done, out, old, enough):
             if path.suffix == ".tif":
                 assert np.isfinite(read_raster(path).heights).any(), what
             else:
-                assert len(json.loads(path.read_text())["features"]) == len(tiles), what
+                # A tile of which no record could be written is there, but not counted as done.
+                assert 0 < len(json.loads(path.read_text())["features"]) <= len(tiles), what
 
 
 # The folder on the small disk: that of all outputs; of a survey also that of what it keeps of its
@@ -229,7 +230,8 @@ def test_killed_runs_leave_old_files_or_whole_new_ones(name, inputs, tmp_path):
             _command(*_words(name, inputs, out)), env=_environment(),
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
         )  # fmt: skip
-        time.sleep(random.uniform(0.2, 1.0) * duration)
+        # One that goes on from where the last was killed takes less time.
+        time.sleep(random.uniform(0.1, 0.6 if number % 4 else 1.0) * duration)
         process.send_signal(signal.SIGKILL)
         killed += process.wait() != 0
         found = _shown(out)
