@@ -152,6 +152,8 @@ class Cluster(Workers):
                 f" {self._address}'."
             )
         for address, each in facts.items():
+            if isinstance(each, OSError):  # it ended just now
+                raise BareEarthError(f"The worker {address} does not answer. Run it again.")
             if not isinstance(each, _Facts):
                 raise BareEarthError(
                     f"The worker {address} cannot load this package ({each}). Install bare-earth"
