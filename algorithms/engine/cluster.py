@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import functools
+import os
 import threading
-import uuid
+import time
 from concurrent.futures import Executor
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from ..core.errors import BareEarthError
+from ..core.errors import BareEarthError, Cancelled
+from ..core.files import describe_write_error
+from ..core.progress import Progress
+from ..core.temporary import make_temporary, remove_temporary
 from ..las.backends import require
 from .jobs import JobResult, attempt
 from .memory import Resources, free_memory
@@ -20,6 +25,10 @@ if TYPE_CHECKING:
     from distributed import Client
 
 _CONNECTING = "15s"
+# Seconds between two looks at the workers, and those that a scheduler may take to answer.
+_LOOKING, _ANSWERING = 2.0, 15.0
+# Seconds after which a job looks whether anybody still waits for it.
+_LISTENING = 0.5
 # Share of the free memory of a computer that the jobs there may use.
 _SHARE = 0.5
 # How many jobs there are for each thread of a worker, so that it need not wait for the next.
@@ -49,12 +58,19 @@ class Cluster(Workers):
     resources : Resources
         The memory is that of one job; by default half of what is free on the computer of a worker,
         divided by its threads. The number of threads is that of the cluster.
+    patience : float
+        Seconds after which a run ends when there is no worker any more.
     """
 
-    def __init__(self, address: str, resources: Resources = Resources()) -> None:
+    def __init__(
+        self, address: str, resources: Resources = Resources(), patience: float = 60.0
+    ) -> None:
         require("distributed")
         super().__init__(resources)
-        self._address = address
+        self._address, self._patience = address, patience
+        self._looked = self._seen = 0.0
+        # A file that is there as long as the run is: without it, its jobs end.
+        self._mark: Path | None = None
         self._client: Client | None = None
         self._pool: Executor | None = None
 
@@ -68,15 +84,27 @@ class Cluster(Workers):
         """
         from distributed import Client
 
+        _check_encryption(self._address)
         try:
             self._client = Client(self._address, timeout=_CONNECTING, set_as_default=False)
         except (OSError, ValueError) as error:
             raise BareEarthError(
-                f"There is no Dask scheduler at {self._address}. Start one with 'dask scheduler',"
-                " and give the address that it prints."
+                f"There is no Dask scheduler at {self._address} that answers this computer. Start"
+                " one with 'dask scheduler', and give the address that it prints. With TLS, the"
+                " certificates must be of one authority."
             ) from error
+        try:
+            self._mark = _marked(folder)
+            self._prepare(folder)
+        except BaseException:
+            self.stop()
+            raise
+
+    def _prepare(self, folder: Path) -> None:
+        """Check the workers, and share out what they have."""
         facts = self._check(folder)
-        threads = self._client.nthreads()
+        self._seen = time.monotonic()
+        threads = self._threads()
         memory = self.resources.bytes
         if self.resources.memory is None:
             # Several workers may be on one computer.
@@ -91,30 +119,41 @@ class Cluster(Workers):
         self._pool = self._client.get_executor(pure=False)
 
     def _room(self) -> int:
-        return max(1, _AHEAD * sum(self._client.nthreads().values()))
+        return max(1, _AHEAD * sum(self._threads().values()))
+
+    def _threads(self) -> dict[str, int]:
+        """Return how many threads each worker has.
+
+        Raises
+        ------
+        BareEarthError
+            If the scheduler does not answer.
+        """
+        client = self._client
+        try:
+            return client.sync(client.scheduler.ncores, callback_timeout=_ANSWERING)
+        except (OSError, asyncio.TimeoutError) as error:
+            raise BareEarthError(SCHEDULER_GONE) from error
 
     def _check(self, folder: Path) -> dict[str, _Facts]:
         """Return what the workers say of themselves; refuse those that could not work."""
         from ..core.version import __version__
 
-        marker = folder / f".{uuid.uuid4().hex}.part"
-        marker.touch()
         try:
-            facts = self._client.run(_facts, str(marker), on_error="return")
+            facts = self._client.run(_facts, str(self._mark), on_error="return")
         except Exception as error:
             raise BareEarthError(
                 f"The workers of {self._address} cannot load this package ({error}). Install"
                 f" bare-earth {__version__} there."
             ) from error
-        finally:
-            with contextlib.suppress(OSError):
-                marker.unlink()
         if not facts:
             raise BareEarthError(
                 f"The scheduler {self._address} has no workers. Start some with 'dask worker"
                 f" {self._address}'."
             )
         for address, each in facts.items():
+            if isinstance(each, OSError):  # it ended just now
+                raise BareEarthError(f"The worker {address} does not answer. Run it again.")
             if not isinstance(each, _Facts):
                 raise BareEarthError(
                     f"The worker {address} cannot load this package ({each}). Install bare-earth"
@@ -142,19 +181,72 @@ class Cluster(Workers):
         """
         try:
             # As a function without arguments: Dask would look into these for results of others.
-            future = self._pool.submit(functools.partial(_on_cluster, job, self.share))
+            future = self._pool.submit(
+                functools.partial(_on_cluster, job, self.share, str(self._mark))
+            )
             self.at_once = self._room()
         except OSError as error:
             raise BareEarthError(SCHEDULER_GONE) from error
         return Running(future, JobProgress(threading.Event()))
 
+    def check(self) -> None:
+        """Look whether the scheduler answers and has workers, from time to time.
+
+        Raises
+        ------
+        BareEarthError
+            If the scheduler is gone, or had no workers for too long.
+        """
+        now = time.monotonic()
+        if now - self._looked < _LOOKING:
+            return
+        if self._threads():
+            self._seen = now
+        elif now - self._seen > self._patience:  # one that died may be started again
+            raise BareEarthError(
+                f"All workers of {self._address} are gone. Start some with 'dask worker"
+                f" {self._address}', and go on with --resume."
+            )
+        self._looked = time.monotonic()
+
     def stop(self) -> None:
-        """Take back the jobs that have not begun, and leave the scheduler."""
+        """Take back the jobs, those that have begun as well, and leave the scheduler."""
+        if self._mark is not None:
+            remove_temporary(self._mark)
         with contextlib.suppress(OSError):  # the scheduler is gone
             if self._pool is not None:
                 self._pool.shutdown(wait=False)
         if self._client is not None:
             self._client.close()
+
+
+def _check_encryption(address: str) -> None:
+    """Refuse an address that the configuration of Dask on this computer has no keys for.
+
+    Dask would tell so by errors of many kinds, and leave threads that never end.
+    """
+    from distributed.security import Security
+
+    what = f"The scheduler {address} cannot be reached"
+    where = "See 'distributed.comm' in the configuration of Dask on this computer."
+    try:
+        security = Security()
+        has_keys = security.get_connection_args("client")["ssl_context"] is not None
+    except (OSError, ValueError, ImportError) as error:
+        raise BareEarthError(f"{what}: certificate or key do not do ({error}). {where}") from error
+    is_secret = address.startswith("tls://")
+    if is_secret and not has_keys:
+        raise BareEarthError(f"{what}: TLS needs a certificate, a key and an authority. {where}")
+    if security.require_encryption and not is_secret:
+        raise BareEarthError(f"{what}: encryption is required. {where}")
+
+
+def _marked(folder: Path) -> Path:
+    """Make the file that says that a run is there."""
+    try:
+        return make_temporary(folder / "run")
+    except OSError as error:
+        raise describe_write_error(folder, error) from error
 
 
 def _facts(marker: str) -> _Facts:
@@ -165,5 +257,19 @@ def _facts(marker: str) -> _Facts:
     return _Facts(__version__, Path(marker).exists(), free_memory(), socket.gethostname())
 
 
-def _on_cluster(job: Job, share: Resources) -> JobResult:
-    return attempt(job, share, JobProgress(threading.Event()))
+class _Listening(Progress):
+    """Ends a job once its run has ended or was killed: it must not write over what comes next."""
+
+    def __init__(self, mark: str) -> None:
+        self._mark, self._looked = mark, 0.0
+
+    def report(self, fraction: float) -> None:
+        now = time.monotonic()
+        if fraction >= 1.0 or now - self._looked > _LISTENING:
+            self._looked = now
+            if not os.path.exists(self._mark):
+                raise Cancelled
+
+
+def _on_cluster(job: Job, share: Resources, mark: str) -> JobResult:
+    return attempt(job, share, _Listening(mark))

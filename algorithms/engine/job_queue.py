@@ -81,6 +81,7 @@ class JobQueue:
         while self._fill():
             futures = {each.future: each for each in self._running}
             ended, _ = wait(futures, _POLL, FIRST_COMPLETED)
+            self._workers.check()
             running = sum(
                 each.progress.fraction * _weight(job) for each, job in self._running.items()
             )

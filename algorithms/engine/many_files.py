@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import os
 import shutil
-import tempfile
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Iterable, Sequence
 
 from ..core.errors import BareEarthError
-from ..core.files import check_output, is_same_file
+from ..core.files import check_output, is_same_file, temporary_folder
 from ..core.progress import SILENT, Progress
 from ..las.writing import check_writable
 from ..survey.collection import Collection, open_collection
@@ -252,9 +251,9 @@ def rasters_of_files(
         progress.warning(f"{each.path} is left out. {each.reason}")
     beside = next(iter(request.rasters.wanted.values())).parent
     workers = workers or Threads(request.resources)
-    with tempfile.TemporaryDirectory(prefix=".bare-earth-", dir=beside) as folder:
-        waiting, part = Path(folder), progress.part(0.05, 1.0)
-        return make_rasters(collection, waiting, request.raster_step, workers, part)
+    with temporary_folder(beside) as folder:
+        part = progress.part(0.05, 1.0)
+        return make_rasters(collection, folder, request.raster_step, workers, part)
 
 
 def _check_survey(

@@ -277,10 +277,21 @@ def rasters_of_file(
         return write_rasters(made, frame, step.request, outputs, progress.part(0.9, 1.0))
 
 
-def _checked(source: Path, target: Path, resources: Resources) -> tuple[LasFile, Resources]:
-    """Refuse an output that cannot be written; return the opened input, and what may be used."""
+def check_cloud(source: Path, target: Path) -> None:
+    """Refuse, before any work is done, a point cloud that cannot be written.
+
+    Raises
+    ------
+    BareEarthError
+        If its name or folder does not do, or it is the input.
+    """
     check_output(target, (source,))
     check_writable(target)
+
+
+def _checked(source: Path, target: Path, resources: Resources) -> tuple[LasFile, Resources]:
+    """Refuse an output that cannot be written; return the opened input, and what may be used."""
+    check_cloud(source, target)
     return open_las(source), resources.now()
 
 

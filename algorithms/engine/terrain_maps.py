@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import tempfile
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import NamedTuple, Sequence
 
-from ..core.files import check_output
+from ..core.files import check_output, replacing, temporary_folder
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
 from ..filters import DEFAULT_METHOD, METHODS
@@ -15,12 +16,13 @@ from ..products.contours import Contours, write_contours
 from ..products.local_relief import LocalRelief, write_local_relief
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import MapTerrain
+from ..rasters.writing import replacing_raster
 from ..survey.collection import is_one_file
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.selection import Selection
 from .constraints import NO_CONSTRAINTS, Constraints
 from .many_files import classify_files
-from .one_file import classify_file
+from .one_file import check_cloud, classify_file
 from .options import TileOutput
 from .raster_files import RasterFiles
 from .requests import ClassifyRequest, Request
@@ -134,25 +136,32 @@ def make_maps(
     """
     wanted = [files.cloud, *files.rasters.wanted.values(), files.relief, files.contours]
     folders = [path.parent for path in wanted if path]
-    with tempfile.TemporaryDirectory(
-        prefix=".bare-earth-", dir=next((each for each in folders if each.is_dir()), None)
-    ) as waiting:
-        cloud = files.cloud or Path(waiting, "cloud.las")
-        rasters = files.rasters
+    beside = next((each for each in folders if each.is_dir()), Path(tempfile.gettempdir()))
+    is_one = is_one_file(sources)
+    # All or none, as far as the system can: they get their names when all of them are there.
+    with temporary_folder(beside) as waiting, contextlib.ExitStack() as outputs:
+        cloud = files.cloud or waiting / "cloud.las"
+        files.rasters.check((*sources, cloud))
         for each in filter(None, (files.relief, files.contours)):
             check_output(each, tuple(sources))
-            rasters = replace(rasters, dtm=rasters.dtm or Path(waiting, "dtm.tif"))
-        rasters.check((*sources, cloud))
+        if files.cloud and is_one:
+            check_cloud(sources[0], cloud)
+            cloud = outputs.enter_context(replacing(cloud))
+        rasters = {**files.rasters.wanted, **({"relief": files.relief} if files.relief else {})}
+        maps = {name: outputs.enter_context(replacing_raster(rasters[name])) for name in rasters}
+        relief = maps.pop("relief", None)
+        if files.relief or files.contours:
+            maps.setdefault("dtm", waiting / "dtm.tif")
         part, smoothing, tracing = progress.shares(
-            5.0 + 4.4 * bool(rasters.wanted), 0.3 * bool(files.relief), 0.3 * bool(files.contours)
+            5.0 + 4.4 * bool(maps), 0.3 * bool(relief), 0.3 * bool(files.contours)
         )
-        summary = _classified(sources, cloud, request.classify(rasters), part)
-        if files.relief and rasters.dtm:
-            write_local_relief(rasters.dtm, files.relief, request.relief, smoothing)
-        if files.contours and rasters.dtm:
-            interval = write_contours(rasters.dtm, files.contours, request.contours, tracing)
+        summary = _classified(sources, cloud, request.classify(RasterFiles(**maps)), part)
+        if relief:
+            write_local_relief(maps["dtm"], relief, request.relief, smoothing)
+        if files.contours:
+            interval = write_contours(maps["dtm"], files.contours, request.contours, tracing)
             summary = summary._replace(contour_interval=interval)
-        return summary
+    return summary._replace(cloud=files.cloud) if files.cloud and is_one else summary
 
 
 def _classified(

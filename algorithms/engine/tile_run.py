@@ -7,8 +7,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..core.errors import BareEarthError
-from ..core.files import alone_in, describe_write_error, remove_leftovers
+from ..core.files import alone_in, describe_write_error
 from ..core.progress import Progress
+from ..core.temporary import remove_leftovers
 from ..survey.collection import Collection, Tile, open_collection
 from .job_queue import worked_off
 from .jobs import PointJob, TileJob

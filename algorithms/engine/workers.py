@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import NamedTuple, Union
 
 from ..core.errors import Cancelled
-from ..core.files import remove_leftovers
 from ..core.progress import Progress
+from ..core.temporary import remove_leftovers
 from .jobs import BlockJob, JobResult, TileJob, attempt
 from .memory import GIGABYTE, Resources
 from .record import folders_of
@@ -87,6 +87,15 @@ class Workers:
     def submit(self, job: Job) -> Running:
         """Begin a job."""
         raise NotImplementedError
+
+    def check(self) -> None:
+        """Look whether there is still somebody to do the jobs that were begun.
+
+        Raises
+        ------
+        BareEarthError
+            If there is not.
+        """
 
     def restart(self) -> None:
         """Be ready again after a worker died."""

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import contextlib
 import math
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from ..core.errors import BareEarthError
+from ..core.files import replace_with_files_of, temporary_folder
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..rasters.libraries import GdalErrors
@@ -21,6 +22,11 @@ _LEAST = 0.25
 INDEX = 5
 # The formats that QGIS offers first, and GDAL's names of them.
 _DRIVERS = {".gpkg": "GPKG", ".shp": "ESRI Shapefile", ".geojson": "GeoJSON", ".fgb": "FlatGeobuf"}
+# What belongs to a file of these formats: indices and journals of other lines would do harm.
+_BESIDE = {
+    ".shp": (".dbf", ".shx", ".prj", ".cpg", ".qpj", ".qix", ".sbn", ".sbx"),
+    ".gpkg": (".gpkg-wal", ".gpkg-shm", ".gpkg-journal"),
+}
 
 
 @dataclass(frozen=True)
@@ -81,32 +87,41 @@ def write_contours(
         If GDAL is not there, or cannot write them; nothing is left then.
     """
     try:
-        from osgeo import gdal, ogr
+        from osgeo import gdal
     except ImportError:
         raise BareEarthError("Contour lines need GDAL with Python, which QGIS has.") from None
-    name = _DRIVERS.get(Path(target).suffix.lower())
-    if name is None:
+    target = Path(target)
+    if target.suffix.lower() not in _DRIVERS:
         raise BareEarthError(f"{target} is not one of {', '.join(_DRIVERS)}. Name it so.")
-    driver, raster = ogr.GetDriverByName(name), gdal.Open(str(source))
+    raster = gdal.Open(str(source))
+    interval = contours.interval(*raster.GetRasterBand(1).ComputeRasterMinMax(False))
+    with temporary_folder(target.parent) as folder:
+        with GdalErrors(gdal, "write") as errors:
+            count = _draw(raster, folder / target.name, interval)
+            errors.check(target)
+        progress.info(f"{count:,} contour lines, each {interval:g} of height")
+        progress(1.0)
+        suffix = target.suffix.lower()
+        beside = [f"{target.stem}{each}" for each in _BESIDE.get(suffix, ())]
+        replace_with_files_of(folder, target, beside)
+    return interval
+
+
+def _draw(raster: Any, target: Path, interval: float) -> int:
+    """Write the lines to a new file; return how many there are."""
+    from osgeo import gdal, ogr
+
     band = raster.GetRasterBand(1)
-    interval = contours.interval(*band.ComputeRasterMinMax(False))
     options = [f"LEVEL_INTERVAL={interval}", "ID_FIELD=0", "ELEV_FIELD=1"]
     options += [f"NODATA={band.GetNoDataValue()}"] if band.GetNoDataValue() is not None else []
-    with contextlib.ExitStack() as failure:
-        failure.callback(driver.DeleteDataSource, str(target))
-        with GdalErrors(gdal, "write") as errors:
-            made = driver.CreateDataSource(str(target))
-            errors.check(target)
-            lines = made.CreateLayer("contours", raster.GetSpatialRef(), ogr.wkbLineString)
-            lines.CreateField(ogr.FieldDefn("ID", ogr.OFTInteger))
-            lines.CreateField(ogr.FieldDefn("ELEV", ogr.OFTReal))
-            # One transaction: a GeoPackage would commit each line.
-            lines.StartTransaction()
-            gdal.ContourGenerateEx(band, lines, options=options)
-            lines.CommitTransaction()
-            errors.check(target)
-            progress.info(f"{lines.GetFeatureCount():,} contour lines, each {interval:g} of height")
-            lines = made = None
-        progress(1.0)
-        failure.pop_all()
-    return interval
+    made = ogr.GetDriverByName(_DRIVERS[target.suffix.lower()]).CreateDataSource(str(target))
+    if made is None:
+        return 0
+    lines = made.CreateLayer("contours", raster.GetSpatialRef(), ogr.wkbLineString)
+    lines.CreateField(ogr.FieldDefn("ID", ogr.OFTInteger))
+    lines.CreateField(ogr.FieldDefn("ELEV", ogr.OFTReal))
+    # One transaction: a GeoPackage would commit each line.
+    lines.StartTransaction()
+    gdal.ContourGenerateEx(band, lines, options=options)
+    lines.CommitTransaction()
+    return lines.GetFeatureCount()

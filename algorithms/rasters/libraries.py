@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, Callable
 
 from ..core.errors import BareEarthError
-from ..core.files import shown
+from ..core.temporary import shown
 
 
 def library(

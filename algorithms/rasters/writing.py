@@ -10,8 +10,9 @@ from typing import Any, Callable, Iterable, Iterator, NamedTuple
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import check_output, replacing, shown
+from ..core.files import check_output, replacing
 from ..core.progress import Progress
+from ..core.temporary import shown
 from ..crs.system import unit_symbol
 from .geotiff import Raster, RasterGrid
 from .libraries import GdalErrors, library

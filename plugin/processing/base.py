@@ -23,13 +23,13 @@ from ...algorithms.core.errors import BareEarthError, Cancelled
 from ...algorithms.core.parameters import Declaration, ParameterSet, shown_value
 from ...algorithms.las.backends import install_hint, missing_packages
 from .. import compat
-from ..i18n import mark, tr
+from ..i18n import tr
 from ..styles import layers
 from .area import check_area_only
 from .feedback import FeedbackProgress, tell_of_unknown
 from .fields import field_of, parameters_of
 from .help_pages import address_of
-from .outputs import do_not_load
+from .outputs import NOTHING_STAYS, do_not_load
 from .presets import presets_of
 from .search_words import words_of
 
@@ -63,7 +63,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
     """
 
     identifier = title = section = summary = about = page = run_name = subject = ""
-    cancelled = mark("Cancelled; nothing was written.")
+    cancelled = NOTHING_STAYS
     shown: tuple[str, ...] | None = None
 
     def parameter_sets(self) -> tuple[type[ParameterSet], ...]:

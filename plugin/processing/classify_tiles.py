@@ -14,7 +14,7 @@ from .area import add_limits, area_options, limits_of
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified
 from .inputs import add_clouds, clouds_of, names_of
-from .outputs import add_rasters, add_tiles, raster_files, raster_paths
+from .outputs import TILES_STAY, add_rasters, add_tiles, raster_files, raster_paths
 
 _NUMBERS = {
     "TILE_COUNT": "Tiles", "DONE_COUNT": "Classified tiles", "KEPT_COUNT": "Tiles kept",
@@ -27,9 +27,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
 
     identifier, page, section = "classifytiles", "classify-tiles", "Ground classification"
     title, run_name = "Classify ground (many files)", mark("classified files")
-    cancelled = mark(
-        "Cancelled; the tiles that are finished stay, and a later run can go on with them."
-    )
+    cancelled = TILES_STAY
     summary = "Finds the ground points of the many files of a survey, without seams between them."
     about = (
         "Classifies the ground points of many files, each as if all were one, and writes each anew"

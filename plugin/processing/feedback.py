@@ -29,8 +29,11 @@ class FeedbackProgress(Progress):
         self._commands: list[str] = []
 
     def report(self, fraction: float) -> None:
-        """Move the bar; raise `Cancelled` if the user pressed Cancel."""
-        if self._feedback.isCanceled():
+        """Move the bar; raise `Cancelled` if the user pressed Cancel before the end.
+
+        At the end all is written, and it must not be said that nothing was.
+        """
+        if fraction < 1.0 and self._feedback.isCanceled():
             raise Cancelled
         self._feedback.setProgress(100.0 * fraction)
 

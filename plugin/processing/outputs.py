@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Iterable
+from typing import Any, Iterable, Sequence
 
 from qgis.core import (
     QgsProcessingAlgorithm,
@@ -18,9 +18,14 @@ from qgis.core import (
 from ...algorithms.engine.raster_files import RASTERS as MODELS
 from ...algorithms.engine.raster_files import RasterFiles
 from ...algorithms.las.backends import WRITING_COPC, missing_packages
+from ...algorithms.survey.collection import is_one_file
 from .. import compat
-from ..i18n import tr
+from ..i18n import mark, tr
 
+NOTHING_STAYS = mark("Cancelled; nothing was written.")
+TILES_STAY = mark(
+    "Cancelled; the tiles that are finished stay, and a later run can go on with them."
+)
 _MODELS = {name.upper(): each for name, each in MODELS.items()}
 # Label and help of each raster that can be made, by the name of its field.
 RASTERS = {
@@ -30,6 +35,11 @@ RASTERS = {
         "The terrain model less a smoothed one: mounds, ditches and old paths stand out.",
     ),
 }
+
+
+def after_cancel(sources: Sequence[Path]) -> str:
+    """Return what the log says after a cancel, of one file or of many."""
+    return NOTHING_STAYS if is_one_file(sources) else TILES_STAY
 
 
 def add_rasters(

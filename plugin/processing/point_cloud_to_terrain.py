@@ -50,7 +50,7 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
     def find_inputs(self, parameters, context):
         """Find the files."""
         self._sources = survey_of(self, parameters, context)
-        self.subject = names_of(self._sources)
+        self.subject, self.cancelled = names_of(self._sources), outputs.after_cancel(self._sources)
 
     def compute(self, parameters, context, progress):
         """Make what is wanted."""

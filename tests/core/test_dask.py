@@ -1,14 +1,18 @@
+import contextlib
 import os
+import random
+import shutil
 import signal
 import socket
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
 import pytest
 from runs import classify_tiles
-from surveys import bytes_of, cut, strip
+from surveys import bytes_of, cut, finished, strip
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core import version
@@ -19,9 +23,11 @@ from bare_earth.algorithms.engine import many_files as many_files_module
 from bare_earth.algorithms.engine.cluster import Cluster
 from bare_earth.algorithms.engine.options import TileOutput
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
+from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
 
 pytest.importorskip("distributed")
 FAST = SlopeFilter(preset="whitebox")
+KILLS = int(os.environ.get("BARE_EARTH_KILLS", "10"))
 
 
 def free_port():
@@ -30,20 +36,24 @@ def free_port():
         return probe.getsockname()[1]
 
 
-@pytest.fixture(scope="module")
-def dask(tmp_path_factory):
-    """A scheduler and two workers, each a process: the address, the workers, the scheduler."""
-    folder = tmp_path_factory.mktemp("dask")
-    parent = str(Path(many_files_module.__file__).parents[2])
+@contextlib.contextmanager
+def running_cluster(folder, secret=None, count=2):
+    """Start a scheduler and workers, each a process: the address, the workers, the scheduler."""
+    parent = str(Path(many_files_module.__file__).parents[3])
     path = os.pathsep.join([parent, os.environ.get("PYTHONPATH", "")])
-    address = f"tcp://127.0.0.1:{free_port()}"
+    address = f"{'tls' if secret else 'tcp'}://127.0.0.1:{free_port()}"
+    # As Dask reads its configuration from the environment.
+    variables = {
+        "DASK_" + name.upper().replace(".", "__").replace("-", "_"): value
+        for name, value in (secret or {}).items()
+    }
     started = []
 
     def start(*words):
         with open(folder / f"{len(started)}.log", "wb") as log:
             process = subprocess.Popen(
                 [sys.executable, "-m", *words],
-                env={**os.environ, "PYTHONPATH": path},
+                env={**os.environ, "PYTHONPATH": path, **variables},
                 cwd=folder,
                 stdout=log,
                 stderr=log,
@@ -51,18 +61,23 @@ def dask(tmp_path_factory):
         started.append(process)
         return process
 
-    where = ["--host", "127.0.0.1", "--port", address.rpartition(":")[2]]
-    start("distributed.cli.dask_scheduler", *where, "--no-dashboard")
+    start("distributed.cli.dask_scheduler", "--host", address, "--no-dashboard")
     own = ["--no-dashboard", "--no-nanny", "--nthreads", "1", "--host", "127.0.0.1"]
-    workers = [start("distributed.cli.dask_worker", address, *own) for _ in range(2)]
+    workers = [start("distributed.cli.dask_worker", address, *own) for _ in range(count)]
     try:
-        wait_for_workers(address, 2)
         yield address, workers, started[0]
     finally:
         for process in started:
             process.kill()
         for process in started:
             process.wait()
+
+
+@pytest.fixture(scope="module")
+def dask(tmp_path_factory):
+    with running_cluster(tmp_path_factory.mktemp("dask")) as cluster:
+        wait_for_workers(cluster[0], 2)
+        yield cluster
 
 
 def wait_for_workers(address, count):
@@ -172,3 +187,130 @@ def test_a_scheduler_that_ends_is_told_and_the_run_goes_on_without_it(dask, surv
         classify_tiles([folder], out, FAST, progress=Killer(), workers=Cluster(address))
     summary = classify_tiles([folder], out, FAST, output=TileOutput(resume=True))
     assert summary.done_count == 16 and bytes_of(out) == expected
+
+
+@pytest.mark.long
+def test_jobs_of_a_run_that_was_cancelled_write_nothing_more(tmp_path):
+    # Else they would write over what the next run makes, with other parameters maybe.
+    cut(tmp_path / "in", strip(800_000, 400.0, 200.0), 2)
+    labels = tmp_path / "out" / ".bare-earth" / "labels"
+
+    class Impatient(Progress):
+        begun = None
+
+        def report(self, fraction):
+            self.begun = self.begun or (time.monotonic() if labels.exists() else None)
+            if self.begun and time.monotonic() - self.begun > 1.0:
+                raise Cancelled
+
+    with running_cluster(tmp_path) as (address, _, _):
+        wait_for_workers(address, 2)
+        words, cluster = [tmp_path / "in"], Cluster(address)
+        with pytest.raises(Cancelled):
+            classify_tiles(
+                words, tmp_path / "out", TinDensification(), progress=Impatient(), workers=cluster
+            )
+        assert not list(labels.iterdir())
+        time.sleep(10.0)
+        assert not list(labels.iterdir()) and not finished(tmp_path / "out")
+
+
+@pytest.mark.long
+@pytest.mark.skipif(os.name == "nt", reason="it kills by signals")
+def test_a_cluster_whose_workers_are_all_gone_is_told(survey, tmp_path):
+    folder, expected = survey
+    with running_cluster(tmp_path) as (address, workers, _):
+        wait_for_workers(address, 2)
+
+        class Killer(Progress):
+            def info(self, text):
+                for each in workers:
+                    each.kill()
+
+        out, cluster = tmp_path / "out", Cluster(address, patience=3.0)
+        begun = time.monotonic()
+        with pytest.raises(BareEarthError, match=r"All workers of .* are gone"):
+            classify_tiles([folder], out, FAST, progress=Killer(), workers=cluster)
+        assert time.monotonic() - begun < 30.0
+    summary = classify_tiles([folder], out, FAST, output=TileOutput(resume=True))
+    assert summary.done_count == 16 and bytes_of(out) == expected
+    assert not [path for path in out.rglob("*") if ".part" in path.name]
+
+
+@pytest.fixture(scope="module")
+def secret(tmp_path_factory):
+    """Return what makes Dask use TLS, with a certificate of our own, as its variables."""
+    program = shutil.which("openssl")
+    if program is None:
+        pytest.skip("there is no openssl to make a certificate with")
+    folder = tmp_path_factory.mktemp("tls")
+    words = "req -x509 -newkey rsa:2048 -nodes -keyout key.pem -out cert.pem -days 2 -subj /CN=test"
+    subprocess.run([program, *words.split()], cwd=folder, check=True, capture_output=True)
+    cert, key = str(folder / "cert.pem"), str(folder / "key.pem")
+    files = {"comm.tls.ca-file": cert, "comm.require-encryption": "True"}
+    for who in ("scheduler", "worker", "client"):
+        files |= {f"comm.tls.{who}.cert": cert, f"comm.tls.{who}.key": key}
+    return {f"distributed.{name}": value for name, value in files.items()}
+
+
+def test_over_tls_the_bytes_are_the_same_and_without_keys_nobody_gets_in(
+    survey, secret, tmp_path, capsys
+):
+    from dask import config
+
+    def run(settings, address, out):
+        words = ["classify", survey[0], out, "--scheduler", address, "--method", "slope"]
+        with config.set(settings):
+            code = main([*map(str, words), "--preset", "whitebox"])
+        return code, capsys.readouterr().err
+
+    with running_cluster(tmp_path, secret) as (address, _, _):
+        with config.set(secret):
+            wait_for_workers(address, 2)
+        code, said = run(secret, address, tmp_path / "out")
+        assert code == 0, said
+        assert bytes_of(tmp_path / "out") == survey[1]
+        plain, key = address.replace("tls", "tcp"), "distributed.comm.tls.client.key"
+        for settings, at, told in (
+            ({}, address, "TLS needs a certificate, a key and an authority"),
+            (secret, plain, "encryption is required"),
+            ({**secret, key: str(tmp_path / "none")}, address, "certificate or key do not do"),
+            ({**secret, key: None}, address, "certificate or key do not do"),
+        ):
+            code, said = run(settings, at, tmp_path / "none")
+            assert code == 1 and said.count("bare-earth: ") == 1 and told in said
+        assert not finished(tmp_path / "none")
+
+
+@pytest.mark.long
+@pytest.mark.skipif(os.name == "nt", reason="it kills by signals")
+@pytest.mark.parametrize("victim", ["worker", "scheduler", "frozen scheduler"])
+def test_kills_at_moments_by_chance_lose_nothing(victim, survey, tmp_path):
+    folder, expected = survey
+    ends, chance = [], random.Random(victim)
+    for number in range(max(KILLS // 3, 1)):
+        place = tmp_path / str(number)
+        place.mkdir()
+        with running_cluster(place, count=3) as (address, workers, scheduler):
+            wait_for_workers(address, 3)
+            who = workers[0] if victim == "worker" else scheduler
+            how = signal.SIGSTOP if victim.startswith("frozen") else signal.SIGKILL
+            killer = threading.Timer(chance.uniform(0.0, 4.0), who.send_signal, [how])
+            killer.start()
+            out, cluster = place / "out", Cluster(address, patience=5.0)
+            begun = time.monotonic()
+            try:
+                summary = classify_tiles([folder], out, FAST, workers=cluster)
+                assert summary.done_count == 16
+                ends.append("done")
+            except BareEarthError as error:
+                ends.append(str(error))
+                assert victim != "worker" or "worker" in str(error)
+            assert time.monotonic() - begun < 90.0
+            killer.join()
+        names = bytes_of(out)
+        assert all(expected[name] == content for name, content in names.items())
+        summary = classify_tiles([folder], out, FAST, output=TileOutput(resume=True))
+        assert summary.done_count == 16 and bytes_of(out) == expected
+        assert not [path for path in out.rglob("*") if ".part" in path.name]
+    print(victim, {each: ends.count(each) for each in ends})

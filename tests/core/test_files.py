@@ -1,21 +1,21 @@
 import errno
-import itertools
 import os
 import pickle
+import secrets
 import subprocess
 import sys
 import time
 
 import pytest
 
-from bare_earth.algorithms.core import files
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.core.files import (
     check_distinct,
     check_output,
-    remove_leftovers,
     replacing,
+    temporary_folder,
 )
+from bare_earth.algorithms.core.temporary import remove_leftovers
 
 
 def test_the_target_appears_only_at_the_end(tmp_path):
@@ -62,10 +62,17 @@ def test_a_missing_folder_a_folder_and_the_input_itself_are_refused(tmp_path):
             check_output(same, (source,))
 
 
-def left_by(process, name="a.las", computer=None):
+@pytest.fixture
+def left_by(tmp_path):
     """Return the name of what a process that was killed leaves beside a target."""
-    computer = computer or files._computer()
-    return f".{computer}-{process}-0.part.{name}"
+    with replacing(tmp_path / "a.las") as temporary:
+        computer, _, rest = temporary.name.rpartition(f"-{os.getpid()}-")
+    (tmp_path / "a.las").unlink()
+
+    def name(process, computer=computer):
+        return f"{computer}-{process}-{rest}"
+
+    return name
 
 
 @pytest.fixture
@@ -76,30 +83,32 @@ def gone():
     return done.pid
 
 
-def test_what_killed_runs_left_is_removed_before_any_work(tmp_path, gone):
+def test_what_killed_runs_left_is_removed_before_any_work(tmp_path, gone, left_by):
     (tmp_path / left_by(gone)).write_text("half")
     (tmp_path / left_by(os.getpid())).write_text("of an earlier process with this number")
+    folder = tmp_path / f"{left_by(gone)}.folder"
+    (folder / "within").mkdir(parents=True)
+    (folder / "within" / "b.las").write_text("half")
     check_output(tmp_path / "b.las")
     assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.skipif(not os.path.exists("/proc/self/stat"), reason="asks Linux")
-def test_a_process_that_ended_holds_nothing_even_if_nobody_asked_how_it_ended(tmp_path):
+def test_a_process_that_ended_holds_nothing_though_nobody_asked_how(tmp_path, left_by):
     with subprocess.Popen([sys.executable, "-c", ""], stdout=-1) as other:
         other.stdout.read()  # to its end, but it is waited for only behind this block
-        end = time.monotonic() + 30
-        while files._is_running(other.pid) and time.monotonic() < end:
-            time.sleep(0.01)
         (tmp_path / left_by(other.pid)).write_text("half")
-        remove_leftovers(tmp_path)
+        end = time.monotonic() + 30
+        while list(tmp_path.iterdir()) and time.monotonic() < end:
+            remove_leftovers(tmp_path)
         assert not list(tmp_path.iterdir())
 
 
-def test_what_another_run_writes_right_now_is_left_alone(tmp_path):
+def test_what_another_run_writes_right_now_is_left_alone(tmp_path, left_by):
     code = "import sys; print(flush=True); sys.stdin.read()"
     with subprocess.Popen([sys.executable, "-c", code], stdin=-1, stdout=-1) as other:
         other.stdout.readline()
-        theirs, far = left_by(other.pid), left_by(1, computer="elsewhere")
+        theirs, far = left_by(other.pid), left_by(1, ".elsewhere")
         for each in (theirs, far):
             (tmp_path / each).write_text("half")
         with replacing(tmp_path / "mine.las") as mine:
@@ -117,17 +126,89 @@ def test_what_another_run_writes_right_now_is_left_alone(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["mine.las"]
 
 
+def test_no_name_of_a_temporary_file_tells_the_next(tmp_path):
+    secret = []
+    for _ in range(100):
+        with replacing(tmp_path / "a.las") as temporary:
+            rest = temporary.name.rpartition(f"-{os.getpid()}-")[2]
+            secret.append(rest.removesuffix(".part.a.las"))
+    # Sixteen digits, in each of whose places many different ones stand.
+    assert all(len(set(place)) > 8 for place in zip(*secret)) and len(secret[0]) == 16
+
+
 def test_a_link_at_the_temporary_name_is_not_followed(tmp_path, monkeypatch):
     precious = tmp_path / "precious"
     precious.write_text("data")
-    monkeypatch.setattr(files, "_numbers", itertools.count(5_000))
-    for number in range(5_000, 5_010):
-        link = left_by(os.getpid()).replace("-0.part", f"-{number}.part")
-        (tmp_path / link).symlink_to(precious)
+    tokens = iter(["known", "known", "known", "another"])
+    monkeypatch.setattr(secrets, "token_hex", lambda count: next(tokens))
+    with replacing(tmp_path / "a.las") as temporary:
+        foreseen = temporary
+    foreseen.symlink_to(precious)
     with replacing(tmp_path / "a.las") as temporary, open(temporary, "w+b") as file:
         file.write(b"points")
-    assert precious.read_text() == "data"
+    assert temporary != foreseen and precious.read_text() == "data"
     assert (tmp_path / "a.las").read_bytes() == b"points"
+
+
+def test_a_link_among_what_was_left_is_removed_and_not_what_it_leads_to(tmp_path, gone, left_by):
+    precious = tmp_path / "precious"
+    precious.mkdir()
+    (precious / "a.las").write_text("data")
+    (tmp_path / left_by(gone)).symlink_to(precious)
+    remove_leftovers(tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == ["precious"]
+    assert (precious / "a.las").read_text() == "data"
+
+
+def test_a_temporary_folder_goes_with_all_in_it_and_is_told_where_it_cannot_be(tmp_path):
+    with pytest.raises(ValueError), temporary_folder(tmp_path) as folder:
+        (folder / "a" / "b").mkdir(parents=True)
+        remove_leftovers(tmp_path)
+        assert (folder / "a" / "b").is_dir()
+        raise ValueError
+    assert not list(tmp_path.iterdir())
+    with pytest.raises(BareEarthError, match="Cannot write"), temporary_folder(tmp_path / "none"):
+        pass
+
+
+RENAMES = {
+    errno.ESTALE: "the network disk lost the file",
+    errno.EBUSY: "another program holds it",
+    errno.EXDEV: "the folder lies across two disks",
+    errno.EIO: os.strerror(errno.EIO),
+}
+
+
+@pytest.mark.parametrize("number", RENAMES)
+def test_a_rename_that_fails_is_told_and_leaves_the_old_file(tmp_path, monkeypatch, number):
+    target = tmp_path / "a.las"
+    target.write_text("old")
+
+    def refuse(source, target):
+        raise OSError(number, os.strerror(number), str(source), None, str(target))
+
+    monkeypatch.setattr(os, "replace", refuse)
+    sentence = rf"Cannot write .*[/\\]a\.las: {RENAMES[number]}[^.]*\."
+    with pytest.raises(BareEarthError, match=sentence), replacing(target) as temporary:
+        temporary.write_text("new")
+    assert target.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [target]
+
+
+@pytest.mark.parametrize("number", [errno.ENOENT, errno.ESTALE])
+def test_a_rename_that_was_done_counts_though_an_error_is_reported(tmp_path, monkeypatch, number):
+    target, rename = tmp_path / "a.las", os.replace
+    target.write_text("old")
+
+    def lose_the_answer(source, target):
+        rename(source, target)
+        raise OSError(number, os.strerror(number), str(source), None, str(target))
+
+    monkeypatch.setattr(os, "replace", lose_the_answer)
+    with replacing(target) as temporary:
+        temporary.write_text("new")
+    assert target.read_text() == "new"
+    assert list(tmp_path.iterdir()) == [target]
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no such permissions")
