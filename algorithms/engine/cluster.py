@@ -102,9 +102,8 @@ class Cluster(Workers):
 
     def _prepare(self, folder: Path) -> None:
         """Check the workers, and share out what they have."""
+        threads, self._seen = self._threads(), time.monotonic()
         facts = self._check(folder)
-        self._seen = time.monotonic()
-        threads = self._threads()
         memory = self.resources.bytes
         if self.resources.memory is None:
             # Several workers may be on one computer.
@@ -141,6 +140,8 @@ class Cluster(Workers):
 
         try:
             facts = self._client.run(_facts, str(self._mark), on_error="return")
+        except OSError as error:
+            raise BareEarthError(SCHEDULER_GONE) from error
         except Exception as error:
             raise BareEarthError(
                 f"The workers of {self._address} cannot load this package ({error}). Install"

@@ -109,7 +109,10 @@ def test_a_cancel_leaves_old_files_and_nothing_else(name, registry, inputs, tmp_
     cancelled = 0
     for number in range(CANCELS):
         by_time = number % 3 == 1
-        moment = chance.choice(moments if number % 3 == 0 else moments[-3:])
+        # The first is early enough for a word on the progress to follow.
+        early = moments[: len(moments) // 2 + 1]
+        among = moments[-3:] if number % 3 == 2 else moments if number else early
+        moment = chance.choice(among)
         log = Log(cancel_at=None if by_time else moment)
         before = set(context.layersToLoadOnCompletion())
         timer = threading.Timer(chance.uniform(0.0, duration), log.cancel)
