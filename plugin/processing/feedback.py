@@ -33,9 +33,9 @@ class FeedbackProgress(Progress):
 
         At the end all is written, and it must not be said that nothing was.
         """
+        self._feedback.setProgress(100.0 * fraction)
         if fraction < 1.0 and self._feedback.isCanceled():
             raise Cancelled
-        self._feedback.setProgress(100.0 * fraction)
 
     def info(self, text: str) -> None:
         """Write a line into the log."""
