@@ -20,7 +20,6 @@ from bare_earth.algorithms.filters.shared.objects import Relief, covered, raised
 from bare_earth.algorithms.filters.slope import filter as slope_filter
 from bare_earth.algorithms.filters.tin_densification import filter as tin_densification
 from bare_earth.algorithms.filters.tin_densification.densification import (
-    DensificationRules,
     densified,
     with_lower,
 )
@@ -77,8 +76,7 @@ def tin_densification_steps() -> None:
     found = seeds_of_two_grids(points, survey, parameters.max_building_size, SILENT)
     seeds, waiting = checked_seeds(points, *found, cells, apart)
     heights = with_lower(np.full(cells.shape, np.nan), cells, points, seeds)
-    names = DensificationRules.__dataclass_fields__
-    rules = DensificationRules(**{name: getattr(parameters, name) for name in names})
+    rules = tin_densification.densification_rules(parameters)
     joined = densified(points, seeds, waiting, heights, cells, apart, rules, SILENT)
     vertices = np.append(seeds, joined)
     tolerance = Tolerance(parameters.ground_tolerance, parameters.slope_tolerance)

@@ -286,7 +286,7 @@ def classify(
             "No point can be taken for ground with certainty. Check the maximum building size and"
             " the selection of points."
         )
-    rules, part = _rules(resolved), progress.part(0.7, 0.8)
+    rules, part = densification_rules(resolved), progress.part(0.7, 0.8)
     joined = densified(points, ground, waiting, heights, cells, survey.spacing, rules, part)
     vertices = np.append(ground, joined)
     tolerance = Tolerance(
@@ -341,7 +341,8 @@ def _lowest_of(points: Points, which: np.ndarray) -> np.ndarray:
     return which[Cells.over(some, _CELL).lowest_points(some)]
 
 
-def _rules(parameters: TinDensification) -> DensificationRules:
+def densification_rules(parameters: TinDensification) -> DensificationRules:
+    """Return when a point becomes a vertex, by parameters that have a value each."""
     names = (each.name for each in dataclasses.fields(DensificationRules) if each.name != "level")
     level = None if parameters.preset == CLASSIC else _LEVEL
     return DensificationRules(*(getattr(parameters, name) for name in names), level=level)
