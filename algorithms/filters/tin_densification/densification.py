@@ -223,6 +223,7 @@ def _joined(
     vertices = first
     for round_ in range(_MOST_ROUNDS):
         tin = survey.tin_round(vertices, waiting)
+        progress(1.0 - 0.5 ** (round_ + 0.5))  # each round has less to do than the one before
         triangle = tin.locate(survey.points.x[waiting], survey.points.y[waiting])
         waiting, triangle = waiting[triangle >= 0], triangle[triangle >= 0]
         candidates = survey.points.take(waiting)
@@ -234,7 +235,7 @@ def _joined(
         changed = mirrored | tin.lost(triangle, candidates.x[new], candidates.y[new])
         changed[new] = False
         waiting = waiting[changed]
-        progress((round_ + 1) / _MOST_ROUNDS)
+        progress(1.0 - 0.5 ** (round_ + 1.0))
     return vertices[len(first) :]
 
 
