@@ -136,11 +136,7 @@ class LabelGround(PointStep):
         """Return whether only the area is written, and a file lies outside."""
         if self.area is None or not self.output.area_only:
             return False
-        # Headers are rounded: what touches must be seen to touch.
-        west, south, east, north = tile.box
-        x, y = tile.scale[:2]
-        box = west - x, south - y, east + x, north + y
-        return not self.area.may_touch(box)
+        return not self.area.may_touch(tile.outer_box)
 
     def tell_of_survey(self, done: Sequence[ClassifiedSummary], progress: Progress) -> None:
         """Tell of an area, and of corrections, that meet no point of any file."""

@@ -107,9 +107,7 @@ def places_of(survey: Survey, tile: Tile, progress: Progress = SILENT) -> list[B
     BareEarthError
         If its points lie far apart and it cannot be read.
     """
-    west, south, east, north = tile.box
-    x, y = tile.scale[:2]  # headers are rounded
-    columns, rows = survey.places_in((west - x, south - y, east + x, north + y))
+    columns, rows = survey.places_in(tile.outer_box)
     if len(columns) * len(rows) <= _MOST_PLACES:
         return [BlockIndex(column, row) for row, column in itertools.product(rows, columns)]
     codes = np.unique(survey.codes(read_cloud(tile.path, progress)))

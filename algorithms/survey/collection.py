@@ -70,6 +70,12 @@ class Tile:
         """Smallest x and y, largest x and y in units of the CRS."""
         return (*self.minimum[:2], *self.maximum[:2])
 
+    @property
+    def outer_box(self) -> Box:
+        """The box, wider by a step of the coordinates: headers are rounded."""
+        (west, south, east, north), (x, y) = self.box, self.scale[:2]
+        return west - x, south - y, east + x, north + y
+
 
 @dataclass(frozen=True)
 class BrokenTile:
@@ -110,12 +116,7 @@ class Collection:
 
     @cached_property
     def _boxes(self) -> np.ndarray:
-        boxes = np.array([tile.box for tile in self.tiles])
-        # Headers are rounded: what touches must be seen to touch.
-        steps = np.array([tile.scale[:2] for tile in self.tiles])
-        boxes[:, :2] -= steps
-        boxes[:, 2:] += steps
-        return boxes
+        return np.array([tile.outer_box for tile in self.tiles])
 
     def touching(self, box: Box) -> list[Tile]:
         """Return the tiles whose extents share a place with a box, their borders included."""
