@@ -305,9 +305,11 @@ def _on_slope(
     """
     offset = filled.shape[1] if axis == 0 else 1
     place, count = np.divmod(one, filled.shape[1])[axis], filled.shape[axis]
-    across = [one + offset * (np.clip(place + k, 0, count - 1) - place) for k in range(-2, 4)]
-    empty = ~known.ravel()[np.stack(across)]
-    rises = np.diff(filled.ravel()[np.stack(across)], axis=0)  # the third is that of the step
+    across = np.stack(
+        [one + offset * (np.clip(place + k, 0, count - 1) - place) for k in range(-2, 4)]
+    )
+    empty = ~known.ravel()[across]
+    rises = np.diff(filled.ravel()[across], axis=0)  # the third is that of the step
     on = np.zeros(len(one), dtype=bool)
     for first in range(3):
         three, gaps = rises[first : first + 3], empty[first : first + 4]
