@@ -151,9 +151,10 @@ class MakeRasters(Step):
         ground = self.ground.of(part, tally)
         if not self.request.needs_ground:
             ground = nothing
-        stays = self.constraints.is_ground(part, ground)
-        tally.excluded += int(np.count_nonzero(ground & ~stays))
-        ground = stays
+        if self.constraints.any:
+            stays = self.constraints.is_ground(part, ground)
+            tally.excluded += int(np.count_nonzero(ground & ~stays))
+            ground = stays
         if self.covers_ground:
             return Marks(ground, ground, nothing)
         shown = ground | (~np.isin(part.classification, NOISE) & ~part.withheld)
