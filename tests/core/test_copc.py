@@ -6,8 +6,8 @@ import pytest
 from laspy import CopcReader
 
 from bare_earth.algorithms.core.errors import BareEarthError
-from bare_earth.algorithms.las import copc
-from bare_earth.algorithms.las.copc import build_octree
+from bare_earth.algorithms.las import copc, copc_octree
+from bare_earth.algorithms.las.copc_octree import build_octree
 from bare_earth.algorithms.las.reading import inspect, read_cloud
 from bare_earth.algorithms.las.writing import write_classified
 
@@ -102,8 +102,8 @@ def test_header_and_info_say_what_the_points_are(las):
 
 @pytest.fixture
 def small_leaves(monkeypatch):
-    monkeypatch.setattr(copc, "_LEAF_POINTS", 3000)
-    monkeypatch.setattr(copc, "_SMALL_NODE", 50)
+    monkeypatch.setattr(copc_octree, "_LEAF_POINTS", 3000)
+    monkeypatch.setattr(copc_octree, "_SMALL_NODE", 50)
     monkeypatch.setattr(copc, "_BATCH", 5000)
 
 
