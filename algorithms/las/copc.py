@@ -13,28 +13,40 @@ from __future__ import annotations
 
 import struct
 from pathlib import Path
-from typing import BinaryIO, Iterator
+from typing import BinaryIO, Iterable, Iterator
 
 import numpy as np
 
 from ..core.progress import SILENT, Progress
+from ..core.threads import parts_of
 from . import header as fields
 from .copc_format import (
     NEW_FORMATS,
     Statistics,
+    convert,
     kept_evlrs,
-    modernise,
     new_header,
     new_vlrs,
+    record_length,
     tell_of_format,
 )
-from .copc_octree import Octree, build_octree, extent, integers, starts_of
+from .copc_octree import (
+    TOP,
+    Branch,
+    BranchPoints,
+    Cube,
+    SortedPoints,
+    keys_of,
+    most_in_memory,
+    nodes_of,
+)
+from .copc_points import Room, WaitingPoints
 from .edits import EditedFile
-from .lasfile import COPC_HIERARCHY, COPC_INFO, RECORD_LENGTHS, LasFile, Vlr, new_vlr
-from .records import LazRecordWriter, column, copy_range
+from .lasfile import COPC_HIERARCHY, COPC_INFO, Vlr, new_vlr
+from .records import LazRecordWriter, copy_range
 from .sources import open_source
 
-# Points compressed between two looks at the progress.
+# Most points compressed at a time.
 _BATCH = 1_000_000
 
 # A row of the hierarchy: depth, x, y and z of a node, then where its points begin, how many bytes
@@ -42,11 +54,16 @@ _BATCH = 1_000_000
 HIERARCHY_ENTRY = np.dtype([("key", "<i4", 4), ("start", "<u8"), ("size", "<i4"), ("count", "<i4")])
 
 
-def write_copc(rewriting: EditedFile, target: Path, progress: Progress = SILENT) -> None:
+def write_copc(
+    rewriting: EditedFile,
+    target: Path,
+    progress: Progress = SILENT,
+    memory: int | None = None,
+) -> None:
     """Write a file as COPC, with other values of its points.
 
-    All points are in memory at once, as their bytes. The order of the points changes; scale,
-    offset, integers, extra bytes and the records stay, but for what is to change.
+    The order of the points changes; scale, offset, integers, extra bytes and the records stay, but
+    for what is to change.
 
     Parameters
     ----------
@@ -56,34 +73,38 @@ def write_copc(rewriting: EditedFile, target: Path, progress: Progress = SILENT)
         The file to make.
     progress : Progress
         Told what COPC cannot hold.
+    memory : int, optional
+        About how many bytes this may take. Points that need more wait in a temporary file beside
+        the target, and the input is read twice. As many as all points need, if it is not given.
+        The output does not depend on it.
 
     Raises
     ------
     BareEarthError
         If the input is damaged.
     OSError
-        If the output cannot be written.
+        If the output, or the temporary file, cannot be written.
     Cancelled
         If the user asked to stop; a half written file is left to the caller.
     """
     layout = rewriting.target
     point_format = NEW_FORMATS[layout.point_format]
     tell_of_format(layout, point_format, progress)
-    records = _read(rewriting, point_format, progress.part(0.0, 0.3))
-    octree = build_octree(records, layout.scale, layout.offset, progress.part(0.3, 0.4))
     vlrs, evlrs = new_vlrs(layout, point_format, progress), kept_evlrs(layout)
-    with open(target, "w+b") as file:
+    statistics, length = Statistics(layout), record_length(layout)
+    most = layout.count if memory is None else most_in_memory(memory, length)
+    with Room(target.parent, most, progress) as room, open(target, "w+b") as file:
+        points = _sorted(rewriting, statistics, room)
         start = fields.HEADER_SIZES[4] + sum(len(vlr.raw) for vlr in vlrs)
         file.write(bytes(start))
-        entries = _write_nodes(file, vlrs[1], records, octree, progress.part(0.4, 1.0))
+        entries = _write_nodes(file, vlrs[1], points, room)
         end = file.seek(0, 2)
         _write_hierarchy(file, entries)
         with open_source(layout.path) as source:
             for evlr in evlrs:
                 copy_range(source, file, evlr.start, evlr.start + evlr.length)
-        statistics = _statistics(layout, records)
-        vlrs[0] = _info(octree, statistics.gps_time, end, len(entries) * 32)
-        header = new_header(layout, point_format, records.shape, statistics)
+        vlrs[0] = _info(statistics.cube, statistics.gps_time, end, len(entries) * 32)
+        header = new_header(layout, point_format, statistics)
         fields.POINTS_START.put(header, start)
         fields.VLR_COUNT.put(header, len(vlrs))
         # One record more behind the points, for the hierarchy.
@@ -94,57 +115,69 @@ def write_copc(rewriting: EditedFile, target: Path, progress: Progress = SILENT)
         file.write(b"".join(vlr.raw for vlr in vlrs))
 
 
-def _read(rewriting: EditedFile, point_format: int, progress: Progress) -> np.ndarray:
-    """Return the bytes of all points as they are to be, in a format that COPC takes."""
+def _sorted(rewriting: EditedFile, statistics: Statistics, room: Room) -> BranchPoints:
+    """Return the points as they are to be, in a format that COPC takes, ready for the octree."""
+    layout, start = rewriting.target, 0
+    if layout.count <= room.most:
+        records = np.zeros((layout.count, record_length(layout)), dtype=np.uint8)
+        for old, classes, done in rewriting.points():
+            convert(layout, old, classes, records[start : start + len(old)])
+            statistics.add(old)
+            start += len(old)
+            room.progress.move(0.3 * done)
+        room.progress.move(0.3, 0.4)
+        return SortedPoints.of(TOP, records, statistics.cube, progress=room.progress)
+    for old, _, done in rewriting.points():
+        statistics.add(old)
+        room.progress.move(0.15 * done)
+    room.cube = statistics.cube
+    return WaitingPoints(TOP, _parts(rewriting, room), room)
+
+
+def _parts(rewriting: EditedFile, room: Room) -> Iterator[np.ndarray]:
+    """Yield the points as they are to be, not too many at a time."""
     layout = rewriting.target
-    length = RECORD_LENGTHS[point_format]
-    records = np.zeros((layout.count, length + layout.extra_bytes), dtype=np.uint8)
-    start = 0
     for old, classes, done in rewriting.points():
-        new = records[start : start + len(old)]
-        if layout.point_format >= 6:
-            # 9 and 10 are 6 and 8 with waveforms behind.
-            new[:, :length] = old[:, :length]
-        else:
-            modernise(old, new, layout.point_format)
-        new[:, length:] = old[:, RECORD_LENGTHS[layout.point_format] :]
-        new[:, 16] = classes
-        start += len(old)
-        progress(done)
-    return records
+        for piece in parts_of(len(old), room.most_at_once):
+            new = np.zeros((piece.stop - piece.start, record_length(layout)), dtype=np.uint8)
+            convert(layout, old[piece], classes[piece], new)
+            yield new
+        room.progress.move(0.15 + 0.25 * done)
 
 
-def _write_nodes(
-    file: BinaryIO, laszip: Vlr, records: np.ndarray, octree: Octree, progress: Progress
-) -> np.ndarray:
+def _write_nodes(file: BinaryIO, laszip: Vlr, points: BranchPoints, room: Room) -> np.ndarray:
     """Compress each node as a chunk of its own, and return the entries of the hierarchy."""
-    start = file.tell()
-    # Inside a node in file order, which compresses well.
-    order = np.argsort(octree.node, kind="stable")
-    counts = np.bincount(octree.node, minlength=len(octree.keys))
+    start, total = file.tell(), points.counts.sum()
     writer = LazRecordWriter(file, laszip)
-    done = 0
-    for batch in _batches(counts):
-        chunks = []
-        for count in batch:
-            chunks.append(records[order[done : done + count]])
-            done += count
-        writer.write_chunks(chunks)
-        progress(done / len(records))
+    nodes, counts = [], []
+    for batch in _batches(nodes_of(points), min(_BATCH, room.most)):
+        writer.write_chunks([records for _, records in batch])
+        nodes += [node for node, _ in batch]
+        counts += [len(records) for _, records in batch]
+        room.progress.move(0.4 + 0.6 * sum(counts) / total)
     writer.finish()
     file.seek(start)
     sizes = np.array(writer.chunk_sizes(file), dtype=np.int64)
     entries = np.zeros(len(counts), dtype=HIERARCHY_ENTRY)
-    entries["key"] = octree.keys
+    entries["key"] = keys_of(nodes)
     entries["start"] = start + 8 + np.cumsum(sizes) - sizes
     entries["size"], entries["count"] = sizes, counts
     return entries
 
 
-def _batches(counts: np.ndarray) -> Iterator[np.ndarray]:
-    """Yield runs of nodes that have about `_BATCH` points together."""
-    numbers = (np.cumsum(counts) - counts) // _BATCH
-    return iter(np.split(counts, starts_of(numbers)[1:]))
+def _batches(
+    nodes: Iterable[tuple[Branch, np.ndarray]], least: int
+) -> Iterator[list[tuple[Branch, np.ndarray]]]:
+    """Yield nodes that have so many points together, or a few more."""
+    batch, count = [], 0
+    for node in nodes:
+        batch.append(node)
+        count += len(node[1])
+        if count >= least:
+            yield batch
+            batch, count = [], 0
+    if batch:
+        yield batch
 
 
 def _write_hierarchy(file: BinaryIO, entries: np.ndarray) -> None:
@@ -158,21 +191,8 @@ def _write_hierarchy(file: BinaryIO, entries: np.ndarray) -> None:
     file.write(entries.tobytes())
 
 
-def _info(octree: Octree, gps_time: tuple[float, float], evlr_start: int, size: int) -> Vlr:
-    half = octree.side / 2
-    centre = octree.corner + half
-    data = struct.pack(
-        "<5d2Q2d88x", *centre, half, octree.spacing, evlr_start + 60, size, *gps_time
-    )
+def _info(cube: Cube, gps_time: tuple[float, float], evlr_start: int, size: int) -> Vlr:
+    half = cube.side / 2
+    centre = cube.corner + half
+    data = struct.pack("<5d2Q2d88x", *centre, half, cube.spacing, evlr_start + 60, size, *gps_time)
     return new_vlr(COPC_INFO, data, "COPC info VLR")
-
-
-def _statistics(layout: LasFile, records: np.ndarray) -> Statistics:
-    coordinates = [integers(records, axis) for axis in range(3)]
-    returns = np.bincount(records[:, 14] & 0x0F, minlength=16)[1:16]
-    times = column(records, 22, "<f8")
-    # Damaged times must not make the whole range useless.
-    smallest = float(times.min(where=np.isfinite(times), initial=np.inf))
-    largest = float(times.max(where=np.isfinite(times), initial=-np.inf))
-    known = (smallest, largest) if smallest <= largest else (0.0, 0.0)
-    return Statistics(*extent(coordinates, layout.scale, layout.offset), returns, known)

@@ -2,27 +2,28 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
 from ..core.progress import Progress
 from ..crs.system import compound_wkt
 from . import header as fields
+from .copc_octree import Cube
 from .crs_records import GEOKEY_RECORDS, WKT_RECORD, read_crs, wkt_text
 from .lasfile import (
     COPC_EXTENTS,
     COPC_HIERARCHY,
     COPC_INFO,
+    FIRST_EXTENDED_FORMAT,
     LARGEST_VLR,
     LASZIP,
+    RECORD_LENGTHS,
     WAVEFORM_PACKETS,
     Evlr,
     LasFile,
     Vlr,
     new_vlr,
 )
-from .records import column, laszip_vlr
+from .records import Tally, column, laszip_vlr, named
 
 _GPS_TIME_TYPE, _SYNTHETIC_RETURNS, _WKT = 0x01, 0x08, 0x10
 _WAVEFORM_DESCRIPTORS = range(100, 355)
@@ -35,16 +36,83 @@ NEW_FORMATS = (6, 6, 7, 7, 6, 7, 6, 7, 8, 6, 8)
 _ANGLE_UNIT = 0.006
 
 
-class Statistics(NamedTuple):
-    """What header and info record say of the points."""
+class Statistics(Tally):
+    """Counts what header and info record say of points.
 
-    minimum: np.ndarray
-    maximum: np.ndarray
-    returns: np.ndarray
-    gps_time: tuple[float, float]
+    Attributes
+    ----------
+    gps_time : tuple of float
+        The smallest and the largest; 0 and 0 where no point has any.
+    """
+
+    def __init__(self, layout: LasFile) -> None:
+        super().__init__(layout)
+        self._first, self._last = np.inf, -np.inf
+
+    def add(self, records: np.ndarray) -> None:
+        """Count points, given as their bytes."""
+        super().add(records)
+        points = named(self._layout, records)
+        if "gps_time" in points.point_format.dimension_names:
+            times = np.asarray(points["gps_time"])
+            # Damaged times must not make the whole range useless.
+            known = np.isfinite(times)
+            self._first = float(times.min(where=known, initial=self._first))
+            self._last = float(times.max(where=known, initial=self._last))
+
+    @property
+    def gps_time(self) -> tuple[float, float]:
+        """The smallest and the largest; 0 and 0 where no point has any."""
+        return (self._first, self._last) if self._first <= self._last else (0.0, 0.0)
+
+    @property
+    def extent(self) -> tuple[np.ndarray, np.ndarray]:
+        """The smallest and the largest coordinates."""
+        scale, offset = np.array(self._layout.scale), np.array(self._layout.offset)
+        return self.lowest * scale + offset, self.highest * scale + offset
+
+    @property
+    def cube(self) -> Cube:
+        """The cube of the octree.
+
+        Some readers take the smallest coordinates in the header for its corner, whatever the info
+        record says: here they are.
+        """
+        (lowest, highest), scale = self.extent, self._layout.scale
+        side = max(float((highest - lowest).max()), *scale)
+        return Cube(lowest, side, scale, self._layout.offset)
 
 
-def modernise(old: np.ndarray, new: np.ndarray, point_format: int) -> None:
+def record_length(layout: LasFile) -> int:
+    """Return the bytes of a point of a file once it is COPC."""
+    return RECORD_LENGTHS[NEW_FORMATS[layout.point_format]] + layout.extra_bytes
+
+
+def convert(layout: LasFile, old: np.ndarray, classes: np.ndarray, new: np.ndarray) -> None:
+    """Put points, with other classes, into records of a format that COPC takes.
+
+    Parameters
+    ----------
+    layout : LasFile
+        The file whose point format the old records have.
+    old : numpy.ndarray of uint8, shape (n, record length)
+        Records.
+    classes : numpy.ndarray of uint8, shape (n,)
+        The new classes.
+    new : numpy.ndarray of uint8, shape (n, new record length)
+        Zeros, to be filled.
+    """
+    length = RECORD_LENGTHS[NEW_FORMATS[layout.point_format]]
+    if layout.point_format >= FIRST_EXTENDED_FORMAT:
+        # 9 and 10 are 6 and 8 with waveforms behind.
+        new[:, :length] = old[:, :length]
+    else:
+        _modernise(old, new, layout.point_format)
+    new[:, length:] = old[:, RECORD_LENGTHS[layout.point_format] :]
+    new[:, 16] = classes
+
+
+def _modernise(old: np.ndarray, new: np.ndarray, point_format: int) -> None:
     """Put points of the formats 0 to 5 into records of the formats 6 and 7, but for the class."""
     new[:, :14] = old[:, :14]  # x, y, z, intensity
     bits = old[:, 14]
@@ -63,9 +131,7 @@ def modernise(old: np.ndarray, new: np.ndarray, point_format: int) -> None:
         new[:, 30:36] = old[:, start : start + 6]
 
 
-def new_header(
-    layout: LasFile, point_format: int, shape: tuple[int, int], statistics: Statistics
-) -> bytearray:
+def new_header(layout: LasFile, point_format: int, statistics: Statistics) -> bytearray:
     """Return a header of LAS 1.4 that says what that of the input said, but not what lies where."""
     header = bytearray(fields.HEADER_SIZES[4])
     until = fields.EXTENT.start
@@ -79,10 +145,11 @@ def new_header(
     fields.LEGACY_COUNT.put(header, 0)
     fields.LEGACY_RETURNS.put(header, *[0] * 5)
     fields.POINT_FORMAT.put(header, point_format | 0x80)
-    fields.RECORD_LENGTH.put(header, shape[1])
-    corners = np.column_stack((statistics.maximum, statistics.minimum)).ravel()
+    fields.RECORD_LENGTH.put(header, record_length(layout))
+    lowest, highest = statistics.extent
+    corners = np.column_stack((highest, lowest)).ravel()
     fields.EXTENT.put(header, *corners)
-    fields.COUNT.put(header, shape[0])
+    fields.COUNT.put(header, layout.count)
     fields.RETURNS.put(header, *statistics.returns.tolist())
     return header
 

@@ -1,5 +1,10 @@
 """The octree of COPC: which node each point belongs to.
 
+Each node takes, of the points that the nodes above it left, the first in file order of each cell of
+its grid, and leaves the rest to its eight children. That the cells of a node lie within its
+children, and those of these within theirs, is what lets points be taken for several depths before
+it is known which nodes there are: only the counts say that, see `nodes_of`.
+
 References
 ----------
 COPC specification 1.0, https://copc.io
@@ -7,11 +12,12 @@ COPC specification 1.0, https://copc.io
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import Iterator, NamedTuple, Protocol, Sequence
 
 import numpy as np
 
 from ..core.progress import SILENT, Progress
+from ..core.threads import parts_of
 from .records import column
 
 # A node takes one point for each cell of a grid of so many cells along each side, ...
@@ -24,131 +30,281 @@ _SMALL_NODE = 500
 # have to fit into 64.
 _CUBE_BITS = 21
 _DEEPEST = _CUBE_BITS - _GRID_BITS
+# Depths for which points are taken at a time: no more than `_GRID_BITS`, or the cells of the first
+# would reach beyond the nodes below the last.
+_DEPTHS = 3
+# Points whose codes are computed at a time.
+_CODED = 1_000_000
+# Bytes that sorting takes a point, besides its record.
+_BYTES_TO_SORT = 60
 
 
-@dataclass(frozen=True)
-class Octree:
-    """A cube around the points, and the node of each.
+class Cube(NamedTuple):
+    """The cube of the topmost node.
 
     Attributes
     ----------
     corner : numpy.ndarray of float64, shape (3,)
-        The smallest x, y and z of the cube.
+        The smallest x, y and z.
     side : float
         Its edge.
-    keys : numpy.ndarray of int32, shape (nodes, 4)
-        Depth, x, y and z of each node; a node never comes before the one above it.
-    node : numpy.ndarray of unsigned integers, shape (points,)
-        Row of `keys` to which each point belongs.
+    scale, offset : tuple of float
+        What makes coordinates of the integers of the points.
     """
 
     corner: np.ndarray
     side: float
-    keys: np.ndarray
-    node: np.ndarray
+    scale: tuple[float, float, float]
+    offset: tuple[float, float, float]
 
     @property
     def spacing(self) -> float:
         """Distance between the points of the topmost node."""
         return self.side / (1 << _GRID_BITS)
 
+    def codes(self, records: np.ndarray, progress: Progress = SILENT) -> np.ndarray:
+        """Return where points lie, as Morton codes.
 
-def build_octree(
-    records: np.ndarray,
-    scale: tuple[float, float, float],
-    offset: tuple[float, float, float],
-    progress: Progress = SILENT,
-) -> Octree:
-    """Sort points into the nodes of an octree.
+        Sorted by these, the points of any cell of any depth lie side by side.
 
-    Each node takes, of the points that the nodes above it left, the first in file order of each
-    cell of its grid, and leaves the rest to its eight children.
+        Parameters
+        ----------
+        records : numpy.ndarray of uint8, shape (n, record length)
+            The points.
+        progress : Progress
+            Receives progress.
+
+        Returns
+        -------
+        numpy.ndarray of uint64, shape (n,)
+        """
+        codes = np.zeros(len(records), dtype=np.uint64)
+        for piece in parts_of(len(records), _CODED):
+            for axis in range(3):
+                cells = column(records[piece], 4 * axis, "<i4") * self.scale[axis]
+                cells += self.offset[axis] - self.corner[axis]
+                cells *= (1 << _CUBE_BITS) / self.side
+                np.clip(cells, 0, (1 << _CUBE_BITS) - 1, out=cells)
+                codes[piece] |= _spread(cells.astype(np.uint64)) << np.uint64(axis)
+            progress(piece.stop / len(records))
+        return codes
+
+
+class Branch(NamedTuple):
+    """A node with all below it, by its depth and its number among the nodes of this depth."""
+
+    depth: int
+    number: int
+
+    @property
+    def depths(self) -> int:
+        """For how many depths its points are taken at a time."""
+        return min(_DEPTHS, _DEEPEST - self.depth)
+
+    @property
+    def cell_count(self) -> int:
+        """Branches below the last of these depths."""
+        return 1 << 3 * self.depths
+
+    def below(self, cell: int) -> Branch:
+        """Return one of these."""
+        return Branch(self.depth + self.depths, self.number * self.cell_count + cell)
+
+
+TOP = Branch(0, 0)
+
+
+class BranchPoints(Protocol):
+    """The points of a branch, wherever they wait.
+
+    Attributes
+    ----------
+    branch : Branch
+        The branch.
+    counts : numpy.ndarray of int64, shape (depths + 1, cells)
+        Points that each of its depths takes in each branch below, if no node ends before; then
+        those that are left.
+    """
+
+    branch: Branch
+    counts: np.ndarray
+
+    def records(self, groups: np.ndarray) -> np.ndarray:
+        """Return points in file order, given of which depths and branches as `counts` has them."""
+
+    def below(self, cell: int) -> BranchPoints:
+        """Return what is left for a branch below."""
+
+
+def nodes_of(
+    points: BranchPoints, depth: int = 0, cell: int = 0
+) -> Iterator[tuple[Branch, np.ndarray]]:
+    """Yield the nodes of a branch and their points: each before the nodes below it.
 
     Parameters
     ----------
+    points : BranchPoints
+        The points of the branch.
+    depth, cell : int
+        The node within the branch to begin with.
+    """
+    branch = points.branch
+    width = 3 * (branch.depths - depth)
+    cells = slice(cell << width, (cell + 1) << width)
+    counts, groups = points.counts[depth:, cells], np.zeros(points.counts.shape, dtype=bool)
+    node = Branch(branch.depth + depth, (branch.number << 3 * depth) + cell)
+    if counts.sum() <= _LEAF_POINTS or node.depth == _DEEPEST:
+        groups[depth:, cells] = True
+        yield node, points.records(groups)
+    elif depth == branch.depths:
+        yield from nodes_of(points.below(cell))
+    else:
+        left = counts[1:].sum(axis=0).reshape(8, -1).sum(axis=1)
+        groups[depth, cells] = True
+        groups[depth + 1 :, cells] = np.repeat(left < _SMALL_NODE, counts.shape[1] // 8)
+        yield node, points.records(groups)
+        for child in np.flatnonzero(left >= _SMALL_NODE).tolist():
+            yield from nodes_of(points, depth + 1, 8 * cell + child)
+
+
+class SortedPoints:
+    """The points of a branch in memory, sorted by the depths that take them and by branches below.
+
+    Parameters
+    ----------
+    branch : Branch
+        The branch.
     records : numpy.ndarray of uint8, shape (n, record length)
-        The points.
-    scale, offset : tuple of float
-        What makes coordinates of their integers.
-    progress : Progress
-        Receives progress.
+        Points in file order, those of the branch among them.
+    codes : numpy.ndarray of uint64, shape (k,)
+        Codes of the points of the branch, ascending.
+    order : numpy.ndarray of unsigned integers, shape (k,)
+        The row of `records` of each of them.
+    taken : sequence of Taken
+        The cells of each depth of which points before these were taken.
+
+    Attributes
+    ----------
+    branch, counts
+        As `BranchPoints` says.
+    order : numpy.ndarray of unsigned integers, shape (k,)
+        The rows, sorted.
     """
-    coordinates = [integers(records, axis) for axis in range(3)]
-    minimum, maximum = extent(coordinates, scale, offset)
-    side = max(float((maximum - minimum).max()), *scale)
-    # Some readers take the smallest coordinates in the header for the corner of the cube, whatever
-    # the info record says: here they are.
-    corner = minimum
-    codes = np.zeros(len(records), dtype=np.uint64)
-    for axis, values in enumerate(coordinates):
-        cells = values * scale[axis]
-        cells += offset[axis] - corner[axis]
-        cells *= (1 << _CUBE_BITS) / side
-        np.clip(cells, 0, (1 << _CUBE_BITS) - 1, out=cells)
-        codes |= _spread(cells.astype(np.uint64)) << np.uint64(axis)
-        progress(0.1 * (axis + 1))
-    # Sorted by these codes, the points of any cell of any depth lie side by side.
-    order = np.argsort(codes, kind="stable")
-    keys, node = _sort_into_nodes(codes[order], order, progress.part(0.6, 1.0))
-    return Octree(corner, side, keys, node)
+
+    def __init__(
+        self,
+        branch: Branch,
+        records: np.ndarray,
+        codes: np.ndarray,
+        order: np.ndarray,
+        taken: Sequence[Taken] = (),
+    ) -> None:
+        self.branch, self._records = branch, records
+        finest = np.uint64(3 * (_CUBE_BITS - branch.depth - branch.depths))
+        cells = (codes >> finest & np.uint64(branch.cell_count - 1)).astype(np.uint16)
+        cells += np.uint16(branch.cell_count) * _depths(branch, codes, order, taken)
+        self.counts = np.bincount(cells, minlength=(branch.depths + 1) * branch.cell_count)
+        self.counts = self.counts.reshape(-1, branch.cell_count)
+        by_group = np.argsort(cells, kind="stable")
+        self._codes, self.order = codes[by_group], order[by_group]
+
+    @classmethod
+    def of(
+        cls,
+        branch: Branch,
+        records: np.ndarray,
+        cube: Cube,
+        taken: Sequence[Taken] = (),
+        progress: Progress = SILENT,
+    ) -> SortedPoints:
+        """Sort all of some points, which are in file order."""
+        codes = cube.codes(records, progress.part(0.0, 0.4))
+        order = np.argsort(codes, kind="stable").astype(np.min_scalar_type(len(codes)))
+        progress(0.7)
+        points = cls(branch, records, codes[order], order, taken)
+        progress(1.0)
+        return points
+
+    def records(self, groups: np.ndarray) -> np.ndarray:
+        """Return points in file order, given of which depths and branches."""
+        rows = np.concatenate([self.order[start:end] for start, end in runs(self.counts, groups)])
+        rows.sort()
+        return self._records[rows]
+
+    def below(self, cell: int) -> SortedPoints:
+        """Return what is left for a branch below."""
+        start = self.counts[:-1].sum() + self.counts[-1, :cell].sum()
+        end = start + self.counts[-1, cell]
+        branch = self.branch.below(cell)
+        return SortedPoints(branch, self._records, self._codes[start:end], self.order[start:end])
 
 
-def _sort_into_nodes(
-    codes: np.ndarray, order: np.ndarray, progress: Progress
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return the keys of the nodes, and the node of each point in file order.
+def most_in_memory(memory: int, record_length: int) -> int:
+    """Return how many points can be sorted in so many bytes; never less than a node may have."""
+    return max(memory // (record_length + _BYTES_TO_SORT), _LEAF_POINTS)
+
+
+class Taken:
+    """The cells of a depth of which points were taken, as bits.
 
     Parameters
     ----------
-    codes : numpy.ndarray of uint64
-        Codes of the points, ascending.
-    order : numpy.ndarray of intp
-        Place in the file of each of them.
-    progress : Progress
-        Receives progress.
+    depth : int
+        Counted from that of the branch.
     """
-    node = np.zeros(len(codes), dtype=np.int64)
-    keys: list[np.ndarray] = []
-    count = 0
-    for depth in range(_DEEPEST + 1):
-        inside = codes >> np.uint64(3 * (_CUBE_BITS - depth))
-        starts = starts_of(inside)
-        sizes = np.diff(starts, append=len(codes))
-        number = np.repeat(np.arange(len(starts)), sizes)
-        stays = np.repeat(sizes <= _LEAF_POINTS, sizes)
-        if depth == _DEEPEST:
-            stays[:] = True
-        if not stays.all():
-            # The first of each cell, in the order of the file.
-            cells = starts_of(codes >> np.uint64(3 * (_DEEPEST - depth)))
-            first = np.minimum.reduceat(order, cells)
-            stays |= order == np.repeat(first, np.diff(cells, append=len(codes)))
-            stays[~stays] = _is_small_child(codes[~stays], depth)
-        node[order[stays]] = count + number[stays]
-        keys.append(_keys(depth, inside[starts]))
-        count += len(starts)
-        codes, order = codes[~stays], order[~stays]
-        progress(1 - len(codes) / len(node))
-        if len(codes) == 0:
+
+    def __init__(self, depth: int) -> None:
+        bits = 3 * (depth + _GRID_BITS)
+        self._last, self._bits = np.uint64((1 << bits) - 1), np.zeros((1 << bits) // 8, np.uint8)
+
+    def add(self, cells: np.ndarray) -> np.ndarray:
+        """Add cells, none of them twice; return which were not there."""
+        cells = cells & self._last
+        byte, bit = (cells >> np.uint64(3)).astype(np.intp), (cells & np.uint64(7)).astype(np.uint8)
+        bit = np.left_shift(np.uint8(1), bit)
+        new = self._bits[byte] & bit == 0
+        np.bitwise_or.at(self._bits, byte[new], bit[new])
+        return new
+
+
+def _depths(
+    branch: Branch, codes: np.ndarray, order: np.ndarray, taken: Sequence[Taken]
+) -> np.ndarray:
+    """Return which depth of a branch takes each point, if no node ends before.
+
+    Returns
+    -------
+    numpy.ndarray of uint16, shape (n,)
+        Counted from that of the branch; the number of its depths for points that are left.
+    """
+    depths = np.full(len(codes), branch.depths, dtype=np.uint16)
+    left = np.arange(len(codes), dtype=order.dtype)
+    for depth in range(branch.depths):
+        cells = codes[left] >> np.uint64(3 * (_DEEPEST - branch.depth - depth))
+        starts = np.flatnonzero(np.concatenate(([True], cells[1:] != cells[:-1])))
+        sizes, rows = np.diff(starts, append=len(cells)), order[left]
+        # The first of each cell, in the order of the file.
+        takes = rows == np.repeat(np.minimum.reduceat(rows, starts), sizes)
+        if taken:
+            takes &= np.repeat(taken[depth].add(cells[starts]), sizes)
+        depths[left[takes]] = depth
+        left = left[~takes]
+        if not len(left):
             break
-    return np.concatenate(keys), node.astype(np.min_scalar_type(count))
+    return depths
 
 
-def _is_small_child(codes: np.ndarray, depth: int) -> np.ndarray:
-    """Return which of the points that are left would make but a small node one deeper."""
-    starts = starts_of(codes >> np.uint64(3 * (_CUBE_BITS - depth - 1)))
-    sizes = np.diff(starts, append=len(codes))
-    return np.repeat(sizes < _SMALL_NODE, sizes)
+def runs(counts: np.ndarray, groups: np.ndarray) -> np.ndarray:
+    """Return start and end of some groups among sorted points, those side by side as one."""
+    edges = np.flatnonzero(np.diff(groups.ravel(), prepend=False, append=False))
+    return np.concatenate(([0], np.cumsum(counts, dtype=np.int64)))[edges].reshape(-1, 2)
 
 
-def starts_of(ascending: np.ndarray) -> np.ndarray:
-    """Return where each run of equal values begins."""
-    return np.flatnonzero(np.concatenate(([True], ascending[1:] != ascending[:-1])))
-
-
-def _keys(depth: int, codes: np.ndarray) -> np.ndarray:
-    axes = [_gather(codes >> np.uint64(axis)) for axis in range(3)]
-    return np.column_stack([np.full(len(codes), depth), *axes]).astype(np.int32)
+def keys_of(nodes: Sequence[Branch]) -> np.ndarray:
+    """Return depth, x, y and z of nodes, an array of int32 of shape (n, 4)."""
+    depths, numbers = np.array(nodes, dtype=np.uint64).T
+    axes = [_gather(numbers >> np.uint64(axis)) for axis in range(3)]
+    return np.column_stack([depths, *axes]).astype(np.int32)
 
 
 # The steps that put two zero bits between the 21 bits of a number; known as Morton or z-order.
@@ -174,21 +330,3 @@ def _gather(numbers: np.ndarray) -> np.ndarray:
     for (shift, _), mask in zip(_SPREAD[::-1], masks):
         numbers = (numbers | (numbers >> np.uint64(shift))) & np.uint64(mask)
     return numbers
-
-
-def integers(records: np.ndarray, axis: int) -> np.ndarray:
-    """Return the x, y or z of records."""
-    return column(records, 4 * axis, "<i4")
-
-
-def extent(
-    coordinates: list[np.ndarray],
-    scale: tuple[float, float, float],
-    offset: tuple[float, float, float],
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return the smallest and the largest coordinates from their integers."""
-    factors, shifts = np.array(scale), np.array(offset)
-    return tuple(
-        np.array([pick(each) for each in coordinates]) * factors + shifts
-        for pick in (np.min, np.max)
-    )
