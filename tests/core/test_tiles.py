@@ -33,6 +33,8 @@ from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
+from bare_earth.algorithms.las import copc as copc_module
+from bare_earth.algorithms.las import copc_octree
 from bare_earth.algorithms.las import reading as reading_module
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
@@ -182,6 +184,26 @@ def test_tiles_larger_than_memory_give_the_same_bytes(many, out, monkeypatch):
     classify_tiles([many[0]], out, FAST, workers=workers)
     assert workers.at_once == 1 and len(asked) == 16 and min(asked) > 700
     assert bytes_of(out) == many[1]
+
+
+def test_copc_tiles_larger_than_their_share_of_memory_give_the_same_bytes(
+    many, out, tmp_path, monkeypatch
+):
+    monkeypatch.setattr(copc_octree, "_LEAF_POINTS", 400)
+    copc = TileOutput(format="copc.laz")
+    classify_tiles([many[0]], tmp_path / "much", FAST, output=copc)
+    waited, waiting_points = [], copc_module.WaitingPoints
+
+    def noting(branch, parts, room):
+        waited.append(room.most)
+        return waiting_points(branch, parts, room)
+
+    monkeypatch.setattr(copc_octree, "_BYTES_TO_SORT", 3000)
+    monkeypatch.setattr(copc_module, "WaitingPoints", noting)
+    workers = Threads(Resources(threads=2, memory=0.002))
+    classify_tiles([many[0]], out, FAST, workers=workers, output=copc)
+    assert len(waited) == 16 and 400 <= min(waited) < max(waited) < 700
+    assert bytes_of(out) == bytes_of(tmp_path / "much")
 
 
 def test_blocks_are_read_in_groups_that_fit_into_memory(six):
