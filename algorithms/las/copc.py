@@ -28,6 +28,7 @@ from .copc_format import (
     new_header,
     new_vlrs,
     record_length,
+    stated_cube,
     tell_of_format,
 )
 from .copc_octree import (
@@ -75,8 +76,8 @@ def write_copc(
         Told what COPC cannot hold.
     memory : int, optional
         About how many bytes this may take. Points that need more wait in a temporary file beside
-        the target, and the input is read twice. As many as all points need, if it is not given.
-        The output does not depend on it.
+        the target. As many as all points need, if it is not given. The output does not depend
+        on it.
 
     Raises
     ------
@@ -127,22 +128,31 @@ def _sorted(rewriting: EditedFile, statistics: Statistics, room: Room) -> Branch
             room.progress.move(0.3 * done)
         room.progress.move(0.3, 0.4)
         return SortedPoints.of(TOP, records, statistics.cube, progress=room.progress)
-    for old, _, done in rewriting.points():
-        statistics.add(old)
-        room.progress.move(0.15 * done)
-    room.cube = statistics.cube
-    return WaitingPoints(TOP, _parts(rewriting, room), room)
+    # If the header is right about where the points are, they are read but once.
+    room.cube = stated_cube(layout)
+    points = WaitingPoints(TOP, _parts(rewriting, room, (0.0, 0.3), statistics), room)
+    if statistics.cube != room.cube:
+        room.clear(statistics.cube)
+        points = WaitingPoints(TOP, _parts(rewriting, room, (0.3, 0.4)), room)
+    return points
 
 
-def _parts(rewriting: EditedFile, room: Room) -> Iterator[np.ndarray]:
-    """Yield the points as they are to be, not too many at a time."""
-    layout = rewriting.target
+def _parts(
+    rewriting: EditedFile,
+    room: Room,
+    share: tuple[float, float],
+    statistics: Statistics | None = None,
+) -> Iterator[np.ndarray]:
+    """Yield the points as they are to be, not too many at a time, and count them if wanted."""
+    layout, (start, end) = rewriting.target, share
     for old, classes, done in rewriting.points():
+        if statistics is not None:
+            statistics.add(old)
         for piece in parts_of(len(old), room.most_at_once):
             new = np.zeros((piece.stop - piece.start, record_length(layout)), dtype=np.uint8)
             convert(layout, old[piece], classes[piece], new)
             yield new
-        room.progress.move(0.15 + 0.25 * done)
+        room.progress.move(start + (end - start) * done)
 
 
 def _write_nodes(file: BinaryIO, laszip: Vlr, points: BranchPoints, room: Room) -> np.ndarray:
@@ -193,6 +203,6 @@ def _write_hierarchy(file: BinaryIO, entries: np.ndarray) -> None:
 
 def _info(cube: Cube, gps_time: tuple[float, float], evlr_start: int, size: int) -> Vlr:
     half = cube.side / 2
-    centre = cube.corner + half
+    centre = (each + half for each in cube.corner)
     data = struct.pack("<5d2Q2d88x", *centre, half, cube.spacing, evlr_start + 60, size, *gps_time)
     return new_vlr(COPC_INFO, data, "COPC info VLR")

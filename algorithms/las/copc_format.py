@@ -80,7 +80,18 @@ class Statistics(Tally):
         """
         (lowest, highest), scale = self.extent, self._layout.scale
         side = max(float((highest - lowest).max()), *scale)
-        return Cube(lowest, side, scale, self._layout.offset)
+        return Cube(tuple(lowest.tolist()), side, scale, self._layout.offset)
+
+
+def stated_cube(layout: LasFile) -> Cube:
+    """Return the cube of the octree, if the header of a file is right about its points."""
+    stated = Statistics(layout)
+    stated.lowest = stated.highest = np.zeros(3)
+    if layout.states_extent:
+        with np.errstate(over="ignore"):
+            corners = (np.array([layout.minimum, layout.maximum]) - layout.offset) / layout.scale
+        stated.lowest, stated.highest = np.rint(corners).clip(-(2.0**31), 2.0**31)
+    return stated.cube
 
 
 def record_length(layout: LasFile) -> int:

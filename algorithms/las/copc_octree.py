@@ -44,7 +44,7 @@ class Cube(NamedTuple):
 
     Attributes
     ----------
-    corner : numpy.ndarray of float64, shape (3,)
+    corner : tuple of float
         The smallest x, y and z.
     side : float
         Its edge.
@@ -52,7 +52,7 @@ class Cube(NamedTuple):
         What makes coordinates of the integers of the points.
     """
 
-    corner: np.ndarray
+    corner: tuple[float, float, float]
     side: float
     scale: tuple[float, float, float]
     offset: tuple[float, float, float]

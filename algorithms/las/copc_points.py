@@ -85,6 +85,11 @@ class Room:
         """The file, made when it is needed first."""
         return self._files.enter_context(tempfile.TemporaryFile(dir=self._folder))
 
+    def clear(self, cube: Cube) -> None:
+        """Forget the points that wait; those that follow are for another cube."""
+        self.file.truncate(0)
+        self.cube = cube
+
 
 class WaitingPoints:
     """The points of a branch in a temporary file.

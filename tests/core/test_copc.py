@@ -285,6 +285,36 @@ def test_the_same_bytes_of_other_formats_and_edits(las, few_in_memory, point_for
     assert laspy.read(little).header.point_count == changes.kept.sum() > 6000
 
 
+@pytest.mark.parametrize(
+    ("extent", "reads"),
+    [
+        (None, 1),
+        ((400_000.1, 399_999.9, 5_000_000.1, 4_999_999.9, 1.0, -1.0), 2),
+        ((-1.0, 1.0, -1.0, 1.0, -1.0, 1.0), 2),
+        ((400_400.0, 399_600.0, 5_000_400.0, 4_999_600.0, 1.7e308, -1.7e308), 2),
+        ((float("nan"),) * 6, 2),
+    ],
+)
+def test_a_header_may_be_wrong_about_the_extent(las, few_in_memory, monkeypatch, extent, reads):
+    source, begun = las.make(version=4, point_format=6, records=cloud_of(30_000)), []
+    if extent is None:
+        points = laspy.read(source)
+        extent = np.column_stack((points.xyz.max(axis=0), points.xyz.min(axis=0))).ravel()
+    data = bytearray(source.read_bytes())
+    struct.pack_into("<6d", data, 179, *extent)
+    source.write_bytes(data)
+
+    def noting(*arguments):
+        begun.append(arguments)
+        return read_records(*arguments)
+
+    monkeypatch.setattr(edits, "read_records", noting)
+    (much, little), heard = both_ways(las, source, Edits(classification=classes_of(30_000)))
+    assert much.read_bytes() == little.read_bytes()
+    assert len(begun) == 1 + reads
+    assert heard[1].fractions == sorted(heard[1].fractions)
+
+
 def test_memory_is_bounded_whatever_the_number_of_points(las, monkeypatch):
     monkeypatch.setattr(copc_octree, "_LEAF_POINTS", 20_000)
     monkeypatch.setattr(copc_points, "_MOST_AT_ONCE", 20_000)
