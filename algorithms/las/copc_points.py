@@ -144,7 +144,8 @@ class WaitingPoints:
                 continue
             for start, end in runs(counts, groups).tolist():
                 file.seek(begin + start * width)
-                file.readinto(rows[at : at + end - start].data)
+                data = file.read((end - start) * width)
+                rows[at : at + end - start] = np.frombuffer(data, np.uint8).reshape(-1, width)
                 at += end - start
             yield rows[np.argsort(column(rows, 0, "<u4")), _NUMBER:]
             self._room.progress(0.0)
@@ -160,7 +161,8 @@ class WaitingPoints:
 
     def _joined(self, groups: np.ndarray) -> Iterator[np.ndarray]:
         """Yield points in file order, those of several parts together where they are few."""
-        waiting, count = [], 0
+        waiting: list[np.ndarray] = []
+        count = 0
         for part in self._read(groups):
             if count + len(part) > self._room.most_at_once:
                 yield np.concatenate(waiting)
