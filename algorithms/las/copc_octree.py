@@ -182,6 +182,8 @@ class SortedPoints:
         The row of `records` of each of them.
     taken : sequence of Taken
         The cells of each depth of which points before these were taken.
+    progress : Progress
+        Receives progress.
 
     Attributes
     ----------
@@ -198,11 +200,12 @@ class SortedPoints:
         codes: np.ndarray,
         order: np.ndarray,
         taken: Sequence[Taken] = (),
+        progress: Progress = SILENT,
     ) -> None:
         self.branch, self._records = branch, records
         finest = np.uint64(3 * (_CUBE_BITS - branch.depth - branch.depths))
         cells = (codes >> finest & np.uint64(branch.cell_count - 1)).astype(np.uint16)
-        cells += np.uint16(branch.cell_count) * _depths(branch, codes, order, taken)
+        cells += np.uint16(branch.cell_count) * _depths(branch, codes, order, taken, progress)
         self.counts = np.bincount(cells, minlength=(branch.depths + 1) * branch.cell_count)
         self.counts = self.counts.reshape(-1, branch.cell_count)
         by_group = np.argsort(cells, kind="stable")
@@ -221,9 +224,8 @@ class SortedPoints:
         codes = cube.codes(records, progress.part(0.0, 0.4))
         order = np.argsort(codes, kind="stable").astype(np.min_scalar_type(len(codes)))
         progress(0.7)
-        points = cls(branch, records, codes[order], order, taken)
-        progress(1.0)
-        return points
+        codes = codes[order]
+        return cls(branch, records, codes, order, taken, progress.part(0.75, 1.0))
 
     def records(self, groups: np.ndarray) -> np.ndarray:
         """Return points in file order, given of which depths and branches."""
@@ -268,7 +270,11 @@ class Taken:
 
 
 def _depths(
-    branch: Branch, codes: np.ndarray, order: np.ndarray, taken: Sequence[Taken]
+    branch: Branch,
+    codes: np.ndarray,
+    order: np.ndarray,
+    taken: Sequence[Taken],
+    progress: Progress,
 ) -> np.ndarray:
     """Return which depth of a branch takes each point, if no node ends before.
 
@@ -289,6 +295,7 @@ def _depths(
             takes &= np.repeat(taken[depth].add(cells[starts]), sizes)
         depths[left[takes]] = depth
         left = left[~takes]
+        progress((depth + 1) / branch.depths)
         if not len(left):
             break
     return depths
