@@ -12,6 +12,7 @@ import numpy as np
 
 from ...grids.trend import Trend
 from .allowance import Allowance
+from .landforms import rocks
 from .objects import covered
 
 # How often regions join the ground that others have joined before.
@@ -32,9 +33,6 @@ _OPEN_SHARE = 0.45
 # What is as small (m2) and stands as high (m) as a house must have such a share of its border
 # gentle: on a slope one side of a roof may be level with the ground.
 _HOUSE_AREA, _HOUSE_HEIGHT, _HOUSE_SHARE = 400.0, 2.5, 0.5
-# Standard deviation in metres of the heights of a rock. A roof is lower, or level: a band of so
-# many metres holds more than a share of it.
-_ROCK_DEVIATION, _BAND, _BAND_SHARE = 5.0, 3.0, 1.0 / 3.0
 
 
 def gentle_regions(
@@ -102,13 +100,15 @@ def gentle_regions(
     open_ = np.bincount(number, _unsurveyed(surveyed).ravel()[cells], count)
     heights = filled.ravel()[cells]
     above = heights - surface.ravel()[cells]
-    rocks = _rocks(number, heights, above, area, allowance)
+    is_rock = rocks(number, heights, above, area, allowance.rock_area)
     above = np.bincount(number, above, count) * size**2 / area
     result = np.zeros((2, up.size), dtype=bool)
-    for which, grid in zip((_joined(borders, area, above, open_, rocks, allowance), rocks), result):
+    for which, grid in zip(
+        (_joined(borders, area, above, open_, is_rock, allowance), is_rock), result
+    ):
         grid[cells] = which[number]
-    terrain, rocks = result.reshape(2, *raised.shape)
-    return terrain, rocks
+    terrain, of_rocks = result.reshape(2, *raised.shape)
+    return terrain, of_rocks
 
 
 def _numbered(up: np.ndarray, one: np.ndarray, other: np.ndarray) -> tuple[np.ndarray, int]:
@@ -131,44 +131,6 @@ def _numbered(up: np.ndarray, one: np.ndarray, other: np.ndarray) -> tuple[np.nd
     graph = coo_matrix((np.ones(len(one), dtype=bool), pairs), shape=(len(cells),) * 2)
     count, region[cells] = connected_components(graph, directed=False)
     return region, count
-
-
-def _rocks(
-    region: np.ndarray,
-    heights: np.ndarray,
-    above: np.ndarray,
-    area: np.ndarray,
-    allowance: Allowance,
-) -> np.ndarray:
-    """Return which regions rise by themselves as no roof, bridge or wood does.
-
-    A roof or a bridge is level; a wood on a slope is as high above the ground all over.
-
-    Parameters
-    ----------
-    region : numpy.ndarray of int64, shape (n,)
-        Region of each raised cell.
-    heights, above : numpy.ndarray of float, shape (n,)
-        Height of each, and its height above the ground, in metres.
-    area : numpy.ndarray of float, shape (regions,)
-        Square metres.
-    allowance : Allowance
-        How large a rock is at least.
-
-    Returns
-    -------
-    numpy.ndarray of bool, shape (regions,)
-    """
-    is_rock = area >= allowance.rock_area
-    for values in (heights, above):
-        number = np.bincount(region, minlength=len(area))
-        apart = values - (np.bincount(region, values, len(area)) / number)[region]
-        is_rock &= np.bincount(region, apart**2, len(area)) >= _ROCK_DEVIATION**2 * number
-    for each in np.flatnonzero(is_rock):
-        z = np.sort(heights[region == each])
-        in_band = np.searchsorted(z, z + _BAND) - np.arange(len(z))
-        is_rock[each] = in_band.max() <= _BAND_SHARE * len(z)
-    return is_rock
 
 
 def _unsurveyed(surveyed: np.ndarray) -> np.ndarray:
