@@ -46,9 +46,9 @@ class Allowance:
     border_height : float
         But not if it stands so many metres above the ground, on average: the border of the survey
         cuts buildings.
-    rock_area : float
-        A region of so many square metres or more is terrain as well if it rises by itself as no
-        building does.
+    rock_area, ramp_area : float
+        A region of so many square metres or more is terrain as well if it has the shape of a rock,
+        or of a ramp.
     follows_slopes : bool
         Whether a step between cells is no edge where those before or after it are as high: a
         steep slope, or a cliff, of which points lie on the face; or where the terrain at large
@@ -75,6 +75,7 @@ class Allowance:
     border_area: float = 800.0
     border_height: float = 4.5
     rock_area: float = 200.0
+    ramp_area: float = 100.0
     rise_counts: bool = True
     follows_slopes: bool = True
     slopes_taken: int = 2
@@ -92,6 +93,7 @@ CLASSIC = Allowance(
     usual_window=1e9,
     border_area=np.inf,
     rock_area=np.inf,
+    ramp_area=np.inf,
     rise_counts=False,
     follows_slopes=False,
     slopes_taken=1,

@@ -12,7 +12,7 @@ import numpy as np
 
 from ...grids.trend import Trend
 from .allowance import Allowance
-from .landforms import rocks
+from .landforms import ramps, rocks
 from .objects import covered
 
 # How often regions join the ground that others have joined before.
@@ -44,11 +44,11 @@ def gentle_regions(
     size: float,
     allowance: Allowance,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Find the raised cells whose region passes into the ground without an edge, or is a rock.
+    """Find the raised cells whose region passes into the ground without an edge.
 
     A region is what hangs together without a step. Its border is gentle where it touches the
-    ground without a step, and sharp where it drops to anything. A rock rises so much by itself
-    that it is no building, whatever its border.
+    ground without a step, and sharp where it drops to anything. Rocks and ramps are ground
+    whatever their border.
 
     Parameters
     ----------
@@ -69,8 +69,8 @@ def gentle_regions(
 
     Returns
     -------
-    terrain, rocks : numpy.ndarray of bool, shape (rows, columns)
-        All cells that are ground after all, and those of them that are rocks.
+    terrain, landforms : numpy.ndarray of bool, shape (rows, columns)
+        All cells that are ground after all, and those of them that are rocks or ramps.
     """
     allowance = allowance.for_cells(size)
     surveyed = covered(known)
@@ -100,15 +100,19 @@ def gentle_regions(
     open_ = np.bincount(number, _unsurveyed(surveyed).ravel()[cells], count)
     heights = filled.ravel()[cells]
     above = heights - surface.ravel()[cells]
-    is_rock = rocks(number, heights, above, area, allowance.rock_area)
+    foot = (
+        sum(np.bincount(flat[0][flat[1] == -1], minlength=count) for flat, _, _ in borders) * size
+    )
+    places = tuple(size * each for each in np.divmod(cells, raised.shape[1]))
+    landforms = rocks(number, heights, above, area, allowance.rock_area)
+    landforms |= ramps(number, places, above, area, foot, allowance.ramp_area)
     above = np.bincount(number, above, count) * size**2 / area
+    joined = _joined(borders, area, above, open_, landforms, allowance)
     result = np.zeros((2, up.size), dtype=bool)
-    for which, grid in zip(
-        (_joined(borders, area, above, open_, is_rock, allowance), is_rock), result
-    ):
+    for which, grid in zip((joined, landforms), result):
         grid[cells] = which[number]
-    terrain, of_rocks = result.reshape(2, *raised.shape)
-    return terrain, of_rocks
+    terrain, landforms = result.reshape(2, *raised.shape)
+    return terrain, landforms
 
 
 def _numbered(up: np.ndarray, one: np.ndarray, other: np.ndarray) -> tuple[np.ndarray, int]:
@@ -161,7 +165,7 @@ def _joined(
     area: np.ndarray,
     above: np.ndarray,
     open_: np.ndarray,
-    rocks: np.ndarray,
+    landforms: np.ndarray,
     allowance: Allowance,
 ) -> np.ndarray:
     """Return which regions pass into the ground, or into others that do.
@@ -176,7 +180,7 @@ def _joined(
         Mean height above the ground in metres.
     open_ : numpy.ndarray of float, shape (regions,)
         Sides of cells at the border of the survey.
-    rocks : numpy.ndarray of bool, shape (regions,)
+    landforms : numpy.ndarray of bool, shape (regions,)
         Which are ground whatever their border.
     allowance : Allowance
         Which share of the border must be gentle.
@@ -192,7 +196,7 @@ def _joined(
     open_ = np.where(is_open, open_, 0.0)
     is_house = (area < _HOUSE_AREA) & (above > _HOUSE_HEIGHT)
     share = np.where(is_house, max(_HOUSE_SHARE, allowance.gentle_share), allowance.gentle_share)
-    joined = rocks.copy()
+    joined = landforms.copy()
     for _ in range(_JOINING_PASSES):
         ground = np.append(joined, True)  # the last one is what is not raised
         level, rising = np.zeros((2, count))
