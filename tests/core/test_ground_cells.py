@@ -39,6 +39,16 @@ def test_a_platform_with_walls_on_three_sides_and_a_ramp_on_the_fourth_is_ground
     assert not _ground(heights, gentle_share=1.1).all()
 
 
+@pytest.mark.parametrize("width, is_ground", [(12.0, False), (22.0, True)])
+def test_the_wider_a_plateau_the_less_of_its_border_a_ramp_has_to_be(width, is_ground):
+    rows, columns = np.indices((160, 160)) - 80.0
+    plateau = (np.abs(rows) < width / 2) & (np.abs(columns) < width / 2)
+    ramp = 4.0 * np.clip((width / 2 + 14 - rows) / 14.0, 0.0, 1.0)
+    ramp[(np.abs(columns) > 0.4 * width) | (rows < 0)] = 0.0
+    heights = np.where(plateau, 4.0, ramp)
+    assert _ground(heights, window=60.0)[plateau].all() == is_ground
+
+
 def test_the_uppermost_terrace_in_a_corner_of_the_survey_is_ground():
     rows, columns = np.indices((120, 120))
     heights = 4.0 * (rows + columns < 60)

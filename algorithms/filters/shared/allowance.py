@@ -29,8 +29,9 @@ class Allowance:
     gentle_area : float
         Smallest region, in square metres, that may be terrain for that reason.
     wide_share, wide_area : float
-        The share that suffices for regions of so many square metres or more: a plateau that a
-        ramp joins with the ground. No building is as wide.
+        The share level with the ground that suffices for regions of so many square metres or more:
+        a plateau that a ramp joins with the ground. From the area of a house on, the share falls
+        to this one with the logarithm of the area.
     usual_window : float
         Radius in metres of windows up to which all of this holds; larger ones are for halls.
     hall_height : float

@@ -196,6 +196,11 @@ def _joined(
     open_ = np.where(is_open, open_, 0.0)
     is_house = (area < _HOUSE_AREA) & (above > _HOUSE_HEIGHT)
     share = np.where(is_house, max(_HOUSE_SHARE, allowance.gentle_share), allowance.gentle_share)
+    level_share = np.interp(
+        np.log(area),
+        np.log((_HOUSE_AREA, allowance.wide_area)),
+        (allowance.gentle_share, allowance.wide_share),
+    )
     joined = landforms.copy()
     for _ in range(_JOINING_PASSES):
         ground = np.append(joined, True)  # the last one is what is not raised
@@ -207,7 +212,7 @@ def _joined(
         bounded = gentle + sharp
         new = gentle >= share * bounded
         # A ramp is level with the ground: the side of a roof rises to the next one.
-        new |= (level >= allowance.wide_share * bounded) & (area >= allowance.wide_area)
+        new |= (level >= level_share * bounded) & (area >= _HOUSE_AREA)
         new &= gentle > 0
         new |= open_ > _OPEN_SHARE * (bounded + open_)
         new &= area >= allowance.gentle_area
