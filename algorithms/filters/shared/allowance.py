@@ -29,8 +29,9 @@ class Allowance:
     gentle_area : float
         Smallest region, in square metres, that may be terrain for that reason.
     wide_share, wide_area : float
-        The share that suffices for regions of so many square metres or more: a plateau that a
-        ramp joins with the ground. No building is as wide.
+        The share level with the ground that suffices for regions of so many square metres or more:
+        a plateau that a ramp joins with the ground. From the area of a house on, the share falls
+        to this one with the logarithm of the area.
     usual_window : float
         Radius in metres of windows up to which all of this holds; larger ones are for halls.
     hall_height : float
@@ -46,9 +47,9 @@ class Allowance:
     border_height : float
         But not if it stands so many metres above the ground, on average: the border of the survey
         cuts buildings.
-    rock_area : float
-        A region of so many square metres or more is terrain as well if it rises by itself as no
-        building does.
+    rock_area, ramp_area : float
+        A region of so many square metres or more is terrain as well if it has the shape of a rock,
+        or of a ramp.
     follows_slopes : bool
         Whether a step between cells is no edge where those before or after it are as high: a
         steep slope, or a cliff, of which points lie on the face; or where the terrain at large
@@ -75,6 +76,7 @@ class Allowance:
     border_area: float = 800.0
     border_height: float = 4.5
     rock_area: float = 200.0
+    ramp_area: float = 100.0
     rise_counts: bool = True
     follows_slopes: bool = True
     slopes_taken: int = 2
@@ -92,6 +94,7 @@ CLASSIC = Allowance(
     usual_window=1e9,
     border_area=np.inf,
     rock_area=np.inf,
+    ramp_area=np.inf,
     rise_counts=False,
     follows_slopes=False,
     slopes_taken=1,

@@ -12,6 +12,7 @@ import numpy as np
 
 from ...grids.trend import Trend
 from .allowance import Allowance
+from .landforms import ramps, rocks
 from .objects import covered
 
 # How often regions join the ground that others have joined before.
@@ -32,9 +33,6 @@ _OPEN_SHARE = 0.45
 # What is as small (m2) and stands as high (m) as a house must have such a share of its border
 # gentle: on a slope one side of a roof may be level with the ground.
 _HOUSE_AREA, _HOUSE_HEIGHT, _HOUSE_SHARE = 400.0, 2.5, 0.5
-# Standard deviation in metres of the heights of a rock. A roof is lower, or level: a band of so
-# many metres holds more than a share of it.
-_ROCK_DEVIATION, _BAND, _BAND_SHARE = 5.0, 3.0, 1.0 / 3.0
 
 
 def gentle_regions(
@@ -46,11 +44,11 @@ def gentle_regions(
     size: float,
     allowance: Allowance,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Find the raised cells whose region passes into the ground without an edge, or is a rock.
+    """Find the raised cells whose region passes into the ground without an edge.
 
     A region is what hangs together without a step. Its border is gentle where it touches the
-    ground without a step, and sharp where it drops to anything. A rock rises so much by itself
-    that it is no building, whatever its border.
+    ground without a step, and sharp where it drops to anything. Rocks and ramps are ground
+    whatever their border.
 
     Parameters
     ----------
@@ -71,8 +69,8 @@ def gentle_regions(
 
     Returns
     -------
-    terrain, rocks : numpy.ndarray of bool, shape (rows, columns)
-        All cells that are ground after all, and those of them that are rocks.
+    terrain, landforms : numpy.ndarray of bool, shape (rows, columns)
+        All cells that are ground after all, and those of them that are rocks or ramps.
     """
     allowance = allowance.for_cells(size)
     surveyed = covered(known)
@@ -102,13 +100,19 @@ def gentle_regions(
     open_ = np.bincount(number, _unsurveyed(surveyed).ravel()[cells], count)
     heights = filled.ravel()[cells]
     above = heights - surface.ravel()[cells]
-    rocks = _rocks(number, heights, above, area, allowance)
+    foot = (
+        sum(np.bincount(flat[0][flat[1] == -1], minlength=count) for flat, _, _ in borders) * size
+    )
+    places = tuple(size * each for each in np.divmod(cells, raised.shape[1]))
+    landforms = rocks(number, heights, above, area, allowance.rock_area)
+    landforms |= ramps(number, places, above, area, foot, allowance.ramp_area)
     above = np.bincount(number, above, count) * size**2 / area
+    joined = _joined(borders, area, above, open_, landforms, allowance)
     result = np.zeros((2, up.size), dtype=bool)
-    for which, grid in zip((_joined(borders, area, above, open_, rocks, allowance), rocks), result):
+    for which, grid in zip((joined, landforms), result):
         grid[cells] = which[number]
-    terrain, rocks = result.reshape(2, *raised.shape)
-    return terrain, rocks
+    terrain, landforms = result.reshape(2, *raised.shape)
+    return terrain, landforms
 
 
 def _numbered(up: np.ndarray, one: np.ndarray, other: np.ndarray) -> tuple[np.ndarray, int]:
@@ -131,44 +135,6 @@ def _numbered(up: np.ndarray, one: np.ndarray, other: np.ndarray) -> tuple[np.nd
     graph = coo_matrix((np.ones(len(one), dtype=bool), pairs), shape=(len(cells),) * 2)
     count, region[cells] = connected_components(graph, directed=False)
     return region, count
-
-
-def _rocks(
-    region: np.ndarray,
-    heights: np.ndarray,
-    above: np.ndarray,
-    area: np.ndarray,
-    allowance: Allowance,
-) -> np.ndarray:
-    """Return which regions rise by themselves as no roof, bridge or wood does.
-
-    A roof or a bridge is level; a wood on a slope is as high above the ground all over.
-
-    Parameters
-    ----------
-    region : numpy.ndarray of int64, shape (n,)
-        Region of each raised cell.
-    heights, above : numpy.ndarray of float, shape (n,)
-        Height of each, and its height above the ground, in metres.
-    area : numpy.ndarray of float, shape (regions,)
-        Square metres.
-    allowance : Allowance
-        How large a rock is at least.
-
-    Returns
-    -------
-    numpy.ndarray of bool, shape (regions,)
-    """
-    is_rock = area >= allowance.rock_area
-    for values in (heights, above):
-        number = np.bincount(region, minlength=len(area))
-        apart = values - (np.bincount(region, values, len(area)) / number)[region]
-        is_rock &= np.bincount(region, apart**2, len(area)) >= _ROCK_DEVIATION**2 * number
-    for each in np.flatnonzero(is_rock):
-        z = np.sort(heights[region == each])
-        in_band = np.searchsorted(z, z + _BAND) - np.arange(len(z))
-        is_rock[each] = in_band.max() <= _BAND_SHARE * len(z)
-    return is_rock
 
 
 def _unsurveyed(surveyed: np.ndarray) -> np.ndarray:
@@ -199,7 +165,7 @@ def _joined(
     area: np.ndarray,
     above: np.ndarray,
     open_: np.ndarray,
-    rocks: np.ndarray,
+    landforms: np.ndarray,
     allowance: Allowance,
 ) -> np.ndarray:
     """Return which regions pass into the ground, or into others that do.
@@ -214,7 +180,7 @@ def _joined(
         Mean height above the ground in metres.
     open_ : numpy.ndarray of float, shape (regions,)
         Sides of cells at the border of the survey.
-    rocks : numpy.ndarray of bool, shape (regions,)
+    landforms : numpy.ndarray of bool, shape (regions,)
         Which are ground whatever their border.
     allowance : Allowance
         Which share of the border must be gentle.
@@ -230,7 +196,12 @@ def _joined(
     open_ = np.where(is_open, open_, 0.0)
     is_house = (area < _HOUSE_AREA) & (above > _HOUSE_HEIGHT)
     share = np.where(is_house, max(_HOUSE_SHARE, allowance.gentle_share), allowance.gentle_share)
-    joined = rocks.copy()
+    level_share = np.interp(
+        np.log(area),
+        np.log((_HOUSE_AREA, allowance.wide_area)),
+        (allowance.gentle_share, allowance.wide_share),
+    )
+    joined = landforms.copy()
     for _ in range(_JOINING_PASSES):
         ground = np.append(joined, True)  # the last one is what is not raised
         level, rising = np.zeros((2, count))
@@ -241,7 +212,7 @@ def _joined(
         bounded = gentle + sharp
         new = gentle >= share * bounded
         # A ramp is level with the ground: the side of a roof rises to the next one.
-        new |= (level >= allowance.wide_share * bounded) & (area >= allowance.wide_area)
+        new |= (level >= level_share * bounded) & (area >= _HOUSE_AREA)
         new &= gentle > 0
         new |= open_ > _OPEN_SHARE * (bounded + open_)
         new &= area >= allowance.gentle_area

@@ -105,8 +105,8 @@ def ground_cells(
     surface = inpaint(np.where(known & ~raised, heights, np.nan), first=first)
     progress(0.85)
     trend = Trend(filled, size, first) if allowance.follows_slopes else None
-    gentle, rocks = gentle_regions(filled, known, raised, surface, trend, size, allowance)
-    raised &= ~rocks & (objects | ~gentle)
+    gentle, landforms = gentle_regions(filled, known, raised, surface, trend, size, allowance)
+    raised &= ~landforms & (objects | ~gentle)
     progress(1.0)
     return known & ~raised
 
