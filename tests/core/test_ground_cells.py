@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from bare_earth.algorithms.filters.shared.allowance import Allowance
+from bare_earth.algorithms.filters.shared.gentle_regions import gentle_regions
 from bare_earth.algorithms.filters.shared.ground_cells import ground_cells
 
 
@@ -39,7 +40,7 @@ def test_a_platform_with_walls_on_three_sides_and_a_ramp_on_the_fourth_is_ground
     assert not _ground(heights, gentle_share=1.1).all()
 
 
-@pytest.mark.parametrize("width, is_ground", [(12.0, False), (22.0, True)])
+@pytest.mark.parametrize("width, is_ground", [(12.0, False), (30.0, True)])
 def test_the_wider_a_plateau_the_less_of_its_border_a_ramp_has_to_be(width, is_ground):
     rows, columns = np.indices((160, 160)) - 80.0
     plateau = (np.abs(rows) < width / 2) & (np.abs(columns) < width / 2)
@@ -95,6 +96,19 @@ def test_a_dam_is_ground_where_cells_are_wide_and_some_of_its_sides_empty():
     none = np.zeros(dam.shape, dtype=bool)
     ground = ground_cells(dam, 2.4, none, 60.0)
     assert ground[np.isfinite(dam)].all()
+
+
+@pytest.mark.parametrize("has_points, is_terrain", [(True, True), (False, False)])
+def test_what_fills_a_gap_round_a_roof_joins_it_with_no_ground(has_points, is_terrain):
+    rows, columns = np.indices((60, 60)) - 30.0
+    farthest = np.maximum(np.abs(rows), np.abs(columns))
+    roof = farthest < 11
+    filled = 3.0 * np.clip((16.0 - farthest) / 6.0, 0.0, 1.0)
+    known = roof | (farthest >= 16) | has_points
+    every = np.ones(known.shape, dtype=bool)
+    raised, surface = filled > 0.6, np.zeros(filled.shape)
+    terrain, _ = gentle_regions(filled, known, every, raised, surface, None, 2.0, Allowance())
+    assert terrain[roof].all() == is_terrain and terrain[roof].any() == is_terrain
 
 
 def test_a_plateau_goes_as_a_whole_where_a_window_cuts_off_part_of_it():

@@ -69,7 +69,7 @@ class Allowance:
     gentle_share: float = 0.35
     gentle_area: float = 20.0
     wide_share: float = 0.08
-    wide_area: float = 2000.0
+    wide_area: float = 3000.0
     usual_window: float = 24.0
     hall_height: float = 2.5
     hall_per_slope: float = 0.1

@@ -13,7 +13,6 @@ import numpy as np
 from ...grids.trend import Trend
 from .allowance import Allowance
 from .landforms import ramps, rocks
-from .objects import covered
 
 # How often regions join the ground that others have joined before.
 _JOINING_PASSES = 4
@@ -38,6 +37,7 @@ _HOUSE_AREA, _HOUSE_HEIGHT, _HOUSE_SHARE = 400.0, 2.5, 0.5
 def gentle_regions(
     filled: np.ndarray,
     known: np.ndarray,
+    surveyed: np.ndarray,
     raised: np.ndarray,
     surface: np.ndarray,
     trend: Trend | None,
@@ -56,6 +56,8 @@ def gentle_regions(
         Heights in metres without NaN.
     known : numpy.ndarray of bool, shape (rows, columns)
         Cells with a point.
+    surveyed : numpy.ndarray of bool, shape (rows, columns)
+        These and the small gaps between them.
     raised : numpy.ndarray of bool, shape (rows, columns)
         Cells that are judged.
     surface : numpy.ndarray of float, shape (rows, columns)
@@ -73,7 +75,7 @@ def gentle_regions(
         All cells that are ground after all, and those of them that are rocks or ramps.
     """
     allowance = allowance.for_cells(size)
-    surveyed = covered(known)
+    seen = np.ones(known.size, dtype=bool)
     if allowance.judges_gaps:
         # A gap in a roof is not the ground beside it.
         raised = raised | (~known & (filled - surface > allowance.gentle_step))
@@ -81,14 +83,15 @@ def gentle_regions(
     sides = [_steps(filled, known, raised, smooth, trend, axis, size, allowance) for axis in (0, 1)]
     one, other, sign = (np.concatenate(each) for each in zip(*sides))
     if allowance.judges_gaps:
-        # What fills a gap in the survey slopes down gently from any roof.
+        # What fills a gap in the survey, or beside a wall, slopes down gently from any roof.
         both = surveyed.ravel()[one] & surveyed.ravel()[other]
         one, other, sign = one[both], other[both], sign[both]
+        seen = known.ravel()
     up = raised.ravel()
     inside = (sign == 0) & up[one] & up[other]
     region, count = _numbered(up, one[inside], other[inside])
     borders = [
-        _border(region, up, from_, to, (sign == 0, drop, rise))
+        _border(region, up, from_, to, ((sign == 0) & seen[from_], drop, rise))
         for from_, to, drop, rise in (
             (one, other, sign == -1, sign == 1),
             (other, one, sign == 1, sign == -1),
