@@ -33,9 +33,6 @@ from .seeds import seeds_of_one_grid, seeds_of_two_grids
 # Side in metres of the cells whose lowest points may become vertices of the TIN, if points are not
 # farther apart than that, and of those where points are so dense that their noise is measured.
 _CELL, _DENSE_CELL = 1.0, 0.5
-# Metres between points up to which each cell holds so many that it hardly matters where it begins,
-# that its lowest is hardly ever a plant, and that no break is lost between them.
-_CROWDED = 0.36
 # Metres between points: less is as good as that.
 _LEAST_SPACING = 0.01
 # Metres beyond which points do not matter: so many times the largest building, but at least this.
@@ -312,13 +309,14 @@ def _seeds(
     if parameters.preset == CLASSIC:
         return seeds_of_one_grid(survey, size, progress, CLASSIC_ALLOWANCE)
     part = progress.part(0.0, 0.8)
-    if spacing > _CROWDED:
-        seeds = seeds_of_two_grids(points, survey, size, part)
-        return checked_seeds(points, *seeds, survey.cells, survey.spacing)
-    seeds = seeds_of_one_grid(survey, size, part)
-    if spacing > NOISE_SPACING:
-        return seeds
-    return checked_seeds(points, *seeds, survey.cells, survey.spacing, has_gaps=False)
+    # Cells hold so many points then that it hardly matters where they begin.
+    is_dense = spacing <= NOISE_SPACING
+    seeds = (
+        seeds_of_one_grid(survey, size, part)
+        if is_dense
+        else seeds_of_two_grids(points, survey, size, part)
+    )
+    return checked_seeds(points, *seeds, survey.cells, survey.spacing, has_gaps=not is_dense)
 
 
 def _in_words(parameters: TinDensification, spacing: float, is_dense: bool) -> str:
