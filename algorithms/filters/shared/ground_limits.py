@@ -20,8 +20,10 @@ _SLOPE_SMOOTHING, _MOVES, _STEEPEST = 1.5, 2, 1.5
 _FACET_SMOOTHING = 0.7
 # Metres between points from which on, and down to which, the tolerance on slopes follows them.
 _SPARSE, _DENSE = 1.0, 0.25
-# Metres between points up to which their noise is to be measured: the lowest of a cell is biased.
-NOISE_SPACING = 0.17
+# Metres between points up to which their noise is measured: the lowest of many in a cell is biased.
+_NOISE_SPACING = 0.36
+# Metres between points up to which narrow cells hold enough of them, and show breaks by themselves.
+DENSE_SPACING = 0.17
 # Metres of curvature over a cell from which on there is a break, and what each more adds.
 _BREAK, _BREAK_FACTOR = 0.25, 1.5
 # Metres round the lowest points within which noise is measured, the points that a cell must have
@@ -76,14 +78,15 @@ def ground_limits(
     cells: Cells,
     spacing: float,
     tolerance: Tolerance,
-    measures_noise: bool = False,
 ) -> np.ndarray:
     """Return between which heights points are ground.
 
     Each vertex is moved to the middle of its cell along the slope: the lowest point of a cell lies
     on its lower side. Where points are dense, the surface between them is known better, and the
     tolerance on slopes is less in proportion. At breaks the surface of cells is too smooth, and
-    more is tolerated.
+    more is tolerated. Where many points lie in a cell, the lowest lies far below the ground. Their
+    noise is measured there, the surface is laid through its middle, and the tolerance above
+    follows the noise.
 
     Parameters
     ----------
@@ -97,9 +100,6 @@ def ground_limits(
         Usual distance between points in metres.
     tolerance : Tolerance
         How far from the surface points are ground.
-    measures_noise : bool
-        Whether the noise of the points is measured, and the surface laid through its middle: the
-        lowest of many points lies far below the ground. The tolerance above follows the noise then.
 
     Returns
     -------
@@ -108,7 +108,7 @@ def ground_limits(
     """
     surface, slopes = _centred(points, vertices, cells)
     above = tolerance.above
-    if measures_noise:
+    if spacing <= _NOISE_SPACING:
         rises = _rises(points, cells, surface, slopes)
         level, noise = _middle(rises, cells.index, surface.size)
         surface = surface + level.reshape(surface.shape)

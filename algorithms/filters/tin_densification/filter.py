@@ -24,7 +24,7 @@ from ...grids.model_key_points import ModelKeyPoints, model_key_points
 from ..shared.allowance import CLASSIC as CLASSIC_ALLOWANCE
 from ..shared.breaks import checked_seeds
 from ..shared.doubts import tell_of_outliers
-from ..shared.ground_limits import NOISE_SPACING, Tolerance, ground_limits, plain_limits
+from ..shared.ground_limits import DENSE_SPACING, Tolerance, ground_limits, plain_limits
 from ..shared.lowest_points import LowestPoints
 from ..shared.near_surface import near_surface
 from .densification import DensificationRules, densified, with_lower
@@ -265,7 +265,7 @@ def classify(
     resolved = parameters.resolve(points)
     is_classic = parameters.preset == CLASSIC
     apart = spacing(points, _LEAST_SPACING)
-    is_dense = apart <= NOISE_SPACING and not is_classic
+    is_dense = apart <= DENSE_SPACING and not is_classic
     if resolved != parameters or is_dense:
         progress.choice(_in_words(resolved, apart, is_dense))
     size = _DENSE_CELL if is_dense else _CELL if is_classic else max(_CELL, apart)
@@ -292,7 +292,7 @@ def classify(
     if is_classic:
         limits = plain_limits(points, vertices, cells, tolerance)
     else:
-        limits = ground_limits(points, vertices, cells, apart, tolerance, is_dense)
+        limits = ground_limits(points, vertices, cells, apart, tolerance)
     found = near_surface(points, cells, limits, progress.part(0.8, 0.95))
     return _key_points(points, found, resolved, progress.part(0.95, 1.0))
 
@@ -310,7 +310,7 @@ def _seeds(
         return seeds_of_one_grid(survey, size, progress, CLASSIC_ALLOWANCE)
     part = progress.part(0.0, 0.8)
     # Cells hold so many points then that it hardly matters where they begin.
-    is_dense = spacing <= NOISE_SPACING
+    is_dense = spacing <= DENSE_SPACING
     seeds = (
         seeds_of_one_grid(survey, size, part)
         if is_dense
