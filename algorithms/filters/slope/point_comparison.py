@@ -12,10 +12,8 @@ import numpy as np
 
 from ...grids.cells import lower_at
 from .cell_bounds import CellBounds
-from .sorted_points import EMPTY, ROUNDING, Table
+from .sorted_points import EMPTY, OFFSETS_A_STEP, ROUNDING, Table
 
-# Offsets of cells that are looked up at a time.
-_OFFSETS_A_STEP = 8
 # If more than so many of all cells divided by the radius in cells are asked for, it costs less to
 # find what is lowest in the discs of all cells.
 _MANY = 0.5
@@ -116,54 +114,14 @@ class PointComparison:
         self._eroded[at] = best
 
     def _lower(self, table: Table, at: np.ndarray, best: np.ndarray, sign: int = 1) -> None:
-        """Lower `best` (k,) to the least value of a neighbour.
-
-        Parameters
-        ----------
-        table : Table
-            The values.
-        at : numpy.ndarray of int, shape (k,)
-            For which points, in ascending order.
-        best : numpy.ndarray of float, shape (k,)
-            What is known to be the least.
-        sign : int
-            1 if the values are heights, -1 if they are heights negated.
-        """
+        """Lower `best` (k,) to the least value of a neighbour; see `SortedPoints.lower`."""
         if not len(at):
             return
-        points = self._points
-        cell, offsets = points.cell[at], points.offsets
+        points, offsets = self._points, self._points.offsets
         if len(at) * points.inner > _MANY * len(table.lowest):
             offsets = points.rim
-            np.minimum(best, points.lowest_within(table).take(cell), out=best)
-        limit = sign * points.steps(sign * best)
-        for group in range(0, len(offsets), _OFFSETS_A_STEP):
-            self._alive()
-            hits, others = [], []
-            for offset in offsets[group : group + _OFFSETS_A_STEP]:
-                other = cell + offset
-                hit = np.flatnonzero(table.lowest.take(other) <= limit)
-                hits.append(hit)
-                others.append(other[hit])
-            which, other = np.concatenate(hits), np.concatenate(others)
-            neighbour, last = table.start[other], table.start[other + 1]
-            # From the lowest value of the other cell upwards, until one lies within the radius.
-            while len(which):
-                value = table.values[neighbour]
-                left = np.flatnonzero(value < best[which])
-                which, neighbour, last, value = (
-                    each[left] for each in (which, neighbour, last, value)
-                )
-                near = points.distance(
-                    at[which], neighbour if table.point is None else table.point[neighbour]
-                )
-                near = near <= self._rule.radius
-                lower = which[near]
-                lower_at(best, lower, value[near])
-                limit[lower] = sign * points.steps(sign * best[lower])
-                neighbour = neighbour + 1
-                left = np.flatnonzero(~near & (neighbour < last))
-                which, neighbour, last = which[left], neighbour[left], last[left]
+            np.minimum(best, points.lowest_within(table).take(points.cell[at]), out=best)
+        points.lower(table, at, best, offsets, sign, self._alive)
 
     def _compare(
         self, at: np.ndarray, asked: np.ndarray, found: np.ndarray
@@ -224,9 +182,9 @@ class PointComparison:
         most = (np.floor((own - self._zero) / points.step) + 1.0).astype(np.int16)
         allowed -= ROUNDING
         left = np.arange(len(point))
-        for group in range(0, len(points.offsets), _OFFSETS_A_STEP):
+        for group in range(0, len(points.offsets), OFFSETS_A_STEP):
             self._alive()
-            part = slice(group, group + _OFFSETS_A_STEP)
+            part = slice(group, group + OFFSETS_A_STEP)
             left = left[~sure[left]]
             cell = points.cell[point[left], None] + points.offsets[part]
             hit = np.flatnonzero(least.take(cell) <= most[left, None] - fewest[part])

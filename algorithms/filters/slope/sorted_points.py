@@ -7,17 +7,18 @@ bytes a cell, and its morphology is fast.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Callable, NamedTuple
 
 import numpy as np
 
 from ...core.points import Points
+from ...grids.cells import Cells, lower_at
 from ...grids.morphology import erosion, within_square
-from .neighbourhood import cell_size
 
-# So small that a cell holds few points, unless a disc or the plane had too many of them.
-_POINTS_A_CELL = 1.0
-_MOST_CELLS_A_RADIUS = 48
+# So small that a cell holds a point, unless a disc or the plane had too many of them.
+_MOST_CELLS_A_RADIUS, _MOST_CELLS_A_POINT = 48, 4
+# Offsets of cells that are looked up at a time.
+OFFSETS_A_STEP = 8
 # Metres of a step, unless that makes more than fit into 16 bits with room for sums of two.
 _STEP, MOST_STEPS = 0.01, 32_000
 # The step of cells without points.
@@ -86,7 +87,7 @@ class SortedPoints:
 
     def __init__(self, points: Points, radius: float) -> None:
         self._radius = radius
-        self.size = cell_size(points, radius, _POINTS_A_CELL, _MOST_CELLS_A_RADIUS)
+        self.size = _cell_size(points, radius)
         self.inner = radius / self.size - math.sqrt(2.0) - ROUNDING
         self._reach = math.ceil(radius / self.size + ROUNDING)
         self._sort(points)
@@ -137,11 +138,6 @@ class SortedPoints:
     def lowest_within(self, table: Table) -> np.ndarray:
         """Return the least value in the cells that are within the radius from end to end.
 
-        Parameters
-        ----------
-        table : Table
-            The values.
-
         Returns
         -------
         numpy.ndarray of float, shape (rows, columns)
@@ -151,6 +147,61 @@ class SortedPoints:
         occupied = np.flatnonzero(table.lowest != EMPTY)
         least.ravel()[occupied] = table.values[table.start[occupied]]
         return erosion(least, self.inner)
+
+    def lower(
+        self,
+        table: Table,
+        at: np.ndarray,
+        best: np.ndarray,
+        offsets: np.ndarray,
+        sign: int = 1,
+        alive: Callable[[], None] = lambda: None,
+    ) -> None:
+        """Lower values, in place, to the least value of a neighbour in some cells.
+
+        Parameters
+        ----------
+        table : Table
+            The values of the neighbours.
+        at : numpy.ndarray of int, shape (k,)
+            The points, ascending.
+        best : numpy.ndarray of float, shape (k,)
+            The least value of each that is known so far.
+        offsets : numpy.ndarray of int
+            From the cell of a point to the cells that are looked at.
+        sign : int
+            1 if the values are heights, -1 if they are heights negated.
+        alive : callable
+            Is called several times a second; what it raises ends the work.
+        """
+        cell, limit = self.cell[at], sign * self.steps(sign * best)
+        for group in range(0, len(offsets), OFFSETS_A_STEP):
+            alive()
+            hits, others = [], []
+            for offset in offsets[group : group + OFFSETS_A_STEP]:
+                other = cell + offset
+                hit = np.flatnonzero(table.lowest.take(other) <= limit)
+                hits.append(hit)
+                others.append(other[hit])
+            which, other = np.concatenate(hits), np.concatenate(others)
+            neighbour, last = table.start[other], table.start[other + 1]
+            # From the lowest value of the other cell upwards, until one lies within the radius.
+            while len(which):
+                value = table.values[neighbour]
+                left = np.flatnonzero(value < best[which])
+                which, neighbour, last, value = (
+                    each[left] for each in (which, neighbour, last, value)
+                )
+                near = self.distance(
+                    at[which], neighbour if table.point is None else table.point[neighbour]
+                )
+                near = near <= self._radius
+                lower = which[near]
+                lower_at(best, lower, value[near])
+                limit[lower] = sign * self.steps(sign * best[lower])
+                neighbour = neighbour + 1
+                left = np.flatnonzero(~near & (neighbour < last))
+                which, neighbour, last = which[left], neighbour[left], last[left]
 
     def around(self, grid: np.ndarray, radius: float | None = None) -> np.ndarray:
         """Return the minimum of a grid over the cells that a disc round each cell can touch.
@@ -220,3 +271,12 @@ class SortedPoints:
         rim = np.flatnonzero(between > self.inner)
         outermost = np.abs(between[rim] - self._radius / self.size + 0.5)
         self.rim = self.offsets[rim[np.argsort(outermost, kind="stable")]]
+
+
+def _cell_size(points: Points, radius: float) -> float:
+    """Return a size of cells that hold a point each, but are not too many a radius."""
+    coarse = Cells.over(points, max(radius, 1.0))
+    density = points.count / (np.count_nonzero(coarse.occupied) * coarse.size**2)
+    most = max(_MOST_CELLS_A_POINT * points.count, 1_000_000)
+    least = math.sqrt(coarse.rows * coarse.columns / most) * coarse.size
+    return max(min(math.sqrt(1.0 / density), radius), radius / _MOST_CELLS_A_RADIUS, least)

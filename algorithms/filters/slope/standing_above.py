@@ -55,7 +55,7 @@ def stands_above(
     if at_least:
         neighbourhood = Neighbourhood(points, rule.radius, at_least)
         if not neighbourhood.same_radius:
-            return _everywhere(neighbourhood, points.z, rule, progress)
+            return _with_grown(neighbourhood, points, rule, progress)
     above = np.zeros(points.count, dtype=bool)
     done = 0.0
     sides = math.sqrt(points.count / _POINTS_A_BLOCK)
@@ -122,14 +122,19 @@ def _intervals(values: np.ndarray, count: float, radius: float) -> list[tuple[fl
     return list(zip([-np.inf, *between], [*between, np.inf]))
 
 
-def _everywhere(
-    neighbourhood: Neighbourhood, z: np.ndarray, rule: Rule, progress: Progress
+def _with_grown(
+    neighbourhood: Neighbourhood, points: Points, rule: Rule, progress: Progress
 ) -> np.ndarray:
-    """Return the same where the neighbourhoods of some points have grown: all heights exact."""
-    heights = z
+    """Return the same where the neighbourhoods of some points have grown."""
+    z = points.z
     if rule.top_hat:
         eroded = neighbourhood.minimum(z, progress.part(0.0, 0.4))
         opened = neighbourhood.maximum(eroded, progress.part(0.4, 0.8))
         # Where a neighbourhood grew it may not contain the point itself from the other's view.
-        heights = z - np.minimum(opened, z)
-    return neighbourhood.stands_above(heights, rule.height, rule.slope, progress.part(0.8, 1.0))
+        z = z - np.minimum(opened, z)
+    rule, part = rule._replace(top_hat=False), progress.part(0.8, 1.0)
+    above = stands_above(points._replace(z=z), rule, progress=part)
+    for point, neighbour, distance in neighbourhood.grown_pairs():
+        rise = z[point] - z[neighbour]
+        above[point[(rise >= rule.height) & (rise > rule.slope * distance)]] = True
+    return above
