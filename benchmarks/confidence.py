@@ -27,10 +27,10 @@ from bare_earth.algorithms.filters.shared.confidence import (
     probability,
 )
 from bare_earth.algorithms.grids.cells import Cells
+from bare_earth.algorithms.grids.dense_surface import DenseSurface
 from bare_earth.algorithms.grids.gradient import steepness
 from bare_earth.algorithms.grids.surface import Surface
 from bare_earth.algorithms.las.cloud import PointCloud
-from bare_earth.algorithms.products.terrain_model import vertices_of
 from bare_earth.algorithms.survey.selection import Selection
 
 from . import data
@@ -140,7 +140,7 @@ def _load(place: Place) -> tuple[PointCloud, Points, Terrain]:
 
 
 def _tin(ground: Points) -> Terrain:
-    return Surface(ground.take(vertices_of(ground, CELL))).heights
+    return Surface(ground.take(DenseSurface(ground, CELL).vertices)).heights
 
 
 def fitted(seen: Sequence[Seen]) -> Weights:

@@ -8,6 +8,7 @@ four vertices round a query are taken for all that matter (`heights_of_four`).
 
 from __future__ import annotations
 
+import itertools
 from typing import NamedTuple
 
 import numpy as np
@@ -82,17 +83,14 @@ class DenseSurface:
 
     def raster(
         self,
-        first: tuple[int, int],
         shape: tuple[int, int],
         max_edge: float | None = None,
         progress: Progress = SILENT,
     ) -> np.ndarray:
-        """Return the heights at the centres of cells.
+        """Return the heights at the centres of the cells north and east of the anchor.
 
         Parameters
         ----------
-        first : tuple of int
-            Row and column of the first cell, from the anchor.
         shape : tuple of int
             Rows and columns.
         max_edge : float, optional
@@ -107,20 +105,14 @@ class DenseSurface:
         """
         heights, sure = np.full(shape, np.nan), np.zeros(shape, dtype=bool)
         side = TILE // VERTICES_A_SIDE
-        places = [
-            (row, column)
-            for row in range(first[0] // side, (first[0] + shape[0] - 1) // side + 1)
-            for column in range(first[1] // side, (first[1] + shape[1] - 1) // side + 1)
-        ]
+        places = list(itertools.product(*(range(-(-count // side)) for count in shape)))
 
         def fill(number: slice) -> None:
             place = places[number.start]
-            start = [max(place[k] * side - first[k], 0) for k in (0, 1)]
-            end = [min((place[k] + 1) * side - first[k], shape[k]) for k in (0, 1)]
-            cells = slice(start[0], end[0]), slice(start[1], end[1])
+            cells = tuple(slice(each * side, (each + 1) * side) for each in place)
             row, column = (
-                (np.arange(start[k], end[k]) + first[k] - place[k] * side) * VERTICES_A_SIDE + 1
-                for k in (0, 1)
+                np.arange(min(count - each * side, side)) * VERTICES_A_SIDE + 1
+                for each, count in zip(place, shape)
             )
             row, column = np.repeat(row, len(column)), np.tile(column, len(row))
             queries = _Queries(column.astype(float), row.astype(float), column, row)
@@ -133,8 +125,8 @@ class DenseSurface:
         if len(left):
             row, column = np.divmod(left, shape[1])
             x, y = (
-                (each + at + 0.5) * self._cell + start
-                for each, at, start in zip((column, row), first[::-1], self._thinned.anchor)
+                (each + 0.5) * self._cell + start
+                for each, start in zip((column, row), self._thinned.anchor)
             )
             cells, part = CellLattice(self._thinned.anchor, self._cell), progress.part(0.5, 1.0)
             heights.ravel()[left] = self._rest(x, y, max_edge, part, cells)

@@ -160,7 +160,7 @@ def _terrain(step: RasterStep, seen: Seen, progress: Progress) -> Made:
     anchor = tuple(at - by for at, by in zip(window.corner(cell), corner))
     surface = DenseSurface(points, cell, anchor, progress.part(0.05, 0.3))
     part = progress.part(0.3, 0.95)
-    heights = surface.raster((0, 0), window.shape, step.longest_edge, part)
+    heights = surface.raster(window.shape, step.longest_edge, part)
     loose = np.zeros(points.count, dtype=bool)
     if step.max_edge is None:
         if np.isnan(heights).any():
