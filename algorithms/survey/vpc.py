@@ -230,10 +230,7 @@ def _feature(target: Path, layout: LasFile) -> dict[str, Any]:
     """Return the STAC item of a file."""
     extent = [*layout.minimum, *layout.maximum]
     if not layout.states_extent:
-        raise BareEarthError(
-            f"The header of {layout.path} does not state the extent of its points. Write the file"
-            " anew with a program that corrects it."
-        )
+        raise no_extent(layout)
     west, south, low, east, north, high = extent
     ring = np.array(
         [(west, south), (east, south), (east, north), (west, north), (west, south)], dtype=float
@@ -264,6 +261,14 @@ def _feature(target: Path, layout: LasFile) -> dict[str, Any]:
         "links": [],
         "assets": {"data": {"href": _reference(layout.path, target), "roles": ["data"]}},
     }
+
+
+def no_extent(layout: LasFile) -> BareEarthError:
+    """Return the error for a header that leaves open where the points lie."""
+    return BareEarthError(
+        f"The header of {layout.path} does not state the extent of its points. Write the file"
+        " anew with a program that corrects it."
+    )
 
 
 def _polygon(ring: np.ndarray) -> dict[str, Any]:
