@@ -16,7 +16,6 @@ import numpy as np
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.shared.confidence import (
     CELL,
@@ -32,6 +31,7 @@ from bare_earth.algorithms.grids.gradient import steepness
 from bare_earth.algorithms.grids.surface import Surface
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.survey.tally import Tally
 
 from . import data
 from .generated import remembered_scene
@@ -97,7 +97,7 @@ def look(place: Place) -> list[Seen]:
             ground = Filter(method).ground(cloud)
         except BareEarthError:  # no ground, no terrain
             continue
-        takes_part = Selection().select(cloud, SILENT)
+        takes_part = Selection().choose(cloud, Tally())
         seen = compared(points.take(takes_part), ground[takes_part], terrain, seed)
         results.append(seen._replace(method=method, is_sample=place.path is not None))
     return results

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..core.points import Box
 from ..las.cloud import PointCloud
 
 _STEP = 1 << 20
@@ -13,7 +14,7 @@ _STEP = 1 << 20
 
 @dataclass
 class Tally:
-    """What a selection counted, in the parts of a file that it has seen so far.
+    """What was counted in the parts of a file so far.
 
     Attributes
     ----------
@@ -27,6 +28,10 @@ class Tally:
         ground, those whose class is certain by hand, and all that take part.
     classes, classes_within : numpy.ndarray of int64, shape (256,)
         Points of each class, of all parts and in the area.
+    inside, wanted : int
+        Points in the area without its surroundings, and those of them that take part.
+    bounds : tuple of float or None
+        Smallest x and y, largest x and y of all points, in units of the CRS.
     """
 
     points: int = 0
@@ -41,6 +46,9 @@ class Tally:
     selected: int = 0
     classes: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
     classes_within: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
+    inside: int = 0
+    wanted: int = 0
+    bounds: Box | None = None
 
     def add(self, part: PointCloud, within: np.ndarray | None, **masks: np.ndarray) -> None:
         """Count the points of a part, and those of some masks."""
@@ -54,6 +62,18 @@ class Tally:
         self.within += len(classes)
         self.classes_within += counts
         self.add_counts(withheld=part.withheld, free=free, **masks)
+
+    def see(self, part: PointCloud) -> None:
+        """Take in where the points of a part lie."""
+        corners = (part.lowest, part.highest)
+        box = [
+            corner[axis] * part.scale[axis] + part.offset[axis]
+            for corner in corners
+            for axis in (0, 1)
+        ]
+        if self.bounds is not None:
+            box = [*map(min, self.bounds[:2], box[:2]), *map(max, self.bounds[2:], box[2:])]
+        self.bounds = tuple(box)
 
     def add_counts(self, **masks: np.ndarray) -> None:
         """Count the points of masks, each named as the attribute."""

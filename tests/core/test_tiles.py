@@ -17,7 +17,7 @@ from surveys import DeadlyJob, bytes_of, cut, finished, points_of, strip, write
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.core.progress import SILENT, Progress
+from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine import file_points as file_points_module
 from bare_earth.algorithms.engine import jobs as jobs_module
 from bare_earth.algorithms.engine import labelling as labelling_module
@@ -38,6 +38,7 @@ from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.survey.collection import open_collection
 from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.survey.tally import Tally
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
@@ -68,7 +69,7 @@ def many(tmp_path_factory):
 def whole_classes(path, parameters, selection=Selection(), blocks=BLOCKS):
     """Return the points of a file with the classes that they get as one cloud in these blocks."""
     cloud = read_cloud(path)
-    selected = selection.select(cloud, SILENT)
+    selected = selection.choose(cloud, Tally())
     store = MemoryPoints(
         [SurveyFile(cloud, selected, selection.known_ground(cloud, selected))],
         survey_frame(cloud.crs),
