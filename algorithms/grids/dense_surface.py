@@ -242,19 +242,10 @@ class DenseSurface:
 
 
 class _Near:
-    """Finds heights from the vertices in a window round each query.
+    """Finds heights from the vertices of a tile in a window round each query.
 
-    Parameters
-    ----------
-    window : Window
-        The vertices of a tile.
-    z : numpy.ndarray of float64, shape (n,)
-        Heights of all points.
-    are_corners : bool
-        Whether the queries lie on corners of cells, so that each quarter of a window is one of the
-        plane.
-    max_edge : float
-        In cells.
+    `z` are the heights of all points; `max_edge` is in cells. Where the queries lie on corners of
+    cells (`are_corners`), each quarter of a window is one of the plane.
     """
 
     def __init__(self, window: Window, z: np.ndarray, are_corners: bool, max_edge: float) -> None:

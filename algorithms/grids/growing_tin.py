@@ -266,14 +266,9 @@ class GrowingTin:
         self.twins[one], self.twins[other] = other, one
 
     def _flip(self, edges: np.ndarray, changed: np.ndarray) -> None:
-        """Flip edges, and those round them, until no circumcircle holds a vertex.
+        """Flip half-edges, and those round them, until no circumcircle holds a vertex.
 
-        Parameters
-        ----------
-        edges : numpy.ndarray of int, shape (n,)
-            Half-edges to look at.
-        changed : numpy.ndarray of bool, shape (t,)
-            Triangles with a flipped edge are set in it.
+        Triangles with a flipped edge are set in `changed` (t,).
         """
         owner = np.zeros(self.count, dtype=np.int64)
         for _ in range(_MOST_STEPS):

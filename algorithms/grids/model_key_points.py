@@ -252,21 +252,9 @@ def _of_cells(cells: Cells, points: np.ndarray) -> np.ndarray:
 
 
 class _Keys:
-    """The points chosen so far, and their TIN.
+    """The points chosen so far (`are_keys`, a mask), and their TIN.
 
-    Parameters
-    ----------
-    points : Points
-        No two at one place.
-    seeds : numpy.ndarray of int, shape (s,)
-        The first to be chosen, the corners of the convex hull among them.
-    parameters : ModelKeyPoints
-        The tolerances.
-
-    Attributes
-    ----------
-    are_keys : numpy.ndarray of bool, shape (n,)
-        Which points are chosen.
+    No two points lie at one place; the corners of the convex hull are among the seeds.
     """
 
     def __init__(self, points: Points, seeds: np.ndarray, parameters: ModelKeyPoints) -> None:

@@ -195,15 +195,9 @@ def lowest_of_duplicates(x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndar
 
 
 def _strips(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Cut vertices into strips of equally many along x.
+    """Cut vertices into strips of equally many along x; return the strip of each, and the borders.
 
     Quantiles, not equal widths: one stray point far away must not put all others into one strip.
-
-    Returns
-    -------
-    strip : numpy.ndarray of intp, shape (n,)
-    edges : numpy.ndarray of float64
-        The x at which the second and each later strip begins.
     """
     count = max(int(np.sqrt(len(x) / 2)), 1)
     edges = np.sort(x)[(np.arange(1, count) * len(x)) // count] if count > 1 else np.empty(0)

@@ -134,20 +134,7 @@ def _bounds(polygon: Polygon) -> Box:
 
 
 def _last_polygon(x: np.ndarray, y: np.ndarray, polygons: tuple[Polygon, ...]) -> np.ndarray:
-    """Return the number of the last of some polygons that holds each place.
-
-    Parameters
-    ----------
-    x, y : numpy.ndarray of float64, shape (n,)
-        Coordinates.
-    polygons : tuple of polygon
-        As in `Area`.
-
-    Returns
-    -------
-    numpy.ndarray of int32, shape (n,)
-        The first is 1; 0 where there is none.
-    """
+    """Return the number of the last polygon that holds each place: from 1 on, 0 for none; int32."""
     # Sorted by y, the places beside an edge or a polygon are a slice.
     order = np.argsort(y, kind="stable")
     x, y = x[order], y[order]

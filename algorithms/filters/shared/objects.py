@@ -44,6 +44,8 @@ _LARGEST_STEP, _STEP_BACK = 0.7, 0.3
 _ROUNDS = 3
 # Relaxations of the surface across gaps; what bounds objects is their rim, not the filling.
 _RELAXATIONS = 2
+# Gaps up to twice as many cells wide count as surveyed.
+_GAP = 4
 
 
 class Objects(NamedTuple):
@@ -108,24 +110,15 @@ def raised_objects(
     return Objects(objects, plateaus & ~objects)
 
 
-def covered(known: np.ndarray, reach: int = 4) -> np.ndarray:
-    """Return which cells belong to the surveyed area: the known ones and the small gaps in them.
-
-    Parameters
-    ----------
-    known : numpy.ndarray of bool, shape (rows, columns)
-        Cells with a height.
-    reach : int
-        Gaps up to twice as many cells wide are closed.
-    """
-
+def covered(known: np.ndarray) -> np.ndarray:
+    """Return which cells were surveyed: those with a height (rows, columns), and small gaps."""
     from scipy import ndimage
 
-    closed = np.pad(known, reach).astype(np.uint8)
+    closed = np.pad(known, _GAP).astype(np.uint8)
     for extreme in (ndimage.maximum_filter1d, ndimage.minimum_filter1d):
         for axis in (0, 1):
-            closed = extreme(closed, 2 * reach + 1, axis=axis, mode="nearest")
-    return closed[reach : reach + known.shape[0], reach : reach + known.shape[1]].astype(bool)
+            closed = extreme(closed, 2 * _GAP + 1, axis=axis, mode="nearest")
+    return closed[_GAP:-_GAP, _GAP:-_GAP].astype(bool)
 
 
 class Relief:
@@ -540,24 +533,12 @@ class _Border(NamedTuple):
         return on_face / np.maximum(self._total(down, up), 1)
 
     def drops(
-        self, removed: np.ndarray, sign: int = 1
+        self, removed: np.ndarray, sign: int
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Sum up where each region drops to its neighbours.
+        """Sum up where each region drops (sign 1) or rises (-1) to those that are not removed.
 
-        Parameters
-        ----------
-        removed : numpy.ndarray of bool, shape (count,)
-            Regions that do not count as neighbours.
-        sign : int
-            -1 to sum up where it rises instead.
-
-        Returns
-        -------
-        drops, known, pairs : numpy.ndarray of int, shape (count,)
-            Pairs of cells where the region drops; of these and others, where the neighbour is
-            known; and all.
-        height : numpy.ndarray of float, shape (count,)
-            Mean height of the drops in metres.
+        Returns, for each region, the pairs of cells where it does, those where the neighbour is
+        known, and all; and the mean height of the drops in metres.
         """
         pairs = ~(removed[self.first] | removed[self.second])
         known = pairs & (self.first > 0) & (self.second > 0)

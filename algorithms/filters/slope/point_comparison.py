@@ -126,25 +126,11 @@ class PointComparison:
     def _compare(
         self, at: np.ndarray, asked: np.ndarray, found: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Find which points whose opening is known stand above a neighbour.
+        """Find which of some points `at` (k,), whose opening is known, stand above a neighbour.
 
-        Parameters
-        ----------
-        at : numpy.ndarray of int, shape (k,)
-            The points.
-        asked : numpy.ndarray of int
-            For which of them to find out.
-        found : numpy.ndarray of bool, shape (k,)
-            Receives True for those that certainly do.
-
-        Returns
-        -------
-        asked : numpy.ndarray of int
-            Those that may do so, depending on the opening at other points.
-        matters : numpy.ndarray of int
-            These other points, in ascending order.
-        enough : numpy.ndarray of float
-            How high the opening must be there to matter.
+        Only those are looked at that `asked` names; those that certainly do are set in `found`
+        (k,). Returns those that may do so, depending on the opening at other points; these other
+        points, ascending; and how high the opening must be there to matter.
         """
         point = at[asked]
         own = self._points.z[point] - self._opened[point]
@@ -167,14 +153,8 @@ class PointComparison:
     ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
         """Yield which points (j,) may stand above one of which cells, and the least rise to it.
 
-        Parameters
-        ----------
-        point : numpy.ndarray of int, shape (k,)
-            The points.
-        own : numpy.ndarray of float, shape (k,)
-            How high they lie above their opening.
-        sure : numpy.ndarray of bool, shape (k,)
-            Who needs no other neighbour; looked at each time anew.
+        `own` (k,) says how high the points lie above their opening, and `sure` (k,), which is
+        looked at each time anew, which of them need no other neighbour.
         """
         points, rule, least = self._points, self._rule, self._bounds.least
         allowed = np.maximum(rule.height, rule.slope * points.nearest)
