@@ -7,7 +7,7 @@ import numpy as np
 from ..core.points import Points
 from ..core.progress import SILENT
 from ..core.threads import in_threads, over_parts, parts_of
-from .tin import Tin
+from .tin import Tin, opposite_areas
 
 # Share of the sum of the terms of a determinant that may be rounding.
 _ROUNDING = 1e-12
@@ -168,10 +168,9 @@ class GrowingTin:
     def _opposite_areas(
         self, x: np.ndarray, y: np.ndarray, corners: list[np.ndarray]
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return twice the signed area between each place and the edge opposite to each corner."""
-        ax, bx, cx = (self.vertices.x.take(each) - x for each in corners)
-        ay, by, cy = (self.vertices.y.take(each) - y for each in corners)
-        return bx * cy - by * cx, cx * ay - cy * ax, ax * by - ay * bx
+        """Return the `opposite_areas` of places in triangles with some corners."""
+        to_x, to_y = ([of.take(k) - at for k in corners] for of, at in zip(self.vertices, (x, y)))
+        return opposite_areas(to_x, to_y)
 
     def _interpolated(self, corners: list[np.ndarray], areas: list[np.ndarray]) -> np.ndarray:
         # Places may lie outside by rounding: nothing is extrapolated.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..core.points import Box
+from .cells import numbered
 
 # Stations to each side of one along a river that say how high the water is there.
 _STATIONS = 5
@@ -72,8 +73,7 @@ def along(line: np.ndarray, step: float, is_closed: bool = False) -> np.ndarray:
     lengths = np.hypot(*np.diff(line[:, :2], axis=0).T)
     counts = np.maximum(np.ceil(lengths / step), 1).astype(np.int64)
     segment = np.repeat(np.arange(len(counts)), counts)
-    first = np.cumsum(counts) - counts
-    share = (np.arange(len(segment)) - first[segment]) / counts[segment]
+    share = numbered(counts) / counts[segment]
     start, end = line[segment], line[segment + 1]
     return np.concatenate((start + share[:, None] * (end - start), line[-1:]))
 

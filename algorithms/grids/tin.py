@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Iterable
+
 import numpy as np
 
 # Queries are walked this many at a time: the arrays of one step then stay in the processor's cache.
@@ -175,15 +177,25 @@ class Tin:
     def _opposite_areas(
         self, x: np.ndarray, y: np.ndarray, triangle: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return twice the signed area between each query and the edge opposite each corner.
+        """Return the `opposite_areas` of queries in triangles."""
+        corners = self.triangles[triangle].T
+        return opposite_areas([self._x[k] - x for k in corners], [self._y[k] - y for k in corners])
 
-        All three are >= 0 inside a triangle; over their sum they are the barycentric weights.
-        """
-        corners = self.triangles[triangle]
-        a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
-        ax, bx, cx = self._x[a] - x, self._x[b] - x, self._x[c] - x
-        ay, by, cy = self._y[a] - y, self._y[b] - y, self._y[c] - y
-        return bx * cy - by * cx, cx * ay - cy * ax, ax * by - ay * bx
+
+def opposite_areas(
+    x: Iterable[np.ndarray], y: Iterable[np.ndarray]
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return twice the signed area between queries and the edge opposite to each corner.
+
+    All three are >= 0 inside a triangle; over their sum they are the barycentric weights.
+
+    Parameters
+    ----------
+    x, y : three numpy.ndarray of float64, shape (q,)
+        The corners, relative to the queries.
+    """
+    (ax, bx, cx), (ay, by, cy) = x, y
+    return bx * cy - by * cx, cx * ay - cy * ax, ax * by - ay * bx
 
 
 def lowest_of_duplicates(x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndarray:

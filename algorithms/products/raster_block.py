@@ -8,11 +8,11 @@ from typing import Callable, Mapping, NamedTuple
 
 import numpy as np
 
-from ..core.points import Points
+from ..core.points import Box, Points
 from ..core.progress import SILENT, Progress
 from ..filters.shared.confidence import confidence
 from ..grids.cell_window import CellWindow
-from ..grids.cells import first_of_each
+from ..grids.cells import are_inside, first_of_each
 from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
 from ..grids.morphology import within_square
 from .terrain_edges import follow_edges
@@ -22,8 +22,6 @@ from .terrain_edges import follow_edges
 _LONGEST_EDGE, _LONGEST_CELLS = 50.0, 20.0
 # Reach of a triangle in longest edges: the circle round it hardly ever reaches farther.
 _EDGES = 2.0
-
-Box = tuple[float, float, float, float]
 
 
 class BlockRasters(NamedTuple):
@@ -187,9 +185,7 @@ def _surface(step: RasterStep, seen: Seen, progress: Progress) -> Made:
         return heights.astype(np.float32), _placed(points, corner, core)
     wide = window.wider(math.ceil(step.reach / cell))
     row, column = wide.places(points.x, points.y, corner, cell)
-    inside = np.flatnonzero(
-        (row >= 0) & (row < wide.rows) & (column >= 0) & (column < wide.columns)
-    )
+    inside = np.flatnonzero(are_inside(row, column, wide.shape))
     progress(0.1)
     index = row[inside] * wide.columns + column[inside]
     keys = -points.z[inside], points.x[inside], points.y[inside]

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..core.points import Points
 from ..filters.shared.confidence import confidence
+from ..grids.cells import are_inside
 from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
 
 # Pixels along the longer side of the terrain, at most, and the sides in metres that they may have,
@@ -212,7 +213,7 @@ class Line(NamedTuple):
             for first, last in zip(self.start, self.end)
         )
         row = window.shape[0] - 1 - row
-        inside = (row >= 0) & (row < window.shape[0]) & (column >= 0) & (column < window.shape[1])
+        inside = are_inside(row, column, window.shape)
         return distance[inside], row[inside], column[inside]
 
 

@@ -65,15 +65,12 @@ class Tally:
 
     def see(self, part: PointCloud) -> None:
         """Take in where the points of a part lie."""
-        corners = (part.lowest, part.highest)
-        box = [
-            corner[axis] * part.scale[axis] + part.offset[axis]
-            for corner in corners
-            for axis in (0, 1)
-        ]
+        scale, offset = np.array(part.scale[:2]), np.array(part.offset[:2])
+        low, high = part.lowest * scale + offset, part.highest * scale + offset
         if self.bounds is not None:
-            box = [*map(min, self.bounds[:2], box[:2]), *map(max, self.bounds[2:], box[2:])]
-        self.bounds = tuple(box)
+            low, high = np.minimum(low, self.bounds[:2]), np.maximum(high, self.bounds[2:])
+        (west, south), (east, north) = low.tolist(), high.tolist()
+        self.bounds = west, south, east, north
 
     def add_counts(self, **masks: np.ndarray) -> None:
         """Count the points of masks, each named as the attribute."""

@@ -19,7 +19,7 @@ from ...core.errors import BareEarthError
 from ...core.parameters import ParameterSet, parameter
 from ...core.points import Points
 from ...core.progress import SILENT, Progress
-from ...grids.cells import Cells
+from ...grids.cells import Cells, usual_count
 from ...grids.gradient import steepness
 from ...grids.inpaint import inpaint
 from ..shared.doubts import tell_of_outliers
@@ -395,13 +395,8 @@ def _counting_cells(points: Points, parameters: GridMinimum) -> Cells:
 
 def _density(cells: Cells) -> float:
     """Return the median number of points per square metre, of blocks within the survey."""
-    from scipy import ndimage
-
     blocks = CellBlocks.over(cells, _DENSITY_BLOCK, least=1)
-    counts = blocks.total(cells.counts())
-    within = ndimage.binary_erosion(counts > 0, np.ones((3, 3)))
-    usual = counts[within] if within.any() else counts[counts > 0]
-    return float(np.median(usual)) / blocks.size**2
+    return usual_count(blocks.total(cells.counts())) / blocks.size**2
 
 
 def _noise(heights: np.ndarray, cells: Cells, blocks: CellBlocks, classic: bool) -> np.ndarray:

@@ -9,7 +9,7 @@ import numpy as np
 from ...core.points import Points
 from ...core.progress import SILENT
 from ...core.threads import over_parts
-from ...grids.cells import Cells, lower_at
+from ...grids.cells import Cells
 from ...grids.gradient import gradient, length, steepness
 from ...grids.inpaint import inpaint
 
@@ -62,10 +62,7 @@ def plain_limits(
     Parameters, returns
         As for `ground_limits`.
     """
-    lowest = np.full(cells.rows * cells.columns, np.inf)
-    lower_at(lowest, cells.index[vertices], points.z[vertices])
-    lowest[np.isinf(lowest)] = np.nan
-    surface = inpaint(lowest.reshape(cells.shape), first=cells.first)
+    surface = inpaint(cells.minimum(points.z, vertices), first=cells.first)
     rise = tolerance.on_slopes * _smooth_steepness(surface, cells)
     return np.stack((surface - tolerance.below - rise, surface + tolerance.above + rise), axis=-1)
 

@@ -59,47 +59,40 @@ def stands_above(
     above = np.zeros(points.count, dtype=bool)
     done = 0.0
     sides = math.sqrt(points.count / _POINTS_A_BLOCK)
-    for interval in _intervals(points.y, sides, rule.radius):
-        strip = _Strip(points, rule, *interval)
-        share = strip.count / points.count
-        strip.mark(above, progress.part(done, done + share))
+    for south, north in _intervals(points.y, sides, rule.radius):
+        asked = (points.y >= south) & (points.y < north)
+        share = np.count_nonzero(asked) / points.count
+        reach = _REACH * rule.radius * (1.0 + _ROUNDING)
+        near = np.flatnonzero((points.y >= south - reach) & (points.y < north + reach))
+        part = progress.part(done, done + share)
+        above[near] |= _of_strip(points.take(near), rule, asked[near], reach, part)
         done += share
     return above
 
 
-class _Strip:
-    """The points from one y up to another, with those that matter for them."""
+def _of_strip(
+    points: Points, rule: Rule, asked: np.ndarray, reach: float, progress: Progress
+) -> np.ndarray:
+    """Return which points asked for (n,) stand above a neighbour, block by block."""
+    x, above = points.x, np.zeros(points.count, dtype=bool)
+    blocks = _intervals(x, np.count_nonzero(asked) / _POINTS_A_BLOCK, rule.radius)
+    caller = threading.get_ident()
 
-    def __init__(self, points: Points, rule: Rule, south: float, north: float) -> None:
-        self._points, self._rule = points, rule
-        self._reach = _REACH * rule.radius * (1.0 + _ROUNDING)
-        beyond = (points.y < south - self._reach) | (points.y >= north + self._reach)
-        self._near = np.flatnonzero(~beyond)
-        self._x, y = points.x[self._near], points.y[self._near]
-        self._asked = (y >= south) & (y < north)
-        self.count = int(np.count_nonzero(self._asked))
+    def fill(part: slice) -> None:
+        west, east = blocks[part.start]
+        near = np.flatnonzero((x >= west - reach) & (x < east + reach))
+        wanted = asked[near] & (x[near] >= west) & (x[near] < east)
 
-    def mark(self, above: np.ndarray, progress: Progress) -> None:
-        """Set `above` (n,) to True for the points of the strip that stand above a neighbour."""
-        blocks = _intervals(self._x, self.count / _POINTS_A_BLOCK, self._rule.radius)
-        caller = threading.get_ident()
+        def alive() -> None:
+            # Progress is for the calling thread only.
+            if threading.get_ident() == caller:
+                progress(part.start / len(blocks))
 
-        def fill(part: slice) -> None:
-            (west, east), x = blocks[part.start], self._x
-            near = np.flatnonzero((x >= west - self._reach) & (x < east + self._reach))
-            asked = self._asked[near] & (x[near] >= west) & (x[near] < east)
-            if asked.any():
-                which = self._near[near]
+        if wanted.any():
+            above[near[_of_block(points.take(near), rule, wanted, alive)]] = True
 
-                def alive() -> None:
-                    # Progress is for the calling thread only.
-                    if threading.get_ident() == caller:
-                        progress(part.start / len(blocks))
-
-                found = _of_block(self._points.take(which), self._rule, asked, alive)
-                above[which[found]] = True
-
-        over_parts(fill, len(blocks), 1, progress)
+    over_parts(fill, len(blocks), 1, progress)
+    return above
 
 
 def _of_block(

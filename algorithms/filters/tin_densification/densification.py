@@ -150,17 +150,10 @@ class _Survey(NamedTuple):
 
     def tin_round(self, vertices: np.ndarray, waiting: np.ndarray) -> Tin:
         """Return the TIN of the vertices that may bound triangles in which candidates lie."""
-        holding = (_holding(self.cells, each) for each in (vertices, waiting))
+        holding = map(self.cells.holding, (vertices, waiting))
         needed = _bounding(*holding, self.reach).ravel()
         bounding = self.points.take(vertices[needed[self.cells.index[vertices]]])
         return Tin(*bounding.and_also(self.ring))
-
-
-def _holding(cells: Cells, which: np.ndarray) -> np.ndarray:
-    """Return which cells hold one of some points."""
-    holding = np.zeros(cells.rows * cells.columns, dtype=bool)
-    holding[cells.index[which]] = True
-    return holding.reshape(cells.shape)
 
 
 def _counts_round(mask: np.ndarray) -> np.ndarray:

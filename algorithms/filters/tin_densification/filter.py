@@ -277,7 +277,7 @@ def classify(
     tell_of_outliers(len(survey.lowest), survey.heights, progress)
     ground, waiting = _seeds(points, survey, resolved, apart, progress.part(0.1, 0.7))
     cells = survey.cells
-    heights = with_lower(np.full(cells.shape, np.nan), cells, points, ground)
+    heights = cells.minimum(points.z, ground)
     if known_ground is not None and known_ground.any():
         known = _lowest_of(points, np.flatnonzero(known_ground))
         ground, heights = np.append(ground, known), with_lower(heights, cells, points, known)
