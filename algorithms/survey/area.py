@@ -8,7 +8,6 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.points import Box
-from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
 
 # Sorted at once: not so many that memory grows, nor so few that the loop over edges counts.
@@ -87,11 +86,11 @@ class Area:
         """
         return self._numbers(x, y) > 0
 
-    def of(self, cloud: PointCloud, progress: Progress = SILENT) -> np.ndarray:
+    def of(self, cloud: PointCloud) -> np.ndarray:
         """Return which points of a cloud lie in the area, in file order."""
-        return self.polygon_of(cloud, progress) > 0
+        return self.polygon_of(cloud) > 0
 
-    def polygon_of(self, cloud: PointCloud, progress: Progress = SILENT) -> np.ndarray:
+    def polygon_of(self, cloud: PointCloud) -> np.ndarray:
         """Return the number of the last polygon that holds each point of a cloud.
 
         Returns
@@ -107,7 +106,6 @@ class Area:
                 cloud.x[part] * cloud.scale[0] + cloud.offset[0],
                 cloud.y[part] * cloud.scale[1] + cloud.offset[1],
             )
-            progress(min(part.stop / cloud.count, 1.0))
         return numbers
 
     def _numbers(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
