@@ -119,16 +119,10 @@ class RasterStep:
 
         Parameters
         ----------
-        points : Points
-            Those of the block and round it, relative to `corner`.
-        ground, top, core : numpy.ndarray of bool, shape (n,)
-            Which are ground, which belong to the surface, and which lie in the block.
-        corner : tuple of float
-            x and y in the frame of the survey.
+        points, ground, top, core, corner, edges
+            As in `Seen`.
         box : tuple of float
             The block, in the frame of the survey.
-        edges : numpy.ndarray of bool, shape (n,), optional
-            Which ground points lie on lines that no triangle may cross.
         progress : Progress
             Receives progress.
         """

@@ -59,8 +59,7 @@ def tell_of_little_ground(points: Points, ground: np.ndarray, progress: Progress
     if np.count_nonzero(ground) >= _SURELY_ENOUGH * points.count:
         return
     cells = Cells.over(points, _CELL)
-    with_ground = np.unique(cells.index[ground])
-    if len(with_ground) < _LEAST_GROUND * np.count_nonzero(cells.occupied):
+    if np.count_nonzero(cells.holding(ground)) < _LEAST_GROUND * np.count_nonzero(cells.occupied):
         progress.warning(
             f"Hardly any ground was found: fewer than {100 * _LEAST_GROUND:g} % of the square"
             " metres with points have some. The terrain between is guessed. Check the"

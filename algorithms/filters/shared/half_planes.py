@@ -86,22 +86,12 @@ class Sides:
         sums = (ahead & there[:, :, None]).astype(float).transpose(0, 2, 1) @ np.stack(
             (np.ones_like(x), x, y, z, x * x, x * y, y * y, x * z, y * z, z * z), axis=-1
         )
-        return _plane(*np.moveaxis(sums, -1, 0))
+        return _plane(sums)
 
 
-def _plane(
-    count: np.ndarray,
-    x: np.ndarray,
-    y: np.ndarray,
-    z: np.ndarray,
-    xx: np.ndarray,
-    xy: np.ndarray,
-    yy: np.ndarray,
-    xz: np.ndarray,
-    yz: np.ndarray,
-    zz: np.ndarray,
-) -> tuple[np.ndarray, np.ndarray]:
+def _plane(sums: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return how far (0, 0, 0) lies above planes, and their misfit, from sums over neighbours."""
+    count, x, y, z, xx, xy, yy, xz, yz, zz = np.moveaxis(sums, -1, 0)
     total = np.maximum(count, 1.0)
     x, y, z = x / total, y / total, z / total
     xx, xy, yy = xx / total - x * x, xy / total - x * y, yy / total - y * y
@@ -114,8 +104,5 @@ def _plane(
     rise = east * x + north * y - z
     square = zz - 2.0 * (east * xz + north * yz)
     square += east * east * xx + 2.0 * east * north * xy + north * north * yy
-    few = count < _LEAST
-    return (
-        np.where(few, np.nan, rise),
-        np.where(few, np.nan, np.sqrt(np.maximum(square, 0.0))),
-    )
+    rise[count < _LEAST] = square[count < _LEAST] = np.nan
+    return rise, np.sqrt(np.maximum(square, 0.0))
