@@ -99,11 +99,9 @@ def heights_of_four(
 
     Parameters
     ----------
-    x, y, z : numpy.ndarray of float64, shape (4, q)
-        The vertices southwest, southeast, northeast and northwest, relative to the query;
-        `NOWHERE` in the place of one that is missing.
-    max_edge : float
-        Triangles with a longer edge are gaps.
+    x, y, z, max_edge
+        As for `enclosing_heights`; k is 4, for the vertices southwest, southeast, northeast and
+        northwest.
 
     Returns
     -------

@@ -84,8 +84,8 @@ class Tin:
 
         Parameters
         ----------
-        x, y : array_like of float, shape (q,)
-            Queries in metres.
+        x, y
+            As for `locate`.
         triangle : numpy.ndarray of int, shape (q,), optional
             What `locate` returned for them, if it is known.
 

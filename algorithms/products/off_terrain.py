@@ -145,10 +145,8 @@ def remove_objects(
         In metres; NaN where there is none.
     cell_metres : tuple of float
         Distance between neighbours in a row, and in a column.
-    parameters : OffTerrain
-        What is an object.
-    progress : Progress
-        Receives progress.
+    parameters, progress
+        As for `remove_objects_file`.
 
     Returns
     -------

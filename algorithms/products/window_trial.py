@@ -98,10 +98,10 @@ def outcome_of(
         The points.
     names : tuple of str
         Name and label of the setting.
-    classes : numpy.ndarray of uint8, shape (n,)
-        Their classes.
-    ground, selected : numpy.ndarray of bool, shape (n,)
-        Which are ground, and which took part.
+    classes, ground
+        As in `Outcome`.
+    selected : numpy.ndarray of bool, shape (n,)
+        Which points took part.
     """
     terrain = _terrain(window, ground)
     return Outcome(*names, classes, ground, terrain, _confidence(window, ground, selected))
@@ -218,15 +218,7 @@ class Line(NamedTuple):
 
 
 def line_across(window: Window, outcomes: Sequence[Outcome]) -> Line:
-    """Return a line across the window where terrains differ most; through its middle if nowhere.
-
-    Parameters
-    ----------
-    window : Window
-        The points.
-    outcomes : sequence of Outcome
-        The settings.
-    """
+    """Return a line across the window where terrains differ most; through its middle if nowhere."""
     first = outcomes[0].terrain
     apart = sum(np.nan_to_num(np.abs(each.terrain - first)) for each in outcomes)
     rows, columns = apart.mean(axis=1)[::-1], apart.mean(axis=0)

@@ -49,12 +49,10 @@ def tell_of_little_ground(points: Points, ground: np.ndarray, progress: Progress
 
     Parameters
     ----------
-    points : Points
-        All that the filter sees.
     ground : numpy.ndarray of bool, shape (n,)
-        Which of them it took for ground.
-    progress : Progress
-        Receives the warning.
+        Which points the filter took for ground.
+    points, progress
+        As for `tell_of_extent`.
     """
     if np.count_nonzero(ground) >= _SURELY_ENOUGH * points.count:
         return

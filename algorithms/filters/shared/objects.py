@@ -167,17 +167,7 @@ class Relief:
     ) -> tuple[Regions, np.ndarray]:
         """Return the `regions`, and which cells are rims if more unevenness is allowed.
 
-        Parameters
-        ----------
-        threshold : float
-            As for `regions`.
-        roughness_factor : float
-            How many times the usual unevenness of the terrain is added for the rims.
-
-        Returns
-        -------
-        Regions
-        numpy.ndarray of bool, shape (rows, columns)
+        That many times (`roughness_factor`) its usual unevenness is added for the rims.
         """
         steps, large = self._steps(threshold, (1.0, roughness_factor))
         return self._regions(steps), self._unframed(self._rims(large))
@@ -216,7 +206,6 @@ class Relief:
         -------
         numpy.ndarray of bool, shape (rows, columns)
         """
-
         from scipy import ndimage
 
         patches, count = ndimage.label(np.pad(candidates, self._step), np.ones((3, 3)))
@@ -226,7 +215,7 @@ class Relief:
         return patches.sunken(max_size) & candidates
 
     def regrown(self, kept: np.ndarray, heights: np.ndarray, threshold: float) -> np.ndarray:
-        """Return `kept` and the cells next to it that are level with it, step by step.
+        """Return the ground that is kept and the cells beside it that are level with it.
 
         Parameters
         ----------
@@ -236,10 +225,6 @@ class Relief:
             Lowest heights, those of cells that may grow back included; NaN where there is none.
         threshold : float
             As for `regions`; a cell is compared with the mean of its kept neighbours.
-
-        Returns
-        -------
-        numpy.ndarray of bool, shape (rows, columns)
         """
         kept = np.pad(kept, self._step).ravel()
         grid = np.pad(heights.astype(np.float32), self._step, constant_values=np.nan).ravel()
@@ -436,17 +421,7 @@ class Regions:
         return (self.width < _FACE_WIDTH) | (self._border.share_of_faces() < _FACE_SHARE)
 
     def sunken(self, max_size: float) -> np.ndarray:
-        """Return the cells of the regions whose border is a rise nearly all round: of pits.
-
-        Parameters
-        ----------
-        max_size : float
-            Largest width in metres.
-
-        Returns
-        -------
-        numpy.ndarray of bool, shape (rows, columns)
-        """
+        """Return the cells of the regions whose border is a rise nearly all round: of pits."""
         fits = np.ones(len(self.width), dtype=bool)
         return self._bounded(max_size, -1, _PIT_SHARE, _PIT_SHARE, 0.0, fits)
 

@@ -77,20 +77,12 @@ def supported(
 
     Parameters
     ----------
-    grid : numpy.ndarray of float, shape (rows, columns)
-        Lowest height of each cell in metres; NaN where there is none.
-    size : float
-        Side of a cell in metres.
+    grid, size, first
+        As for `low_outliers`, and so is the result.
     pits : numpy.ndarray of bool, shape (rows, columns)
         Cells that lie far below those next to them.
     depth : numpy.ndarray of float, shape (rows, columns)
         How far, in metres.
-    first : tuple of int
-        Row and column of the first cell in the grid of the CRS.
-
-    Returns
-    -------
-    numpy.ndarray of bool, shape (rows, columns)
     """
     result = np.zeros(grid.shape, dtype=bool)
     row, column = np.nonzero(pits)

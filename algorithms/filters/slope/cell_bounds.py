@@ -79,19 +79,19 @@ class CellBounds:
         self._bound_rises()
 
     def decide(self, asked: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return which points stand far above a neighbour, and which of them may do so.
+        """Return which points asked for certainly stand far above a neighbour, and who may do so.
 
         Parameters
         ----------
         asked : numpy.ndarray of bool, shape (n,)
-            The points asked for, in the order in which the points were given.
+            In the order in which the points were given.
 
         Returns
         -------
         above : numpy.ndarray of bool, shape (n,)
-            Those that certainly do, in the order of `points`. False where it is not asked.
+            In the order of `points`.
         doubtful : numpy.ndarray of int, shape (k,)
-            Which points of `points` remain in doubt, ascending.
+            Indices in `points`, ascending.
         """
         points, asked = self.points, self.points.as_sorted(asked)
         above = asked & (points.level >= self._enough.take(points.cell))
@@ -109,17 +109,8 @@ class CellBounds:
     def heights_in_doubt(self, cell: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return between which heights above the opening it is in doubt who stands above another.
 
-        Parameters
-        ----------
-        cell : numpy.ndarray of int, shape (k,)
-            The cells of the points.
-
-        Returns
-        -------
-        needed : numpy.ndarray of float, shape (k,)
-            Metres: a point less high does not stand above any neighbour.
-        certain : numpy.ndarray of float, shape (k,)
-            Metres: a point as high or higher stands above a neighbour.
+        Metres, for points in cells (k,): those less high stand above no neighbour, and those as
+        high as the second, or higher, above one.
         """
         needed = self._too_little.take(cell) - self._low.take(cell) + 1
         certain = self._enough.take(cell) - self._high.take(cell) - 1

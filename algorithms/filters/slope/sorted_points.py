@@ -110,22 +110,10 @@ class SortedPoints:
         values: np.ndarray,
         point: np.ndarray | None = None,
     ) -> Table:
-        """Return the table of some values (m,).
+        """Return the table of values in metres (m,), ascending within a cell.
 
-        Parameters
-        ----------
-        cell : numpy.ndarray of int, shape (m,)
-            Their cells, ascending.
-        steps : numpy.ndarray of int16, shape (m,)
-            How low they are in steps.
-        values : numpy.ndarray of float, shape (m,)
-            The values in metres, ascending within a cell.
-        point : numpy.ndarray of int, shape (m,), optional
-            Which points have them, if not all.
-
-        Returns
-        -------
-        Table
+        `cell` are their cells, ascending; `steps` how low they are in steps, int16; and `point`
+        which points have them, if not all.
         """
         cells = self.shape[0] * self.shape[1]
         start = np.zeros(cells + 1, dtype=np.int32)
@@ -138,10 +126,7 @@ class SortedPoints:
     def lowest_within(self, table: Table) -> np.ndarray:
         """Return the least value in the cells that are within the radius from end to end.
 
-        Returns
-        -------
-        numpy.ndarray of float, shape (rows, columns)
-            Metres; inf where there is none.
+        Metres, shape (rows, columns); inf where there is none.
         """
         least = np.full(self.shape, np.inf)
         occupied = np.flatnonzero(table.lowest != EMPTY)
@@ -157,22 +142,11 @@ class SortedPoints:
         sign: int = 1,
         alive: Callable[[], None] = lambda: None,
     ) -> None:
-        """Lower values, in place, to the least value of a neighbour in some cells.
+        """Lower `best` (k,), in place, to the least value that a neighbour has in a table.
 
-        Parameters
-        ----------
-        table : Table
-            The values of the neighbours.
-        at : numpy.ndarray of int, shape (k,)
-            The points, ascending.
-        best : numpy.ndarray of float, shape (k,)
-            The least value of each that is known so far.
-        offsets : numpy.ndarray of int
-            From the cell of a point to the cells that are looked at.
-        sign : int
-            1 if the values are heights, -1 if they are heights negated.
-        alive : callable
-            Is called several times a second; what it raises ends the work.
+        `at` (k,) are the points, ascending; `offsets` lead from the cell of a point to those that
+        are looked at. The sign is -1 if the values are heights negated. What `alive` raises, which
+        is called several times a second, ends the work.
         """
         cell, limit = self.cell[at], sign * self.steps(sign * best)
         for group in range(0, len(offsets), OFFSETS_A_STEP):
@@ -206,16 +180,7 @@ class SortedPoints:
     def around(self, grid: np.ndarray, radius: float | None = None) -> np.ndarray:
         """Return the minimum of a grid over the cells that a disc round each cell can touch.
 
-        Parameters
-        ----------
-        grid : numpy.ndarray of int16, shape (rows, columns)
-            Steps.
-        radius : float, optional
-            Of the disc in metres; the radius of the neighbours if not given.
-
-        Returns
-        -------
-        numpy.ndarray of int16, shape (rows, columns)
+        The radius is in metres; that of the neighbours if it is not given.
         """
         radius = self._radius if radius is None else radius
         return within_square(np.minimum, erosion(grid, radius / self.size + ROUNDING), 1)

@@ -62,8 +62,8 @@ def seeds_of_two_grids(
         All points.
     survey : LowestPoints
         The first grid.
-    max_size, progress, returns
-        As for `seeds_of_one_grid`.
+    max_size, progress
+        As for `seeds_of_one_grid`, and so is the result.
     """
     size = survey.cells.size
     moved = points._replace(x=points.x + 0.5 * size, y=points.y + 0.5 * size)
