@@ -144,7 +144,6 @@ class Cells:
 
         Beyond the outermost centres the value of the border is taken.
         """
-        # Not at the start of QGIS, which loads this module, and where scipy may be missing.
         from scipy import ndimage
 
         row = y / self.size - (self.first_row + 0.5)

@@ -90,7 +90,6 @@ class NearestHeights:
     """
 
     def __init__(self, points: np.ndarray, reach: float) -> None:
-        # Not at the start of QGIS, which may lack scipy.
         from scipy.spatial import cKDTree
 
         self._points, self._reach = points, reach

@@ -187,7 +187,6 @@ def _lowest_of_places(points: Points) -> np.ndarray:
 
 def _hull_corners(points: Points, cells: Cells) -> np.ndarray:
     """Return which points are the corners of the convex hull, or the two ends of a line."""
-    # Not at the start of QGIS, which loads this module, and where scipy may be missing.
     from scipy import ndimage
 
     # With points in all eight cells round its own, none is a corner.

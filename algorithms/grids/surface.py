@@ -111,7 +111,6 @@ class Surface:
 
     @property
     def _tree(self):
-        # Not at the start of QGIS, which loads this module, and where scipy may be missing.
         from scipy.spatial import cKDTree
 
         with self._lock:

@@ -129,7 +129,6 @@ class Tin:
         numpy.ndarray of bool, shape (q,)
             True where one lies within the circumcircle, or on it.
         """
-        # Not at the start of QGIS, which loads this module, and where scipy may be missing.
         from scipy.spatial import cKDTree
 
         corners = self.triangles[triangles]
@@ -218,7 +217,6 @@ def _strips(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def _triangulate(xy: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return triangles (t, 3), counterclockwise, and their neighbours (t, 3) of vertices (v, 2)."""
-    # Not at the start of QGIS, which loads this module, and where scipy may be missing.
     from scipy.spatial import Delaunay
 
     nothing = np.empty((0, 3), dtype=np.int32), np.empty((0, 3), dtype=np.int32)
@@ -244,7 +242,6 @@ def is_one_line(xy: np.ndarray) -> bool:
 
 def hull_corners(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Return the indices of the corners of the convex hull, or of the two ends of a line."""
-    # Not at the start of QGIS, which loads this module, and where scipy may be missing.
     from scipy.spatial import ConvexHull
 
     xy = np.column_stack((x, y))

@@ -8,7 +8,6 @@ what it leaves open is ours, see docs/grid-minimum.md.
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -213,15 +212,10 @@ class GridMinimum(ParameterSet):
 
     def _resolved(self, cells: Cells) -> GridMinimum:
         preset = PRESETS[self.preset]
-        empty = {
-            name: value
-            for name, value in preset._asdict().items()
-            if name != "label" and getattr(self, name) is None
-        }
-        if "cell_size" in empty and self.preset != CLASSIC:
+        if self.cell_size is None and self.preset != CLASSIC:
             large_enough = _CELL_STEP * _multiple(_density(cells), _CELL_STEP)
-            empty["cell_size"] = max(preset.cell_size, large_enough)
-        return dataclasses.replace(self, **empty)
+            preset = preset._replace(cell_size=max(preset.cell_size, large_enough))
+        return self.filled(preset._asdict())
 
 
 def largest_object(parameters: GridMinimum) -> float:

@@ -53,7 +53,6 @@ def below_ground(
 
 def _rise(surface: np.ndarray) -> np.ndarray:
     """Return the most that a surface rises over a cell, at each and those round it."""
-    # Not at the start of QGIS, which loads this module, and where scipy may be missing.
     from scipy import ndimage
 
     return ndimage.maximum_filter(steepness(surface, 1.0), 3, mode="nearest")

@@ -97,7 +97,7 @@ class Confidence(NamedTuple):
         return self.values.ravel()[self.cells.index]
 
 
-def confidence(points: Points, ground: np.ndarray, weights: Weights = Weights()) -> Confidence:
+def confidence(points: Points, ground: np.ndarray) -> Confidence:
     """Return the probability that the terrain made of ground points is right, for cells of 1 m.
 
     It is right where the height of the TIN of the ground points at the middle of a cell lies within
@@ -109,8 +109,6 @@ def confidence(points: Points, ground: np.ndarray, weights: Weights = Weights())
         All points that took part, at least one.
     ground : numpy.ndarray of bool, shape (n,)
         Which of them were taken for ground, by any method.
-    weights : Weights
-        Those that were fitted.
 
     Returns
     -------
@@ -125,7 +123,7 @@ def confidence(points: Points, ground: np.ndarray, weights: Weights = Weights())
     cells = Cells.over(points, CELL)
     if not ground.any():
         return Confidence(cells, np.zeros(cells.shape, dtype=np.float32))
-    return Confidence(cells, probability(evidence(cells, points.z, ground), weights))
+    return Confidence(cells, probability(evidence(cells, points.z, ground)))
 
 
 def probability(pieces: Sequence[np.ndarray], weights: Weights = Weights()) -> np.ndarray:

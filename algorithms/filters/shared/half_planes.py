@@ -33,7 +33,6 @@ class Sides:
     """
 
     def __init__(self, ground: Points, reach: float) -> None:
-        # Not at the start of QGIS, which loads this module, and where scipy may be missing.
         from scipy.spatial import cKDTree
 
         self._ground, self._reach = ground, reach

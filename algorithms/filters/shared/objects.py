@@ -409,7 +409,7 @@ class Regions:
         numpy.ndarray of bool, shape (rows, columns)
         """
         share = _CLASSIC_WHOLE_SHARE if classic else _WHOLE_SHARE
-        fits = np.ones(len(self.width), dtype=bool) if classic else self._is_no_cliff()
+        fits = True if classic else self._is_no_cliff()
         return self._bounded(max_size, 1, _OBJECT_SHARE, share, _LEAST_STEEPNESS, fits)
 
     def plateaus(self, max_size: float) -> np.ndarray:
@@ -422,8 +422,7 @@ class Regions:
 
     def sunken(self, max_size: float) -> np.ndarray:
         """Return the cells of the regions whose border is a rise nearly all round: of pits."""
-        fits = np.ones(len(self.width), dtype=bool)
-        return self._bounded(max_size, -1, _PIT_SHARE, _PIT_SHARE, 0.0, fits)
+        return self._bounded(max_size, -1, _PIT_SHARE, _PIT_SHARE, 0.0, True)
 
     def _bounded(
         self,
@@ -432,7 +431,7 @@ class Regions:
         share: float,
         least_share: float,
         least_steepness: float,
-        fits: np.ndarray,
+        fits: np.ndarray | bool,
     ) -> np.ndarray:
         """Return the cells of regions bounded by drops (1) or rises (-1).
 

@@ -11,7 +11,6 @@ classification of airborne LIDAR data. ISPRS Journal 77, 21-30.
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -230,8 +229,7 @@ class SlopeFilter(ParameterSet):
                 apart = spacing(points)
                 chosen["search_radius"] = max(preset.search_radius, round(4.0 * apart, 1))
                 chosen["cell_size"] = apart
-        empty = {name: value for name, value in chosen.items() if getattr(self, name) is None}
-        return dataclasses.replace(self, **empty)
+        return self.filled(chosen)
 
 
 def largest_object(parameters: SlopeFilter) -> float:

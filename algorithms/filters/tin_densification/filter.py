@@ -213,10 +213,7 @@ class TinDensification(ParameterSet):
         points : Points
             The whole survey: its blocks must all be classified with the same values.
         """
-        preset = PRESETS[self.preset]
-        names = ("max_building_size", "iteration_angle", "iteration_distance")
-        empty = {name: getattr(preset, name) for name in names if getattr(self, name) is None}
-        return dataclasses.replace(self, **empty)
+        return self.filled(vars(PRESETS[self.preset]))
 
 
 def largest_object(parameters: TinDensification) -> float:
