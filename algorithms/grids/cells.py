@@ -95,7 +95,7 @@ class Cells:
     def minimum(self, z: np.ndarray, which: np.ndarray | slice = slice(None)) -> np.ndarray:
         """Return the lowest of `z` (n,) in each cell, shape (rows, columns); NaN where none is.
 
-        Only of the points that a mask or an index array names, if one is given.
+        `which`, a mask or an index array, names the points to look at; by default all.
         """
         lowest = np.full(self.rows * self.columns, np.inf)
         lower_at(lowest, self.index[which], z[which])
@@ -105,8 +105,8 @@ class Cells:
     def lowest_points(self, points: Points) -> np.ndarray:
         """Return the index of the lowest point of each occupied cell, in the order of the cells.
 
-        Of points equally low in one cell that with the smallest x, then y, is taken: the choice
-        must not depend on the order of the points.
+        If several points of a cell are equally low, the one with the smallest x, then y, is taken:
+        the choice must not depend on the order of the points.
         """
         lowest = self.minimum(points.z).ravel()
         is_lowest = np.empty(points.count, dtype=bool)

@@ -180,7 +180,7 @@ class DenseSurface:
 
         which = self._vertices()
         vertices = self._points.take(which)
-        # Not balanced: that takes longer than it saves.
+        # A balanced tree takes longer to build than it saves.
         tree = cKDTree(np.column_stack(vertices[:2]), balanced_tree=False, compact_nodes=False)
         return vertices.z[tree.query(np.column_stack((x, y)))[1]]
 

@@ -199,7 +199,7 @@ class GrowingTin:
         areas = np.stack(self._opposite_areas(points.x, points.y, corners))
         x, y = (np.stack([values[each] for each in corners]) for values in self.vertices[:2])
         squared = (x - np.roll(x, -1, axis=0)) ** 2 + (y - np.roll(y, -1, axis=0)) ** 2
-        # Of the edge from corner k + 1 to k + 2, that is opposite to corner k.
+        # Row k is for the edge from corner k + 1 to k + 2, which is opposite to corner k.
         share = areas / np.roll(squared, -1, axis=0)
         nearest = share.argmin(axis=0)
         return 3 * triangle + nearest, share.min(axis=0) <= _ON_EDGE

@@ -194,7 +194,7 @@ def falling(
     order = np.argsort(station, kind="stable")
     station, heights = station[order], heights[order]
     every = np.arange(len(line))
-    # Without the usual fall: else the lowest of the banks beside a station is the one downstream.
+    # The usual fall is taken out first: else the lowest bank near a station is the one downstream.
     slope = np.polyfit(station, heights, 1)[0] if np.ptp(station) else 0.0
     heights = heights - slope * station
     firsts = np.searchsorted(station, every - _STATIONS)

@@ -94,7 +94,7 @@ class Surface:
         if is_one_line(np.column_stack(self._vertices[:2])):
             return heights
         blocks = list(self._blocks(x, y))
-        # Of many blocks, each is a step; a single one is done in the calling thread.
+        # A single block reports its own progress; of several, each is one step.
         within = progress if len(blocks) == 1 else SILENT
 
         def fill(number: slice) -> None:
@@ -115,7 +115,7 @@ class Surface:
 
         with self._lock:
             if self._tree_of_all is None:
-                # Not balanced: that takes longer than it saves.
+                # A balanced tree takes longer to build than it saves.
                 places = np.column_stack((self._vertices.x, self._vertices.y))
                 self._tree_of_all = cKDTree(places, balanced_tree=False, compact_nodes=False)
             return self._tree_of_all

@@ -156,7 +156,7 @@ class Tin:
         """Walk from `triangle` (q,) towards queries (q,); return where it ends, -1 outside."""
         found = triangle.copy()
         moving = np.arange(len(x))
-        # No walk visits a triangle twice, so it ends; rounding at a vertex could make it circle.
+        # A walk visits no triangle twice, so it ends; the limit is for rounding at a vertex.
         for _ in range(len(self.triangles) + 1):
             areas = self._opposite_areas(x, y, triangle)
             worst = (areas[1] < areas[0]).astype(np.intp)

@@ -70,7 +70,7 @@ def _crossed(
         at = start_x + np.clip(share, 0.0, 1.0) * (end_x - start_x)
         np.minimum(west, at, out=west, where=meets)
         np.maximum(east, at, out=east, where=meets)
-    # No edge meets the row by rounding: nothing of it is inside.
+    # Where rounding lets no edge meet the row, no cell is inside.
     none = west > east
     west[none], east[none] = 0.0, -1.0
     return west, east

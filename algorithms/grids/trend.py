@@ -60,7 +60,7 @@ class Trend:
         self._within = tuple(each % self._block for each in first)
         self._blocks = in_threads(lambda axis: self._of_axis(heights, axis), (0, 1))
         columns = np.arange(heights.shape[1]) + self._within[1]
-        # Between the columns once for all rows of a block.
+        # Columns are interpolated once for all rows of a block.
         self._across = [_interpolated(each, columns, self._block, -1) for each in self._blocks]
 
     def _of_axis(self, heights: np.ndarray, axis: int) -> np.ndarray:

@@ -13,8 +13,8 @@ from ..grids.lines import NearPlaces
 from ..grids.morphology import within_square
 from ..grids.tin import Tin
 
-# Beside a line, as far as so many cells, and so many times as far as ground points lie apart, the
-# terrain is the TIN of all points: not thinned, so that two lines close together stay two.
+# Within so many cells of a line, or so many times the distance between ground points, the terrain
+# is the TIN of all points: they are not thinned, so that two lines close together stay two.
 _CELLS, _SPACINGS = 3.0, 3.0
 
 

@@ -203,7 +203,7 @@ class Line(NamedTuple):
     def cells(self, window: Window) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return distances along the line, and row and column of the terrain's cell at each.
 
-        Only those in the window; they are as far apart as cells are wide.
+        They are as far apart as cells are wide; those outside of the window are left out.
         """
         cell = window.cell_size
         distance = np.arange(0.0, self.length, cell) + 0.5 * min(cell, self.length)

@@ -29,7 +29,7 @@ _REMOTE = re.compile(r"[a-z][a-z0-9+.-]+://|/vsi", re.IGNORECASE)
 _PART = re.compile(r'[A-Z][A-Z0-9_]+:"?(?P<file>.+?)"?(:[^:\\/]*)?$')
 _DESCRIPTION = 1 << 20
 _SURVEY_FOOT = 1200 / 3937
-# As files state the unit of their heights, in metres.
+# Metres in the units of heights, by the words that files have for them.
 _UNITS = {
     "m": 1.0, "metre": 1.0, "meter": 1.0, "metres": 1.0, "meters": 1.0,
     "ft": 0.3048, "foot": 0.3048, "feet": 0.3048, "international foot": 0.3048,

@@ -155,7 +155,7 @@ def _is_odd(x: np.ndarray, y: np.ndarray, polygon: Polygon) -> np.ndarray:
     odd = np.zeros(len(x), dtype=bool)
     for ring in polygon:
         following = np.roll(ring, -1, axis=0)
-        # From the lower to the upper end: an edge that two polygons share gives one answer.
+        # Edges run from the lower to the upper end: one that two polygons share gives one answer.
         upwards = (ring[:, 1] <= following[:, 1])[:, None]
         low, high = np.where(upwards, ring, following), np.where(upwards, following, ring)
         firsts, lasts = np.searchsorted(y, low[:, 1]), np.searchsorted(y, high[:, 1])

@@ -17,7 +17,7 @@ from .corrections import CLASS_FIELD, Corrections
 _Shape = TypeVar("_Shape")
 
 _WKT_PART = re.compile(r"[()]|[^()]+")
-# What a text may do that is no such file.
+# What reading a text raises that is not valid GeoJSON or WKT.
 _INVALID = (
     ValueError, TypeError, KeyError, IndexError, AttributeError, RecursionError, OverflowError
 )  # fmt: skip

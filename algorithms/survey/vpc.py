@@ -188,7 +188,7 @@ def _entry(folder: Path, feature: dict[str, Any]) -> VpcEntry:
     properties = feature["properties"]
     box, count = properties.get("proj:bbox"), properties.get("pc:count")
     if box is not None:
-        # Of six numbers the third and the last are heights.
+        # If there are six numbers, the third and the last are heights.
         half = len(box) // 2
         box = tuple(float(each) for each in (*box[:2], *box[half : half + 2]))
     return VpcEntry(

@@ -39,7 +39,7 @@ def read_window(
 ) -> PointCloud:
     """Read the points of a LAS, LAZ or COPC file that lie in a rectangle.
 
-    Of COPC only the nodes of the octree that touch the rectangle are read, unless the octree turns
+    A COPC file is read by the nodes of its octree that touch the rectangle, unless the octree turns
     out to be damaged. LAS and LAZ are read in chunks from beginning to end.
 
     Parameters

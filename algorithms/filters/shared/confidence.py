@@ -23,7 +23,7 @@ CELL = 1.0
 TOLERANCE, RISE_SHARE = 0.3, 0.5
 # Cells to each side of a cell that are near it, and that are round it.
 _NEAR, _AROUND = 2, 8
-# What is round a cell counts so much beside what is near, where anything is near.
+# Weight of the cells round a cell, where the weight of those near it is 1.
 _AROUND_SHARE = 0.05
 # Metres above the ground up to which a rejected point may well be ground.
 _DOUBTFUL_HEIGHT = 1.0

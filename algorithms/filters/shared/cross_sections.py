@@ -31,10 +31,10 @@ _VOID_DROP, _VOID_SLOPE = 2.0, 0.05
 _TILT, _TILT_SLOPE = 0.5, 0.08
 # The feet may differ by this share of the lower drop.
 _FEET = 0.5
-# Between this share of a drop and the rest of it no ground may lie beside the edge.
+# No ground may lie beside the edge between this share of a drop and the rest of it.
 _FACE = 0.25
-# Beyond its foot the ground must stay below this share of the drop for so many metres: else it is
-# a pit, of low outliers for one. (As far as the border of the relief lets one look.)
+# Beyond the foot the ground must stay below this share of the drop for so many metres: else the
+# foot lies in a pit. The border of the relief reaches no farther.
 _PIT, _BEYOND = 0.5, BORDER - _FOOT
 # Rings in which the lowest ground is compared with an edge, in cells from it.
 _RINGS = (0, 1, 2, 4)

@@ -74,7 +74,7 @@ class Sides:
         )
         if own:
             distance, which = distance[:, 1:], which[:, 1:]
-        # Of several that are equally far the tree returns any: then none of them counts.
+        # The tree returns any of several that are equally far away: then none of them counts.
         there = distance[:, :-1] < distance[:, -1:]
         which = np.where(there, which[:, :-1], 0)
         x, y, z = (

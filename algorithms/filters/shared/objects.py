@@ -35,12 +35,12 @@ _OBJECT_SHARE = 0.65
 _WHOLE_SHARE, _CLASSIC_WHOLE_SHARE = 0.5, 0.4
 # Mean height of the drop over the width of the region: what is lower and wider is terrain.
 _LEAST_STEEPNESS = 0.15
-# What is as wide (m) and has such a share of its drops on the face of a cliff is terrain: points
-# lie on the face, so that none of five steps across it makes up more than a share of their sum,
-# and none leads back by more than some metres. At the wall of a building one does.
+# A region is terrain if it is as wide (m) and has such a share of its drops on the face of a cliff.
+# Points lie on such a face: of five steps across it, none makes up more than a share of their sum,
+# and none leads back by more than some metres. At the wall of a building one step does.
 _FACE_WIDTH, _FACE_SHARE = 10.0, 0.4
 _LARGEST_STEP, _STEP_BACK = 0.7, 0.3
-# Rounds in which what others hid is looked at again.
+# Rounds in which regions are looked at again that others hid.
 _ROUNDS = 3
 # Relaxations of the surface across gaps; what bounds objects is their rim, not the filling.
 _RELAXATIONS = 2
@@ -355,7 +355,7 @@ class Relief:
         """Return which steps from cells to neighbours are part of a face with points on it."""
         last = self._heights.size - 1
         across = [np.clip(cells + k * offset, 0, last) for k in range(-2, 4)]
-        # What fills a cell without a point makes a slope of any wall.
+        # The filling of cells without a point would make a slope of any wall.
         z = np.stack([np.where(self._known[at], self._heights[at], np.nan) for at in across])
         rises = np.diff(z, axis=0)
         one_way = (rises.min(axis=0) > -_STEP_BACK) | (rises.max(axis=0) < _STEP_BACK)
@@ -393,7 +393,7 @@ class Regions:
     def raised(self, max_size: float, classic: bool = False) -> np.ndarray:
         """Return the cells of the regions whose border is mostly a drop, but no cliff.
 
-        Of the whole border, what lies beyond the survey included, half must be a drop: the topmost
+        Half of the whole border, what lies beyond the survey included, must be a drop: the topmost
         tread of a terrace has one drop, and the border of the survey.
 
         Parameters

@@ -9,14 +9,12 @@ from ...grids.morphology import within_square
 
 # Metres from a pit between which cells bear witness: nearer ones may belong to the same fault.
 _NEAREST, _FARTHEST = 3.0, 10.0
-# Cells that lie as low as a pit: within so many metres, and so much for each metre of distance.
-_LEVEL, _LEVEL_SLOPE = 0.5, 0.2
-# But within this share of its depth.
-_DEPTH_SHARE = 0.33
-# So many cells at its level make a pit ground ...
-_LEAST_WITNESSES = 4
-# ... if they are at least this share of the cells of an even surface above it.
-_LEAST_SHARE = 0.15
+# A cell is as low as a pit within so many metres, and so much for each metre of distance, but
+# within this share of the depth of the pit.
+_LEVEL, _LEVEL_SLOPE, _DEPTH_SHARE = 0.5, 0.2, 0.33
+# A pit is ground if so many cells are as low, and at least this share of the cells of an even
+# surface above it.
+_LEAST_WITNESSES, _LEAST_SHARE = 4, 0.15
 # Metres by which a cell of an even surface departs from the median of the 3 x 3 cells round it.
 _EVEN = 0.3
 

@@ -58,7 +58,7 @@ class Relief(NamedTuple):
         lowest = np.full(cells.rows * cells.columns, np.inf)
         lower_at(lowest, cells.index, np.where(ground, points.z, np.inf))
         is_ground = np.isfinite(lowest)
-        # Of other points only where there is no ground.
+        # Other points count only where there is no ground.
         others = np.flatnonzero(~ground)
         others = others[~is_ground[cells.index[others]]]
         lower_at(lowest, cells.index[others], points.z[others])

@@ -145,7 +145,7 @@ class CellBounds:
         """Find from which steps on it is certain that a point stands above, and up to which not."""
         lowest = self.points.table.lowest.reshape(self.points.shape)
         empty = lowest == EMPTY
-        # Of the lowest point of a cell: so many steps above the opening or more, and fewer than.
+        # The lowest point of a cell lies at least `least` and less than `most` steps above it.
         self.least = np.maximum(lowest - self._high - 1, 0)
         most = lowest - self._low + 1
         self.least[empty] = most[empty] = EMPTY
@@ -173,7 +173,7 @@ class CellBounds:
         points, rule, radius = self.points, self.rule, self.points.inner
         certain = np.full(points.shape, 2 * EMPTY, dtype=np.int32)
         while radius >= 0.0:
-            # Between centres; two points of the cells lie at most a diagonal farther apart.
+            # Two points lie at most a diagonal farther apart than the centres of their cells.
             farthest = (radius + math.sqrt(2.0)) * points.size
             allowed = max(rule.height, rule.slope * farthest)
             steps = min(math.ceil(allowed / points.step + ROUNDING), 2 * EMPTY)

@@ -35,9 +35,9 @@ class PointComparison:
     def __init__(self, bounds: CellBounds, alive: Callable[[], None] = lambda: None) -> None:
         self._bounds, self._points, self._rule = bounds, bounds.points, bounds.rule
         self._alive = alive
-        # Without top-hat heights are compared as they are, but counted in steps from the base on.
+        # Without top-hat, heights are compared as they are; their steps begin at the base.
         self._zero = 0.0 if self._rule.top_hat else self._points.base
-        # Of all points, in metres; NaN where it is not known, or does not matter.
+        # In metres for each point; NaN where it is not known, or does not matter.
         count = len(bounds.points.z)
         self._eroded = np.full(count, np.nan)
         self._opened = np.full(count, np.nan if bounds.rule.top_hat else 0.0)
@@ -128,9 +128,9 @@ class PointComparison:
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Find which of some points `at` (k,), whose opening is known, stand above a neighbour.
 
-        Only those are looked at that `asked` names; those that certainly do are set in `found`
-        (k,). Returns those that may do so, depending on the opening at other points; these other
-        points, ascending; and how high the opening must be there to matter.
+        `asked` names those to look at. Sets `found` (k,) for those that certainly do. Returns those
+        that may do so, depending on the opening at other points; these other points, ascending;
+        and how high the opening must be there to matter.
         """
         point = at[asked]
         own = self._points.z[point] - self._opened[point]

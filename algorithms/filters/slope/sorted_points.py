@@ -15,7 +15,7 @@ from ...core.points import Points
 from ...grids.cells import Cells, lower_at
 from ...grids.morphology import erosion, within_square
 
-# So small that a cell holds a point, unless a disc or the plane had too many of them.
+# A cell is so small that it holds one point, unless a disc or the plane had too many cells then.
 _MOST_CELLS_A_RADIUS, _MOST_CELLS_A_POINT = 48, 4
 # Offsets of cells that are looked up at a time.
 OFFSETS_A_STEP = 8
@@ -231,7 +231,7 @@ class SortedPoints:
         touched = touched[np.argsort(nearest[touched], kind="stable")]
         offset = row * self.shape[1] + column
         self.offsets, self.nearest = offset[touched], nearest[touched]
-        # What is lowest is most likely found first where the disc ends.
+        # The lowest is most likely found first where the disc ends.
         between = np.hypot(row, column)[touched]
         rim = np.flatnonzero(between > self.inner)
         outermost = np.abs(between[rim] - self._radius / self.size + 0.5)

@@ -22,7 +22,7 @@ _POINTS_A_BLOCK = 400_000
 _REACH = 3.0
 # A block is so many radii wide or more, or most of the points looked at would lie round it.
 _LEAST_WIDTH = 16.0
-# So many values tell well enough where to cut.
+# As many values as tell well enough where to cut.
 _SAMPLE = 10_000
 _ROUNDING = 1e-6
 

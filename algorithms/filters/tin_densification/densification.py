@@ -27,7 +27,7 @@ _RING_SPACING = 5.0
 # How many times the iteration distance a candidate may lie off the seeds' smooth surface: no facet
 # comes as close to those farther away.
 _REACHABLE = 3.0
-# With more vertices in the 3 x 3 cells round a candidate its triangle is too small to take it.
+# If the 3 x 3 cells round a candidate hold more vertices, its triangle is too small to take it.
 _MOST_VERTICES_ROUND = 4
 
 # Rounds end where none is added: how many are far away must not matter.
@@ -244,9 +244,9 @@ def _bounding(vertices: np.ndarray, waiting: np.ndarray, reach: int) -> np.ndarr
 def _round(
     tin: Tin, triangle: np.ndarray, points: Points, rules: DensificationRules
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return which candidates to add, at most one in each triangle.
+    """Return which candidates to add, at most one in each triangle, and a mask (candidates,).
 
-    And a mask of those that were judged in another triangle, as their own is too steep.
+    It names those that were judged in another triangle, as their own is too steep.
     """
     distance, angle, longest, mirrored = _distance_and_angle(tin, triangle, points, rules)
     allowed = np.full(len(triangle), math.radians(rules.iteration_angle))
