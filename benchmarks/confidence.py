@@ -118,7 +118,11 @@ def compared(points: Points, ground: np.ndarray, terrain: Terrain, seed: int = 0
         Draws the cells.
     """
     cells = Cells.over(points, CELL)
-    at = cells.centres()
+    y, x = (
+        (first + np.arange(count) + 0.5) * cells.size
+        for first, count in zip(cells.first, cells.shape)
+    )
+    at = [each.ravel() for each in np.meshgrid(x, y)]
     truth = terrain(*at).reshape(cells.shape)
     allowed = TOLERANCE + RISE_SHARE * CELL * steepness(truth, CELL)
     heights = _tin(points.take(ground))(*at).reshape(cells.shape)

@@ -150,12 +150,6 @@ class Cells:
         column = x / self.size - (self.first_column + 0.5)
         return ndimage.map_coordinates(grid, (row, column), order=1, mode="nearest")
 
-    def centres(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return x and y of the centre of each cell, in the order of the flattened grid."""
-        x = (self.first_column + np.arange(self.columns) + 0.5) * self.size
-        y = (self.first_row + np.arange(self.rows) + 0.5) * self.size
-        return np.tile(x, self.rows), np.repeat(y, self.columns)
-
     def resampled(self, grid: np.ndarray, other: Cells) -> np.ndarray:
         """Return for each cell of `other` the value of the cell here in which its centre lies.
 

@@ -199,7 +199,7 @@ def _expand(source: Path, recursive: bool, progress: Progress) -> Iterator[Path]
             if is_cloud(path) and not path.name.startswith(".") and path.is_file():
                 yield path
     elif suffix == VPC_SUFFIX:
-        paths = [entry.path for entry in read_vpc(source)]
+        paths = read_vpc(source)
         _tell_of_files_elsewhere(source, paths, progress)
         yield from paths
     elif suffix in _LISTS:

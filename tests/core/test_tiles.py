@@ -211,7 +211,7 @@ def test_copc_files_of_which_only_parts_are_read_give_the_same(tmp_path, out):
 
 def test_the_results_are_listed_in_a_virtual_point_cloud(six, out, tmp_path):
     summary = classify_tiles([six], out, FAST)
-    assert [each.path.name for each in read_vpc(out / "classified.vpc")] == sorted(
+    assert [each.name for each in read_vpc(out / "classified.vpc")] == sorted(
         path.name for path in six.iterdir()
     )
     assert summary.vpc == str(out / "classified.vpc")
@@ -589,7 +589,7 @@ def test_a_name_that_is_not_utf_8_harms_nobody(six, tmp_path):
     done = classify_tiles([six], tmp_path / "out", FAST)
     assert done.done_count == 6 and not done.failures
     assert (tmp_path / "out" / "t\udcff\n.laz").exists()
-    assert {each.path.name for each in read_vpc(Path(done.vpc))} == set(os.listdir(six))
+    assert {each.name for each in read_vpc(Path(done.vpc))} == set(os.listdir(six))
 
 
 def test_methods_in_short_have_the_presets_of_all():

@@ -92,10 +92,6 @@ class Confidence(NamedTuple):
     cells: Cells
     values: np.ndarray
 
-    def of_points(self) -> np.ndarray:
-        """Return the value of the cell of each point; float32, shape (n,)."""
-        return self.values.ravel()[self.cells.index]
-
 
 def confidence(points: Points, ground: np.ndarray) -> Confidence:
     """Return the probability that the terrain made of ground points is right, for cells of 1 m.

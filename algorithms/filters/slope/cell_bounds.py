@@ -145,7 +145,7 @@ class CellBounds:
         """Find from which steps on it is certain that a point stands above, and up to which not."""
         lowest = self.points.table.lowest.reshape(self.points.shape)
         empty = lowest == EMPTY
-        # The lowest point of a cell lies at least `least` and less than `most` steps above it.
+        # The lowest point of a cell lies `least` steps above the opening or more, but not `most`.
         self.least = np.maximum(lowest - self._high - 1, 0)
         most = lowest - self._low + 1
         self.least[empty] = most[empty] = EMPTY
