@@ -205,6 +205,17 @@ class ParameterSet:
         }
         return dataclasses.replace(self, **empty)
 
+    def in_words(self, *names: str) -> str:
+        """Return some parameters in words: their labels, values and units."""
+        declared = {each.name: each for each in self.declarations()}
+        words = []
+        for name in names:
+            value = getattr(self, name)
+            values = value if isinstance(value, tuple) else (value,)
+            shown = ", ".join(map(shown_value, values))
+            words.append(f"{declared[name].label.lower()} {shown} {declared[name].unit}".rstrip())
+        return ", ".join(words)
+
     @classmethod
     def declarations(cls) -> tuple[Declaration, ...]:
         """Return the declarations of all parameters, in their order."""

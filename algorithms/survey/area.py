@@ -36,20 +36,18 @@ class Area:
     def __post_init__(self) -> None:
         if self.box is None and not any(map(len, self.polygons)):
             raise BareEarthError("The boundary holds no polygon. Choose one that does.")
-        if self.box is not None and not self._is_proper_box():
-            values = " ".join(f"{value:g}" for value in self.box)
-            raise BareEarthError(
-                "The extent must be XMIN YMIN XMAX YMAX, XMIN below XMAX and YMIN below YMAX, not"
-                f" {values}."
-            )
+        if self.box is not None:
+            west, south, east, north = self.box
+            if not (np.isfinite(self.box).all() and west < east and south < north):
+                values = " ".join(f"{value:g}" for value in self.box)
+                raise BareEarthError(
+                    "The extent must be XMIN YMIN XMAX YMAX, XMIN below XMAX and YMIN below YMAX,"
+                    f" not {values}."
+                )
         if not all(np.isfinite(ring).all() for polygon in self.polygons for ring in polygon):
             raise BareEarthError(
                 "A corner of the boundary is not a finite number. Check the boundary and its CRS."
             )
-
-    def _is_proper_box(self) -> bool:
-        west, south, east, north = self.box
-        return bool(np.isfinite(self.box).all()) and west < east and south < north
 
     @property
     def bounds(self) -> Box:

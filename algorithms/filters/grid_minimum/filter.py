@@ -355,12 +355,8 @@ def _candidates(
 
 
 def _in_words(parameters: GridMinimum) -> str:
-    heights = ", ".join(f"{each:g}" for each in parameters.height_thresholds)
-    return (
-        f"Grid minimum: preset {parameters.preset}, cell size {parameters.cell_size:g} m, height"
-        f" thresholds {heights} m, final height {parameters.final_height:g} m, maximum object size"
-        f" {parameters.max_object_size:g} m."
-    )
+    names = "preset", "cell_size", "height_thresholds", "final_height", "max_object_size"
+    return f"Grid minimum: {parameters.in_words(*names)}."
 
 
 def _tell_of_gaps(density: float, parameters: GridMinimum, progress: Progress) -> None:

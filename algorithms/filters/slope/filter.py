@@ -289,18 +289,11 @@ def classify(points: Points, parameters: SlopeFilter, progress: Progress = SILEN
 
 
 def _in_words(parameters: SlopeFilter) -> str:
+    names = ["preset", "search_radius", "slope_threshold", "height_threshold"]
     if parameters.preset == CLASSIC:
-        last = f"minimum number of neighbours {parameters.min_neighbours}"
-    else:
-        last = (
-            f"cell size {parameters.cell_size:g} m, maximum building size"
-            f" {parameters.max_building_size:g} m"
-        )
-    return (
-        f"Slope filter: preset {parameters.preset}, search radius {parameters.search_radius:g} m,"
-        f" slope threshold {parameters.slope_threshold:g} deg, height threshold"
-        f" {parameters.height_threshold:g} m, {last}."
-    )
+        neighbours = f"minimum number of neighbours {parameters.min_neighbours}"
+        return f"Slope filter: {parameters.in_words(*names)}, {neighbours}."
+    return f"Slope filter: {parameters.in_words(*names, 'cell_size', 'max_building_size')}."
 
 
 def _on_one_scale(points: Points, parameters: SlopeFilter, progress: Progress) -> np.ndarray:

@@ -325,11 +325,8 @@ def _in_words(parameters: TinDensification, spacing: float, is_dense: bool) -> s
         if is_dense
         else ""
     )
-    return (
-        f"TIN densification: preset {parameters.preset}, maximum building size"
-        f" {parameters.max_building_size:g} m, iteration angle {parameters.iteration_angle:g} deg,"
-        f" iteration distance {parameters.iteration_distance:g} m{cells}."
-    )
+    names = "preset", "max_building_size", "iteration_angle", "iteration_distance"
+    return f"TIN densification: {parameters.in_words(*names)}{cells}."
 
 
 def _lowest_of(points: Points, which: np.ndarray) -> np.ndarray:
