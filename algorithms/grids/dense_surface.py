@@ -15,7 +15,7 @@ import numpy as np
 
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
-from ..core.threads import over_parts
+from ..core.threads import in_threads
 from .enclosing import NOWHERE, enclosing_heights, heights_of_four
 from .morphology import within_square
 from .surface import CellLattice, Surface
@@ -105,10 +105,9 @@ class DenseSurface:
         """
         heights, sure = np.full(shape, np.nan), np.zeros(shape, dtype=bool)
         side = TILE // VERTICES_A_SIDE
-        places = list(itertools.product(*(range(-(-count // side)) for count in shape)))
+        places = itertools.product(*(range(-(-count // side)) for count in shape))
 
-        def fill(number: slice) -> None:
-            place = places[number.start]
+        def fill(place: tuple[int, int]) -> None:
             cells = tuple(slice(each * side, (each + 1) * side) for each in place)
             row, column = (
                 np.arange(min(count - each * side, side)) * VERTICES_A_SIDE + 1
@@ -120,7 +119,7 @@ class DenseSurface:
             for whole, part in zip((heights, sure), found):
                 whole[cells] = part.reshape(whole[cells].shape)
 
-        over_parts(fill, len(places), 1, progress.part(0.0, 0.5))
+        in_threads(fill, places, progress.part(0.0, 0.5))
         left = np.flatnonzero(~sure)
         if len(left):
             row, column = np.divmod(left, shape[1])
@@ -155,10 +154,9 @@ class DenseSurface:
             Metres; NaN outside the convex hull, and in gaps.
         """
         heights, sure = np.full(len(x), np.nan), np.zeros(len(x), dtype=bool)
-        groups = _by_tile(self._thinned, x, y)
 
-        def fill(number: slice) -> None:
-            place, which = groups[number.start]
+        def fill(group: tuple[tuple[int, int], np.ndarray]) -> None:
+            place, which = group
             at_x, at_y = (
                 self._thinned.cells(each[which], axis) - place[1 - axis] * TILE
                 for axis, each in enumerate((x, y))
@@ -167,7 +165,7 @@ class DenseSurface:
             queries = _Queries(at_x, at_y, *corners)
             heights[which], sure[which] = self._in_tile(place, queries, False, max_edge)
 
-        over_parts(fill, len(groups), 1, progress.part(0.05, 0.7))
+        in_threads(fill, _by_tile(self._thinned, x, y), progress.part(0.05, 0.7))
         left = np.flatnonzero(~sure)
         if len(left):
             heights[left] = self._rest(x[left], y[left], max_edge, progress.part(0.7, 1.0))

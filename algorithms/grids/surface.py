@@ -9,7 +9,7 @@ import numpy as np
 
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
-from ..core.threads import over_parts
+from ..core.threads import in_threads
 from .enclosing import circumcircles, interpolated, leaving_corner, longest_edge
 from .tin import Tin, hull_corners, is_one_line, lowest_of_duplicates
 from .tin_cells import triangles_of_cells
@@ -97,12 +97,12 @@ class Surface:
         # A single block reports its own progress; of several, each is one step.
         within = progress if len(blocks) == 1 else SILENT
 
-        def fill(number: slice) -> None:
-            queries, size = blocks[number.start]
+        def fill(block: tuple[np.ndarray, float]) -> None:
+            queries, size = block
             some = x[queries], y[queries]
             heights[queries] = self._block_heights(*some, size, max_edge, cells, within)
 
-        over_parts(fill, len(blocks), 1, progress)
+        in_threads(fill, blocks, progress)
         return heights
 
     def nearest(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:

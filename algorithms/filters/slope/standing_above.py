@@ -10,7 +10,7 @@ import numpy as np
 
 from ...core.points import Points
 from ...core.progress import SILENT, Progress
-from ...core.threads import over_parts
+from ...core.threads import in_threads
 from .cell_bounds import CellBounds, Rule
 from .neighbourhood import Neighbourhood
 from .point_comparison import PointComparison
@@ -78,20 +78,20 @@ def _of_strip(
     blocks = _intervals(x, np.count_nonzero(asked) / _POINTS_A_BLOCK, rule.radius)
     caller = threading.get_ident()
 
-    def fill(part: slice) -> None:
-        west, east = blocks[part.start]
+    def fill(block: tuple[int, tuple[float, float]]) -> None:
+        number, (west, east) = block
         near = np.flatnonzero((x >= west - reach) & (x < east + reach))
         wanted = asked[near] & (x[near] >= west) & (x[near] < east)
 
         def alive() -> None:
             # Progress is for the calling thread only.
             if threading.get_ident() == caller:
-                progress(part.start / len(blocks))
+                progress(number / len(blocks))
 
         if wanted.any():
             above[near[_of_block(points.take(near), rule, wanted, alive)]] = True
 
-    over_parts(fill, len(blocks), 1, progress)
+    in_threads(fill, enumerate(blocks), progress)
     return above
 
 
