@@ -11,7 +11,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.points import Points
 from ..core.progress import SILENT
-from ..core.threads import over_parts
+from ..core.threads import over_parts, parts_of
 
 _MOST_CELLS = 200_000_000
 _POINTS_A_PART = 1 << 17
@@ -122,9 +122,9 @@ class Cells:
     def counts(self) -> np.ndarray:
         """Return the number of points in each cell; int32, shape (rows, columns)."""
         counts = np.zeros(self.rows * self.columns, dtype=np.int32)
-        for first in range(0, len(self.index), _POINTS_A_COUNT):
+        for part in parts_of(len(self.index), _POINTS_A_COUNT):
             # In steps, as bincount takes 8 bytes for each.
-            step = np.bincount(self.index[first : first + _POINTS_A_COUNT])
+            step = np.bincount(self.index[part])
             counts[: len(step)] += step
         return counts.reshape(self.shape)
 

@@ -6,6 +6,8 @@ from typing import Iterable
 
 import numpy as np
 
+from ..core.threads import parts_of
+
 # Queries are walked this many at a time: the arrays of one step then stay in the processor's cache.
 _QUERIES_A_STEP = 200_000
 # Twice the area, in m2, by which a query may lie outside an edge and count as on it: rounding.
@@ -71,8 +73,7 @@ class Tin:
         found = np.full(len(x), -1, dtype=np.int32)
         if not len(self.triangles):
             return found
-        for first in range(0, len(x), _QUERIES_A_STEP):
-            part = slice(first, first + _QUERIES_A_STEP)
+        for part in parts_of(len(x), _QUERIES_A_STEP):
             triangle = self._triangle_of_vertex[self._near(x[part], y[part])]
             found[part] = self._walk(x[part] - self._origin[0], y[part] - self._origin[1], triangle)
         return found
@@ -99,8 +100,8 @@ class Tin:
             triangle = self.locate(x, y)
         height = np.full(len(x), np.nan)
         inside = np.flatnonzero(triangle >= 0)
-        for first in range(0, len(inside), _QUERIES_A_STEP):
-            part = inside[first : first + _QUERIES_A_STEP]
+        for some in parts_of(len(inside), _QUERIES_A_STEP):
+            part = inside[some]
             weights = self._opposite_areas(
                 x[part] - self._origin[0], y[part] - self._origin[1], triangle[part]
             )

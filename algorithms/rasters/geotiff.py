@@ -14,6 +14,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.points import Frame, Points
 from ..core.progress import SILENT, Progress
+from ..core.threads import parts_of
 from ..crs.system import unit_name
 from ..crs.wkt import read_wkt
 from .libraries import GdalErrors, library
@@ -136,8 +137,7 @@ def _covered(points: Points) -> float:
     """Return in which share of the squares over the extent of points there are any."""
     extent = [np.ptp(each) // _SQUARE + 1.0 for each in (points.x, points.y)]
     squares: set[complex] = set()
-    for first in range(0, points.count, _STEP):
-        part = slice(first, first + _STEP)
+    for part in parts_of(points.count, _STEP):
         place = np.floor(points.x[part] / _SQUARE) + 1j * np.floor(points.y[part] / _SQUARE)
         squares |= set(np.unique(place).tolist())
     return len(squares) / (extent[0] * extent[1])

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.points import Box
+from ..core.threads import parts_of
 from ..las.cloud import PointCloud
 
 # Sorted at once: not so many that memory grows, nor so few that the loop over edges counts.
@@ -98,8 +99,7 @@ class Area:
             polygons, 1 for those in the box.
         """
         numbers = np.empty(cloud.count, dtype=np.int32)
-        for first in range(0, cloud.count, _POINTS_A_STEP):
-            part = slice(first, first + _POINTS_A_STEP)
+        for part in parts_of(cloud.count, _POINTS_A_STEP):
             numbers[part] = self._numbers(
                 cloud.x[part] * cloud.scale[0] + cloud.offset[0],
                 cloud.y[part] * cloud.scale[1] + cloud.offset[1],
@@ -112,8 +112,8 @@ class Area:
         numbers = inside.astype(np.int32)
         if self.polygons:
             which = np.flatnonzero(inside)
-            for first in range(0, len(which), _POINTS_A_STEP):
-                part = which[first : first + _POINTS_A_STEP]
+            for some in parts_of(len(which), _POINTS_A_STEP):
+                part = which[some]
                 numbers[part] = _last_polygon(x[part], y[part], self.polygons)
         return numbers
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..core.points import Box
+from ..core.threads import parts_of
 from ..las.cloud import PointCloud
 
 _STEP = 1 << 20
@@ -96,7 +97,7 @@ def count_classes(classes: np.ndarray) -> np.ndarray:
     even = len(classes) - len(classes) % 2
     # Two classes as one number: half as many to count.
     pairs = np.ascontiguousarray(classes[:even]).view(np.uint16)
-    for first in range(0, len(pairs), _STEP):
-        step = np.bincount(pairs[first : first + _STEP], minlength=counts.size)
+    for part in parts_of(len(pairs), _STEP):
+        step = np.bincount(pairs[part], minlength=counts.size)
         counts += step.reshape(counts.shape)
     return counts.sum(axis=0) + counts.sum(axis=1) + np.bincount(classes[even:], minlength=256)

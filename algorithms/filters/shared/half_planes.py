@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...core.points import Points
+from ...core.threads import parts_of
 
 # Neighbours that are looked at, and how many of them a side must have to be judged by.
 _NEIGHBOURS, _LEAST = 16, 4
@@ -62,8 +63,7 @@ class Sides:
         misfit = np.full((points.count, _SIDES), np.nan)
         if self._tree is None:
             return rise, misfit
-        for first in range(0, points.count, _AT_ONCE):
-            part = slice(first, first + _AT_ONCE)
+        for part in parts_of(points.count, _AT_ONCE):
             rise[part], misfit[part] = self._of_some(points.take(part), own)
         return rise, misfit
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...core.points import Points
 from ...core.progress import SILENT, Progress
-from ...core.threads import over_parts
+from ...core.threads import over_parts, parts_of
 from ...grids.cells import Cells, lower_at
 from .sorted_points import SortedPoints
 
@@ -80,8 +80,7 @@ class Neighbourhood:
 
     def grown_pairs(self) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
         """Yield the points whose radius grew, their neighbours, and the distances between, (k,)."""
-        for first in range(0, len(self._grown), _GROWN_A_STEP):
-            part = slice(first, first + _GROWN_A_STEP)
+        for part in parts_of(len(self._grown), _GROWN_A_STEP):
             point, radius = self._grown[part], self._grown_radius[part]
             places = np.column_stack(self._points.take(point)[:2])
             neighbours = self._tree.query_ball_point(places, radius * (1.0 + _ROUNDING))
@@ -110,14 +109,13 @@ class Neighbourhood:
             return nothing
         self._tree = cKDTree(np.column_stack(self._points[:2]))
         radius = np.empty(len(doubtful))
-        step = max(_PAIRS_A_STEP // (at_least + 1), 1)
-        for first in range(0, len(doubtful), step):
-            point = doubtful[first : first + step]
+        for part in parts_of(len(doubtful), max(_PAIRS_A_STEP // (at_least + 1), 1)):
+            point = doubtful[part]
             _, nearest = self._tree.query(
                 np.column_stack(self._points.take(point)[:2]), at_least + 1
             )
             distance = self._distance(np.repeat(point, at_least + 1), nearest.ravel())
-            radius[first : first + step] = distance.reshape(nearest.shape).max(axis=1)
+            radius[part] = distance.reshape(nearest.shape).max(axis=1)
         grown = radius > self._radius
         return doubtful[grown], radius[grown]
 

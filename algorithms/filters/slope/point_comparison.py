@@ -10,6 +10,7 @@ from typing import Callable, Iterator
 
 import numpy as np
 
+from ...core.threads import parts_of
 from ...grids.cells import lower_at
 from .cell_bounds import CellBounds
 from .sorted_points import EMPTY, OFFSETS_A_STEP, ROUNDING, Table
@@ -162,9 +163,8 @@ class PointComparison:
         most = (np.floor((own - self._zero) / points.step) + 1.0).astype(np.int16)
         allowed -= ROUNDING
         left = np.arange(len(point))
-        for group in range(0, len(points.offsets), OFFSETS_A_STEP):
+        for part in parts_of(len(points.offsets), OFFSETS_A_STEP):
             self._alive()
-            part = slice(group, group + OFFSETS_A_STEP)
             left = left[~sure[left]]
             cell = points.cell[point[left], None] + points.offsets[part]
             hit = np.flatnonzero(least.take(cell) <= most[left, None] - fewest[part])

@@ -12,6 +12,7 @@ from typing import Callable, NamedTuple
 import numpy as np
 
 from ...core.points import Points
+from ...core.threads import parts_of
 from ...grids.cells import Cells, lower_at
 from ...grids.morphology import erosion, within_square
 
@@ -149,10 +150,10 @@ class SortedPoints:
         is called several times a second, ends the work.
         """
         cell, limit = self.cell[at], sign * self.steps(sign * best)
-        for group in range(0, len(offsets), OFFSETS_A_STEP):
+        for group in parts_of(len(offsets), OFFSETS_A_STEP):
             alive()
             hits, others = [], []
-            for offset in offsets[group : group + OFFSETS_A_STEP]:
+            for offset in offsets[group]:
                 other = cell + offset
                 hit = np.flatnonzero(table.lowest.take(other) <= limit)
                 hits.append(hit)
