@@ -78,16 +78,12 @@ class RasterGrid:
                 " and the parameters."
             )
         cell = cell_size / frame.horizontal_unit
-        x0, x1, y0, y1 = (
-            value / frame.horizontal_unit
-            for value in (points.x.min(), points.x.max(), points.y.min(), points.y.max())
+        (x0, x1), (y0, y1) = (
+            [(at + end / frame.horizontal_unit) / cell for end in (each.min(), each.max())]
+            for at, each in zip(frame.origin, points)
         )
-        west, north = (
-            math.floor((frame.origin[0] + x0) / cell),
-            math.ceil((frame.origin[1] + y1) / cell),
-        )
-        columns = max(math.ceil((frame.origin[0] + x1) / cell) - west, 1)
-        rows = max(north - math.floor((frame.origin[1] + y0) / cell), 1)
+        west, north = math.floor(x0), math.ceil(y1)
+        columns, rows = max(math.ceil(x1) - west, 1), max(north - math.floor(y0), 1)
         cells = columns * rows
         if cells > _MOST_CELLS or (cells > _MANY_CELLS and _covered(points) < _LEAST_COVERED):
             raise BareEarthError(
