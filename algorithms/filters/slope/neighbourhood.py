@@ -17,7 +17,8 @@ from .sorted_points import SortedPoints
 _POINTS_A_STEP = 50_000
 _PAIRS_A_STEP = 2_000_000
 _GROWN_A_STEP = 20_000
-_MOST_CELLS = 1e8
+# Points are counted in at most so many cells for each point, or in so many cells if that is more.
+_CELLS_A_POINT, _MOST_CELLS = 4, 1_000_000
 # Share by which a radius is widened, so that rounding never skips a point; points themselves are
 # compared without it.
 _ROUNDING = 1e-6
@@ -102,7 +103,8 @@ class Neighbourhood:
         points, doubtful = self._points, np.arange(self._points.count)
         # Points of one such cell are within the radius of each other.
         side = self._radius * (1.0 - _ROUNDING) / math.sqrt(2.0)
-        if float(np.ptp(points.x)) * float(np.ptp(points.y)) < _MOST_CELLS * side**2:
+        most = max(_CELLS_A_POINT * points.count, _MOST_CELLS)
+        if float(np.ptp(points.x)) * float(np.ptp(points.y)) < most * side**2:
             cells = Cells.over(points, side)
             doubtful = np.flatnonzero(cells.counts().ravel()[cells.index] <= at_least)
         if not len(doubtful):
