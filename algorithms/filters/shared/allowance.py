@@ -87,7 +87,7 @@ class Allowance:
         return replace(self, gentle_step=self.gentle_step * max(size, 1.0))
 
 
-# As it was before large windows and slopes were told apart: for presets of other programs.
+# For presets of other programs: large windows and slopes are treated as all others.
 CLASSIC = Allowance(
     gentle_share=0.5,
     wide_share=0.5,

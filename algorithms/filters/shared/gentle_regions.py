@@ -103,12 +103,11 @@ def gentle_regions(
     open_ = np.bincount(number, _unsurveyed(surveyed).ravel()[cells], count)
     heights = filled.ravel()[cells]
     above = heights - surface.ravel()[cells]
-    foot = (
-        sum(np.bincount(flat[0][flat[1] == -1], minlength=count) for flat, _, _ in borders) * size
-    )
-    places = tuple(size * each for each in np.divmod(cells, raised.shape[1]))
+    feet = np.concatenate([flat[0][flat[1] == -1] for flat, _, _ in borders])
+    foot = np.bincount(feet, minlength=count) * size
+    row, column = np.divmod(cells, raised.shape[1])
     landforms = rocks(number, heights, above, area, allowance.rock_area)
-    landforms |= ramps(number, places, above, area, foot, allowance.ramp_area)
+    landforms |= ramps(number, (size * row, size * column), above, area, foot, allowance.ramp_area)
     above = np.bincount(number, above, count) * size**2 / area
     joined = _joined(borders, area, above, open_, landforms, allowance)
     result = np.zeros((2, up.size), dtype=bool)

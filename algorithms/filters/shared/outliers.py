@@ -10,14 +10,12 @@ from ...grids.morphology import within_square
 
 # Metres from a pit between which cells bear witness: nearer ones may belong to the same fault.
 _NEAREST, _FARTHEST = 3.0, 10.0
-# Cells that lie as low as a pit: within so many metres, and so much for each metre of distance.
-_LEVEL, _LEVEL_SLOPE = 0.5, 0.2
-# But within this share of its depth.
-_DEPTH_SHARE = 0.33
-# So many cells at its level make a pit ground ...
-_LEAST_WITNESSES = 4
-# ... if they are at least this share of the cells of an even surface above it.
-_LEAST_SHARE = 0.15
+# A cell is as low as a pit within so many metres, and so much for each metre of distance, but
+# within this share of the depth of the pit.
+_LEVEL, _LEVEL_SLOPE, _DEPTH_SHARE = 0.5, 0.2, 0.33
+# A pit is ground if so many cells are as low, and at least this share of the cells of an even
+# surface above it.
+_LEAST_WITNESSES, _LEAST_SHARE = 4, 0.15
 # A point that lies alone is so many metres below the cells round it, of which so many are even, in
 # a cell of so many points, the next one of which is higher by this share of that.
 _LONE_DEPTH, _LEAST_EVEN, _LEAST_POINTS, _LONE_GAP = 0.6, 6, 4, 0.7
@@ -118,20 +116,12 @@ def supported(
 
     Parameters
     ----------
-    grid : numpy.ndarray of float, shape (rows, columns)
-        Lowest height of each cell in metres; NaN where there is none.
-    size : float
-        Side of a cell in metres.
+    grid, size, first
+        As for `low_outliers`, and so is the result.
     pits : numpy.ndarray of bool, shape (rows, columns)
         Cells that lie far below those next to them.
     depth : numpy.ndarray of float, shape (rows, columns)
         How far, in metres.
-    first : tuple of int
-        Row and column of the first cell in the grid of the CRS.
-
-    Returns
-    -------
-    numpy.ndarray of bool, shape (rows, columns)
     """
     result = np.zeros(grid.shape, dtype=bool)
     row, column = np.nonzero(pits)

@@ -210,10 +210,7 @@ class TinDensification(ParameterSet):
         points : Points
             The whole survey: its blocks must all be classified with the same values.
         """
-        preset = PRESETS[self.preset]
-        names = ("max_building_size", "iteration_angle", "iteration_distance")
-        empty = {name: getattr(preset, name) for name in names if getattr(self, name) is None}
-        return dataclasses.replace(self, **empty)
+        return self.filled(vars(PRESETS[self.preset]))
 
 
 def largest_object(parameters: TinDensification) -> float:
@@ -274,7 +271,7 @@ def classify(
     tell_of_outliers(len(survey.lowest), survey.heights, progress)
     ground, waiting = _seeds(points, survey, resolved, apart, progress.part(0.1, 0.7))
     cells = survey.cells
-    heights = with_lower(np.full(cells.shape, np.nan), cells, points, ground)
+    heights = cells.minimum(points.z, ground)
     if known_ground is not None and known_ground.any():
         known = _lowest_of(points, np.flatnonzero(known_ground))
         ground, heights = np.append(ground, known), with_lower(heights, cells, points, known)
@@ -326,11 +323,8 @@ def _in_words(parameters: TinDensification, spacing: float, is_dense: bool) -> s
         if is_dense
         else ""
     )
-    return (
-        f"TIN densification: preset {parameters.preset}, maximum building size"
-        f" {parameters.max_building_size:g} m, iteration angle {parameters.iteration_angle:g} deg,"
-        f" iteration distance {parameters.iteration_distance:g} m{cells}."
-    )
+    names = "preset", "max_building_size", "iteration_angle", "iteration_distance"
+    return f"TIN densification: {parameters.in_words(*names)}{cells}."
 
 
 def _lowest_of(points: Points, which: np.ndarray) -> np.ndarray:
