@@ -192,27 +192,25 @@ def _middle(rises: np.ndarray, index: np.ndarray, cells: int) -> tuple[np.ndarra
     The lowest points give a first guess, as they lie below by a multiple of the noise that their
     number tells; then the points round the guess are averaged.
     """
-    count, _, spread = _moments(rises, index, np.abs(rises) < _NOISE_WINDOW, cells)
+    near = np.abs(rises) < _NOISE_WINDOW
+    cell, value = index[near], rises[near].astype(np.float64)
+    count, mean = _means(value, cell, cells)
     enough = count >= _NOISE_POINTS
     if not enough.any():
         return np.zeros(cells), 0.0
+    square = _means(value * value, cell, cells)[1]
+    spread = np.sqrt(np.maximum(square - mean * mean, 0.0))
     noise = float(np.percentile(spread[enough], _NOISE_PERCENTILE))
     lowest = np.sqrt(2.0 * np.log(np.maximum(count, 1)))
     level = _LOWEST_FACTOR * noise * lowest
     for _ in range(_MEANS):
         near = np.abs(rises - level[index]) <= _NOISE_FACTOR * noise
-        count, mean, _ = _moments(rises, index, near, cells)
+        count, mean = _means(rises[near], index[near], cells)
         level = np.where(count >= _MEAN_POINTS, mean, level)
     return level, noise
 
 
-def _moments(
-    rises: np.ndarray, index: np.ndarray, which: np.ndarray, cells: int
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return number, mean and standard deviation of some rises in each cell."""
-    cell, value = index[which], rises[which].astype(np.float64)
-    count = np.bincount(cell, minlength=cells)
-    total = np.maximum(count, 1)
-    mean = np.bincount(cell, value, minlength=cells) / total
-    square = np.bincount(cell, value * value, minlength=cells) / total
-    return count, mean, np.sqrt(np.maximum(square - mean * mean, 0.0))
+def _means(values: np.ndarray, index: np.ndarray, cells: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return how many values each cell has, and their mean."""
+    count = np.bincount(index, minlength=cells)
+    return count, np.bincount(index, values, minlength=cells) / np.maximum(count, 1)

@@ -68,6 +68,7 @@ def seeds_of_two_grids(
     size = survey.cells.size
     moved = points._replace(x=points.x + 0.5 * size, y=points.y + 0.5 * size)
     kinds = np.zeros((2, points.count), dtype=np.int8)
+    lowest = [survey.lowest] * 2
     caller = threading.get_ident()
 
     def judge(number: int) -> None:
@@ -76,15 +77,16 @@ def seeds_of_two_grids(
         # Progress is for the calling thread only.
         part = part if threading.get_ident() == caller else SILENT
         ground, is_open = _judged(grid, max_size, Allowance(), part)
+        lowest[number] = grid.lowest
         kinds[number, grid.lowest] = np.where(ground, _GROUND, np.where(is_open, _OPEN, _OBJECT))
 
     in_threads(judge, range(len(kinds)))
-    lowest = np.flatnonzero(kinds.any(axis=0))
-    one, other = kinds[:, lowest]
+    either = np.union1d(*lowest)
+    one, other = kinds[:, either]
     ground = (one == _GROUND) & ((other == _GROUND) | (other == _HIDDEN))
     ground |= (other == _GROUND) & (one == _HIDDEN)
     is_open = ~ground & ((one >= _OPEN) | (other >= _OPEN))
-    return lowest[ground], lowest[is_open]
+    return either[ground], either[is_open]
 
 
 def _judged(
