@@ -21,7 +21,7 @@ _FACET_SMOOTHING = 0.7
 # The tolerance on slopes follows the distance between points between these two, in metres.
 _SPARSE, _DENSE = 1.0, 0.25
 # Metres between points up to which their noise is measured: the lowest of many in a cell is biased.
-_NOISE_SPACING = 0.36
+NOISE_SPACING = 0.36
 # Metres between points up to which narrow cells hold enough of them, and show breaks by themselves.
 DENSE_SPACING = 0.17
 # Metres of curvature over a cell from which on there is a break, and what each more adds.
@@ -106,7 +106,7 @@ def ground_limits(
     """
     surface, slopes = _centred(points, vertices, cells)
     above = tolerance.above
-    if spacing <= _NOISE_SPACING:
+    if spacing <= NOISE_SPACING:
         rises = _rises(points, cells, surface, slopes)
         level, noise = _middle(rises, cells.index, surface.size)
         surface = surface + level.reshape(surface.shape)

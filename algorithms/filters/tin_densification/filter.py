@@ -24,7 +24,13 @@ from ...grids.model_key_points import ModelKeyPoints, model_key_points
 from ..shared.allowance import CLASSIC as CLASSIC_ALLOWANCE
 from ..shared.breaks import checked_seeds
 from ..shared.doubts import tell_of_outliers
-from ..shared.ground_limits import DENSE_SPACING, Tolerance, ground_limits, plain_limits
+from ..shared.ground_limits import (
+    DENSE_SPACING,
+    NOISE_SPACING,
+    Tolerance,
+    ground_limits,
+    plain_limits,
+)
 from ..shared.lowest_points import LowestPoints
 from ..shared.near_surface import near_surface
 from .densification import DensificationRules, densified, with_lower
@@ -263,7 +269,7 @@ def classify(
     is_classic = parameters.preset == CLASSIC
     apart = spacing(points, _LEAST_SPACING)
     is_dense = apart <= DENSE_SPACING and not is_classic
-    if resolved != parameters or is_dense:
+    if resolved != parameters or (apart <= NOISE_SPACING and not is_classic):
         progress.choice(_in_words(resolved, apart, is_dense))
     size = _DENSE_CELL if is_dense else _CELL if is_classic else max(_CELL, apart)
     survey = LowestPoints(points, size, is_classic)
@@ -317,12 +323,9 @@ def _seeds(
 
 
 def _in_words(parameters: TinDensification, spacing: float, is_dense: bool) -> str:
-    cells = (
-        f", cells of {_DENSE_CELL:g} m and a tolerance that follows the noise, as points lie"
-        f" {spacing:.2g} m apart"
-        if is_dense
-        else ""
-    )
+    cells = f", cells of {_DENSE_CELL:g} m" if is_dense else ""
+    if spacing <= NOISE_SPACING and parameters.preset != CLASSIC:
+        cells += f", a tolerance that follows the noise, as points lie {spacing:.2g} m apart"
     names = "preset", "max_building_size", "iteration_angle", "iteration_distance"
     return f"TIN densification: {parameters.in_words(*names)}{cells}."
 
