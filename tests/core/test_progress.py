@@ -24,33 +24,37 @@ _NAMES = (
 
 
 @pytest.fixture(scope="module")
-def cloud(tmp_path_factory):
-    path = tmp_path_factory.mktemp("progress") / "cloud.las"
-    return surveys.write(path, surveys.strip(350_000, 500.0, 350.0))
+def folder(tmp_path_factory):
+    """A cloud, and the same classified, which some runs read; what is imported once is."""
+    folder = tmp_path_factory.mktemp("progress")
+    surveys.write(folder / "cloud.las", surveys.strip(350_000, 500.0, 350.0))
+    next(iter(_runs(folder, 4.0).values()))(Progress())
+    return folder
 
 
-def pace_of_run(name, cloud, folder, memory):
-    todo = runs(cloud, folder, Resources(threads=2, memory=memory))
-    # The classified cloud, which some of them read; and what is imported once.
-    next(iter(todo.values()))(Progress())
+def _runs(folder, memory):
+    return runs(folder / "cloud.las", folder, Resources(threads=2, memory=memory))
+
+
+def pace_of_run(name, folder, memory):
     # Seconds of the processor: whatever else the machine does is not measured.
     recorder = Recorder(time.process_time)
-    todo[name](recorder)
+    _runs(folder, memory)[name](recorder)
     assert recorder.moments[-1][1] == pytest.approx(1.0)
     return recorder.pace()
 
 
 @pytest.mark.parametrize("name", _NAMES)
-def test_a_bar_never_stands_still(name, cloud, tmp_path):
-    pace = pace_of_run(name, cloud, tmp_path, 4.0)
+def test_a_bar_never_stands_still(name, folder):
+    pace = pace_of_run(name, folder, 4.0)
     assert pace.falls == 0
     assert pace.stay <= _LONGEST_STAY and pace.rest <= 2.0, pace
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("name", _NAMES)
-def test_nor_where_points_wait_on_disk(name, cloud, tmp_path):
-    pace = pace_of_run(name, cloud, tmp_path, 0.02)
+def test_nor_where_points_wait_on_disk(name, folder):
+    pace = pace_of_run(name, folder, 0.02)
     assert pace.falls == 0
     assert pace.stay <= _LONGEST_STAY and pace.rest <= 2.0, pace
 
