@@ -23,7 +23,7 @@ from bare_earth.algorithms.grids.dense_surface import DenseSurface
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.products.height_above_ground import height_above_ground
 
-EXAMPLES = int(os.environ.get("BARE_EARTH_EXAMPLES", "6"))
+EXAMPLES = int(os.environ.get("BARE_EARTH_EXAMPLES", "4"))
 SETTINGS = settings(
     max_examples=EXAMPLES, deadline=None, derandomize=EXAMPLES < 50, database=None,
     suppress_health_check=list(HealthCheck),
@@ -45,7 +45,7 @@ def cloud_of(x, y, z, east=EAST, north=NORTH):
 
 
 @st.composite
-def surveys(draw, most=3000):
+def surveys(draw, most=2000):
     """Draw a slope with waves, houses, trees and low outliers, in centimetres."""
     random = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
     count = draw(st.integers(300, most))

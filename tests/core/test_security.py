@@ -102,7 +102,9 @@ def outputs(folder, source, name):
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_names_of_any_kind_go_through_every_command(las, tmp_path, monkeypatch, name):
+def test_names_of_any_kind_go_through_every_command(las, tmp_path, request, name):
+    if "\udcff" not in name:  # which is the one that processes could be unable to send
+        request.getfixturevalue("threads_for_processes")
     place = tmp_path / "in"
     place.mkdir()
     source = place / f"{name}.las"
@@ -306,7 +308,7 @@ def unpack(path, folder):
     wheels.unpack(path, folder, PACKAGE, Build.here())
 
 
-@pytest.mark.parametrize("zeros", [80_000_000, 200_000_000])
+@pytest.mark.parametrize("zeros", [80_000_000, pytest.param(10**9, marks=pytest.mark.long)])
 def test_a_wheel_that_grows_beyond_any_is_refused_before_it_is_unpacked(tmp_path, zeros):
     path = tmp_path / "bomb.whl"
     files = {f"{PACKAGE}/__init__.py": "0" * zeros}
@@ -319,9 +321,9 @@ def test_a_wheel_that_grows_beyond_any_is_refused_before_it_is_unpacked(tmp_path
 
 def test_a_wheel_that_lies_about_its_lengths_is_refused(tmp_path):
     path = tmp_path / "bomb.whl"
-    files = {f"{PACKAGE}/__init__.py": "0" * 80_000_000}
+    files = {f"{PACKAGE}/__init__.py": "0" * 8_000_000}
     make_wheel(path, files, compression=zipfile.ZIP_DEFLATED)
-    data = path.read_bytes().replace(struct.pack("<I", 80_000_000), struct.pack("<I", 10))
+    data = path.read_bytes().replace(struct.pack("<I", 8_000_000), struct.pack("<I", 10))
     path.write_bytes(data)
     with pytest.raises(BareEarthError, match="damaged"):
         unpack(path, tmp_path / "new")

@@ -169,11 +169,11 @@ def test_a_block_gets_the_points_of_its_window_that_take_part(tmp_path, request,
 
 @pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
 def test_labels_do_not_depend_on_threads_order_or_the_cut_into_files(parameters):
-    xyz, random = survey(4500, 150.0, 75.0), np.random.default_rng(7)
+    xyz, random = survey(3600, 120.0, 75.0), np.random.default_rng(7)
     blocks = Blocks(80.0, 30.0, most_points=1600)
     (expected,) = labels_of([cloud_of(*xyz)], parameters, blocks)
     assert {0, 1, 2} == set(np.unique(expected)) and 0.4 < (expected == 1).mean() < 0.95
-    cuts = np.array_split(random.permutation(len(expected)), (1200, 3700))
+    cuts = np.array_split(random.permutation(len(expected)), (1200, 3000))
     offsets = [tuple(np.subtract(ORIGIN, random.integers(0, 9000, 3))) for _ in cuts]
     parts = [cloud_of(*(v[cut] for v in xyz), at) for cut, at in zip(cuts, offsets)]
     for cut, labels in zip(cuts, labels_of(parts, parameters, blocks, threads=5)):
