@@ -227,7 +227,7 @@ def test_confidence_is_low_across_gaps_and_high_where_ground_is_dense(tmp_path):
 
 
 def test_the_file_is_cloud_optimised(tmp_path):
-    _made(CLOUDS["dense"], tmp_path, cell=0.3)
+    _made(CLOUDS["dense"], tmp_path, cell=0.4)
     with rasterio.open(tmp_path / "dtm.tif") as raster:
         assert raster.overviews(1) == [2, 4]
         assert raster.profile["tiled"] and raster.profile["compress"] == "deflate"

@@ -6,7 +6,7 @@ import pytest
 from benchmarks.scenes import KINDS, REPORTING_SEEDS, TUNING_SEEDS, make
 
 # Smaller than they are by default, for time's sake.
-SHARE = {"drone_images": 0.25, "drone_noisy": 0.3, "drone_2000": 0.2}
+SHARE = {"drone_images": 0.25, "drone_noisy": 0.3, "drone_2000": 0.2, "water_gaps": 0.45}
 
 
 @pytest.mark.parametrize("kind", KINDS)
