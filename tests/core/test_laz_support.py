@@ -270,6 +270,7 @@ def test_pip_gets_a_package_into_the_profile(support, index):
     assert left(support) == [support.folder]
 
 
+@pytest.mark.long
 def test_pip_is_brought_along_where_there_is_none(support, index, tmp_path, monkeypatch):
     venv.create(tmp_path / "bare", with_pip=False, symlinks=os.name != "nt")
     python = (

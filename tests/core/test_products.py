@@ -437,7 +437,7 @@ def test_the_commands(tmp_path, capsys):
 def test_heights_of_many_files_are_those_of_one(tmp_path, as_z, request):
     if as_z:
         request.getfixturevalue("threads_for_processes")
-    points = strip(12_000, 380.0, 190.0)
+    points = strip(6000, 240.0, 120.0)
     ground = np.where(points[:, 2] % 10, 2, 1)
     write_strip(tmp_path / "one.laz", points, classes=ground)
     cut(tmp_path / "many", points, 8)

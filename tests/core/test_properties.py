@@ -23,7 +23,7 @@ from bare_earth.algorithms.grids.dense_surface import DenseSurface
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.products.height_above_ground import height_above_ground
 
-EXAMPLES = int(os.environ.get("BARE_EARTH_EXAMPLES", "4"))
+EXAMPLES = int(os.environ.get("BARE_EARTH_EXAMPLES", "3"))
 SETTINGS = settings(
     max_examples=EXAMPLES, deadline=None, derandomize=EXAMPLES < 50, database=None,
     suppress_health_check=list(HealthCheck),

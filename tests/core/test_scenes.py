@@ -44,7 +44,7 @@ def test_a_seed_decides_all_and_moves_more_than_the_noise(kind):
 def test_changes_are_heard():
     few, many = (make("hills", 0, density=density, size=80.0) for density in (0.1, 30.0))
     assert 20 * few.points.count < many.points.count
-    assert make("sharp_ridge", 0, slope=0.3).terrain(*_corner(0.3)) > 850.0
+    assert _corner_of_a_ridge(0.3) > 850.0
     tall, low = (make("hall_flat", 0, height=height) for height in (12.0, 3.0))
     assert np.ptp(tall.points.z[tall.classes == 6]) > 5 + np.ptp(low.points.z[low.classes == 6])
     dense, thin = (make("open_forest", 0, penetration=share, size=80.0) for share in (0.05, 0.6))
@@ -57,9 +57,10 @@ def test_changes_are_heard():
     assert (make("hills", 0, low_outliers=0.01, size=80.0).classes == 7).mean() > 0.005
 
 
-def _corner(slope):
-    scene = make("sharp_ridge", 0, slope=slope)
-    return scene.corner
+def _corner_of_a_ridge(slope):
+    """Return the height of the land there."""
+    scene = make("sharp_ridge", 0, slope=slope, size=80.0)
+    return scene.terrain(*scene.corner)
 
 
 def test_faces_carry_points():

@@ -59,7 +59,7 @@ def cloud(kind, random):
 @pytest.mark.parametrize("kind", ["random", "grid", "duplicates", "clumps"])
 def test_brute_force_agrees_on_every_point(kind, slope_norm):
     random = np.random.default_rng(7)
-    for _ in range(25):
+    for _ in range(15):
         points = cloud(kind, random)
         parameters = SlopeFilter(
             preset="whitebox",
@@ -73,7 +73,7 @@ def test_brute_force_agrees_on_every_point(kind, slope_norm):
 
 
 def test_brute_force_agrees_on_houses_trees_and_noise():
-    points, _ = village(size=30.0)
+    points, _ = village(size=24.0)
     for radius in (2.0, 10.0):
         parameters = CLASSIC.resolve(points)
         parameters = dataclasses.replace(parameters, search_radius=radius)
