@@ -196,7 +196,6 @@ def test_a_scheduler_that_ends_is_told_and_the_run_goes_on_without_it(dask, surv
     class Killer(Progress):
         def info(self, text):
             scheduler.kill()
-            scheduler.wait()
 
     out = tmp_path / "out"
     with pytest.raises(BareEarthError, match="The scheduler is gone"):

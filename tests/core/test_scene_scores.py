@@ -11,7 +11,7 @@ from benchmarks.scenes import make
 
 @pytest.fixture(scope="module")
 def hall():
-    return make("hall_flat", seed=1, density=1.0, size=200.0)
+    return make("hall_flat", seed=1, density=1.0)
 
 
 def test_the_truth_has_no_error(hall):
