@@ -33,6 +33,7 @@ PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
 LITTLE = Resources(threads=2, memory=0.001)
 MUCH = Resources(threads=2, memory=4.0)
 EAST, NORTH = 500_000.0, 5_700_000.0
+LONG = pytest.mark.long
 
 
 @pytest.fixture(autouse=True)
@@ -224,7 +225,7 @@ class CancelAt(Progress):
 
 @pytest.mark.parametrize("resources", [MUCH, LITTLE], ids=["much", "little"])
 @pytest.mark.parametrize(
-    "fraction", [0.05, 0.6, 0.95, *(pytest.param(at, marks=pytest.mark.long) for at in (0, 0.3, 0.8))]
+    "fraction", [0.05, 0.6, 0.95, *(pytest.param(each, marks=LONG) for each in (0.0, 0.3, 0.8))]
 )
 def test_a_cancel_leaves_nothing(small, fraction, resources, tmp_path):
     source, progress = write(tmp_path / "in.las", 4000), CancelAt(fraction)
