@@ -3,16 +3,14 @@ import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import laspy
 import numpy as np
 import pytest
 from realdata import real
-from runs import classify_file, write_height_above_ground
+from runs import CancelAt, classify_file, environment, write_height_above_ground
 
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine import disk_points, file_points, labelling
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.heights import HeightOutput
@@ -211,18 +209,6 @@ def test_the_same_errors_on_disk(selection, area, word, tmp_path):
 # Ends
 
 
-class CancelAt(Progress):
-    """Cancels, and knows when it was asked to."""
-
-    def __init__(self, fraction):
-        self.fraction, self.last = fraction, 0.0
-
-    def report(self, fraction):
-        self.last = max(self.last, fraction)
-        if fraction >= self.fraction:
-            raise Cancelled
-
-
 @pytest.mark.parametrize("resources", [MUCH, LITTLE], ids=["much", "little"])
 @pytest.mark.parametrize(
     "fraction", [0.05, 0.6, 0.95, *(pytest.param(each, marks=LONG) for each in (0.0, 0.3, 0.8))]
@@ -260,14 +246,13 @@ def test_a_killed_run_leaves_nothing_beside_the_output(module, number, tmp_path)
         wait = "import time; time.sleep(30)"
     source, out = write(tmp_path / "in.las", 9000), tmp_path / "out"
     out.mkdir()
-    root = Path(labelling.__file__).parents[2]
     process = subprocess.Popen(
         [
             sys.executable, "-c", _RUN.format(module=module, name=name, wait=wait), "classify",
             str(source), str(out / "out.laz"), "--method", "slope", "--memory", "0.001",
         ],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-        env={**os.environ, "PYTHONPATH": str(root)},
+        env=environment(),
     )  # fmt: skip
     assert process.stdout.readline() == "begun\n"
     process.send_signal(number)

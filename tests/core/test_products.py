@@ -6,13 +6,12 @@ import os
 import laspy
 import numpy as np
 import pytest
-from runs import write_height_above_ground, write_key_points, write_terrain_models
+from runs import CancelAt, write_height_above_ground, write_key_points, write_terrain_models
 from surveys import cut, strip
 from surveys import write as write_strip
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine import raster_files
 from bare_earth.algorithms.engine.heights import HeightOutput
 from bare_earth.algorithms.engine.key_points import KeyPointMark
@@ -378,15 +377,6 @@ def test_rasters_that_cannot_be_made(tmp_path, files, text):
     files = RasterFiles(**{name: tmp_path / path for name, path in files.items()})
     with pytest.raises(BareEarthError, match=text):
         write_terrain_models(tmp_path / "in.las", files)
-
-
-class CancelAt(Progress):
-    def __init__(self, fraction):
-        self._fraction = fraction
-
-    def report(self, fraction):
-        if fraction >= self._fraction:
-            raise Cancelled
 
 
 @pytest.mark.parametrize("fraction", [0.0, 0.3, 0.6, 0.8, 0.95, 1.0])

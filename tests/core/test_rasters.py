@@ -8,13 +8,12 @@ import os
 import laspy
 import numpy as np
 import pytest
-from runs import classify_file, classify_tiles, write_terrain_models
-from surveys import cut, strip, write
+from runs import CancelAt, classify_file, classify_tiles, write_terrain_models
+from surveys import cloud_of, cut, strip, write
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.core.progress import SILENT, Progress
-from bare_earth.algorithms.crs.system import Crs
+from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.engine import blocks as blocks_module
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
@@ -23,7 +22,7 @@ from bare_earth.algorithms.engine.rasters import MakeRasters, RasterRequest, wri
 from bare_earth.algorithms.engine.workers import Processes, Threads
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 from bare_earth.algorithms.grids.tin import Tin
-from bare_earth.algorithms.las.cloud import PointCloud, survey_frame
+from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.products.raster_block import LAYERS
 from bare_earth.algorithms.products.surface_model import SurfaceModel
 from bare_earth.algorithms.products.terrain_model import TerrainModel, vertices_of
@@ -34,13 +33,7 @@ MUCH, LITTLE = Resources(threads=2, memory=2.0), Resources(threads=2, memory=0.0
 
 
 def _cloud(x, y, z):
-    x, y, z = (np.rint(each * 100).astype(np.int32) for each in (x, y, z))
-    count = len(x)
-    ones = np.ones(count, dtype=np.uint8)
-    return PointCloud(
-        "a.las", x, y, z, (0.01,) * 3, (0.0,) * 3, ones * 2, ones, ones,
-        np.zeros(count, dtype=bool), 6, Crs(),
-    )  # fmt: skip
+    return cloud_of(*(np.rint(each * 100) for each in (x, y, z)), classes=2)
 
 
 def _hills(count, size=900.0, keep=None):
@@ -209,13 +202,8 @@ def test_the_terrain_command_takes_a_folder(survey, tmp_path, capsys, threads_fo
 
 @pytest.mark.parametrize("fraction", [0.1, 0.5, 0.9])
 def test_a_cancel_leaves_nothing(survey, tmp_path, fraction):
-    class Stopped(Progress):
-        def report(self, done):
-            if done > fraction:
-                raise Cancelled
-
     with pytest.raises(Cancelled):
-        _of_files([survey / "many"], tmp_path / "out", progress=Stopped())
+        _of_files([survey / "many"], tmp_path / "out", progress=CancelAt(fraction))
     assert os.listdir(tmp_path / "out") == []
 
 

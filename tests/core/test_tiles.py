@@ -12,7 +12,7 @@ import laspy
 import numpy as np
 import pytest
 from realdata import real
-from runs import classify_file, classify_tiles
+from runs import classify_file, classify_tiles, command, environment
 from surveys import DeadlyJob, bytes_of, cut, finished, points_of, strip, write
 
 from bare_earth.algorithms.cli import main
@@ -324,15 +324,6 @@ def test_the_blocks_of_a_method_do_not_move_with_the_survey(tmp_path, out):
     assert classify_tiles([folder], out, FAST, output=RESUME).kept_count == 2
     anew = {name for name, time in changed_times(out).items() if time != before.get(name)}
     assert anew == {"0.laz", "new.laz"}
-
-
-def command(*words):
-    return [sys.executable, "-m", "bare_earth.algorithms", *map(str, words)]
-
-
-def environment():
-    parent = str(Path(tile_run_module.__file__).parents[2])
-    return {**os.environ, "PYTHONPATH": os.pathsep.join([parent, os.environ.get("PYTHONPATH", "")])}
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no such signals")

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from conftest import Heard
 from pyproj import CRS
+from runs import CancelAt
 from test_assessment import Tags
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine.trial import compare_settings
 from bare_earth.algorithms.engine.trial_options import SETTINGS, TrialOptions
 from bare_earth.algorithms.las.writing import write_classified
@@ -215,13 +215,8 @@ def test_values_that_do_not_do_are_refused(source, tmp_path):
 
 
 def test_a_cancel_leaves_nothing(source, tmp_path):
-    class Stop(Progress):
-        def report(self, fraction):
-            if fraction > 0.5:
-                raise Cancelled
-
     with pytest.raises(Cancelled):
-        compare_settings([source], tmp_path / "p.html", WINDOW, BOTH, progress=Stop())
+        compare_settings([source], tmp_path / "p.html", WINDOW, BOTH, progress=CancelAt(0.5))
     assert not list(tmp_path.iterdir())
 
 
