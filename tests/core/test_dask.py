@@ -268,6 +268,7 @@ def secret(tmp_path_factory):
     return {f"distributed.{name}": value for name, value in files.items()}
 
 
+@pytest.mark.long
 def test_over_tls_the_bytes_are_the_same_and_without_keys_nobody_gets_in(
     survey, secret, tmp_path, capsys
 ):

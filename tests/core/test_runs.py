@@ -31,7 +31,7 @@ from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
 
-SLOPE = SlopeFilter()
+SLOPE = SlopeFilter(preset="whitebox")
 
 
 @pytest.fixture

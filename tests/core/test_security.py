@@ -19,7 +19,7 @@ import pytest
 from conftest import make_records
 from runs import said
 from test_laz_support import PACKAGE, make_wheel
-from test_walls import SHIPPED, _name, _tree
+from test_walls import _name, _nodes
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.las.opening import open_las
@@ -214,11 +214,12 @@ def test_the_server_would_hear_what_is_fetched(server):
 # What code may do
 
 
-def calls(tree):
-    """Yield the names of what is called, with their modules, and the words given."""
-    for node in ast.walk(tree):
+def calls():
+    """Yield where something is called, its name with its modules, and the words given."""
+    for path, node in _nodes():
         if isinstance(node, ast.Call):
-            yield ast.unparse(node.func), {each.arg: each.value for each in node.keywords}, node
+            words = {each.arg: each.value for each in node.keywords}
+            yield f"{_name(path)}:{node.lineno}", ast.unparse(node.func), words
 
 
 DANGEROUS = {
@@ -228,20 +229,21 @@ DANGEROUS = {
 UNPICKLING = {"pickle", "marshal", "shelve", "dill", "cloudpickle", "joblib", "yaml"}
 
 
-@pytest.mark.parametrize("shipped", SHIPPED, ids=_name)
-def test_shipped_code_runs_no_text_and_no_shell(shipped):
-    tree = _tree(shipped)
-    for node in ast.walk(tree):
+def test_shipped_code_reads_no_pickle():
+    for path, node in _nodes():
         if isinstance(node, (ast.Import, ast.ImportFrom)):
             names = {each.name.split(".")[0] for each in node.names}
             module = (getattr(node, "module", None) or "").split(".")[0]
-            assert not (names | {module}) & UNPICKLING
-    for name, words, node in calls(tree):
-        assert name not in DANGEROUS, node.lineno
-        assert not isinstance(words.get("shell"), ast.Constant) or words["shell"].value is False
+            assert not (names | {module}) & UNPICKLING, path
+
+
+def test_shipped_code_runs_no_text_and_no_shell():
+    for where, name, words in calls():
+        assert name not in DANGEROUS, where
+        shell, allowed = words.get("shell"), words.get("allow_pickle")
+        assert not isinstance(shell, ast.Constant) or shell.value is False, where
         if name.endswith(("np.load", "numpy.load")):
-            allowed = words.get("allow_pickle")
-            assert isinstance(allowed, ast.Constant) and allowed.value is False
+            assert isinstance(allowed, ast.Constant) and allowed.value is False, where
 
 
 # Archives and points that grow when they are unpacked

@@ -103,7 +103,7 @@ def test_the_classic_filter_gives_the_same_in_blocks_and_in_threads(radius, monk
 
 @pytest.mark.parametrize("depth", [3e2, 3e4])
 def test_brute_force_agrees_where_an_outlier_makes_the_steps_of_height_coarse(depth):
-    points, _ = village(size=30.0)
+    points, _ = village(size=20.0)
     points.z[7] -= depth
     parameters = CLASSIC.resolve(points)
     assert np.array_equal(classify(points, parameters), by_brute_force(points, parameters))

@@ -15,7 +15,7 @@ from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.las.writing import write_classified
 from bare_earth.algorithms.survey.window import read_window
 
-POINTS = 12_000
+POINTS = 9000
 COLUMNS = ("x", "y", "z", "classification", "return_number", "number_of_returns", "withheld")
 # The points of `las.make` lie from 399,990 on, one metre apart.
 BOX = (399_993.0, 5_000_002.0, 399_999.0, 5_000_011.0)
