@@ -106,7 +106,7 @@ def test_the_same_bytes_in_memory_and_on_disk(small, las, tmp_path, parameters, 
     assert heard[1].fractions[-1] == 1.0 and heard[1].fractions == sorted(heard[1].fractions)
 
 
-@pytest.mark.parametrize("name", ["isprs/samp52.laz", "real/ign_pf8.las"])
+@pytest.mark.parametrize("name", [pytest.param("isprs/samp52.laz", marks=LONG), "real/ign_pf8.las"])
 def test_real_points_give_the_same_bytes_in_memory_and_on_disk(name, tmp_path):
     source = real(name)
     results = [

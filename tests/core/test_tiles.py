@@ -115,7 +115,7 @@ def test_tiles_get_the_labels_of_one_file_with_all_points(parameters, tmp_path, 
 def test_real_tiles_get_the_labels_of_the_file_they_were_cut_from(name, tmp_path, out):
     las = laspy.read(real(name))
     x, y = np.asarray(las.x), np.asarray(las.y)
-    near = (x < x.min() + 130) & (y < y.min() + 130)
+    near = (x < x.min() + 100) & (y < y.min() + 100)
     integers = np.column_stack([np.round(each * 100) for each in (x, y, np.asarray(las.z))])
     integers = (integers[near] - [25_000_000, 570_000_000, 0]).astype(np.int64)
     if len(integers) > 12_000:
