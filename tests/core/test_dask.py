@@ -135,6 +135,26 @@ def test_a_scheduler_that_is_not_there_is_told(survey, tmp_path, monkeypatch, ca
     assert f"There is no Dask scheduler at {address}" in capsys.readouterr().err
 
 
+KEYS = ("tls.ca-file", "tls.client.cert", "tls.client.key")
+
+
+@pytest.mark.parametrize(
+    ("scheme", "settings", "told"),
+    [
+        ("tls", {}, "TLS needs a certificate, a key and an authority"),
+        ("tcp", {"require-encryption": True}, "encryption is required"),
+        ("tls", dict.fromkeys(KEYS, "none"), "certificate or key do not do"),
+    ],
+)
+def test_an_address_that_the_keys_do_not_fit_is_refused(scheme, settings, told, survey, tmp_path):
+    from dask import config
+
+    workers = Cluster(f"{scheme}://127.0.0.1:{free_port()}")
+    settings = {f"distributed.comm.{name}": value for name, value in settings.items()}
+    with config.set(settings), pytest.raises(BareEarthError, match=told):
+        classify_tiles([survey[0]], tmp_path / "out", FAST, workers=workers)
+
+
 def test_workers_of_another_version_are_refused(dask, survey, tmp_path, monkeypatch):
     monkeypatch.setattr(version, "__version__", "99.9")
     with pytest.raises(BareEarthError, match=r"has version .* and this computer 99\.9"):

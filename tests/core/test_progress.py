@@ -17,50 +17,50 @@ _NAMES = ("TIN, DTM, hillshade, heights", "Grid minimum", "Slope filter", "Point
 _PARTS = ("TIN densification", "All rasters", "Height above ground")
 
 
+def made(folder, count, width, depth):
+    """Write a cloud, and what is read by the runs that do not begin with it: the first run does."""
+    surveys.write(folder / "cloud.las", surveys.strip(count, width, depth))
+    next(iter(runs_in(folder, 4.0).values()))(Progress())
+    return folder
+
+
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     """A folder with a cloud. What is imported once has been: a few points were classified."""
-    folder = tmp_path_factory.mktemp("progress")
-    surveys.write(folder / "cloud.las", surveys.strip(2000, 40.0, 30.0))
-    _classify(folder)
+    folder = made(tmp_path_factory.mktemp("progress"), 2000, 40.0, 30.0)
     surveys.write(folder / "cloud.las", surveys.strip(200_000, 380.0, 260.0))
     return folder
 
 
-def _runs(folder, memory):
+@pytest.fixture(scope="module")
+def larger(tmp_path_factory):
+    return made(tmp_path_factory.mktemp("larger"), 350_000, 500.0, 350.0)
+
+
+def runs_in(folder, memory):
     return runs(folder / "cloud.las", folder, Resources(threads=2, memory=memory))
 
 
-def _classify(folder):
-    """Make the file of ground that some runs read: the first of them does."""
-    next(iter(_runs(folder, 4.0).values()))(Progress())
-
-
-def pace_of_run(name, folder, memory):
-    if name in _PARTS:
-        _classify(folder)
+def moves_evenly(name, folder, memory):
     # Seconds of the processor: whatever else the machine does is not measured.
     recorder = Recorder(time.process_time)
-    _runs(folder, memory)[name](recorder)
+    runs_in(folder, memory)[name](recorder)
     assert recorder.moments[-1][1] == pytest.approx(1.0)
-    return recorder.pace()
-
-
-@pytest.mark.parametrize(
-    "name", [*_NAMES, *(pytest.param(each, marks=pytest.mark.long) for each in _PARTS)]
-)
-def test_a_bar_never_stands_still(name, folder):
-    pace = pace_of_run(name, folder, 4.0)
+    pace = recorder.pace()
     assert pace.falls == 0
     assert pace.stay <= _LONGEST_STAY and pace.rest <= 2.0, pace
+
+
+@pytest.mark.parametrize("name", _NAMES)
+def test_a_bar_never_stands_still(name, folder):
+    moves_evenly(name, folder, 4.0)
 
 
 @pytest.mark.long
+@pytest.mark.parametrize("memory", [4.0, 0.02], ids=["in memory", "on disk"])
 @pytest.mark.parametrize("name", _NAMES + _PARTS)
-def test_nor_where_points_wait_on_disk(name, folder):
-    pace = pace_of_run(name, folder, 0.02)
-    assert pace.falls == 0
-    assert pace.stay <= _LONGEST_STAY and pace.rest <= 2.0, pace
+def test_nor_does_that_of_a_larger_file(name, memory, larger):
+    moves_evenly(name, larger, memory)
 
 
 def test_the_pace_tells_what_stands_still():
