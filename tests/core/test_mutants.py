@@ -23,7 +23,7 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="its limits are 
 
 @pytest.mark.parametrize(
     ("seed", "count"),
-    [(2, 80), *(pytest.param(seed, 3000, marks=pytest.mark.long) for seed in (2, 3))],
+    [(2, 40), *(pytest.param(seed, 3000, marks=pytest.mark.long) for seed in (2, 3))],
 )
 def test_files_with_wrong_bytes_end_in_a_sentence(tmp_path, seed, count):
     words = map(str, (SCRIPT, tmp_path, seed, count))

@@ -174,6 +174,7 @@ def test_addresses_that_are_to_be_set_stand_in_one_place(metadata):
                 assert metadata[key] not in text, (name, key)
 
 
+@pytest.mark.long
 def test_the_zip_has_the_same_bytes_each_time(package, tmp_path):
     assert make_package(tmp_path)[0].read_bytes() == package[0].read_bytes()
 

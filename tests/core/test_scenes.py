@@ -9,7 +9,14 @@ from benchmarks.scenes import KINDS, REPORTING_SEEDS, TUNING_SEEDS, make
 SHARE = {"drone_images": 0.25, "drone_noisy": 0.3, "drone_2000": 0.2, "water_gaps": 0.45}
 
 
-@pytest.mark.parametrize("kind", KINDS)
+# Every third, and all with `make test-long`.
+@pytest.mark.parametrize(
+    "kind",
+    [
+        pytest.param(kind, marks=pytest.mark.long if number % 3 else ())
+        for number, kind in enumerate(KINDS)
+    ],
+)
 def test_the_truth_of_every_kind_is_true(kind):
     scene = make(kind, seed=4, size=SHARE.get(kind, 0.35) * KINDS[kind].defaults.size)
     x, y, z = scene.points
