@@ -16,7 +16,6 @@ import numpy as np
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.shared.confidence import (
     CELL,
@@ -27,11 +26,12 @@ from bare_earth.algorithms.filters.shared.confidence import (
     probability,
 )
 from bare_earth.algorithms.grids.cells import Cells
+from bare_earth.algorithms.grids.dense_surface import DenseSurface
 from bare_earth.algorithms.grids.gradient import steepness
 from bare_earth.algorithms.grids.surface import Surface
 from bare_earth.algorithms.las.cloud import PointCloud
-from bare_earth.algorithms.products.terrain_model import vertices_of
 from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.survey.tally import Tally
 
 from . import data
 from .generated import remembered_scene
@@ -97,7 +97,7 @@ def look(place: Place) -> list[Seen]:
             ground = Filter(method).ground(cloud)
         except BareEarthError:  # no ground, no terrain
             continue
-        takes_part = Selection().select(cloud, SILENT)
+        takes_part = Selection().choose(cloud, Tally())
         seen = compared(points.take(takes_part), ground[takes_part], terrain, seed)
         results.append(seen._replace(method=method, is_sample=place.path is not None))
     return results
@@ -118,7 +118,11 @@ def compared(points: Points, ground: np.ndarray, terrain: Terrain, seed: int = 0
         Draws the cells.
     """
     cells = Cells.over(points, CELL)
-    at = cells.centres()
+    y, x = (
+        (first + np.arange(count) + 0.5) * cells.size
+        for first, count in zip(cells.first, cells.shape)
+    )
+    at = [each.ravel() for each in np.meshgrid(x, y)]
     truth = terrain(*at).reshape(cells.shape)
     allowed = TOLERANCE + RISE_SHARE * CELL * steepness(truth, CELL)
     heights = _tin(points.take(ground))(*at).reshape(cells.shape)
@@ -140,7 +144,7 @@ def _load(place: Place) -> tuple[PointCloud, Points, Terrain]:
 
 
 def _tin(ground: Points) -> Terrain:
-    return Surface(ground.take(vertices_of(ground, CELL))).heights
+    return Surface(ground.take(DenseSurface(ground, CELL).vertices)).heights
 
 
 def fitted(seen: Sequence[Seen]) -> Weights:

@@ -12,11 +12,12 @@ from typing import NamedTuple, Protocol, Sequence
 import numpy as np
 
 from bare_earth.algorithms.core.parameters import ParameterSet
+from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.grids.dense_surface import DenseSurface
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.products.comparison import Assessment, AssessmentOptions, compare
-from bare_earth.algorithms.products.terrain_model import interpolate
 from bare_earth.algorithms.rasters.geotiff import RasterGrid
 
 from . import data
@@ -140,6 +141,12 @@ class TileScore(NamedTuple):
     problem: str = ""
 
 
+def interpolated(ground: Points, grid: RasterGrid) -> np.ndarray:
+    """Return the heights of ground points at the centres of cells, from north to south."""
+    surface = DenseSurface(ground, grid.cell_metres, grid.corner)
+    return surface.raster((grid.rows, grid.columns))[::-1]
+
+
 class ReferenceModel:
     """The terrain model of the reference ground, on a 1 m grid inside its convex hull."""
 
@@ -147,7 +154,7 @@ class ReferenceModel:
         ground = cloud.points(reference == GROUND)
         self._cloud = cloud
         self._grid = RasterGrid.over(ground, cloud.frame, 1.0)
-        self.heights = interpolate(ground, self._grid)
+        self.heights = interpolated(ground, self._grid)
 
     @property
     def cell_size(self) -> float:
@@ -156,7 +163,7 @@ class ReferenceModel:
 
     def of(self, ground: np.ndarray) -> np.ndarray:
         """Return the terrain model of a ground mask on the same grid."""
-        return interpolate(self._cloud.points(ground), self._grid)
+        return interpolated(self._cloud.points(ground), self._grid)
 
     def error(self, ground: np.ndarray) -> DtmError:
         """Return how far the terrain model of a ground mask lies from this one."""

@@ -67,8 +67,8 @@ class Cloth(Peer):
 
     name, module, package = "CSF", "CSF", "cloth-simulation-filter"
     note = (
-        "cloth resolution 1 m, rigidness 3, slope smoothing on; in one thread, since with more its"
-        " labels differ from run to run"
+        "cloth resolution 1 m, rigidness 3, slope smoothing on; in one thread, because with more"
+        " its labels differ from run to run"
     )
     build = "1 thread"
 
@@ -104,7 +104,7 @@ class WideMorphological(Morphological):
     """The same with the windows of the paper's one set of parameters."""
 
     name = "pysmrf, windows=18"
-    note = "not its default but the radius in the paper's one set of parameters; samples only"
+    note = "the radius in the single parameter set of the paper, not the default; samples only"
     is_for_tiles = False
 
     def __init__(self) -> None:

@@ -179,7 +179,7 @@ def _spread(rows: Sequence[Sensitivity], base: float) -> str:
     most, label, way = max(moves)
     return (
         f"Total error {base:.2f} % with the defaults, {min(moves)[0]:.2f} to {most:.2f} % with one"
-        f" moved; what costs most is *{label}* {way}:"
+        f" changed; the worst is *{label}* {way}:"
     )
 
 

@@ -40,7 +40,7 @@ DTM_FIGURES = (
 SCENE_FIGURES = {
     "type I": ("type_1", 2),
     "type II": ("type_2", 2),
-    "type II but low plants": ("type_2_high", 2),
+    "type II without low plants": ("type_2_high", 2),
     "DTM RMSE": ("dtm_rmse", 3),
     "wrong by 1 m": ("share_wrong_1m", 2),
 }
@@ -234,7 +234,7 @@ def scenes(results: SceneScores, other: SceneScores | None = None) -> dict[str, 
     other : SceneScores, optional
         Scores on other seeds, of which only type I and type II errors are told.
     """
-    head = ["Kind", "type I, %", "II, %", "II but low plants, %", "DTM RMSE, m"]
+    head = ["Kind", "type I, %", "II, %", "II without low plants, %", "DTM RMSE, m"]
     head += ["wrong by 1 m, %", "most kept, %"]
     head += ["tuning: I", "II"] if other else []
     return {

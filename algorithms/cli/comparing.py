@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Sequence
 
 from .command import DONE, Command
-from .options import add_extent, add_input, add_inputs, add_json, add_parameters, chosen
+from .options import add_extent, add_inputs, add_json, add_parameters, chosen
 from .terminal import Terminal
 
 
 def _add_info(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    add_input(parser, "FILE")
+    parser.add_argument("input", metavar="FILE", type=Path, help="a .las, .laz or .copc.laz file")
     add_json(parser, "")
 
 
@@ -23,10 +23,7 @@ def _info(options: argparse.Namespace) -> int:
 
     with Terminal(options.verbose) as progress:
         description = inspect(options.input, progress)
-    if options.json:
-        print(json.dumps(description.as_dict()))
-    else:
-        print("\n".join(description.lines()))
+    print(json.dumps(description.as_dict()) if options.json else "\n".join(description.lines()))
     return DONE
 
 
@@ -50,12 +47,7 @@ def _assess(options: argparse.Namespace) -> int:
     (what,) = chosen(options)
     with Terminal(options.verbose) as progress:
         assessment = assess_files(
-            options.classified,
-            options.reference,
-            what,
-            report=options.report,
-            error_map=options.error_map,
-            progress=progress,
+            options.classified, options.reference, what, options.report, options.error_map, progress
         )
     print(json.dumps(assessment.as_dict()) if options.json else "\n".join(assessment.lines()))
     return DONE
@@ -87,13 +79,7 @@ def _compare_settings(options: argparse.Namespace) -> int:
 
 
 COMMANDS = (
-    Command(
-        "info",
-        "describe a file",
-        "Describes a point cloud file.",
-        _add_info,
-        _info,
-    ),
+    Command("info", "describe a file", "Describes a point cloud file.", _add_info, _info),
     Command(
         "assess",
         "compare a classified file with a reference",

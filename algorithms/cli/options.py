@@ -16,11 +16,6 @@ class UsageError(BareEarthError):
     """A value on the command line that is not allowed."""
 
 
-def add_input(parser: argparse.ArgumentParser, metavar: str = "INPUT") -> None:
-    """Add the argument that names the point cloud to read."""
-    parser.add_argument("input", metavar=metavar, type=Path, help="a .las, .laz or .copc.laz file")
-
-
 def add_inputs(parser: argparse.ArgumentParser, first: str = "") -> None:
     """Add the argument that names any number of point clouds to read."""
     parser.add_argument(

@@ -22,7 +22,6 @@ from .terminal import Terminal, tell
 
 if TYPE_CHECKING:
     from ..core.parameters import ParameterSet
-    from ..engine.requests import HeightRequest, KeyPointRequest
 
 
 def _add_remove_objects(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
@@ -72,24 +71,15 @@ def _add_files(parser: argparse.ArgumentParser, *sets: type[ParameterSet]) -> No
     add_parameters(parser, *sets, GroundClasses, TileInput, TileOutput, Resources)
 
 
-def _height(options: argparse.Namespace) -> int:
-    from ..engine.requests import HeightRequest
-
-    return _write(options, HeightRequest.of(chosen(options)))
-
-
-def _key_points(options: argparse.Namespace) -> int:
-    from ..engine.requests import KeyPointRequest
-
-    return _write(options, KeyPointRequest.of(chosen(options)))
-
-
-def _write(options: argparse.Namespace, request: HeightRequest | KeyPointRequest) -> int:
+def _write(options: argparse.Namespace) -> int:
     """Write classified files anew with what the step of a request finds."""
     from ..engine.many_files import write_files
     from ..engine.one_file import write_points
+    from ..engine.requests import HeightRequest, KeyPointRequest
     from ..survey.collection import is_one_file
 
+    kind = HeightRequest if options.command == "height" else KeyPointRequest
+    request = kind.of(chosen(options))
     if is_one_file(options.input) and not options.scheduler:
         with Terminal(options.verbose) as progress:
             summary = write_points(
@@ -149,7 +139,7 @@ COMMANDS = (
         "Writes a classified file, or many as one survey, anew with the height of every point"
         " above the TIN of the ground points, in the vertical unit of the CRS.",
         _add_height,
-        _height,
+        _write,
     ),
     Command(
         "key-points",
@@ -158,7 +148,7 @@ COMMANDS = (
         " the few ground points from whose TIN no other ground point lies farther than the"
         " tolerance.",
         _add_key_points,
-        _key_points,
+        _write,
     ),
     Command(
         "terrain",

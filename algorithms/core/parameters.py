@@ -20,11 +20,12 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
-from typing import Any, Mapping
+from typing import Any, Mapping, TypeVar
 
 from .errors import BareEarthError
 
 _KEY = "declaration"
+_Set = TypeVar("_Set", bound="ParameterSet")
 
 
 @dataclass(frozen=True)
@@ -196,6 +197,24 @@ class ParameterSet:
         for declaration in self.declarations():
             checked = declaration.check(getattr(self, declaration.name))
             object.__setattr__(self, declaration.name, checked)
+
+    def filled(self: _Set, values: Mapping[str, Any]) -> _Set:
+        """Return the set with values, by name, for the parameters that are empty (None)."""
+        empty = {
+            each: value for each, value in values.items() if getattr(self, each, value) is None
+        }
+        return dataclasses.replace(self, **empty)
+
+    def in_words(self, *names: str) -> str:
+        """Return some parameters in words: their labels, values and units."""
+        declared = {each.name: each for each in self.declarations()}
+        words = []
+        for name in names:
+            value = getattr(self, name)
+            values = value if isinstance(value, tuple) else (value,)
+            shown = ", ".join(map(shown_value, values))
+            words.append(f"{declared[name].label.lower()} {shown} {declared[name].unit}".rstrip())
+        return ", ".join(words)
 
     @classmethod
     def declarations(cls) -> tuple[Declaration, ...]:

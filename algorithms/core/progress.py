@@ -6,7 +6,7 @@ import time
 from itertools import accumulate
 from typing import Iterator
 
-# What a piece of a long step is to take, in seconds: a cancel waits for its end.
+# Seconds that a piece of a long step is to take: a cancel waits for its end.
 _PIECE_SECONDS = 0.4
 _FIRST_PIECE, _LEAST_PIECE = 500_000, 100_000
 
@@ -129,7 +129,7 @@ def paced(count: int, most: int) -> Iterator[slice]:
         yield piece
         took = max(time.perf_counter() - begun, 1e-9)
         fitting = int((piece.stop - start) * _PIECE_SECONDS / took)
-        # No more than twice as many: the first ones may have been quick for once.
+        # At most twice as many: the first ones may have been quick for once.
         start, size = piece.stop, min(max(fitting, _LEAST_PIECE), 2 * size)
 
 

@@ -26,7 +26,7 @@ _held: set[str] = set()
 def make_temporary(target: Path, mode: int | None = None) -> Path:
     """Make an empty file beside the target whose name says who writes it.
 
-    Never one that is there already: whoever knew the name could have put a link in its place.
+    A file that is there already is never taken: whoever knew the name could have put a link there.
     """
     while True:
         marks = new_marks()
@@ -87,8 +87,8 @@ def _delete(path: str | Path) -> None:
 def remove_leftovers(folder: Path, processes: Container[int] | None = None) -> None:
     """Remove what `replacing` left in a folder when its process was killed.
 
-    Files of processes that are still there stay. Of those of other computers, on a disk that
-    several share, only what nobody wrote to for a day is removed.
+    Files of processes that are still there stay. Files of other computers, on a disk that several
+    share, are removed if nobody wrote to them for a day.
 
     Parameters
     ----------

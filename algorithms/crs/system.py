@@ -147,17 +147,12 @@ def _stated_unit(keys: GeoKeys, facts: WktFacts, progress: Progress) -> float | 
 def _vertical_of(keys: GeoKeys) -> dict[str, float | bool | None]:
     """Return what the keys say of the heights, as fields of `WktFacts`."""
     unit = keys.vertical_unit
-    if unit is None and keys.vertical_epsg:
-        facts = _vertical_facts(keys.vertical_epsg)
-        unit = facts if facts else None
+    text = wkt_of_epsg(keys.vertical_epsg) if unit is None and keys.vertical_epsg else None
+    if text:
+        # A vertical CRS alone is none that `read_wkt` takes: it is read beside a horizontal one.
+        facts = read_wkt(f'LOCAL_CS["",UNIT["metre",1]],{text}')
+        unit = facts.vertical_unit if facts else None
     return {"vertical_unit": unit, "has_vertical": unit is not None}
-
-
-def _vertical_facts(code: int) -> float | None:
-    # A vertical CRS alone is none that `read_wkt` takes: it is read beside a horizontal one.
-    text = wkt_of_epsg(code)
-    facts = read_wkt(f'LOCAL_CS["",UNIT["metre",1]],{text}') if text else None
-    return facts.vertical_unit if facts else None
 
 
 def _crs_of(text: str | None, facts: WktFacts, progress: Progress) -> Crs:

@@ -97,7 +97,7 @@ def read_wkt(text: str) -> WktFacts | None:
 def _parse(text: str) -> list[str | Node]:
     """Return the nodes of the text; brackets that are never closed end with the text.
 
-    None at all if they are deeper in each other than those of any CRS.
+    There are none if they are nested deeper than those of any CRS.
     """
     top: list[str | Node] = []
     open_lists = [top]
@@ -127,7 +127,7 @@ def _parts(node: Node) -> Sequence[Node]:
 def _unit_of(node: Node) -> float | None:
     """Return the unit that stands directly in the brackets of a CRS or an axis.
 
-    Only there: the units of its base CRS and of its projection's parameters are others.
+    The units of its base CRS and of its projection's parameters, deeper inside, are others.
     """
     for unit in node.children(_UNITS):
         numbers = [_number(value) for value in unit.values[1:2] if isinstance(value, str)]

@@ -20,6 +20,8 @@ from .steps import Marks, PointResult, PointStep, Step
 
 # Bytes that a cloud in memory takes a point, besides what a filter takes for those it sees.
 _BYTES_A_POINT_KEPT, _BYTES_A_POINT_SEEN, _MOST_SEEN = 40, 110, 12_000_000
+# Bytes that stay in memory of a point that waits on disk: its class, and what else is to change.
+_BYTES_A_POINT_ON_DISK = 3
 # How much of the memory the blocks may take where the points are on disk.
 _MOST_FOR_BLOCKS = GIGABYTE
 # Bytes of a point, as the file has it, up to which all of it is kept: reading it again for what
@@ -120,6 +122,15 @@ class FilePoints:
 
     def __exit__(self, *exception: object) -> None:
         self._files.close()
+
+    @property
+    def memory_left(self) -> int:
+        """Bytes that may be used besides what the points take while their file is written."""
+        held = _BYTES_A_POINT_ON_DISK
+        if self.is_in_memory:
+            records = self.cloud.records
+            held = _BYTES_A_POINT_KEPT + (0 if records is None else records.shape[1])
+        return max(self.resources.bytes - held * self.count, 0)
 
     def parts(self, progress: Progress = SILENT) -> Iterator[tuple[slice, PointCloud]]:
         """Yield the points some at a time, and where they stand; each time the same parts."""

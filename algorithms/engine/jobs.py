@@ -211,7 +211,8 @@ class TileJob:
             if result.is_empty:
                 return None
             edits = result.edits(points.cloud, progress)
-            write_changed(las, self.target, edits, progress.part(0.4, 1.0), points.cloud)
+            last = progress.part(0.4, 1.0)
+            write_changed(las, self.target, edits, last, points.cloud, points.memory_left)
         summary = result.summary(self.target.name)
         write_record(self.target, self.record, asdict(summary))
         return summary

@@ -19,9 +19,9 @@ from ..las.edits import Edits
 from ..survey.area import Area
 from ..survey.collection import Tile
 from ..survey.corrections import NO_CORRECTIONS, Corrections
-from ..survey.point_chooser import ChosenTally, PointChooser
+from ..survey.point_chooser import PointChooser
 from ..survey.selection import Selection
-from ..survey.tally import count_classes
+from ..survey.tally import Tally, count_classes
 from .blocks import BRIDGE, GROUND, LOW, Blocks, Store
 from .ground import blocks_of, label_ground
 from .memory import Resources
@@ -98,16 +98,16 @@ class LabelGround(PointStep):
         reach = method_of(self.parameters).reach(self.parameters)
         return PointChooser(self.selection, self.area, reach, self.corrections)
 
-    def tally(self) -> ChosenTally:
+    def tally(self) -> Tally:
         """Return what `marks` counts in."""
-        return ChosenTally()
+        return Tally()
 
-    def marks(self, part: PointCloud, tally: ChosenTally) -> Marks:
+    def marks(self, part: PointCloud, tally: Tally) -> Marks:
         """Return which points take part, are surely ground, and lie in the area."""
         inside, selected, known = self.chooser.choose(part, tally)
         return Marks(selected, known, inside)
 
-    def tell(self, tally: ChosenTally, path: Path, progress: Progress) -> None:
+    def tell(self, tally: Tally, path: Path, progress: Progress) -> None:
         """Tell how many points take part; refuse a file in which none does."""
         self.chooser.tell(tally, path, progress)
 
@@ -115,11 +115,11 @@ class LabelGround(PointStep):
         """Refuse a file whose points cannot hold the classes."""
         self.chooser.check_classes(tile.path, tile.point_format)
 
-    def count(self, part: PointCloud, tally: ChosenTally) -> None:
+    def count(self, part: PointCloud, tally: Tally) -> None:
         """Count which points take part."""
         self.chooser.choose(part, tally)
 
-    def tell_of_tile(self, tally: ChosenTally, path: Path, progress: Progress) -> None:
+    def tell_of_tile(self, tally: Tally, path: Path, progress: Progress) -> None:
         """Tell how many points of a file took part; refuse one in which none does.
 
         Of an area a file need not have any.

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from ..core.errors import BareEarthError
 from ..core.files import check_output
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
@@ -18,11 +17,11 @@ from ..las.cloud import PointCloud, survey_frame
 from ..las.extrabytes import remembers
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
-from ..las.writing import check_writable, is_copc, layers_kept, write_changed
+from ..las.writing import check_writable, layers_kept, write_changed
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.selection import Selection
-from .file_points import FilePoints, fits_in_memory
+from .file_points import FilePoints
 from .labelling import ClassifiedPoints, LabelGround
 from .memory import Resources
 from .rasters import RasterSize, write_rasters
@@ -143,7 +142,6 @@ def classify_file(
     first, finding, drawing, measuring, last = progress.shares(1.5, 5.0, *made_too, 0.8)
     changes_more = request.output.changes_points or request.selection.remember_classes
     is_copied = not (changes_more or remembers(las)) and layers_kept(las, target) is not None
-    _check_copc(las, target, is_copied, resources)
     with contextlib.ExitStack() as outputs:
         outputs.enter_context(may_use(resources.thread_count))
         points = FilePoints.opened(las, target, resources, not is_copied, first)
@@ -162,7 +160,7 @@ def classify_file(
         if "heights" in products:
             heights = _worked(points, products["heights"], waiting["heights"], measuring).heights
         edits = result.edits(points.cloud, progress, heights)
-        write_changed(las, target, edits, last, points.cloud)
+        write_changed(las, target, edits, last, points.cloud, points.memory_left)
     return _summary(result, tally, request)
 
 
@@ -231,13 +229,13 @@ def write_points(
         If the user asked to stop; no output is left behind.
     """
     las, resources = _checked(source, target, resources)
-    _check_copc(las, target, False, resources)
     with may_use(resources.thread_count):
         first = progress.part(0.0, 0.1)
         with FilePoints.opened(las, target, resources, progress=first) as points:
             result, _ = points.find(step, step.tally(), progress.part(0.1, 0.9))
             edits = result.edits(points.cloud, progress)
-            write_changed(las, target, edits, progress.part(0.9, 1.0), points.cloud)
+            last = progress.part(0.9, 1.0)
+            write_changed(las, target, edits, last, points.cloud, points.memory_left)
     return result.summary(target.name)
 
 
@@ -293,12 +291,3 @@ def _checked(source: Path, target: Path, resources: Resources) -> tuple[LasFile,
     """Refuse an output that cannot be written; return the opened input, and what may be used."""
     check_cloud(source, target)
     return open_las(source), resources.now()
-
-
-def _check_copc(las: LasFile, target: Path, is_copied: bool, resources: Resources) -> None:
-    """Refuse an output that needs all points in memory where they do not fit."""
-    if is_copc(target) and not is_copied and not fits_in_memory(las.count, resources):
-        raise BareEarthError(
-            f"The {las.count:,} points do not fit into the memory that may be used, which making a"
-            " COPC file needs. Name the output .laz, or give more memory."
-        )

@@ -11,7 +11,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.points import Points
 from ..core.progress import SILENT
-from ..core.threads import over_parts
+from ..core.threads import over_parts, parts_of
 
 _MOST_CELLS = 200_000_000
 _POINTS_A_PART = 1 << 17
@@ -92,18 +92,21 @@ class Cells:
         """Rows and columns."""
         return self.rows, self.columns
 
-    def minimum(self, z: np.ndarray) -> np.ndarray:
-        """Return the lowest of `z` (n,) in each cell, shape (rows, columns); NaN where none is."""
+    def minimum(self, z: np.ndarray, which: np.ndarray | slice = slice(None)) -> np.ndarray:
+        """Return the lowest of `z` (n,) in each cell, shape (rows, columns); NaN where none is.
+
+        `which`, a mask or an index array, names the points to look at; by default all.
+        """
         lowest = np.full(self.rows * self.columns, np.inf)
-        lower_at(lowest, self.index, z)
+        lower_at(lowest, self.index[which], z[which])
         lowest[np.isinf(lowest)] = np.nan
         return lowest.reshape(self.shape)
 
     def lowest_points(self, points: Points) -> np.ndarray:
         """Return the index of the lowest point of each occupied cell, in the order of the cells.
 
-        Of points equally low in one cell that with the smallest x, then y, is taken: the choice
-        must not depend on the order of the points.
+        If several points of a cell are equally low, the one with the smallest x, then y, is taken:
+        the choice must not depend on the order of the points.
         """
         lowest = self.minimum(points.z).ravel()
         is_lowest = np.empty(points.count, dtype=bool)
@@ -119,36 +122,33 @@ class Cells:
     def counts(self) -> np.ndarray:
         """Return the number of points in each cell; int32, shape (rows, columns)."""
         counts = np.zeros(self.rows * self.columns, dtype=np.int32)
-        for first in range(0, len(self.index), _POINTS_A_COUNT):
+        for part in parts_of(len(self.index), _POINTS_A_COUNT):
             # In steps, as bincount takes 8 bytes for each.
-            step = np.bincount(self.index[first : first + _POINTS_A_COUNT])
+            step = np.bincount(self.index[part])
             counts[: len(step)] += step
         return counts.reshape(self.shape)
 
     @cached_property
     def occupied(self) -> np.ndarray:
         """Whether each cell has a point; boolean, shape (rows, columns)."""
-        counts = np.zeros(self.rows * self.columns, dtype=bool)
-        counts[self.index] = True
-        return counts.reshape(self.shape)
+        return self.holding(slice(None))
+
+    def holding(self, which: np.ndarray | slice) -> np.ndarray:
+        """Return which cells hold one of some points; boolean, shape (rows, columns)."""
+        holding = np.zeros(self.rows * self.columns, dtype=bool)
+        holding[self.index[which]] = True
+        return holding.reshape(self.shape)
 
     def at(self, grid: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Interpolate a grid (rows, columns) bilinearly between cell centres at places in metres.
 
         Beyond the outermost centres the value of the border is taken.
         """
-        # Not at the start of QGIS, which loads this module, and where scipy may be missing.
         from scipy import ndimage
 
         row = y / self.size - (self.first_row + 0.5)
         column = x / self.size - (self.first_column + 0.5)
         return ndimage.map_coordinates(grid, (row, column), order=1, mode="nearest")
-
-    def centres(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return x and y of the centre of each cell, in the order of the flattened grid."""
-        x = (self.first_column + np.arange(self.columns) + 0.5) * self.size
-        y = (self.first_row + np.arange(self.rows) + 0.5) * self.size
-        return np.tile(x, self.rows), np.repeat(y, self.columns)
 
     def resampled(self, grid: np.ndarray, other: Cells) -> np.ndarray:
         """Return for each cell of `other` the value of the cell here in which its centre lies.
@@ -225,6 +225,23 @@ def first_of_each(index: np.ndarray, size: int, *keys: np.ndarray) -> np.ndarray
     return found[found >= 0]
 
 
+def are_inside(row: np.ndarray, column: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
+    """Return which places, by row and column, lie in a grid of some shape; boolean, shape (n,)."""
+    return (row >= 0) & (row < shape[0]) & (column >= 0) & (column < shape[1])
+
+
+def numbered(counts: np.ndarray) -> np.ndarray:
+    """Return 0, 1, ... up to each count, one after the other.
+
+    Examples
+    --------
+    >>> numbered(np.array([2, 0, 3])).tolist()
+    [0, 1, 0, 1, 2]
+    """
+    starts = np.cumsum(counts) - counts
+    return np.arange(int(counts.sum())) - np.repeat(starts, counts)
+
+
 def lower_at(target: np.ndarray, index: np.ndarray, values: np.ndarray) -> None:
     """Lower the elements of an array to the least of the values that are given for each.
 
@@ -263,16 +280,18 @@ def spacing(points: Points, dense: float = 1.0, step: float = _SPACING_STEP) -> 
     step : float
         Metres of which it is a multiple, from a metre on.
     """
-    from scipy import ndimage
-
     area = float(np.ptp(points.x)) * float(np.ptp(points.y))
     if _SURELY * area <= dense**2 * points.count:
         return dense
-    blocks = Cells.over(points, _BLOCK)
-    counts = blocks.counts()
-    within = ndimage.binary_erosion(counts > 0, np.ones((3, 3)))
-    usual = np.median(counts[within if within.any() else counts > 0])
-    apart = _BLOCK / math.sqrt(usual)
+    apart = _BLOCK / math.sqrt(usual_count(Cells.over(points, _BLOCK).counts()))
     if apart >= 1.0:
         return max(dense, step * round(apart / step))
     return max(dense, 2.0 ** (round(2.0 * math.log2(apart)) / 2.0))
+
+
+def usual_count(counts: np.ndarray) -> float:
+    """Return the median of the points in blocks, a grid of them; of those within the survey."""
+    from scipy import ndimage
+
+    within = ndimage.binary_erosion(counts > 0, np.ones((3, 3)))
+    return float(np.median(counts[within if within.any() else counts > 0]))

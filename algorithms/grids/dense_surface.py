@@ -8,13 +8,14 @@ four vertices round a query are taken for all that matter (`heights_of_four`).
 
 from __future__ import annotations
 
+import itertools
 from typing import NamedTuple
 
 import numpy as np
 
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
-from ..core.threads import over_parts
+from ..core.threads import in_threads
 from .enclosing import NOWHERE, enclosing_heights, heights_of_four
 from .morphology import within_square
 from .surface import CellLattice, Surface
@@ -82,17 +83,14 @@ class DenseSurface:
 
     def raster(
         self,
-        first: tuple[int, int],
         shape: tuple[int, int],
         max_edge: float | None = None,
         progress: Progress = SILENT,
     ) -> np.ndarray:
-        """Return the heights at the centres of cells.
+        """Return the heights at the centres of the cells north and east of the anchor.
 
         Parameters
         ----------
-        first : tuple of int
-            Row and column of the first cell, from the anchor.
         shape : tuple of int
             Rows and columns.
         max_edge : float, optional
@@ -107,20 +105,13 @@ class DenseSurface:
         """
         heights, sure = np.full(shape, np.nan), np.zeros(shape, dtype=bool)
         side = TILE // VERTICES_A_SIDE
-        places = [
-            (row, column)
-            for row in range(first[0] // side, (first[0] + shape[0] - 1) // side + 1)
-            for column in range(first[1] // side, (first[1] + shape[1] - 1) // side + 1)
-        ]
+        places = itertools.product(*(range(-(-count // side)) for count in shape))
 
-        def fill(number: slice) -> None:
-            place = places[number.start]
-            start = [max(place[k] * side - first[k], 0) for k in (0, 1)]
-            end = [min((place[k] + 1) * side - first[k], shape[k]) for k in (0, 1)]
-            cells = slice(start[0], end[0]), slice(start[1], end[1])
+        def fill(place: tuple[int, int]) -> None:
+            cells = tuple(slice(each * side, (each + 1) * side) for each in place)
             row, column = (
-                (np.arange(start[k], end[k]) + first[k] - place[k] * side) * VERTICES_A_SIDE + 1
-                for k in (0, 1)
+                np.arange(min(count - each * side, side)) * VERTICES_A_SIDE + 1
+                for each, count in zip(place, shape)
             )
             row, column = np.repeat(row, len(column)), np.tile(column, len(row))
             queries = _Queries(column.astype(float), row.astype(float), column, row)
@@ -128,13 +119,13 @@ class DenseSurface:
             for whole, part in zip((heights, sure), found):
                 whole[cells] = part.reshape(whole[cells].shape)
 
-        over_parts(fill, len(places), 1, progress.part(0.0, 0.5))
+        in_threads(fill, places, progress.part(0.0, 0.5))
         left = np.flatnonzero(~sure)
         if len(left):
             row, column = np.divmod(left, shape[1])
             x, y = (
-                (each + at + 0.5) * self._cell + start
-                for each, at, start in zip((column, row), first[::-1], self._thinned.anchor)
+                (each + 0.5) * self._cell + start
+                for each, start in zip((column, row), self._thinned.anchor)
             )
             cells, part = CellLattice(self._thinned.anchor, self._cell), progress.part(0.5, 1.0)
             heights.ravel()[left] = self._rest(x, y, max_edge, part, cells)
@@ -163,10 +154,9 @@ class DenseSurface:
             Metres; NaN outside the convex hull, and in gaps.
         """
         heights, sure = np.full(len(x), np.nan), np.zeros(len(x), dtype=bool)
-        groups = _by_tile(self._thinned, x, y)
 
-        def fill(number: slice) -> None:
-            place, which = groups[number.start]
+        def fill(group: tuple[tuple[int, int], np.ndarray]) -> None:
+            place, which = group
             at_x, at_y = (
                 self._thinned.cells(each[which], axis) - place[1 - axis] * TILE
                 for axis, each in enumerate((x, y))
@@ -175,7 +165,7 @@ class DenseSurface:
             queries = _Queries(at_x, at_y, *corners)
             heights[which], sure[which] = self._in_tile(place, queries, False, max_edge)
 
-        over_parts(fill, len(groups), 1, progress.part(0.05, 0.7))
+        in_threads(fill, _by_tile(self._thinned, x, y), progress.part(0.05, 0.7))
         left = np.flatnonzero(~sure)
         if len(left):
             heights[left] = self._rest(x[left], y[left], max_edge, progress.part(0.7, 1.0))
@@ -188,7 +178,7 @@ class DenseSurface:
 
         which = self._vertices()
         vertices = self._points.take(which)
-        # Not balanced: that takes longer than it saves.
+        # A balanced tree takes longer to build than it saves.
         tree = cKDTree(np.column_stack(vertices[:2]), balanced_tree=False, compact_nodes=False)
         return vertices.z[tree.query(np.column_stack((x, y)))[1]]
 
@@ -250,19 +240,10 @@ class DenseSurface:
 
 
 class _Near:
-    """Finds heights from the vertices in a window round each query.
+    """Finds heights from the vertices of a tile in a window round each query.
 
-    Parameters
-    ----------
-    window : Window
-        The vertices of a tile.
-    z : numpy.ndarray of float64, shape (n,)
-        Heights of all points.
-    are_corners : bool
-        Whether the queries lie on corners of cells, so that each quarter of a window is one of the
-        plane.
-    max_edge : float
-        In cells.
+    `z` are the heights of all points; `max_edge` is in cells. Where the queries lie on corners of
+    cells (`are_corners`), each quarter of a window is one of the plane.
     """
 
     def __init__(self, window: Window, z: np.ndarray, are_corners: bool, max_edge: float) -> None:

@@ -10,6 +10,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from .tin import opposite_areas
+
 # x and y that stand for no vertex.
 NOWHERE = 1e6
 # Each step lowers the plane at the query; few triangles need more than ten. Rounding on a circle
@@ -97,11 +99,9 @@ def heights_of_four(
 
     Parameters
     ----------
-    x, y, z : numpy.ndarray of float64, shape (4, q)
-        The vertices southwest, southeast, northeast and northwest, relative to the query;
-        `NOWHERE` in the place of one that is missing.
-    max_edge : float
-        Triangles with a longer edge are gaps.
+    x, y, z, max_edge
+        As for `enclosing_heights`; k is 4, for the vertices southwest, southeast, northeast and
+        northwest.
 
     Returns
     -------
@@ -222,10 +222,8 @@ def longest_edge(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def _opposite_areas(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Return twice the area between the query and the edge opposite to each corner (3, q)."""
-    return np.stack(
-        (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-    )
+    """Return `opposite_areas` as an array, shape (3, q)."""
+    return np.stack(opposite_areas(a, b))
 
 
 def _lies_within(

@@ -7,7 +7,7 @@ import numpy as np
 from ..core.points import Points
 from ..core.progress import SILENT
 from ..core.threads import in_threads, over_parts, parts_of
-from .tin import Tin
+from .tin import Tin, opposite_areas
 
 # Share of the sum of the terms of a determinant that may be rounding.
 _ROUNDING = 1e-12
@@ -168,10 +168,9 @@ class GrowingTin:
     def _opposite_areas(
         self, x: np.ndarray, y: np.ndarray, corners: list[np.ndarray]
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return twice the signed area between each place and the edge opposite to each corner."""
-        ax, bx, cx = (self.vertices.x.take(each) - x for each in corners)
-        ay, by, cy = (self.vertices.y.take(each) - y for each in corners)
-        return bx * cy - by * cx, cx * ay - cy * ax, ax * by - ay * bx
+        """Return the `opposite_areas` of places in triangles with some corners."""
+        to_x, to_y = ([of.take(k) - at for k in corners] for of, at in zip(self.vertices, (x, y)))
+        return opposite_areas(to_x, to_y)
 
     def _interpolated(self, corners: list[np.ndarray], areas: list[np.ndarray]) -> np.ndarray:
         # Places may lie outside by rounding: nothing is extrapolated.
@@ -200,7 +199,7 @@ class GrowingTin:
         areas = np.stack(self._opposite_areas(points.x, points.y, corners))
         x, y = (np.stack([values[each] for each in corners]) for values in self.vertices[:2])
         squared = (x - np.roll(x, -1, axis=0)) ** 2 + (y - np.roll(y, -1, axis=0)) ** 2
-        # Of the edge from corner k + 1 to k + 2, that is opposite to corner k.
+        # Row k is for the edge from corner k + 1 to k + 2, which is opposite to corner k.
         share = areas / np.roll(squared, -1, axis=0)
         nearest = share.argmin(axis=0)
         return 3 * triangle + nearest, share.min(axis=0) <= _ON_EDGE
@@ -266,14 +265,9 @@ class GrowingTin:
         self.twins[one], self.twins[other] = other, one
 
     def _flip(self, edges: np.ndarray, changed: np.ndarray) -> None:
-        """Flip edges, and those round them, until no circumcircle holds a vertex.
+        """Flip half-edges, and those round them, until no circumcircle holds a vertex.
 
-        Parameters
-        ----------
-        edges : numpy.ndarray of int, shape (n,)
-            Half-edges to look at.
-        changed : numpy.ndarray of bool, shape (t,)
-            Triangles with a flipped edge are set in it.
+        Triangles with a flipped edge are set in `changed` (t,).
         """
         owner = np.zeros(self.count, dtype=np.int64)
         for _ in range(_MOST_STEPS):

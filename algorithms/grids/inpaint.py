@@ -43,7 +43,7 @@ def inpaint(grid: np.ndarray, relaxations: int = _RELAXATIONS, first: First = (0
         return np.array(grid, dtype=np.float64)
     if not known.any():
         return np.zeros(grid.shape)
-    # Beside the usual height, single precision is better than a tenth of a millimetre.
+    # Relative to the usual height, single precision is better than a tenth of a millimetre.
     level = _usual(grid[known])
     beside = np.subtract(grid, level, dtype=np.float64).astype(np.float32)
     filled = np.add(_filled(beside, known, relaxations, first), level, dtype=np.float64)

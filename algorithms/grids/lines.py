@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..core.points import Box
+from .cells import numbered
 
 # Stations to each side of one along a river that say how high the water is there.
 _STATIONS = 5
@@ -72,8 +73,7 @@ def along(line: np.ndarray, step: float, is_closed: bool = False) -> np.ndarray:
     lengths = np.hypot(*np.diff(line[:, :2], axis=0).T)
     counts = np.maximum(np.ceil(lengths / step), 1).astype(np.int64)
     segment = np.repeat(np.arange(len(counts)), counts)
-    first = np.cumsum(counts) - counts
-    share = (np.arange(len(segment)) - first[segment]) / counts[segment]
+    share = numbered(counts) / counts[segment]
     start, end = line[segment], line[segment + 1]
     return np.concatenate((start + share[:, None] * (end - start), line[-1:]))
 
@@ -90,7 +90,6 @@ class NearestHeights:
     """
 
     def __init__(self, points: np.ndarray, reach: float) -> None:
-        # Not at the start of QGIS, which may lack scipy.
         from scipy.spatial import cKDTree
 
         self._points, self._reach = points, reach
@@ -195,7 +194,7 @@ def falling(
     order = np.argsort(station, kind="stable")
     station, heights = station[order], heights[order]
     every = np.arange(len(line))
-    # Without the usual fall: else the lowest of the banks beside a station is the one downstream.
+    # The usual fall is taken out first: else the lowest bank near a station is the one downstream.
     slope = np.polyfit(station, heights, 1)[0] if np.ptp(station) else 0.0
     heights = heights - slope * station
     firsts = np.searchsorted(station, every - _STATIONS)

@@ -89,10 +89,10 @@ def model_key_points(
     It starts with the lowest point of each cell of a grid, the outermost of each cell beside an
     empty one, and the corners of the convex hull. In rounds, every triangle of their TIN takes the
     point that lies farthest beyond the tolerance: first of few points, at last of all. Then every
-    ground point lies within the tolerance of the TIN of the chosen ones; but of points at one place
-    the lowest alone is looked at. Where four of them lie on one circle, this holds whichever way
-    the TIN divides these; of more than four on one circle, on a regular lattice, a few of ten
-    thousand may lie some centimetres beyond.
+    ground point lies within the tolerance of the TIN of the chosen ones. Where several points lie
+    at one place, only the lowest is looked at. Where four chosen ones lie on one circle, this holds
+    whichever way the TIN divides these; where more than four do, on a regular lattice, a few ground
+    points of ten thousand may lie some centimetres beyond.
 
     Parameters
     ----------
@@ -142,7 +142,7 @@ def _sorted(
 ) -> tuple[Points, Cells, np.ndarray]:
     """Return points cell by cell, with x and y from a corner of cells; the cells; and the order.
 
-    Of points at one place only the lowest is there.
+    Only the lowest of the points at one place is kept.
     """
     kept = _lowest_of_places(points)
     progress(0.4)
@@ -187,10 +187,9 @@ def _lowest_of_places(points: Points) -> np.ndarray:
 
 def _hull_corners(points: Points, cells: Cells) -> np.ndarray:
     """Return which points are the corners of the convex hull, or the two ends of a line."""
-    # Not at the start of QGIS, which loads this module, and where scipy may be missing.
     from scipy import ndimage
 
-    # With points in all eight cells round its own, none is a corner.
+    # A point is no corner if all eight cells round its own hold points.
     inner = ndimage.binary_erosion(cells.occupied, np.ones((3, 3)))
     outer = np.flatnonzero(~inner.ravel()[cells.index])
     return outer[hull_corners(points.x[outer], points.y[outer])]
@@ -217,7 +216,7 @@ def _levels(points: Points, grid_size: float) -> list[tuple[np.ndarray, Cells]]:
     spread = float(np.ptp(points.x)) * float(np.ptp(points.y))
     which, left = np.arange(points.count, dtype=np.int32), points
     for about in _LEVELS[::-1]:
-        # So that each cell of the grid is cut into whole ones.
+        # Each cell of the grid is cut into whole cells.
         size = grid_size / max(round(grid_size / about), 1)
         if size < grid_size and spread < _MOST_CELLS * size**2:
             cells = Cells.over(points, size)
@@ -252,21 +251,9 @@ def _of_cells(cells: Cells, points: np.ndarray) -> np.ndarray:
 
 
 class _Keys:
-    """The points chosen so far, and their TIN.
+    """The points chosen so far (`are_keys`, a mask), and their TIN.
 
-    Parameters
-    ----------
-    points : Points
-        No two at one place.
-    seeds : numpy.ndarray of int, shape (s,)
-        The first to be chosen, the corners of the convex hull among them.
-    parameters : ModelKeyPoints
-        The tolerances.
-
-    Attributes
-    ----------
-    are_keys : numpy.ndarray of bool, shape (n,)
-        Which points are chosen.
+    No two points lie at one place; the corners of the convex hull are among the seeds.
     """
 
     def __init__(self, points: Points, seeds: np.ndarray, parameters: ModelKeyPoints) -> None:
@@ -274,7 +261,7 @@ class _Keys:
         self._tin = GrowingTin(points.take(seeds))
         self.are_keys = np.zeros(points.count, dtype=bool)
         self.are_keys[seeds] = True
-        # Of each point that has been looked at.
+        # The triangle of each point that has been looked at.
         self._triangle = np.zeros(points.count, dtype=np.int32)
         self._triangle[seeds] = self._tin.triangles_of_vertices()
         self._beyond = np.zeros(points.count, dtype=np.float32)
@@ -325,7 +312,7 @@ class _Keys:
 
     def _violating(self, which: np.ndarray) -> np.ndarray:
         """Return which of some points lie beyond the tolerance."""
-        # By rounding, a vertex may seem to lie in a triangle of others that has no area.
+        # Rounding may put a vertex into a triangle of others that has no area.
         return which[(self._beyond[which] > _ROUNDING) & ~self.are_keys[which]]
 
     def _within(self, triangles: np.ndarray, pending: np.ndarray) -> np.ndarray:

@@ -9,9 +9,9 @@ import numpy as np
 
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
-from ..core.threads import over_parts
+from ..core.threads import in_threads
 from .enclosing import circumcircles, interpolated, leaving_corner, longest_edge
-from .tin import Tin, is_one_line, lowest_of_duplicates
+from .tin import Tin, hull_corners, is_one_line, lowest_of_duplicates
 from .tin_cells import triangles_of_cells
 
 # Few enough that all threads have work, and neither a cancel nor the progress has to wait.
@@ -94,15 +94,15 @@ class Surface:
         if is_one_line(np.column_stack(self._vertices[:2])):
             return heights
         blocks = list(self._blocks(x, y))
-        # Of many blocks, each is a step; a single one is done in the calling thread.
+        # A single block reports its own progress; of several, each is one step.
         within = progress if len(blocks) == 1 else SILENT
 
-        def fill(number: slice) -> None:
-            queries, size = blocks[number.start]
+        def fill(block: tuple[np.ndarray, float]) -> None:
+            queries, size = block
             some = x[queries], y[queries]
             heights[queries] = self._block_heights(*some, size, max_edge, cells, within)
 
-        over_parts(fill, len(blocks), 1, progress)
+        in_threads(fill, blocks, progress)
         return heights
 
     def nearest(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -111,12 +111,11 @@ class Surface:
 
     @property
     def _tree(self):
-        # Not at the start of QGIS, which loads this module, and where scipy may be missing.
         from scipy.spatial import cKDTree
 
         with self._lock:
             if self._tree_of_all is None:
-                # Not balanced: that takes longer than it saves.
+                # A balanced tree takes longer to build than it saves.
                 places = np.column_stack((self._vertices.x, self._vertices.y))
                 self._tree_of_all = cKDTree(places, balanced_tree=False, compact_nodes=False)
             return self._tree_of_all
@@ -126,13 +125,11 @@ class Surface:
         """The lower and the upper border, each as x and y (2, k) from west to east, and which
         vertices are its corners, counterclockwise.
         """
-        from scipy.spatial import ConvexHull
-
         with self._lock:
             if self._border_of_all is None:
-                xy = np.column_stack((self._vertices.x, self._vertices.y))
-                which = ConvexHull(xy).vertices
-                borders = (_border(xy[which], sign) for sign in (1.0, -1.0))
+                x, y, _ = self._vertices
+                which = hull_corners(x, y)
+                borders = (_border(x[which], y[which], sign) for sign in (1.0, -1.0))
                 self._border_of_all = (*borders, which)
             return self._border_of_all
 
@@ -298,9 +295,9 @@ def _located(tin: Tin, x: np.ndarray, y: np.ndarray, cells: CellLattice | None) 
     ]
 
 
-def _border(corners: np.ndarray, sign: float) -> np.ndarray:
+def _border(x: np.ndarray, y: np.ndarray, sign: float) -> np.ndarray:
     """Return the lower (sign 1) or upper (-1) border of a convex polygon, from west to east."""
-    x, y = corners[:, 0], sign * corners[:, 1]
+    y = sign * y
     west, east = np.lexsort((y, x))[0], np.lexsort((y, -x))[0]
     across = (x[east] - x[west]) * (y - y[west]) - (y[east] - y[west]) * (x - x[west])
     chain = np.flatnonzero(across < 0.0)

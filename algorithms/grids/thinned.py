@@ -11,7 +11,7 @@ import numpy as np
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads, over_parts
-from .cells import first_of_each
+from .cells import are_inside, first_of_each
 from .tin import hull_corners
 
 # Cells along the side of a tile: its lattice stays in the processor's cache.
@@ -158,9 +158,7 @@ class ThinnedPoints:
             at_row, at_column = np.divmod(tile.slots, TILE)
             at_row += row * TILE + margin
             at_column += column * TILE + margin
-            inside = np.flatnonzero(
-                (at_row >= 0) & (at_row < width) & (at_column >= 0) & (at_column < width)
-            )
+            inside = np.flatnonzero(are_inside(at_row, at_column, lattice.shape))
             lattice[at_row[inside], at_column[inside]] = np.arange(count, count + len(inside))
             x.append(tile.x[inside] + column * TILE)
             y.append(tile.y[inside] + row * TILE)

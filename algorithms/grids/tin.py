@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Iterable
+
 import numpy as np
+
+from ..core.threads import parts_of
 
 # Queries are walked this many at a time: the arrays of one step then stay in the processor's cache.
 _QUERIES_A_STEP = 200_000
@@ -69,8 +73,7 @@ class Tin:
         found = np.full(len(x), -1, dtype=np.int32)
         if not len(self.triangles):
             return found
-        for first in range(0, len(x), _QUERIES_A_STEP):
-            part = slice(first, first + _QUERIES_A_STEP)
+        for part in parts_of(len(x), _QUERIES_A_STEP):
             triangle = self._triangle_of_vertex[self._near(x[part], y[part])]
             found[part] = self._walk(x[part] - self._origin[0], y[part] - self._origin[1], triangle)
         return found
@@ -82,8 +85,8 @@ class Tin:
 
         Parameters
         ----------
-        x, y : array_like of float, shape (q,)
-            Queries in metres.
+        x, y
+            As for `locate`.
         triangle : numpy.ndarray of int, shape (q,), optional
             What `locate` returned for them, if it is known.
 
@@ -97,8 +100,8 @@ class Tin:
             triangle = self.locate(x, y)
         height = np.full(len(x), np.nan)
         inside = np.flatnonzero(triangle >= 0)
-        for first in range(0, len(inside), _QUERIES_A_STEP):
-            part = inside[first : first + _QUERIES_A_STEP]
+        for some in parts_of(len(inside), _QUERIES_A_STEP):
+            part = inside[some]
             weights = self._opposite_areas(
                 x[part] - self._origin[0], y[part] - self._origin[1], triangle[part]
             )
@@ -127,7 +130,6 @@ class Tin:
         numpy.ndarray of bool, shape (q,)
             True where one lies within the circumcircle, or on it.
         """
-        # Not at the start of QGIS, which loads this module, and where scipy may be missing.
         from scipy.spatial import cKDTree
 
         corners = self.triangles[triangles]
@@ -155,7 +157,7 @@ class Tin:
         """Walk from `triangle` (q,) towards queries (q,); return where it ends, -1 outside."""
         found = triangle.copy()
         moving = np.arange(len(x))
-        # No walk visits a triangle twice, so it ends; rounding at a vertex could make it circle.
+        # A walk visits no triangle twice, so it ends; the limit is for rounding at a vertex.
         for _ in range(len(self.triangles) + 1):
             areas = self._opposite_areas(x, y, triangle)
             worst = (areas[1] < areas[0]).astype(np.intp)
@@ -175,15 +177,25 @@ class Tin:
     def _opposite_areas(
         self, x: np.ndarray, y: np.ndarray, triangle: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return twice the signed area between each query and the edge opposite each corner.
+        """Return the `opposite_areas` of queries in triangles."""
+        corners = self.triangles[triangle].T
+        return opposite_areas([self._x[k] - x for k in corners], [self._y[k] - y for k in corners])
 
-        All three are >= 0 inside a triangle; over their sum they are the barycentric weights.
-        """
-        corners = self.triangles[triangle]
-        a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
-        ax, bx, cx = self._x[a] - x, self._x[b] - x, self._x[c] - x
-        ay, by, cy = self._y[a] - y, self._y[b] - y, self._y[c] - y
-        return bx * cy - by * cx, cx * ay - cy * ax, ax * by - ay * bx
+
+def opposite_areas(
+    x: Iterable[np.ndarray], y: Iterable[np.ndarray]
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return twice the signed area between queries and the edge opposite to each corner.
+
+    All three are >= 0 inside a triangle; over their sum they are the barycentric weights.
+
+    Parameters
+    ----------
+    x, y : three numpy.ndarray of float64, shape (q,)
+        The corners, relative to the queries.
+    """
+    (ax, bx, cx), (ay, by, cy) = x, y
+    return bx * cy - by * cx, cx * ay - cy * ax, ax * by - ay * bx
 
 
 def lowest_of_duplicates(x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndarray:
@@ -195,15 +207,9 @@ def lowest_of_duplicates(x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndar
 
 
 def _strips(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Cut vertices into strips of equally many along x.
+    """Cut vertices into strips of equally many along x; return the strip of each, and the borders.
 
     Quantiles, not equal widths: one stray point far away must not put all others into one strip.
-
-    Returns
-    -------
-    strip : numpy.ndarray of intp, shape (n,)
-    edges : numpy.ndarray of float64
-        The x at which the second and each later strip begins.
     """
     count = max(int(np.sqrt(len(x) / 2)), 1)
     edges = np.sort(x)[(np.arange(1, count) * len(x)) // count] if count > 1 else np.empty(0)
@@ -212,7 +218,6 @@ def _strips(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def _triangulate(xy: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return triangles (t, 3), counterclockwise, and their neighbours (t, 3) of vertices (v, 2)."""
-    # Not at the start of QGIS, which loads this module, and where scipy may be missing.
     from scipy.spatial import Delaunay
 
     nothing = np.empty((0, 3), dtype=np.int32), np.empty((0, 3), dtype=np.int32)
@@ -238,7 +243,6 @@ def is_one_line(xy: np.ndarray) -> bool:
 
 def hull_corners(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Return the indices of the corners of the convex hull, or of the two ends of a line."""
-    # Not at the start of QGIS, which loads this module, and where scipy may be missing.
     from scipy.spatial import ConvexHull
 
     xy = np.column_stack((x, y))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from .cells import numbered
 from .tin import Tin
 
 # Share of a cell by which a centre on an edge counts as inside: rounding.
@@ -43,12 +44,12 @@ def triangles_of_cells(
     counts = last[held] - first[held] + 1
     for some in _parts(counts):
         triangle = np.repeat(held[some], counts[some])
-        row = first[triangle] + _numbered(counts[some])
+        row = first[triangle] + numbered(counts[some])
         west, east = _crossed(x, y, tin.triangles[triangle], row)
         left = np.maximum(np.ceil(west - _ON_EDGE), 0).astype(np.int64)
         right = np.minimum(np.floor(east + _ON_EDGE), shape[1] - 1).astype(np.int64)
         across = np.maximum(right - left + 1, 0)
-        place = np.repeat(row * shape[1] + left, across) + _numbered(across)
+        place = np.repeat(row * shape[1] + left, across) + numbered(across)
         found.ravel()[place] = np.repeat(triangle, across)
     return found
 
@@ -69,16 +70,10 @@ def _crossed(
         at = start_x + np.clip(share, 0.0, 1.0) * (end_x - start_x)
         np.minimum(west, at, out=west, where=meets)
         np.maximum(east, at, out=east, where=meets)
-    # No edge meets the row by rounding: nothing of it is inside.
+    # Where rounding lets no edge meet the row, no cell is inside.
     none = west > east
     west[none], east[none] = 0.0, -1.0
     return west, east
-
-
-def _numbered(counts: np.ndarray) -> np.ndarray:
-    """Return 0, 1, ... up to each count, one after the other."""
-    ends = np.cumsum(counts)
-    return np.arange(ends[-1] if len(ends) else 0) - np.repeat(ends - counts, counts)
 
 
 def _parts(counts: np.ndarray) -> list[slice]:

@@ -55,23 +55,20 @@ class Trend:
     """
 
     def __init__(self, heights: np.ndarray, size: float, first: First = (0, 0)) -> None:
-        self._size, self._shape = size, heights.shape
+        self._size = size
         self._block = max(round(_BLOCK / size), 3)
         self._within = tuple(each % self._block for each in first)
         self._blocks = in_threads(lambda axis: self._of_axis(heights, axis), (0, 1))
         columns = np.arange(heights.shape[1]) + self._within[1]
-        # Between the columns once for all rows of a block.
-        self._across = [
-            None if each is None else _interpolated(each, columns, self._block, -1)
-            for each in self._blocks
-        ]
+        # Columns are interpolated once for all rows of a block.
+        self._across = [_interpolated(each, columns, self._block, -1) for each in self._blocks]
 
-    def _of_axis(self, heights: np.ndarray, axis: int) -> np.ndarray | None:
+    def _of_axis(self, heights: np.ndarray, axis: int) -> np.ndarray:
         """Return slope along an axis and departure from it, of each block (2, rows, columns)."""
         from scipy import ndimage
 
-        if heights.shape[axis] == 1:
-            return None
+        if heights.shape[axis] == 1:  # a grid one cell wide has no slope across
+            return np.zeros((2, 1, 1), dtype=heights.dtype)
         slopes = np.diff(heights, axis=axis) / heights.dtype.type(self._size)
         blocks = _sampled_blocks(slopes, self._block, self._within)
         slope = np.median(blocks, axis=2)
@@ -82,44 +79,30 @@ class Trend:
     def of_rows(self, first: int, last: int) -> Rises:
         """Return the rises at all cells of some rows, `last` not among them."""
         rows = np.arange(first, last) + self._within[0]
-        fields = [
-            None if each is None else _interpolated(each, rows, self._block, -2)
-            for each in self._across
-        ]
-        return self._rises(fields, (len(rows), self._shape[1]))
+        return self._rises([_interpolated(each, rows, self._block, -2) for each in self._across])
 
     def at(self, row: np.ndarray, column: np.ndarray) -> Rises:
         """Return the rises at cells."""
         row, column = row + self._within[0], column + self._within[1]
-        fields = [
-            None if each is None else _at_places(each, self._block, row, column)
-            for each in self._blocks
-        ]
-        return self._rises(fields, row.shape)
+        return self._rises([_at_places(each, self._block, row, column) for each in self._blocks])
 
     def along(self, row: np.ndarray, column: np.ndarray, north: int, east: int) -> np.ndarray:
         """Return what the terrain rises from cells to others, some cells farther north and east."""
         rise = np.float32(0.0)
         row, column = row + self._within[0], column + self._within[1]
         for cells, values in zip((north, east), self._blocks):
-            if cells and values is not None:
+            if cells:
                 slope = _at_places(values[:1], self._block, row, column)[0]
                 rise = rise + cells * (np.float32(self._size) * slope)
         return rise
 
-    def _rises(self, fields: list[np.ndarray | None], shape: tuple[int, ...]) -> Rises:
-        """Return the rises where slope and departure along both axes are known."""
-        size, slopes = np.float32(self._size), []
-        roughness = np.zeros(shape, dtype=np.float32)
-        for field in fields:
-            if field is None:  # a grid one cell wide has no slope across
-                slopes.append(np.zeros(shape, dtype=np.float32))
-                continue
-            field *= size
-            slopes.append(field[0])
-            field[1] /= 2
-            roughness += field[1]
-        return Rises(*slopes, length(*slopes), roughness)
+    def _rises(self, fields: list[np.ndarray]) -> Rises:
+        """Return the rises where slope and departure (2, ...) along both axes are known."""
+        for each in fields:
+            each *= np.float32(self._size)
+            each[1] /= 2
+        (north, north_departure), (east, east_departure) = fields
+        return Rises(north, east, length(north, east), north_departure + east_departure)
 
 
 def between_blocks(

@@ -84,6 +84,7 @@ def write_changed(
     changes: Edits,
     progress: Progress = SILENT,
     cloud: PointCloud | None = None,
+    memory: int | None = None,
 ) -> None:
     """Write `source` anew with other values of its points.
 
@@ -106,6 +107,9 @@ def write_changed(
     cloud : PointCloud, optional
         Points of `source`: if they are all, less of it is read again. Its records are changed
         here, if they were kept.
+    memory : int, optional
+        About how many bytes making a COPC file may take; as many as all points need, if it is not
+        given. Points that need more wait in a temporary file beside the target.
 
     Raises
     ------
@@ -128,7 +132,7 @@ def write_changed(
         if kept is not None:
             _replace_classes(rewriting, kept, temporary, progress, cloud)
         elif is_copc(target):
-            write_copc(rewriting, temporary, progress)
+            write_copc(rewriting, temporary, progress, memory)
         else:
             _write(rewriting, temporary, progress)
         layout.check_unchanged()

@@ -100,7 +100,7 @@ def _write_error_map(
     progress(0.2)
     grid = RasterGrid.over(points, frame, options.map_cell_size)
     progress(0.3)
-    # From the centres of the first cells; a point on the last edge belongs to the last cell.
+    # Cells are counted from the centre of the first; points on the last edge go into the last cell.
     column = np.rint((points.x - grid.x[0]) / grid.cell_metres).astype(np.int64)
     progress(0.4)
     row = np.rint((grid.y[0] - points.y) / grid.cell_metres).astype(np.int64)

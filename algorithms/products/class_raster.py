@@ -56,7 +56,7 @@ class ClassCells:
         self._ground += np.bincount(cells[is_ground], minlength=len(self._points))
         cells = cells[~is_ground]
         values = np.maximum(classes[~is_ground], self._highest[cells])
-        # Of those in one cell the last is kept: the highest.
+        # The last value of a cell is kept, which is the highest.
         order = np.argsort(values, kind="stable")
         self._highest[cells[order]] = values[order]
 

@@ -13,7 +13,7 @@ from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..rasters.libraries import GdalErrors
 
-# So many lines, or a few more or less, make a map that can be read.
+# A map with about so many lines can be read.
 _LINES = 20
 _STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
 # Less is noise.
@@ -22,7 +22,7 @@ _LEAST = 0.25
 INDEX = 5
 # The formats that QGIS offers first, and GDAL's names of them.
 _DRIVERS = {".gpkg": "GPKG", ".shp": "ESRI Shapefile", ".geojson": "GeoJSON", ".fgb": "FlatGeobuf"}
-# What belongs to a file of these formats: indices and journals of other lines would do harm.
+# Files that belong to one of these formats: indices and journals of other lines would do harm.
 _BESIDE = {
     ".shp": (".dbf", ".shx", ".prj", ".cpg", ".qpj", ".qix", ".sbn", ".sbx"),
     ".gpkg": (".gpkg-wal", ".gpkg-shm", ".gpkg-journal"),

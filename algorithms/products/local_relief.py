@@ -21,7 +21,7 @@ from ..core.progress import SILENT, Progress
 from ..rasters.geotiff import NODATA, read_raster
 from ..rasters.writing import write_geotiff
 
-# Of how many cells a plane is made.
+# Cells to which a plane is fitted, about.
 _PLANE_CELLS = 100_000
 
 

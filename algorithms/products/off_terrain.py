@@ -119,7 +119,7 @@ def remove_objects_file(
     heights, removed = remove_objects(
         raster.heights * np.float32(unit), raster.cell_metres, parameters, progress.part(0.1, 0.9)
     )
-    # What stays is written as it was, not converted forth and back.
+    # Heights that stay are written as they were, not converted forth and back.
     heights = np.where(removed, heights / unit, raster.heights)
     values = np.where(known, heights, NODATA).astype(np.float32)
     progress(1.0)  # the last moment to cancel: after this the file is there
@@ -145,10 +145,8 @@ def remove_objects(
         In metres; NaN where there is none.
     cell_metres : tuple of float
         Distance between neighbours in a row, and in a column.
-    parameters : OffTerrain
-        What is an object.
-    progress : Progress
-        Receives progress.
+    parameters, progress
+        As for `remove_objects_file`.
 
     Returns
     -------
@@ -161,7 +159,7 @@ def remove_objects(
     if not known.any():
         return heights.astype(np.float32), np.zeros(heights.shape, dtype=bool)
     radius = parameters.max_object_size / 2 / min(cell_metres)
-    # As wide as the grid is enough; wider would only cost time.
+    # A disc wider than the grid would only cost time.
     radius = min(radius, float(max(heights.shape)))
     filled = inpaint(heights).astype(np.float32)
     progress(0.1)

@@ -116,24 +116,9 @@ def _shade(place: np.ndarray, z: np.ndarray, shape: tuple[int, int], cell: float
     lower_at(lowest, place, -z)  # of the highest points
     heights = np.where(np.isinf(lowest), np.nan, -lowest).reshape(shape)
     near = ndimage.binary_dilation(np.isfinite(heights), np.ones((3, 3)), _GAP)
-    return np.where(near, soft_light(inpaint(heights), cell), 255.0)
-
-
-def soft_light(heights: np.ndarray, cell_size: float) -> np.ndarray:
-    """Return a hillshade without dark tones, on which colours can be told.
-
-    Parameters
-    ----------
-    heights : numpy.ndarray of float64, shape (rows, columns)
-        Metres, from north to south.
-    cell_size : float
-        Metres.
-
-    Returns
-    -------
-    numpy.ndarray of float64, shape (rows, columns)
-    """
-    return _DARKEST + (255 - _DARKEST) * (hillshade(heights, cell_size) / 255.0)
+    # Without dark tones, on which colours could not be told.
+    light = _DARKEST + (255 - _DARKEST) * (hillshade(inpaint(heights), cell) / 255.0)
+    return np.where(near, light, 255.0)
 
 
 def rgb(colour: str) -> tuple[int, ...]:

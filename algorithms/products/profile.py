@@ -47,17 +47,7 @@ class Profile(NamedTuple):
 
     @classmethod
     def of(cls, window: Window, line: Line, shown: np.ndarray) -> Profile:
-        """Return the profile along a line.
-
-        Parameters
-        ----------
-        window : Window
-            The points.
-        line : Line
-            Where it lies.
-        shown : numpy.ndarray of bool, shape (n,)
-            Which points may be shown.
-        """
+        """Return the profile along a line, of the points that a mask (n,) says may be shown."""
         distance, aside = line.along(window.points.x, window.points.y)
         near = (np.abs(aside) <= window.strip) & (distance >= 0.0) & (distance <= line.length)
         near = np.flatnonzero(near & shown)

@@ -8,11 +8,11 @@ from typing import Callable, Mapping, NamedTuple
 
 import numpy as np
 
-from ..core.points import Points
+from ..core.points import Box, Points
 from ..core.progress import SILENT, Progress
 from ..filters.shared.confidence import confidence
 from ..grids.cell_window import CellWindow
-from ..grids.cells import first_of_each
+from ..grids.cells import are_inside, first_of_each
 from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
 from ..grids.morphology import within_square
 from .terrain_edges import follow_edges
@@ -22,8 +22,6 @@ from .terrain_edges import follow_edges
 _LONGEST_EDGE, _LONGEST_CELLS = 50.0, 20.0
 # Reach of a triangle in longest edges: the circle round it hardly ever reaches farther.
 _EDGES = 2.0
-
-Box = tuple[float, float, float, float]
 
 
 class BlockRasters(NamedTuple):
@@ -121,16 +119,10 @@ class RasterStep:
 
         Parameters
         ----------
-        points : Points
-            Those of the block and round it, relative to `corner`.
-        ground, top, core : numpy.ndarray of bool, shape (n,)
-            Which are ground, which belong to the surface, and which lie in the block.
-        corner : tuple of float
-            x and y in the frame of the survey.
+        points, ground, top, core, corner, edges
+            As in `Seen`.
         box : tuple of float
             The block, in the frame of the survey.
-        edges : numpy.ndarray of bool, shape (n,), optional
-            Which ground points lie on lines that no triangle may cross.
         progress : Progress
             Receives progress.
         """
@@ -160,7 +152,7 @@ def _terrain(step: RasterStep, seen: Seen, progress: Progress) -> Made:
     anchor = tuple(at - by for at, by in zip(window.corner(cell), corner))
     surface = DenseSurface(points, cell, anchor, progress.part(0.05, 0.3))
     part = progress.part(0.3, 0.95)
-    heights = surface.raster((0, 0), window.shape, step.longest_edge, part)
+    heights = surface.raster(window.shape, step.longest_edge, part)
     loose = np.zeros(points.count, dtype=bool)
     if step.max_edge is None:
         if np.isnan(heights).any():
@@ -187,9 +179,7 @@ def _surface(step: RasterStep, seen: Seen, progress: Progress) -> Made:
         return heights.astype(np.float32), _placed(points, corner, core)
     wide = window.wider(math.ceil(step.reach / cell))
     row, column = wide.places(points.x, points.y, corner, cell)
-    inside = np.flatnonzero(
-        (row >= 0) & (row < wide.rows) & (column >= 0) & (column < wide.columns)
-    )
+    inside = np.flatnonzero(are_inside(row, column, wide.shape))
     progress(0.1)
     index = row[inside] * wide.columns + column[inside]
     keys = -points.z[inside], points.x[inside], points.y[inside]

@@ -63,17 +63,7 @@ def write_report(
 
 
 def draw_errors(points: Points, comparison: Comparison, progress: Progress = SILENT) -> Picture:
-    """Return a map of the errors on the relief of the highest points.
-
-    Parameters
-    ----------
-    points : Points
-        Where the points lie; one at least.
-    comparison : Comparison
-        Which of them are wrong.
-    progress : Progress
-        Receives progress.
-    """
+    """Return a map of the errors on the relief of the highest points; see `write_report`."""
     relief = Relief.of(points)
     progress(0.7)
     marks = comparison.rejected, comparison.accepted

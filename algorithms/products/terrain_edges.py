@@ -8,13 +8,13 @@ import numpy as np
 
 from ..core.points import Points
 from ..grids.cell_window import CellWindow
-from ..grids.cells import spacing
+from ..grids.cells import are_inside, spacing
 from ..grids.lines import NearPlaces
 from ..grids.morphology import within_square
 from ..grids.tin import Tin
 
-# Beside a line, as far as so many cells, and so many times as far as ground points lie apart, the
-# terrain is the TIN of all points: not thinned, so that two lines close together stay two.
+# Within so many cells of a line, or so many times the distance between ground points, the terrain
+# is the TIN of all points: they are not thinned, so that two lines close together stay two.
 _CELLS, _SPACINGS = 3.0, 3.0
 
 
@@ -48,7 +48,7 @@ def follow_edges(
     wide = math.ceil(reach / cell)
     row, column = window.wider(wide).places(lines.x, lines.y, corner, cell)
     touched = np.zeros((window.rows + 2 * wide, window.columns + 2 * wide), dtype=bool)
-    inside = (row >= 0) & (row < touched.shape[0]) & (column >= 0) & (column < touched.shape[1])
+    inside = are_inside(row, column, touched.shape)
     touched[row[inside], column[inside]] = True
     near = within_square(np.maximum, touched, wide)[wide:-wide, wide:-wide]
     row, column = np.nonzero(near)

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..core.points import Points
 from ..filters.shared.confidence import confidence
+from ..grids.cells import are_inside
 from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
 
 # Pixels along the longer side of the terrain, at most, and the sides in metres that they may have,
@@ -97,10 +98,10 @@ def outcome_of(
         The points.
     names : tuple of str
         Name and label of the setting.
-    classes : numpy.ndarray of uint8, shape (n,)
-        Their classes.
-    ground, selected : numpy.ndarray of bool, shape (n,)
-        Which are ground, and which took part.
+    classes, ground
+        As in `Outcome`.
+    selected : numpy.ndarray of bool, shape (n,)
+        Which points took part.
     """
     terrain = _terrain(window, ground)
     return Outcome(*names, classes, ground, terrain, _confidence(window, ground, selected))
@@ -202,7 +203,7 @@ class Line(NamedTuple):
     def cells(self, window: Window) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return distances along the line, and row and column of the terrain's cell at each.
 
-        Only those in the window; they are as far apart as cells are wide.
+        They are as far apart as cells are wide; those outside of the window are left out.
         """
         cell = window.cell_size
         distance = np.arange(0.0, self.length, cell) + 0.5 * min(cell, self.length)
@@ -212,20 +213,12 @@ class Line(NamedTuple):
             for first, last in zip(self.start, self.end)
         )
         row = window.shape[0] - 1 - row
-        inside = (row >= 0) & (row < window.shape[0]) & (column >= 0) & (column < window.shape[1])
+        inside = are_inside(row, column, window.shape)
         return distance[inside], row[inside], column[inside]
 
 
 def line_across(window: Window, outcomes: Sequence[Outcome]) -> Line:
-    """Return a line across the window where terrains differ most; through its middle if nowhere.
-
-    Parameters
-    ----------
-    window : Window
-        The points.
-    outcomes : sequence of Outcome
-        The settings.
-    """
+    """Return a line across the window where terrains differ most; through its middle if nowhere."""
     first = outcomes[0].terrain
     apart = sum(np.nan_to_num(np.abs(each.terrain - first)) for each in outcomes)
     rows, columns = apart.mean(axis=1)[::-1], apart.mean(axis=0)

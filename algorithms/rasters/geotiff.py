@@ -14,6 +14,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.points import Frame, Points
 from ..core.progress import SILENT, Progress
+from ..core.threads import parts_of
 from ..crs.system import unit_name
 from ..crs.wkt import read_wkt
 from .libraries import GdalErrors, library
@@ -29,7 +30,7 @@ _REMOTE = re.compile(r"[a-z][a-z0-9+.-]+://|/vsi", re.IGNORECASE)
 _PART = re.compile(r'[A-Z][A-Z0-9_]+:"?(?P<file>.+?)"?(:[^:\\/]*)?$')
 _DESCRIPTION = 1 << 20
 _SURVEY_FOOT = 1200 / 3937
-# As files state the unit of their heights, in metres.
+# Metres in the units of heights, by the words that files have for them.
 _UNITS = {
     "m": 1.0, "metre": 1.0, "meter": 1.0, "metres": 1.0, "meters": 1.0,
     "ft": 0.3048, "foot": 0.3048, "feet": 0.3048, "international foot": 0.3048,
@@ -77,16 +78,12 @@ class RasterGrid:
                 " and the parameters."
             )
         cell = cell_size / frame.horizontal_unit
-        x0, x1, y0, y1 = (
-            value / frame.horizontal_unit
-            for value in (points.x.min(), points.x.max(), points.y.min(), points.y.max())
+        (x0, x1), (y0, y1) = (
+            [(at + end / frame.horizontal_unit) / cell for end in (each.min(), each.max())]
+            for at, each in zip(frame.origin, points)
         )
-        west, north = (
-            math.floor((frame.origin[0] + x0) / cell),
-            math.ceil((frame.origin[1] + y1) / cell),
-        )
-        columns = max(math.ceil((frame.origin[0] + x1) / cell) - west, 1)
-        rows = max(north - math.floor((frame.origin[1] + y0) / cell), 1)
+        west, north = math.floor(x0), math.ceil(y1)
+        columns, rows = max(math.ceil(x1) - west, 1), max(north - math.floor(y0), 1)
         cells = columns * rows
         if cells > _MOST_CELLS or (cells > _MANY_CELLS and _covered(points) < _LEAST_COVERED):
             raise BareEarthError(
@@ -136,8 +133,7 @@ def _covered(points: Points) -> float:
     """Return in which share of the squares over the extent of points there are any."""
     extent = [np.ptp(each) // _SQUARE + 1.0 for each in (points.x, points.y)]
     squares: set[complex] = set()
-    for first in range(0, points.count, _STEP):
-        part = slice(first, first + _STEP)
+    for part in parts_of(points.count, _STEP):
         place = np.floor(points.x[part] / _SQUARE) + 1j * np.floor(points.y[part] / _SQUARE)
         squares |= set(np.unique(place).tolist())
     return len(squares) / (extent[0] * extent[1])

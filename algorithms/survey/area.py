@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.points import Box
-from ..core.progress import SILENT, Progress
+from ..core.threads import parts_of
 from ..las.cloud import PointCloud
 
 # Sorted at once: not so many that memory grows, nor so few that the loop over edges counts.
@@ -37,20 +37,18 @@ class Area:
     def __post_init__(self) -> None:
         if self.box is None and not any(map(len, self.polygons)):
             raise BareEarthError("The boundary holds no polygon. Choose one that does.")
-        if self.box is not None and not self._is_proper_box():
-            values = " ".join(f"{value:g}" for value in self.box)
-            raise BareEarthError(
-                "The extent must be XMIN YMIN XMAX YMAX, XMIN below XMAX and YMIN below YMAX, not"
-                f" {values}."
-            )
+        if self.box is not None:
+            west, south, east, north = self.box
+            if not (np.isfinite(self.box).all() and west < east and south < north):
+                values = " ".join(f"{value:g}" for value in self.box)
+                raise BareEarthError(
+                    "The extent must be XMIN YMIN XMAX YMAX, XMIN below XMAX and YMIN below YMAX,"
+                    f" not {values}."
+                )
         if not all(np.isfinite(ring).all() for polygon in self.polygons for ring in polygon):
             raise BareEarthError(
                 "A corner of the boundary is not a finite number. Check the boundary and its CRS."
             )
-
-    def _is_proper_box(self) -> bool:
-        west, south, east, north = self.box
-        return bool(np.isfinite(self.box).all()) and west < east and south < north
 
     @property
     def bounds(self) -> Box:
@@ -87,11 +85,11 @@ class Area:
         """
         return self._numbers(x, y) > 0
 
-    def of(self, cloud: PointCloud, progress: Progress = SILENT) -> np.ndarray:
+    def of(self, cloud: PointCloud) -> np.ndarray:
         """Return which points of a cloud lie in the area, in file order."""
-        return self.polygon_of(cloud, progress) > 0
+        return self.polygon_of(cloud) > 0
 
-    def polygon_of(self, cloud: PointCloud, progress: Progress = SILENT) -> np.ndarray:
+    def polygon_of(self, cloud: PointCloud) -> np.ndarray:
         """Return the number of the last polygon that holds each point of a cloud.
 
         Returns
@@ -101,13 +99,11 @@ class Area:
             polygons, 1 for those in the box.
         """
         numbers = np.empty(cloud.count, dtype=np.int32)
-        for first in range(0, cloud.count, _POINTS_A_STEP):
-            part = slice(first, first + _POINTS_A_STEP)
+        for part in parts_of(cloud.count, _POINTS_A_STEP):
             numbers[part] = self._numbers(
                 cloud.x[part] * cloud.scale[0] + cloud.offset[0],
                 cloud.y[part] * cloud.scale[1] + cloud.offset[1],
             )
-            progress(min(part.stop / cloud.count, 1.0))
         return numbers
 
     def _numbers(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -116,8 +112,8 @@ class Area:
         numbers = inside.astype(np.int32)
         if self.polygons:
             which = np.flatnonzero(inside)
-            for first in range(0, len(which), _POINTS_A_STEP):
-                part = which[first : first + _POINTS_A_STEP]
+            for some in parts_of(len(which), _POINTS_A_STEP):
+                part = which[some]
                 numbers[part] = _last_polygon(x[part], y[part], self.polygons)
         return numbers
 
@@ -134,20 +130,7 @@ def _bounds(polygon: Polygon) -> Box:
 
 
 def _last_polygon(x: np.ndarray, y: np.ndarray, polygons: tuple[Polygon, ...]) -> np.ndarray:
-    """Return the number of the last of some polygons that holds each place.
-
-    Parameters
-    ----------
-    x, y : numpy.ndarray of float64, shape (n,)
-        Coordinates.
-    polygons : tuple of polygon
-        As in `Area`.
-
-    Returns
-    -------
-    numpy.ndarray of int32, shape (n,)
-        The first is 1; 0 where there is none.
-    """
+    """Return the number of the last polygon that holds each place: from 1 on, 0 for none; int32."""
     # Sorted by y, the places beside an edge or a polygon are a slice.
     order = np.argsort(y, kind="stable")
     x, y = x[order], y[order]
@@ -170,7 +153,7 @@ def _is_odd(x: np.ndarray, y: np.ndarray, polygon: Polygon) -> np.ndarray:
     odd = np.zeros(len(x), dtype=bool)
     for ring in polygon:
         following = np.roll(ring, -1, axis=0)
-        # From the lower to the upper end: an edge that two polygons share gives one answer.
+        # Edges run from the lower to the upper end: one that two polygons share gives one answer.
         upwards = (ring[:, 1] <= following[:, 1])[:, None]
         low, high = np.where(upwards, ring, following), np.where(upwards, following, ring)
         firsts, lasts = np.searchsorted(y, low[:, 1]), np.searchsorted(y, high[:, 1])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections import Counter
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -13,14 +14,14 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.points import Box
-from ..core.progress import SILENT, Progress
+from ..core.progress import SILENT, Notes, Progress
 from ..crs.system import Crs, unit_name
 from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..las.sources import read_text
 from .vpc import SUFFIX as VPC_SUFFIX
-from .vpc import read_vpc
+from .vpc import no_extent, read_vpc
 
 _CLOUDS = (".las", ".laz")
 _LISTS = (".txt", ".lst", ".list")
@@ -30,50 +31,43 @@ _MOST_NAMES = 3
 
 @dataclass(frozen=True)
 class Tile:
-    """What the header of one file says.
+    """One file of a survey.
 
     Attributes
     ----------
-    path : Path
-        The file.
-    minimum, maximum : tuple of float
-        Extent of its points in units of the CRS.
-    count : int
-        Number of its points.
-    scale, offset : tuple of float
-        As in `PointCloud`.
-    point_format, record_length : int
-        LAS point format, and the bytes of a point.
-    is_compressed, is_copc : bool
-        Whether it is LAZ, and whether that is COPC.
+    file : LasFile
+        The file as it was opened.
     crs : Crs
         What is known of the coordinate reference system.
-    file : LasFile
-        All that was read of it.
     """
 
-    path: Path
-    minimum: tuple[float, float, float]
-    maximum: tuple[float, float, float]
-    count: int
-    scale: tuple[float, float, float]
-    offset: tuple[float, float, float]
-    point_format: int
-    record_length: int
-    is_compressed: bool
-    is_copc: bool
-    crs: Crs
     file: LasFile
+    crs: Crs
+
+    @property
+    def path(self) -> Path:
+        """The path of the file."""
+        return self.file.path
+
+    @property
+    def count(self) -> int:
+        """Number of points."""
+        return self.file.count
+
+    @property
+    def point_format(self) -> int:
+        """LAS point format."""
+        return self.file.point_format
 
     @property
     def box(self) -> Box:
         """Smallest x and y, largest x and y in units of the CRS."""
-        return (*self.minimum[:2], *self.maximum[:2])
+        return (*self.file.minimum[:2], *self.file.maximum[:2])
 
     @property
     def outer_box(self) -> Box:
         """The box, wider by a step of the coordinates: headers are rounded."""
-        (west, south, east, north), (x, y) = self.box, self.scale[:2]
+        (west, south, east, north), (x, y) = self.box, self.file.scale[:2]
         return west - x, south - y, east + x, north + y
 
 
@@ -124,20 +118,6 @@ class Collection:
         touches = (west <= box[2]) & (east >= box[0]) & (south <= box[3]) & (north >= box[1])
         return [self.tiles[each] for each in np.flatnonzero(touches)]
 
-    def neighbours(self, tile: Tile, distance: float) -> list[Tile]:
-        """Return the other tiles that may have points within a distance of the extent of a tile.
-
-        Parameters
-        ----------
-        tile : Tile
-            One of `tiles`.
-        distance : float
-            In units of the CRS, measured along x and along y.
-        """
-        west, south, east, north = tile.box
-        box = west - distance, south - distance, east + distance, north + distance
-        return [each for each in self.touching(box) if each.path != tile.path]
-
 
 def open_collection(
     sources: Iterable[Path], recursive: bool = False, progress: Progress = SILENT
@@ -163,7 +143,7 @@ def open_collection(
         If the user asked to stop.
     """
     paths = find_files(sources, recursive, progress)
-    heard, tiles, broken, known = _Tally(), [], [], {}
+    heard, tiles, broken, known = Notes(), [], [], {}
     for number, path in enumerate(paths, start=1):
         try:
             tiles.append(_tile(open_las(path), known, heard))
@@ -176,7 +156,7 @@ def open_collection(
             if len(broken) == 1
             else f"None of the {len(broken)} files can be read. The first: {broken[0].reason}"
         )
-    heard.tell(progress)
+    _tell(heard, progress)
     crs = _common_crs(tiles, progress)
     _tell_of_twins(tiles, progress)
     return Collection(tuple(tiles), tuple(broken), crs)
@@ -219,7 +199,7 @@ def _expand(source: Path, recursive: bool, progress: Progress) -> Iterator[Path]
             if is_cloud(path) and not path.name.startswith(".") and path.is_file():
                 yield path
     elif suffix == VPC_SUFFIX:
-        paths = [entry.path for entry in read_vpc(source)]
+        paths = read_vpc(source)
         _tell_of_files_elsewhere(source, paths, progress)
         yield from paths
     elif suffix in _LISTS:
@@ -269,27 +249,14 @@ def _listed(source: Path) -> list[Path]:
     return [source.parent / name for name in names if name and not name.startswith("#")]
 
 
-def _tile(layout: LasFile, known: dict[Crs, Crs], heard: _Tally) -> Tile:
+def _tile(layout: LasFile, known: dict[Crs, Crs], heard: Notes) -> Tile:
     """Return what a header says; `known` keeps one text of each CRS for all files."""
     _check_extent(layout)
     crs = read_crs(layout)
     if crs != Crs():
         # Files without any CRS are told of together.
         read_crs(layout, heard)
-    return Tile(
-        path=layout.path,
-        minimum=layout.minimum,
-        maximum=layout.maximum,
-        count=layout.count,
-        scale=layout.scale,
-        offset=layout.offset,
-        point_format=layout.point_format,
-        record_length=layout.record_length,
-        is_compressed=layout.is_compressed,
-        is_copc=layout.is_copc,
-        crs=known.setdefault(crs, crs),
-        file=layout,
-    )
+    return Tile(layout, known.setdefault(crs, crs))
 
 
 def _check_extent(layout: LasFile) -> None:
@@ -297,10 +264,7 @@ def _check_extent(layout: LasFile) -> None:
     lowest, highest = layout.minimum[:2], layout.maximum[:2]
     is_one = layout.states_extent and lowest[0] <= highest[0] and lowest[1] <= highest[1]
     if not is_one or (lowest == highest and layout.count > 1):
-        raise BareEarthError(
-            f"The header of {layout.path} does not state the extent of its points. Write the file"
-            " anew with a program that corrects it."
-        )
+        raise no_extent(layout)
 
 
 def _common_crs(tiles: list[Tile], progress: Progress) -> Crs:
@@ -379,7 +343,8 @@ def _tell_of_twins(tiles: list[Tile], progress: Progress) -> None:
     """Warn of tiles that look like the same points twice: LAZ and COPC of it, or copies."""
     seen: dict[tuple[float, ...], Tile] = {}
     for tile in tiles:
-        key = tile.count, *(round(each, 2) for each in (*tile.minimum, *tile.maximum))
+        extent = (*tile.file.minimum, *tile.file.maximum)
+        key = tile.count, *(round(each, 2) for each in extent)
         twin = seen.setdefault(key, tile)
         if twin is not tile:
             progress.warning(
@@ -388,23 +353,8 @@ def _tell_of_twins(tiles: list[Tile], progress: Progress) -> None:
             )
 
 
-class _Tally(Progress):
-    """Hears the same of many files, to tell it once."""
-
-    def __init__(self) -> None:
-        self._heard: dict[tuple[bool, str], int] = {}
-
-    def info(self, text: str) -> None:
-        self._hear(False, text)
-
-    def warning(self, text: str) -> None:
-        self._hear(True, text)
-
-    def _hear(self, is_warning: bool, text: str) -> None:
-        self._heard[is_warning, text] = self._heard.get((is_warning, text), 0) + 1
-
-    def tell(self, progress: Progress) -> None:
-        """Pass on what was heard, with the number of files."""
-        for (is_warning, text), count in self._heard.items():
-            text = f"{text} (in {count} files)" if count > 1 else text
-            (progress.warning if is_warning else progress.info)(text)
+def _tell(heard: Notes, progress: Progress) -> None:
+    """Tell what was heard of many files: the same once, with the number of files."""
+    for (kind, text), count in Counter(heard.messages).items():
+        text = f"{text} (in {count} files)" if count > 1 else text
+        (progress.warning if kind == "warning" else progress.info)(text)

@@ -18,35 +18,6 @@ from .selection import Selection
 from .tally import Tally
 
 
-@dataclass
-class ChosenTally(Tally):
-    """What was counted in the parts of a file so far; the rest as in `Tally`.
-
-    Attributes
-    ----------
-    inside, wanted : int
-        Points in the area, and those of them that take part.
-    bounds : tuple of float or None
-        Smallest x and y, largest x and y of all points, in units of the CRS.
-    """
-
-    inside: int = 0
-    wanted: int = 0
-    bounds: tuple[float, float, float, float] | None = None
-
-    def see(self, part: PointCloud) -> None:
-        """Take in where the points of a part lie."""
-        corners = (part.lowest, part.highest)
-        box = [
-            corner[axis] * part.scale[axis] + part.offset[axis]
-            for corner in corners
-            for axis in (0, 1)
-        ]
-        if self.bounds is not None:
-            box = [*map(min, self.bounds[:2], box[:2]), *map(max, self.bounds[2:], box[2:])]
-        self.bounds = tuple(box)
-
-
 @dataclass(frozen=True)
 class PointChooser:
     """Chooses the points of a run, part by part.
@@ -68,9 +39,7 @@ class PointChooser:
     context: float = 0.0
     corrections: Corrections = NO_CORRECTIONS
 
-    def choose(
-        self, part: PointCloud, tally: ChosenTally
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def choose(self, part: PointCloud, tally: Tally) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return which points lie in the area, take part, and are surely ground; count them.
 
         Returns
@@ -109,7 +78,7 @@ class PointChooser:
         """Return which points lie in the area; boolean, shape (n,)."""
         return np.ones(part.count, dtype=bool) if self.area is None else self.area.of(part)
 
-    def tell(self, tally: ChosenTally, path: Path, progress: Progress) -> None:
+    def tell(self, tally: Tally, path: Path, progress: Progress) -> None:
         """Tell what lies in the area and what takes part, once all points are counted.
 
         Raises

@@ -13,7 +13,6 @@ from ..core.parameters import ParameterSet, parameter
 from ..core.progress import Progress
 from ..las.cloud import PointCloud
 from ..las.extrabytes import REMEMBERED
-from ..las.records import check_class
 from .corrections import ByHand, Corrections, changed_since
 from .tally import Tally
 
@@ -146,47 +145,6 @@ class Selection(ParameterSet):
         """What is to be looked for beside the ground."""
         return Special(self.low_noise_depth if self.low_noise_class else None, self.bridges)
 
-    def select(
-        self, cloud: PointCloud, progress: Progress, within: np.ndarray | None = None
-    ) -> np.ndarray:
-        """Return which points take part.
-
-        Parameters
-        ----------
-        cloud : PointCloud
-            All points, with their present classes.
-        progress : Progress
-            Told how many points are left out, and why.
-        within : numpy.ndarray of bool, shape (n,), optional
-            Points outside take no part; all are within where it is not given.
-
-        Returns
-        -------
-        numpy.ndarray of bool, shape (n,)
-
-        Raises
-        ------
-        BareEarthError
-            If no point is left, the CRS is geographic, or the points cannot hold the class.
-        """
-        self.check(cloud)
-        tally = Tally()
-        selected = self.choose(cloud, tally, within)
-        self.tell(tally, cloud.path, progress, within is not None)
-        return selected
-
-    def check(self, cloud: PointCloud) -> None:
-        """Refuse a file, whatever its points, whose CRS or point format does not do.
-
-        Raises
-        ------
-        BareEarthError
-            If the CRS is geographic, or the points cannot hold the class.
-        """
-        cloud.require_projected()
-        for value, name in self.new_classes():
-            check_class(cloud.path, cloud.point_format, value, name)
-
     def new_classes(self) -> list[tuple[int, str]]:
         """Return the classes that the user chose for points, each with what gets it."""
         chosen = ((self.to_class, "the ground"), (self.bridge_class, "bridges"))
@@ -208,7 +166,7 @@ class Selection(ParameterSet):
         tally : Tally
             Gets what there is to tell of them added.
         within : numpy.ndarray of bool, shape (n,), optional
-            As for `select`.
+            Points outside take no part; all are within where it is not given.
         by_hand : ByHand, optional
             What is known of the points: of those of certain class only the ground takes part.
 

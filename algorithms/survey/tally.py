@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..core.points import Box
+from ..core.threads import parts_of
 from ..las.cloud import PointCloud
 
 _STEP = 1 << 20
@@ -13,7 +15,7 @@ _STEP = 1 << 20
 
 @dataclass
 class Tally:
-    """What a selection counted, in the parts of a file that it has seen so far.
+    """What was counted in the parts of a file so far.
 
     Attributes
     ----------
@@ -27,6 +29,10 @@ class Tally:
         ground, those whose class is certain by hand, and all that take part.
     classes, classes_within : numpy.ndarray of int64, shape (256,)
         Points of each class, of all parts and in the area.
+    inside, wanted : int
+        Points in the area without its surroundings, and those of them that take part.
+    bounds : tuple of float or None
+        Smallest x and y, largest x and y of all points, in units of the CRS.
     """
 
     points: int = 0
@@ -41,6 +47,9 @@ class Tally:
     selected: int = 0
     classes: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
     classes_within: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
+    inside: int = 0
+    wanted: int = 0
+    bounds: Box | None = None
 
     def add(self, part: PointCloud, within: np.ndarray | None, **masks: np.ndarray) -> None:
         """Count the points of a part, and those of some masks."""
@@ -54,6 +63,15 @@ class Tally:
         self.within += len(classes)
         self.classes_within += counts
         self.add_counts(withheld=part.withheld, free=free, **masks)
+
+    def see(self, part: PointCloud) -> None:
+        """Take in where the points of a part lie."""
+        scale, offset = np.array(part.scale[:2]), np.array(part.offset[:2])
+        low, high = part.lowest * scale + offset, part.highest * scale + offset
+        if self.bounds is not None:
+            low, high = np.minimum(low, self.bounds[:2]), np.maximum(high, self.bounds[2:])
+        (west, south), (east, north) = low.tolist(), high.tolist()
+        self.bounds = west, south, east, north
 
     def add_counts(self, **masks: np.ndarray) -> None:
         """Count the points of masks, each named as the attribute."""
@@ -79,7 +97,7 @@ def count_classes(classes: np.ndarray) -> np.ndarray:
     even = len(classes) - len(classes) % 2
     # Two classes as one number: half as many to count.
     pairs = np.ascontiguousarray(classes[:even]).view(np.uint16)
-    for first in range(0, len(pairs), _STEP):
-        step = np.bincount(pairs[first : first + _STEP], minlength=counts.size)
+    for part in parts_of(len(pairs), _STEP):
+        step = np.bincount(pairs[part], minlength=counts.size)
         counts += step.reshape(counts.shape)
     return counts.sum(axis=0) + counts.sum(axis=1) + np.bincount(classes[even:], minlength=256)

@@ -17,7 +17,7 @@ from .corrections import CLASS_FIELD, Corrections
 _Shape = TypeVar("_Shape")
 
 _WKT_PART = re.compile(r"[()]|[^()]+")
-# What a text may do that is no such file.
+# What reading a text raises that is not valid GeoJSON or WKT.
 _INVALID = (
     ValueError, TypeError, KeyError, IndexError, AttributeError, RecursionError, OverflowError
 )  # fmt: skip
@@ -71,17 +71,12 @@ def read_lines(path: Path) -> tuple[np.ndarray, ...]:
     Parameters
     ----------
     path : Path
-        A .geojson, .json or .wkt file.
+        As for `read_boundary`, and so are the errors.
 
     Returns
     -------
     tuple of numpy.ndarray of float64, shape (n, 3)
         x, y and z of the corners of each line; NaN for z where the file has none.
-
-    Raises
-    ------
-    BareEarthError
-        If it cannot be read as such, or holds no line.
     """
     return _shapes(path, "LineString", lambda corners, _: _line(corners))
 

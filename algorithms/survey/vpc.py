@@ -14,7 +14,6 @@ import datetime
 import json
 import os
 import re
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Iterable, NamedTuple
 from urllib.parse import unquote, urlsplit
@@ -24,7 +23,6 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.files import check_output, replacing
-from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..crs.provider import to_wgs84
 from ..crs.system import compound_wkt
@@ -75,30 +73,8 @@ _CHANNEL, _INFRARED = Dimension("ScanChannel", "unsigned", 1), Dimension("Infrar
 _COLOURS = [Dimension(name, "unsigned", 2) for name in ("Red", "Green", "Blue")]
 
 
-@dataclass(frozen=True)
-class VpcEntry:
-    """What a virtual point cloud says of one of its files; the file itself is not looked at.
-
-    Attributes
-    ----------
-    path : Path
-        The file.
-    count : int or None
-        Number of points.
-    box : tuple of float or None
-        Smallest x and y, largest x and y in the CRS.
-    wkt : str or None
-        The CRS as well-known text.
-    """
-
-    path: Path
-    count: int | None
-    box: Box | None
-    wkt: str | None
-
-
-def read_vpc(path: Path) -> list[VpcEntry]:
-    """Read which files a virtual point cloud lists.
+def read_vpc(path: Path) -> list[Path]:
+    """Read which files a virtual point cloud lists; they are not looked at.
 
     Parameters
     ----------
@@ -118,15 +94,15 @@ def read_vpc(path: Path) -> list[VpcEntry]:
     if not isinstance(content, dict) or content.get("type") != "FeatureCollection":
         raise _not_one(path, "it is not a feature collection")
     try:
-        entries = [_entry(path.parent, each) for each in content["features"]]
+        files = [_path_of(_href(each["assets"]), path.parent) for each in content["features"]]
     except (
         KeyError, TypeError, ValueError, AttributeError, IndexError, OverflowError, OSError,
         StopIteration,
     ) as error:  # fmt: skip
         raise _not_one(path, "one of its features names no file") from error
-    if not entries:
+    if not files:
         raise BareEarthError(f"{path} lists no files. Build it anew.")
-    return entries
+    return files
 
 
 def write_vpc(path: Path, files: Iterable[Path], progress: Progress = SILENT) -> None:
@@ -184,21 +160,6 @@ def _not_one(path: Path, why: str) -> BareEarthError:
     )
 
 
-def _entry(folder: Path, feature: dict[str, Any]) -> VpcEntry:
-    properties = feature["properties"]
-    box, count = properties.get("proj:bbox"), properties.get("pc:count")
-    if box is not None:
-        # Of six numbers the third and the last are heights.
-        half = len(box) // 2
-        box = tuple(float(each) for each in (*box[:2], *box[half : half + 2]))
-    return VpcEntry(
-        path=_path_of(_href(feature["assets"]), folder),
-        count=None if count is None else int(count),
-        box=box,
-        wkt=properties.get("proj:wkt2") or None,
-    )
-
-
 def _href(assets: dict[str, dict[str, Any]]) -> str:
     """Return where the points are, which may have an overview beside them."""
     asset = assets.get("data")
@@ -230,10 +191,7 @@ def _feature(target: Path, layout: LasFile) -> dict[str, Any]:
     """Return the STAC item of a file."""
     extent = [*layout.minimum, *layout.maximum]
     if not layout.states_extent:
-        raise BareEarthError(
-            f"The header of {layout.path} does not state the extent of its points. Write the file"
-            " anew with a program that corrects it."
-        )
+        raise no_extent(layout)
     west, south, low, east, north, high = extent
     ring = np.array(
         [(west, south), (east, south), (east, north), (west, north), (west, south)], dtype=float
@@ -264,6 +222,14 @@ def _feature(target: Path, layout: LasFile) -> dict[str, Any]:
         "links": [],
         "assets": {"data": {"href": _reference(layout.path, target), "roles": ["data"]}},
     }
+
+
+def no_extent(layout: LasFile) -> BareEarthError:
+    """Return the error for a header that leaves open where the points lie."""
+    return BareEarthError(
+        f"The header of {layout.path} does not state the extent of its points. Write the file"
+        " anew with a program that corrects it."
+    )
 
 
 def _polygon(ring: np.ndarray) -> dict[str, Any]:

@@ -39,7 +39,7 @@ def read_window(
 ) -> PointCloud:
     """Read the points of a LAS, LAZ or COPC file that lie in a rectangle.
 
-    Of COPC only the nodes of the octree that touch the rectangle are read, unless the octree turns
+    A COPC file is read by the nodes of its octree that touch the rectangle, unless the octree turns
     out to be damaged. LAS and LAZ are read in chunks from beginning to end.
 
     Parameters
@@ -75,7 +75,7 @@ def read_window(
             return _cloud(layout, _in_nodes(layout, area, progress), progress)
         except OctreeError as error:
             progress.warning(f"{error} All of the file is read instead, which takes longer.")
-    if trust_header and not _touches(layout, area.bounds):
+    if trust_header and not _may_touch(layout, area):
         return _cloud(layout, iter(()), progress)
     return _cloud(layout, _in_chunks(layout, area, progress), progress)
 
@@ -134,18 +134,12 @@ def _leaves_header(layout: LasFile, chunk: laspy.PackedPointRecord) -> bool:
     return False
 
 
-def _touches(layout: LasFile, box: Box) -> bool:
-    """Return whether the extent in the header touches a box; one that is none touches all."""
+def _may_touch(layout: LasFile, area: Area) -> bool:
+    """Return whether the extent in the header touches an area; one that is none touches all."""
     (west, south, _), (east, north, _) = layout.minimum, layout.maximum
-    if not (west <= east and south <= north):
-        return True
-    more = layout.scale
-    return (
-        west - more[0] <= box[2]
-        and east + more[0] >= box[0]
-        and south - more[1] <= box[3]
-        and north + more[1] >= box[1]
-    )
+    x, y, _ = layout.scale  # headers are rounded
+    is_one = west <= east and south <= north
+    return not is_one or area.may_touch((west - x, south - y, east + x, north + y))
 
 
 def _cloud(layout: LasFile, parts: Iterator[Columns], progress: Progress) -> PointCloud:

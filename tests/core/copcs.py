@@ -5,7 +5,7 @@ import struct
 import numpy as np
 from conftest import las_bytes, make_records
 
-from bare_earth.algorithms.las import copc
+from bare_earth.algorithms.las import copc_octree
 from bare_earth.algorithms.las.writing import write_classified
 
 _ENTRY = struct.Struct("<4iQ2i")
@@ -52,11 +52,11 @@ def many_nodes(folder, point_format=7, pages=True, **wanted):
     plain, path = folder / "plain.las", folder / "plain.copc.laz"
     wanted = {"version": 4, "point_format": point_format, "records": records, **wanted}
     plain.write_bytes(las_bytes(**wanted))
-    before = copc._LEAF_POINTS, copc._SMALL_NODE
-    copc._LEAF_POINTS, copc._SMALL_NODE = 150, 10
+    before = copc_octree._LEAF_POINTS, copc_octree._SMALL_NODE
+    copc_octree._LEAF_POINTS, copc_octree._SMALL_NODE = 150, 10
     try:
         write_classified(plain, path, np.full(4000, 1, np.uint8))
     finally:
-        copc._LEAF_POINTS, copc._SMALL_NODE = before
+        copc_octree._LEAF_POINTS, copc_octree._SMALL_NODE = before
     content = path.read_bytes()
     return with_sub_pages(content) if pages else content

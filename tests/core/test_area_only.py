@@ -84,7 +84,7 @@ def test_of_many_files_those_outside_are_not_written(inputs, tmp_path, las):
     summary = classify([inputs / "in"], many, ONLY, heard)
     assert np.array_equal(points_of(finished(many)), points_of([one]))
     assert sorted(bytes_of(many)) == ["0.laz", "1.laz", "2.laz", "3.laz"]
-    assert [each.path.name for each in read_vpc(many / "classified.vpc")] == sorted(bytes_of(many))
+    assert [each.name for each in read_vpc(many / "classified.vpc")] == sorted(bytes_of(many))
     assert (summary.done_count, summary.tile_count) == (4, 4) and not summary.failures
     assert summary.point_count == in_area(laspy.read(inputs / "all.laz")).sum()
     assert summary.ground_count == (laspy.read(one).classification == 2).sum()

@@ -74,10 +74,11 @@ def test_a_tile_is_what_the_header_says(las):
     path = tile(las, "a.laz", 300, 500, count=77, extra=2)
     (found,) = open_collection([path]).tiles
     assert (found.path, found.count, found.box) == (path, 77, (300, 500, 400, 600))
-    assert (found.minimum[2], found.maximum[2]) == (1, 9)
-    assert (found.scale, found.offset) == (las.SCALE, las.OFFSET)
-    assert (found.point_format, found.record_length) == (6, 32)
-    assert (found.is_compressed, found.is_copc) == (True, False)
+    file = found.file
+    assert (file.minimum[2], file.maximum[2]) == (1, 9)
+    assert (file.scale, file.offset) == (las.SCALE, las.OFFSET)
+    assert (found.point_format, file.record_length) == (6, 32)
+    assert (file.is_compressed, file.is_copc) == (True, False)
     assert found.crs.name == "site"
 
 
@@ -185,24 +186,23 @@ def test_the_same_tile_twice_is_told(las):
     assert any("a.las and a.laz have the same extent" in each for each in heard.warnings)
 
 
-def test_neighbours_are_those_within_the_distance(las):
+def test_the_tiles_that_touch_a_box_are_found(las):
     for row in range(4):
         for column in range(4):
             tile(las, f"{row}{column}.las", 100 * column, 100 * row)
     tile(las, "far.las", 450, 0, 50)
     collection = open_collection([las.folder])
     assert collection.box == pytest.approx((0, 0, 500, 400), abs=0.011)
-    by_name = {each.path.stem: each for each in collection.tiles}
 
-    def near(name, distance):
-        return [each.path.stem for each in collection.neighbours(by_name[name], distance)]
+    def touching(*box):
+        return [each.path.stem for each in collection.touching(box)]
 
-    assert near("00", 0) == ["01", "10", "11"]
-    assert near("11", 0) == ["00", "01", "02", "10", "12", "20", "21", "22"]
-    assert near("00", 101) == ["01", "02", "10", "11", "12", "20", "21", "22"]
-    assert near("far", 49) == []
-    assert near("far", 50) == ["03", "13"]
-    assert [each.path.stem for each in collection.touching((310, 310, 320, 320))] == ["33"]
+    assert touching(0, 0, 99, 99) == ["00"]
+    assert touching(0, 0, 100, 100) == ["00", "01", "10", "11"]
+    assert touching(101, 101, 199, 201) == ["11", "21"]
+    assert touching(401, 0, 449, 50) == []
+    assert touching(400, 0, 450, 50) == ["03", "far"]
+    assert touching(310, 310, 320, 320) == ["33"]
 
 
 def test_files_outside_of_the_folder_of_their_list_are_told(las):

@@ -27,7 +27,7 @@ def flat(count=20_000, side=100.0, seed=5):
 
 def mean_in(found, points, where):
     """Return the mean confidence of the cells of some points."""
-    return float(found.of_points()[where].mean())
+    return float(found.values.ravel()[found.cells.index[where]].mean())
 
 
 @pytest.fixture(scope="module")

@@ -1,15 +1,22 @@
+import functools
+import io
 import struct
+import tracemalloc
 
 import laspy
 import numpy as np
 import pytest
 from laspy import CopcReader
 
-from bare_earth.algorithms.core.errors import BareEarthError
-from bare_earth.algorithms.las import copc
-from bare_earth.algorithms.las.copc import build_octree
+from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.core.progress import Progress
+from bare_earth.algorithms.las import copc, copc_octree, copc_points, edits
+from bare_earth.algorithms.las.copc_octree import TOP, Cube, SortedPoints, keys_of, nodes_of
+from bare_earth.algorithms.las.edits import Edits
+from bare_earth.algorithms.las.extrabytes import ExtraDimension
 from bare_earth.algorithms.las.reading import inspect, read_cloud
-from bare_earth.algorithms.las.writing import write_classified
+from bare_earth.algorithms.las.records import read_records
+from bare_earth.algorithms.las.writing import write_changed, write_classified
 
 NEW_FORMAT = {0: 6, 1: 6, 2: 7, 3: 7, 4: 6, 5: 7, 6: 6, 7: 7, 8: 8, 9: 6, 10: 8}
 FOOT_CRS = 'PROJCS["feet",GEOGCS["g",UNIT["degree",0.0174]],UNIT["US survey foot",0.30480060960]]'
@@ -102,8 +109,8 @@ def test_header_and_info_say_what_the_points_are(las):
 
 @pytest.fixture
 def small_leaves(monkeypatch):
-    monkeypatch.setattr(copc, "_LEAF_POINTS", 3000)
-    monkeypatch.setattr(copc, "_SMALL_NODE", 50)
+    monkeypatch.setattr(copc_octree, "_LEAF_POINTS", 3000)
+    monkeypatch.setattr(copc_octree, "_SMALL_NODE", 50)
     monkeypatch.setattr(copc, "_BATCH", 5000)
 
 
@@ -138,43 +145,221 @@ def test_an_independent_library_finds_every_point_inside_its_node(las, small_lea
     assert reader.ValidateSpatialBounds()
 
 
+def xyz_of(records):
+    return records[:, :12].copy().view("<i4") * 0.01
+
+
+def octree_of(records):
+    """Return the cube, and the key and the records of each node."""
+    xyz = xyz_of(records)
+    corner = xyz.min(axis=0)
+    cube = Cube(corner, float((xyz.max(axis=0) - corner).max()), (0.01,) * 3, (0.0,) * 3)
+    nodes = list(nodes_of(SortedPoints.of(TOP, records, cube)))
+    keys = map(tuple, keys_of([node for node, _ in nodes]).tolist())
+    return cube, dict(zip(keys, (found for _, found in nodes)))
+
+
 def test_no_two_points_of_a_node_above_others_share_a_cell(small_leaves):
-    monotone = cloud_of(20_000)
-    octree = build_octree(monotone, (0.01,) * 3, (0.0,) * 3)
-    xyz = monotone[:, :12].copy().view("<i4") * 0.01
-    cells = np.floor((xyz - octree.corner) / octree.side * 128).clip(0, 127).astype(int)
-    sizes = np.bincount(octree.node)
+    records = cloud_of(20_000)
+    cube, nodes = octree_of(records)
+
+    def cells_of(some):
+        cells = np.floor((xyz_of(some) - cube.corner) / cube.side * 128)
+        return len(np.unique(cells.clip(0, 127).astype(int), axis=0))
+
     # The small children that stay with the node above come on top of one a cell.
-    top = np.flatnonzero(octree.node == 0)
-    distinct = len(np.unique(cells[top], axis=0))
-    assert distinct == len(np.unique(cells, axis=0))
-    assert sizes[0] - distinct < 8 * 50
-    assert (sizes > 0).all()
+    top = nodes[0, 0, 0, 0]
+    assert cells_of(top) == cells_of(records)
+    assert len(top) - cells_of(top) < 8 * 50
+    assert all(map(len, nodes.values()))
 
 
-def test_every_node_has_the_one_above_it(small_leaves):
-    octree = build_octree(cloud_of(20_000), (0.01,) * 3, (0.0,) * 3)
-    keys = {tuple(key) for key in octree.keys.tolist()}
-    assert len(keys) == len(octree.keys)
-    for depth, x, y, z in keys - {(0, 0, 0, 0)}:
-        assert (depth - 1, x // 2, y // 2, z // 2) in keys
+def nodes_by_the_rule(records, cube):
+    """Return the points of each node, worked out point by point and node by node."""
+    within = (xyz_of(records) - cube.corner) / cube.side
+    cells = np.floor(within * (1 << 21)).clip(0, (1 << 21) - 1).astype(int)
+    nodes, todo = {}, [((0, 0, 0, 0), list(range(len(records))))]
+    while todo:
+        key, mine = todo.pop()
+        seen, taken, left = set(), [], {}
+        for point in mine:
+            cell = tuple(cells[point] >> (14 - key[0]))
+            if len(mine) <= 3000 or key[0] == 14 or cell not in seen:
+                seen.add(cell)
+                taken.append(point)
+            else:
+                left.setdefault(tuple(cells[point] >> (20 - key[0])), []).append(point)
+        for child, points in left.items():
+            if len(points) < 50:
+                taken += points
+            else:
+                todo.append(((key[0] + 1, *child), points))
+        nodes[key] = records[sorted(taken)]
+    return nodes
+
+
+@pytest.mark.parametrize("spread", [100, 3000, 40_000])
+def test_each_node_has_the_points_that_the_rule_gives_it_in_file_order(small_leaves, spread):
+    records = cloud_of(20_000, spread=spread)
+    records[0, :12] = np.array([10**7, 0, 0], "<i4").view(np.uint8)  # far away
+    cube, nodes = octree_of(records)
+    wanted = nodes_by_the_rule(records, cube)
+    assert nodes.keys() == wanted.keys() and len(nodes) > 5
+    assert all(np.array_equal(nodes[key], wanted[key]) for key in wanted)
+
+
+def test_every_node_comes_after_the_one_above_it(small_leaves):
+    _, nodes = octree_of(cloud_of(20_000))
+    seen = set()
+    for depth, x, y, z in nodes:
+        assert not depth or (depth - 1, x // 2, y // 2, z // 2) in seen
+        seen.add((depth, x, y, z))
+    assert len(seen) >= 5
+
+
+@pytest.fixture
+def few_in_memory(small_leaves, monkeypatch):
+    """No more points in memory than a node may have, and fewer are sorted at a time."""
+    monkeypatch.setattr(copc_points, "_MOST_AT_ONCE", 700)
+
+
+def both_ways(las, source, changes):
+    """Write a file with all of its points in memory, and with as few as can be."""
+    targets = [las.folder / f"{name}.copc.laz" for name in ("much", "little")]
+    heard = [las.Heard(), las.Heard()]
+    for target, memory, progress in zip(targets, (None, 1), heard):
+        write_changed(source, target, changes, progress, memory=memory)
+    assert {path.name for path in las.folder.iterdir()} == {
+        source.name, *(target.name for target in targets)
+    }  # fmt: skip
+    return targets, heard
 
 
 @pytest.mark.parametrize("count", [1, 2, 5000])
-def test_points_in_one_place_end_the_octree_all_the_same(las, small_leaves, count):
+def test_points_in_one_place_end_the_octree_all_the_same(las, few_in_memory, count):
     records = cloud_of(count, spread=1)
     records[:, :12] = 1
     source = las.make(version=4, point_format=6, records=records)
-    target = las.folder / "out.copc.laz"
-    write_classified(source, target, classes_of(count))
-    assert read_cloud(target).count == count
+    (much, little), _ = both_ways(las, source, Edits(classification=classes_of(count)))
+    assert read_cloud(much).count == count
+    assert much.read_bytes() == little.read_bytes()
 
 
-def test_the_result_does_not_depend_on_chance(las, small_leaves):
-    source = las.make(version=4, point_format=6, records=cloud_of(10_000))
-    for name in ("a.copc.laz", "b.copc.laz"):
-        write_classified(source, las.folder / name, classes_of(10_000))
-    assert (las.folder / "a.copc.laz").read_bytes() == (las.folder / "b.copc.laz").read_bytes()
+@pytest.mark.parametrize("spread", [50, 3000, 40_000])
+@pytest.mark.parametrize("stray", [0, 2])
+def test_the_same_bytes_however_few_points_fit_into_memory(las, few_in_memory, spread, stray):
+    records = cloud_of(30_000, spread=spread)
+    # So far that all others lie in few of the cells that are told apart at a time.
+    records[:stray, :12] = np.array([[2**30, 5, 0], [0, -(2**30), 9]], "<i4").view(np.uint8)[:stray]
+    source = las.make(version=4, point_format=6, records=records,
+                      evlrs=[las.evlr(b"behind", 9, b"the points")])  # fmt: skip
+    changes = Edits(classification=classes_of(30_000))
+    (much, little), heard = both_ways(las, source, changes)
+    assert much.read_bytes() == little.read_bytes()
+    with CopcReader.open(little) as reader:
+        found = reader.query()
+    assert np.array_equal(order_of(found), order_of(laspy.read(little)))
+    assert len(np.unique(found["X"])) == len(np.unique(laspy.read(source)["X"]))
+    for each in heard:
+        assert each.fractions == sorted(each.fractions) and each.fractions[-1] == 1.0
+    assert len(heard[1].fractions) > 50
+
+
+@pytest.mark.parametrize("name", ["in.las", "in.laz"])
+@pytest.mark.parametrize("point_format", [0, 3, 5, 8, 10])
+def test_the_same_bytes_of_other_formats_and_edits(las, few_in_memory, point_format, name):
+    version = 4 if point_format > 5 else 3
+    extra_record = las.vlr(b"LASF_Spec", 4, extra_bytes_vlr(b"amount"))
+    source = las.make(
+        name, version=version, point_format=point_format, extra=2, vlrs=[extra_record], count=9000
+    )
+    noise = np.random.default_rng(4)
+    changes = Edits(
+        classification=classes_of(9000) % 32,
+        z=noise.integers(0, 9000, 9000).astype(np.int32),
+        extra=ExtraDimension("height", "of it", noise.random(9000).astype(np.float32)),
+        kept=noise.random(9000) < 0.7,
+    )
+    (much, little), _ = both_ways(las, source, changes)
+    assert much.read_bytes() == little.read_bytes()
+    assert laspy.read(little).header.point_count == changes.kept.sum() > 6000
+
+
+@pytest.mark.parametrize(
+    ("extent", "reads"),
+    [
+        (None, 1),
+        ((400_000.1, 399_999.9, 5_000_000.1, 4_999_999.9, 1.0, -1.0), 2),
+        ((-1.0, 1.0, -1.0, 1.0, -1.0, 1.0), 2),
+        ((400_400.0, 399_600.0, 5_000_400.0, 4_999_600.0, 1.7e308, -1.7e308), 2),
+        ((float("nan"),) * 6, 2),
+    ],
+)
+def test_a_header_may_be_wrong_about_the_extent(las, few_in_memory, monkeypatch, extent, reads):
+    source, begun = las.make(version=4, point_format=6, records=cloud_of(30_000)), []
+    if extent is None:
+        points = laspy.read(source)
+        extent = np.column_stack((points.xyz.max(axis=0), points.xyz.min(axis=0))).ravel()
+    data = bytearray(source.read_bytes())
+    struct.pack_into("<6d", data, 179, *extent)
+    source.write_bytes(data)
+
+    def noting(*arguments):
+        begun.append(arguments)
+        return read_records(*arguments)
+
+    monkeypatch.setattr(edits, "read_records", noting)
+    (much, little), heard = both_ways(las, source, Edits(classification=classes_of(30_000)))
+    assert much.read_bytes() == little.read_bytes()
+    assert len(begun) == 1 + reads
+    assert heard[1].fractions == sorted(heard[1].fractions)
+
+
+def test_memory_is_bounded_whatever_the_number_of_points(las, monkeypatch):
+    monkeypatch.setattr(copc_octree, "_LEAF_POINTS", 20_000)
+    monkeypatch.setattr(copc_points, "_MOST_AT_ONCE", 20_000)
+    few = functools.partial(read_records, most=20_000)
+    monkeypatch.setattr(edits, "read_records", few)
+    peaks = []
+    for count in (200_000, 800_000):
+        source = las.make(version=4, point_format=6, records=cloud_of(count))
+        changes = Edits(classification=np.ones(count, np.uint8))
+        tracemalloc.start()
+        write_changed(source, las.folder / "out.copc.laz", changes, memory=2_000_000)
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+        assert inspect(las.folder / "out.copc.laz").point_count == count
+    # Of 600,000 points more, the records alone would take 18 MB.
+    assert peaks[1] - peaks[0] < 6e6
+
+
+@pytest.mark.parametrize("fraction", [0.0, 0.1, 0.2, 0.35, 0.5, 0.9])
+def test_a_cancel_while_points_wait_on_disk_leaves_nothing(las, few_in_memory, fraction):
+    class Stopping(Progress):
+        def report(self, done):
+            if done >= fraction:
+                raise Cancelled
+
+    source = las.make(version=4, point_format=6, records=cloud_of(20_000))
+    changes = Edits(classification=classes_of(20_000))
+    with pytest.raises(Cancelled):
+        write_changed(source, las.folder / "out.copc.laz", changes, Stopping(), memory=1)
+    assert list(las.folder.iterdir()) == [source]
+
+
+def test_a_disk_without_room_for_the_points_that_wait_is_told(las, few_in_memory, monkeypatch):
+    class Full(io.BytesIO):
+        def write(self, data):
+            if self.tell() > 300_000:
+                raise OSError(28, "No space left on device")
+            return super().write(data)
+
+    monkeypatch.setattr(copc_points.tempfile, "TemporaryFile", lambda dir: Full())
+    source = las.make(version=4, point_format=6, records=cloud_of(20_000))
+    changes = Edits(classification=classes_of(20_000))
+    with pytest.raises(BareEarthError, match=r"^Cannot write .*out\.copc\.laz: the disk is full\."):
+        write_changed(source, las.folder / "out.copc.laz", changes, memory=1)
+    assert list(las.folder.iterdir()) == [source]
 
 
 @pytest.mark.parametrize("written", ["las", "laz"])

@@ -34,6 +34,7 @@ COMMANDS = {
     "on-disk": "classify {one} OUT/out.laz --method slope --dtm OUT/dtm.tif"
     " --height-above-ground --memory 0.005",
     "copc": "classify {one} OUT/out.copc.laz --method slope",
+    "copc-on-disk": "classify {larger} OUT/out.copc.laz --method slope --memory 0.005",
     "survey": "classify {many} OUT/out --method slope --dtm OUT/dtm.tif --height-above-ground"
     " --threads 2 --resume --vpc OUT/all.vpc",
     "height": "height {classified} OUT/out.laz",
@@ -53,8 +54,11 @@ SURVEYS = ("survey", "heights")
 def _made_inputs(folder, count, width, run):
     """Make one file, many, the same classified, and a raster, by what runs commands."""
     points = strip(count, width, width / 2)
-    paths = {name: folder / name for name in ("one.laz", "many", "classified.laz", "survey")}
+    names = ("one.laz", "larger.laz", "many", "classified.laz", "survey")
+    paths = {name: folder / name for name in names}
     write(paths["one.laz"], points)
+    # More than a node of COPC may have.
+    write(paths["larger.laz"], strip(2 * count, width, width / 2))
     cut(paths["many"], points, 6)
     slope = ("--method", "slope")
     assert run("classify", paths["one.laz"], paths["classified.laz"], *slope) == 0

@@ -44,6 +44,23 @@ def test_a_hall_goes_where_points_are_sparse(kind, density):
         assert found[scene.ground].mean() > 0.98, name
 
 
+@pytest.mark.parametrize("method", METHODS)
+def test_scattered_points_of_images_take_no_ground_away(method):
+    # In each 16th cell of a metre one point lies 1 to 12 m below the ground.
+    scene = make("photogrammetry", seed=5, density=25.0, size=90.0)
+    found = METHODS[method].classify(scene.points, METHODS[method].parameters())
+    assert found[scene.ground].mean() > 0.99
+    assert found[~scene.ground].mean() < 0.25
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize(("kind", "density"), [("gorge", 10.0), ("quarry", 10.0)])
+def test_breaks_stay_where_points_are_dense(method, kind, density):
+    scene = make(kind, seed=5, density=density, size=90.0)
+    found = METHODS[method].classify(scene.points, METHODS[method].parameters())
+    assert found[scene.ground].mean() > 0.97
+
+
 @pytest.mark.skipif(not data.isprs(), reason="the ISPRS samples are not here")
 @pytest.mark.parametrize(
     ("method", "every", "most_error", "least_kappa"),

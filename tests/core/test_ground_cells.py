@@ -1,8 +1,10 @@
 """Which cells of a grid of lowest points are taken for ground."""
 
 import numpy as np
+import pytest
 
 from bare_earth.algorithms.filters.shared.allowance import Allowance
+from bare_earth.algorithms.filters.shared.gentle_regions import gentle_regions
 from bare_earth.algorithms.filters.shared.ground_cells import ground_cells
 
 
@@ -38,6 +40,16 @@ def test_a_platform_with_walls_on_three_sides_and_a_ramp_on_the_fourth_is_ground
     assert not _ground(heights, gentle_share=1.1).all()
 
 
+@pytest.mark.parametrize("width, is_ground", [(12.0, False), (30.0, True)])
+def test_the_wider_a_plateau_the_less_of_its_border_a_ramp_has_to_be(width, is_ground):
+    rows, columns = np.indices((160, 160)) - 80.0
+    plateau = (np.abs(rows) < width / 2) & (np.abs(columns) < width / 2)
+    ramp = 4.0 * np.clip((width / 2 + 14 - rows) / 14.0, 0.0, 1.0)
+    ramp[(np.abs(columns) > 0.4 * width) | (rows < 0)] = 0.0
+    heights = np.where(plateau, 4.0, ramp)
+    assert _ground(heights, window=60.0)[plateau].all() == is_ground
+
+
 def test_the_uppermost_terrace_in_a_corner_of_the_survey_is_ground():
     rows, columns = np.indices((120, 120))
     heights = 4.0 * (rows + columns < 60)
@@ -63,6 +75,20 @@ def test_a_rock_with_walls_all_round_is_ground_and_buildings_as_high_are_not():
     assert not _ground(np.where(inside, stairs, 0.0), inside)[inside].any()
 
 
+@pytest.mark.parametrize("angle", [0.0, 0.7])
+def test_a_ramp_with_walls_is_ground_and_a_bridge_as_wide_is_not(angle):
+    rows, columns = np.indices((120, 120)) - 60.0
+    along = rows * np.cos(angle) + columns * np.sin(angle)
+    across = columns * np.cos(angle) - rows * np.sin(angle)
+    road = (np.abs(along) < 35.0) & (np.abs(across) < 4.0)
+    ramp = np.where(road, 0.09 * (along + 35.0), 0.0)
+    assert _ground(ramp).all()
+    assert not _ground(ramp, ramp_area=1e9).all()
+    # It begins on the ground and ends there, and drops on both sides.
+    bridge = np.where(road, 6.0 - 6.0 * (along / 35.0) ** 2, 0.0)
+    assert not _ground(bridge)[road & (bridge > 3.0)].any()
+
+
 def test_a_dam_is_ground_where_cells_are_wide_and_some_of_its_sides_empty():
     rows, columns = np.indices((60, 60)) - 30.0
     dam = np.clip(11.0 - 1.7 * np.abs(columns), 0.0, 6.0)
@@ -70,6 +96,19 @@ def test_a_dam_is_ground_where_cells_are_wide_and_some_of_its_sides_empty():
     none = np.zeros(dam.shape, dtype=bool)
     ground = ground_cells(dam, 2.4, none, 60.0)
     assert ground[np.isfinite(dam)].all()
+
+
+@pytest.mark.parametrize("has_points, is_terrain", [(True, True), (False, False)])
+def test_what_fills_a_gap_round_a_roof_joins_it_with_no_ground(has_points, is_terrain):
+    rows, columns = np.indices((60, 60)) - 30.0
+    farthest = np.maximum(np.abs(rows), np.abs(columns))
+    roof = farthest < 11
+    filled = 3.0 * np.clip((16.0 - farthest) / 6.0, 0.0, 1.0)
+    known = roof | (farthest >= 16) | has_points
+    every = np.ones(known.shape, dtype=bool)
+    raised, surface = filled > 0.6, np.zeros(filled.shape)
+    terrain, _ = gentle_regions(filled, known, every, raised, surface, None, 2.0, Allowance())
+    assert terrain[roof].all() == is_terrain and terrain[roof].any() == is_terrain
 
 
 def test_a_plateau_goes_as_a_whole_where_a_window_cuts_off_part_of_it():

@@ -20,7 +20,7 @@ from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
-from bare_earth.algorithms.las import reading
+from bare_earth.algorithms.las import copc, copc_octree, copc_points, reading
 from bare_earth.algorithms.las.reading import inspect
 from bare_earth.algorithms.las.writing import write_classified
 from bare_earth.algorithms.products.terrain_model import TerrainModel
@@ -47,6 +47,23 @@ def small(monkeypatch):
     monkeypatch.setattr(disk_points, "_GAP", 50)
     blocks = Blocks(80.0, 30.0, most_points=2500)
     monkeypatch.setattr(labelling, "blocks_of", lambda parameters: blocks)
+
+
+@pytest.fixture
+def small_nodes(monkeypatch):
+    """Let an octree have many nodes; return a list of those whose points wait on disk."""
+    made = []
+
+    def noting(branch, *rest):
+        made.append(branch)
+        return waiting_points(branch, *rest)
+
+    waiting_points = copc.WaitingPoints
+    monkeypatch.setattr(copc, "WaitingPoints", noting)
+    monkeypatch.setattr(copc_octree, "_LEAF_POINTS", 1500)
+    monkeypatch.setattr(copc_octree, "_BYTES_TO_SORT", 1000)
+    monkeypatch.setattr(copc_points, "_MOST_AT_ONCE", 700)
+    return made
 
 
 def write(path, count=9000, east=EAST, stray=(), seed=3, shape=(160.0, 90.0), first=0.0):
@@ -158,10 +175,22 @@ def test_a_stray_point_far_away_stops_nothing(parameters, resources, tmp_path):
 # Limits
 
 
-def test_making_a_copc_file_is_refused_before_the_work(tmp_path):
-    source = write(tmp_path / "in.las", 4000)
-    with pytest.raises(BareEarthError, match=r"making a COPC file needs\. Name the output \.laz"):
-        classify_file(source, tmp_path / "a.copc.laz", SlopeFilter(), resources=LITTLE)
+@pytest.mark.parametrize("kind", ["las", "laz"])
+def test_a_copc_file_is_made_of_points_that_do_not_fit(small, small_nodes, kind, tmp_path):
+    source, sorted_on_disk = write(tmp_path / f"in.{kind}"), []
+    for name, resources in (("much.copc.laz", MUCH), ("little.copc.laz", LITTLE)):
+        classify_file(source, tmp_path / name, GridMinimum(), resources=resources)
+        height = tmp_path / f"height-{name}"
+        write_height_above_ground(tmp_path / name, height, resources=resources)
+        sorted_on_disk.append(len(small_nodes))
+    assert sorted_on_disk[0] == 0 < sorted_on_disk[1]
+    for name in ("", "height-"):
+        much, little = (tmp_path / f"{name}{each}.copc.laz" for each in ("much", "little"))
+        assert much.read_bytes() == little.read_bytes()
+        assert inspect(little).encoding == "COPC"
+    with laspy.CopcReader.open(little) as reader:
+        assert len(reader.query()) == 9000 > len(reader.query(level=0))
+    assert len(os.listdir(tmp_path)) == 5
 
 
 def test_a_copc_file_stays_one_though_it_does_not_fit(tmp_path):

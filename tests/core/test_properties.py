@@ -145,7 +145,7 @@ def test_the_terrain_model_of_a_plane_is_the_plane(seed, count, a, b, cell):
     x, y = np.random.default_rng(seed).uniform(0.0, 100.0, (2, count))
     points = Points(x, y, 300.0 + a * x + b * y)
     shape = (int(100 / cell), int(100 / cell))
-    heights = DenseSurface(points, cell).raster((0, 0), shape)
+    heights = DenseSurface(points, cell).raster(shape)
     row, column = np.nonzero(~np.isnan(heights))
     truth = 300.0 + a * (column + 0.5) * cell + b * (row + 0.5) * cell
     assert len(row) > 0.5 * heights.size

@@ -21,11 +21,11 @@ from bare_earth.algorithms.engine.raster_files import RASTERS, RasterFiles
 from bare_earth.algorithms.engine.rasters import MakeRasters, RasterRequest, write_rasters
 from bare_earth.algorithms.engine.workers import Processes, Threads
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
-from bare_earth.algorithms.grids.tin import Tin
+from bare_earth.algorithms.grids.tin import Tin, hull_corners
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.products.raster_block import LAYERS
 from bare_earth.algorithms.products.surface_model import SurfaceModel
-from bare_earth.algorithms.products.terrain_model import TerrainModel, vertices_of
+from bare_earth.algorithms.products.terrain_model import TerrainModel
 
 rasterio = pytest.importorskip("rasterio")
 
@@ -59,9 +59,18 @@ def _made(cloud, folder, max_edge=None, files=("dtm",), cell=2.5, shown=True):
     return values, x.reshape(values.shape), y.reshape(values.shape), len(made)
 
 
+def _vertices_of(points, side):
+    """Return the point nearest to the centre of each square that has any, and the hull."""
+    column, row = np.floor(points.x / side), np.floor(points.y / side)
+    distance = (points.x / side - column - 0.5) ** 2 + (points.y / side - row - 0.5) ** 2
+    order = np.lexsort((points.z, distance, column, row))
+    first = np.append(True, (np.diff(column[order]) != 0) | (np.diff(row[order]) != 0))
+    return np.union1d(order[first], hull_corners(points.x, points.y))
+
+
 def _of_tin(cloud, x, y, cell=2.5):
     points = cloud.points(slice(None), survey_frame(cloud.crs))
-    points = points.take(vertices_of(points, cell))
+    points = points.take(_vertices_of(points, cell / 2.0))
     return Tin(*points).interpolate(x.ravel(), y.ravel()).reshape(x.shape)
 
 

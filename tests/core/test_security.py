@@ -118,8 +118,8 @@ def test_names_of_any_kind_go_through_every_command(las, tmp_path, request, name
     made = tmp_path / "out"
     names = {path.name for path in made.iterdir()}
     assert names == {"tiles", *(f"{cut}{each}" for each in suffixes)}
-    (entry,) = read_vpc(made / f"{cut}.vpc")
-    assert entry.path.read_bytes() == (made / "tiles" / f"{name}.las").read_bytes()
+    (listed,) = read_vpc(made / f"{cut}.vpc")
+    assert listed.read_bytes() == (made / "tiles" / f"{name}.las").read_bytes()
     pages = [made / f"{cut}.html", tmp_path / "plain.htm"]
     plain = tmp_path / "plain.las"
     plain.write_bytes((made / f"{cut}.las").read_bytes())

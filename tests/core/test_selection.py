@@ -7,7 +7,9 @@ from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.las.cloud import PointCloud
+from bare_earth.algorithms.survey.point_chooser import PointChooser
 from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.survey.tally import Tally
 
 
 def cloud_of(classes, number=None, total=None, withheld=None, point_format=6, crs=None):
@@ -23,9 +25,18 @@ def cloud_of(classes, number=None, total=None, withheld=None, point_format=6, cr
     )  # fmt: skip
 
 
+def selected_by(selection, cloud, progress, within=None):
+    """Return which points take part, and tell of the others, as a run does."""
+    PointChooser(selection).choose(cloud, Tally())
+    tally = Tally()
+    selected = selection.choose(cloud, tally, within)
+    selection.tell(tally, cloud.path, progress, within is not None)
+    return selected
+
+
 def test_every_class_but_noise_takes_part_unless_told_otherwise(las):
     heard = las.Heard()
-    selected = Selection().select(cloud_of([0, 1, 2, 5, 6, 7, 18, 64]), heard)
+    selected = selected_by(Selection(), cloud_of([0, 1, 2, 5, 6, 7, 18, 64]), heard)
     assert selected.tolist() == [True] * 5 + [False, False, True]
     assert "Noise is left out: 1 of class 7, 1 of class 18." in heard.infos
     assert "6 of 8 points take part." in heard.infos
@@ -33,44 +44,44 @@ def test_every_class_but_noise_takes_part_unless_told_otherwise(las):
 
 def test_only_the_given_classes_take_part_noise_among_them_where_it_is_given():
     cloud = cloud_of([0, 1, 2, 7, 18])
-    assert Selection(from_classes=(1, 7)).select(cloud, SILENT).tolist() == [0, 1, 0, 1, 0]
+    assert selected_by(Selection(from_classes=(1, 7)), cloud, SILENT).tolist() == [0, 1, 0, 1, 0]
 
 
 def test_withheld_points_take_no_part_and_are_told(las):
     heard = las.Heard()
-    selected = Selection().select(cloud_of([1, 1, 1], withheld=[0, 1, 0]), heard)
+    selected = selected_by(Selection(), cloud_of([1, 1, 1], withheld=[0, 1, 0]), heard)
     assert selected.tolist() == [True, False, True]
     assert "1 withheld points are left out." in heard.infos
 
 
 def test_last_and_single_returns_take_part():
     cloud = cloud_of([1] * 5, number=[1, 1, 2, 2, 3], total=[1, 2, 2, 3, 3])
-    assert Selection().select(cloud, SILENT).tolist() == [1, 0, 1, 0, 1]
-    assert Selection(returns="all").select(cloud, SILENT).all()
+    assert selected_by(Selection(), cloud, SILENT).tolist() == [1, 0, 1, 0, 1]
+    assert selected_by(Selection(returns="all"), cloud, SILENT).all()
 
 
 def test_a_number_above_the_total_is_a_last_return():
     cloud = cloud_of([1, 1], number=[3, 1], total=[2, 2])
-    assert Selection().select(cloud, SILENT).tolist() == [1, 0]
+    assert selected_by(Selection(), cloud, SILENT).tolist() == [1, 0]
 
 
 def test_points_without_return_numbers_all_take_part_and_it_is_told(las):
     heard = las.Heard()
     cloud = cloud_of([1] * 3, number=[0, 0, 0], total=[0, 0, 0])
-    assert Selection().select(cloud, heard).all()
+    assert selected_by(Selection(), cloud, heard).all()
     assert heard.warnings == ["The points have no return numbers: all of them are used."]
 
 
 def test_some_points_without_return_numbers_are_single_returns_and_it_is_told(las):
     heard = las.Heard()
     cloud = cloud_of([1] * 4, number=[0, 1, 1, 0], total=[0, 2, 1, 3])
-    assert Selection().select(cloud, heard).tolist() == [1, 0, 1, 1]
+    assert selected_by(Selection(), cloud, heard).tolist() == [1, 0, 1, 1]
     assert heard.warnings == ["2 points have no return number: they are taken as single returns."]
 
 
 def test_no_warning_of_return_numbers_where_all_returns_are_wanted(las):
     heard = las.Heard()
-    Selection(returns="all").select(cloud_of([1], number=[0], total=[0]), heard)
+    selected_by(Selection(returns="all"), cloud_of([1], number=[0], total=[0]), heard)
     assert not heard.warnings
 
 
@@ -87,12 +98,12 @@ def test_no_warning_of_return_numbers_where_all_returns_are_wanted(las):
 )
 def test_a_selection_without_points_says_what_to_change(selection, cloud, text):
     with pytest.raises(BareEarthError, match=text) as caught:
-        selection.select(cloud, SILENT)
+        selected_by(selection, cloud, SILENT)
     assert "\n" not in str(caught.value)
 
 
 def test_a_class_above_31_fits_into_the_new_formats():
-    assert Selection(to_class=64).select(cloud_of([1], point_format=6), SILENT).all()
+    assert selected_by(Selection(to_class=64), cloud_of([1], point_format=6), SILENT).all()
 
 
 def new_classes(selection, cloud, ground):
@@ -135,7 +146,7 @@ def test_another_class_of_the_ground():
 
 def test_only_points_within_take_part(las):
     heard, within = las.Heard(), np.array([0, 1, 1, 0], bool)
-    assert Selection().select(cloud_of([1, 1, 7, 1]), heard, within).tolist() == [0, 1, 0, 0]
+    assert selected_by(Selection(), cloud_of([1, 1, 7, 1]), heard, within).tolist() == [0, 1, 0, 0]
     assert "1 of 4 points take part." in heard.infos
 
 
@@ -149,7 +160,7 @@ def test_only_points_within_take_part(las):
 )
 def test_where_nothing_within_is_left_the_area_is_named(selection, cloud, text):
     with pytest.raises(BareEarthError, match=text):
-        selection.select(cloud, SILENT, np.array([0, 1, 1], bool))
+        selected_by(selection, cloud, SILENT, np.array([0, 1, 1], bool))
 
 
 def test_known_ground_takes_part_whatever_its_return_and_class_but_not_withheld(las):
@@ -158,7 +169,7 @@ def test_known_ground_takes_part_whatever_its_return_and_class_but_not_withheld(
         withheld=[0, 0, 0, 0, 0, 1],
     )  # fmt: skip
     selection, heard = Selection(from_classes=(1,), seed_classes=(2, 8)), las.Heard()
-    assert selection.select(cloud, heard).tolist() == [1, 1, 1, 1, 0, 0]
+    assert selected_by(selection, cloud, heard).tolist() == [1, 1, 1, 1, 0, 0]
     assert selection.known_ground(cloud).tolist() == [0, 1, 1, 1, 0, 0]
     assert "3 points of class 2, 8 are known ground." in heard.infos
     within = np.array([1, 1, 0, 0, 1, 1], bool)
@@ -168,7 +179,7 @@ def test_known_ground_takes_part_whatever_its_return_and_class_but_not_withheld(
 
 def test_known_ground_alone_is_nothing_to_classify():
     with pytest.raises(BareEarthError, match="left to classify"):
-        Selection(from_classes=(1,), seed_classes=(2,)).select(cloud_of([2, 2]), SILENT)
+        selected_by(Selection(from_classes=(1,), seed_classes=(2,)), cloud_of([2, 2]), SILENT)
 
 
 def test_known_ground_gets_the_class_of_the_ground_only_where_it_may_change():

@@ -17,7 +17,7 @@ from surveys import DeadlyJob, bytes_of, cut, finished, points_of, strip, write
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.core.progress import SILENT, Progress
+from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine import file_points as file_points_module
 from bare_earth.algorithms.engine import jobs as jobs_module
 from bare_earth.algorithms.engine import labelling as labelling_module
@@ -33,11 +33,14 @@ from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
+from bare_earth.algorithms.las import copc as copc_module
+from bare_earth.algorithms.las import copc_octree
 from bare_earth.algorithms.las import reading as reading_module
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.survey.collection import open_collection
 from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.survey.tally import Tally
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
@@ -68,7 +71,7 @@ def many(tmp_path_factory):
 def whole_classes(path, parameters, selection=Selection(), blocks=BLOCKS):
     """Return the points of a file with the classes that they get as one cloud in these blocks."""
     cloud = read_cloud(path)
-    selected = selection.select(cloud, SILENT)
+    selected = selection.choose(cloud, Tally())
     store = MemoryPoints(
         [SurveyFile(cloud, selected, selection.known_ground(cloud, selected))],
         survey_frame(cloud.crs),
@@ -184,6 +187,26 @@ def test_tiles_larger_than_memory_give_the_same_bytes(many, out, monkeypatch):
     assert bytes_of(out) == many[1]
 
 
+def test_copc_tiles_larger_than_their_share_of_memory_give_the_same_bytes(
+    many, out, tmp_path, monkeypatch
+):
+    monkeypatch.setattr(copc_octree, "_LEAF_POINTS", 400)
+    copc = TileOutput(format="copc.laz")
+    classify_tiles([many[0]], tmp_path / "much", FAST, output=copc)
+    waited, waiting_points = [], copc_module.WaitingPoints
+
+    def noting(branch, parts, room):
+        waited.append(room.most)
+        return waiting_points(branch, parts, room)
+
+    monkeypatch.setattr(copc_octree, "_BYTES_TO_SORT", 3000)
+    monkeypatch.setattr(copc_module, "WaitingPoints", noting)
+    workers = Threads(Resources(threads=2, memory=0.002))
+    classify_tiles([many[0]], out, FAST, workers=workers, output=copc)
+    assert len(waited) == 16 and 400 <= min(waited) < max(waited) < 700
+    assert bytes_of(out) == bytes_of(tmp_path / "much")
+
+
 def test_blocks_are_read_in_groups_that_fit_into_memory(six):
     collection = open_collection([six])
     survey = Survey(frame_of(collection), Blocks(20.0, 5.0))
@@ -210,7 +233,7 @@ def test_copc_files_of_which_only_parts_are_read_give_the_same(tmp_path, out):
 
 def test_the_results_are_listed_in_a_virtual_point_cloud(six, out, tmp_path):
     summary = classify_tiles([six], out, FAST)
-    assert [each.path.name for each in read_vpc(out / "classified.vpc")] == sorted(
+    assert [each.name for each in read_vpc(out / "classified.vpc")] == sorted(
         path.name for path in six.iterdir()
     )
     assert summary.vpc == str(out / "classified.vpc")
@@ -225,7 +248,7 @@ def test_the_results_are_listed_in_a_virtual_point_cloud(six, out, tmp_path):
 def test_the_format_can_be_chosen(format, six, out):
     classify_tiles([six], out, FAST, output=TileOutput(format=format))
     assert {path.name for path in out.glob("*.la[sz]")} == {f"{n}.{format}" for n in range(6)}
-    assert {tile.is_copc for tile in open_collection([out]).tiles} == {format == "copc.laz"}
+    assert {tile.file.is_copc for tile in open_collection([out]).tiles} == {format == "copc.laz"}
 
 
 def test_outputs_that_would_do_harm_are_refused(six, out, tmp_path):
@@ -579,7 +602,7 @@ def test_a_name_that_is_not_utf_8_harms_nobody(six, tmp_path):
     done = classify_tiles([six], tmp_path / "out", FAST)
     assert done.done_count == 6 and not done.failures
     assert (tmp_path / "out" / "t\udcff\n.laz").exists()
-    assert {each.path.name for each in read_vpc(Path(done.vpc))} == set(os.listdir(six))
+    assert {each.name for each in read_vpc(Path(done.vpc))} == set(os.listdir(six))
 
 
 def test_methods_in_short_have_the_presets_of_all():

@@ -110,11 +110,8 @@ def test_what_is_written_is_read(las):
     (las.folder / "products").mkdir()
     content, _ = written(las, *files, name="products/all.vpc")
     assert len({item["id"] for item in content["features"]}) == 3
-    entries = read_vpc(las.folder / "products" / "all.vpc")
-    assert [entry.path.resolve() for entry in entries] == files
-    assert {entry.box for entry in entries} == {(400_000, 5_000_000, 401_000, 5_001_000)}
-    assert {entry.count for entry in entries} == {60}
-    assert {entry.wkt for entry in entries} == {wkt_of(UTM)}
+    found = read_vpc(las.folder / "products" / "all.vpc")
+    assert [each.resolve() for each in found] == files
 
 
 def vpc_of(las, *hrefs, **properties):
@@ -128,8 +125,7 @@ def test_every_way_to_name_a_local_file_is_understood(las):
     file = las.make("a b.las")
     url = "file://" + pathname2url(str(file))
     path = vpc_of(las, "./a b.las", "a b.las", "a%20b.las", str(file), url, "../clouds/a b.las")
-    assert [entry.path.resolve() for entry in read_vpc(path)] == [file] * 6
-    assert read_vpc(path)[0].count is None
+    assert [each.resolve() for each in read_vpc(path)] == [file] * 6
 
 
 def test_the_points_are_taken_and_not_the_overview(las):
@@ -140,7 +136,7 @@ def test_the_points_are_taken_and_not_the_overview(las):
     }
     item = {"properties": {}, "assets": assets}
     path.write_text(json.dumps({"type": "FeatureCollection", "features": [item]}))
-    assert [entry.path.name for entry in read_vpc(path)] == ["a.laz"]
+    assert [each.name for each in read_vpc(path)] == ["a.laz"]
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ from conftest import LasKit
 from runs import CancelAt
 
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.las import copc, copc_nodes, reading, writing
+from bare_earth.algorithms.las import copc_nodes, copc_octree, reading, writing
 from bare_earth.algorithms.las.copc import HIERARCHY_ENTRY
 from bare_earth.algorithms.las.copc_nodes import read_hierarchy
 from bare_earth.algorithms.las.lasfile import COPC_INFO, VLR_HEADER
@@ -110,8 +110,8 @@ def octree_bytes(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         # At depth 0 the usual grid would take nearly all of so few points.
         for name, value in {"LEAF_POINTS": 700, "SMALL_NODE": 100, "GRID_BITS": 3}.items():
-            patch.setattr(copc, f"_{name}", value)
-        patch.setattr(copc, "_DEEPEST", 18)
+            patch.setattr(copc_octree, f"_{name}", value)
+        patch.setattr(copc_octree, "_DEEPEST", 18)
         source = las.make(version=4, point_format=6, records=scattered(POINTS))
         write_classified(source, target, (np.arange(POINTS) % 256).astype(np.uint8))
     return target.read_bytes()

@@ -8,7 +8,6 @@ what it leaves open is ours, see docs/grid-minimum.md.
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -19,7 +18,7 @@ from ...core.errors import BareEarthError
 from ...core.parameters import ParameterSet, parameter
 from ...core.points import Points
 from ...core.progress import SILENT, Progress
-from ...grids.cells import Cells
+from ...grids.cells import Cells, usual_count
 from ...grids.gradient import steepness
 from ...grids.inpaint import inpaint
 from ..shared.doubts import tell_of_outliers
@@ -213,15 +212,10 @@ class GridMinimum(ParameterSet):
 
     def _resolved(self, cells: Cells) -> GridMinimum:
         preset = PRESETS[self.preset]
-        empty = {
-            name: value
-            for name, value in preset._asdict().items()
-            if name != "label" and getattr(self, name) is None
-        }
-        if "cell_size" in empty and self.preset != CLASSIC:
+        if self.cell_size is None and self.preset != CLASSIC:
             large_enough = _CELL_STEP * _multiple(_density(cells), _CELL_STEP)
-            empty["cell_size"] = max(preset.cell_size, large_enough)
-        return dataclasses.replace(self, **empty)
+            preset = preset._replace(cell_size=max(preset.cell_size, large_enough))
+        return self.filled(preset._asdict())
 
 
 def largest_object(parameters: GridMinimum) -> float:
@@ -361,12 +355,8 @@ def _candidates(
 
 
 def _in_words(parameters: GridMinimum) -> str:
-    heights = ", ".join(f"{each:g}" for each in parameters.height_thresholds)
-    return (
-        f"Grid minimum: preset {parameters.preset}, cell size {parameters.cell_size:g} m, height"
-        f" thresholds {heights} m, final height {parameters.final_height:g} m, maximum object size"
-        f" {parameters.max_object_size:g} m."
-    )
+    names = "preset", "cell_size", "height_thresholds", "final_height", "max_object_size"
+    return f"Grid minimum: {parameters.in_words(*names)}."
 
 
 def _tell_of_gaps(density: float, parameters: GridMinimum, progress: Progress) -> None:
@@ -395,13 +385,8 @@ def _counting_cells(points: Points, parameters: GridMinimum) -> Cells:
 
 def _density(cells: Cells) -> float:
     """Return the median number of points per square metre, of blocks within the survey."""
-    from scipy import ndimage
-
     blocks = CellBlocks.over(cells, _DENSITY_BLOCK, least=1)
-    counts = blocks.total(cells.counts())
-    within = ndimage.binary_erosion(counts > 0, np.ones((3, 3)))
-    usual = counts[within] if within.any() else counts[counts > 0]
-    return float(np.median(usual)) / blocks.size**2
+    return usual_count(blocks.total(cells.counts())) / blocks.size**2
 
 
 def _noise(heights: np.ndarray, cells: Cells, blocks: CellBlocks, classic: bool) -> np.ndarray:

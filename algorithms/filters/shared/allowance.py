@@ -29,8 +29,9 @@ class Allowance:
     gentle_area : float
         Smallest region, in square metres, that may be terrain for that reason.
     wide_share, wide_area : float
-        The share that suffices for regions of so many square metres or more: a plateau that a
-        ramp joins with the ground. No building is as wide.
+        The share level with the ground that suffices for regions of so many square metres or more:
+        a plateau that a ramp joins with the ground. From the area of a house on, the share falls
+        to this one with the logarithm of the area.
     usual_window : float
         Radius in metres of windows up to which all of this holds; larger ones are for halls.
     hall_height : float
@@ -46,9 +47,9 @@ class Allowance:
     border_height : float
         But not if it stands so many metres above the ground, on average: the border of the survey
         cuts buildings.
-    rock_area : float
-        A region of so many square metres or more is terrain as well if it rises by itself as no
-        building does.
+    rock_area, ramp_area : float
+        A region of so many square metres or more is terrain as well if it has the shape of a rock,
+        or of a ramp.
     follows_slopes : bool
         Whether a step between cells is no edge where those before or after it are as high: a
         steep slope, or a cliff, of which points lie on the face; or where the terrain at large
@@ -68,13 +69,14 @@ class Allowance:
     gentle_share: float = 0.35
     gentle_area: float = 20.0
     wide_share: float = 0.08
-    wide_area: float = 2000.0
+    wide_area: float = 3000.0
     usual_window: float = 24.0
     hall_height: float = 2.5
     hall_per_slope: float = 0.1
     border_area: float = 800.0
     border_height: float = 4.5
     rock_area: float = 200.0
+    ramp_area: float = 100.0
     rise_counts: bool = True
     follows_slopes: bool = True
     slopes_taken: int = 2
@@ -85,13 +87,14 @@ class Allowance:
         return replace(self, gentle_step=self.gentle_step * max(size, 1.0))
 
 
-# As it was before large windows and slopes were told apart: for presets of other programs.
+# For presets of other programs: large windows and slopes are treated as all others.
 CLASSIC = Allowance(
     gentle_share=0.5,
     wide_share=0.5,
     usual_window=1e9,
     border_area=np.inf,
     rock_area=np.inf,
+    ramp_area=np.inf,
     rise_counts=False,
     follows_slopes=False,
     slopes_taken=1,

@@ -6,6 +6,7 @@ import numpy as np
 
 from ...core.points import Points
 from ...core.progress import SILENT, Progress
+from ...core.threads import over_parts
 from ...grids.cells import Cells
 from ...grids.gradient import steepness
 from ...grids.inpaint import inpaint
@@ -44,16 +45,16 @@ def below_ground(
     surface = inpaint(cells.minimum(np.where(ground, points.z, np.inf)), first=cells.first)
     limit = surface - depth - _rise(surface)
     progress(0.5)
-    for first in range(0, points.count, _CHUNK):
-        part = slice(first, first + _CHUNK)
+
+    def fill(part: slice) -> None:
         below[part] = points.z[part] < cells.at(limit, points.x[part], points.y[part])
-        progress(0.5 + 0.5 * min((first + _CHUNK) / points.count, 1.0))
+
+    over_parts(fill, points.count, _CHUNK, progress.part(0.5, 1.0))
     return below & ~ground
 
 
 def _rise(surface: np.ndarray) -> np.ndarray:
     """Return the most that a surface rises over a cell, at each and those round it."""
-    # Not at the start of QGIS, which loads this module, and where scipy may be missing.
     from scipy import ndimage
 
     return ndimage.maximum_filter(steepness(surface, 1.0), 3, mode="nearest")

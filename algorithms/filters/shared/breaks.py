@@ -134,9 +134,6 @@ def _extreme(cells: Cells, points: Points, which: np.ndarray, sign: float = 1.0)
 
 def _near(cells: Cells, seeds: np.ndarray, judged: np.ndarray, reach: float) -> np.ndarray:
     """Return which seeds may be neighbours of points that are judged: most are not."""
-    there = np.zeros(cells.rows * cells.columns, dtype=bool)
-    there[cells.index[judged]] = True
-    around = within_square(
-        np.maximum, there.reshape(cells.shape), int(np.ceil(reach / cells.size)) + 1
-    )
+    steps = int(np.ceil(reach / cells.size)) + 1
+    around = within_square(np.maximum, cells.holding(judged), steps)
     return around.ravel()[cells.index[seeds]]

@@ -29,7 +29,7 @@ _LEAST_AREA, _LEAST_CELLS, _LEAST_SPAN, _LEAST_SPACINGS = 12.0, 4, 3.0, 2.0
 _LEVEL, _LEVEL_SLOPE = 0.25, 0.03
 # Cross-sections at this angle to the deck are across, and at least this share must be.
 _OBLIQUE, _MOSTLY = math.radians(30.0), 0.5
-# So many metres of it lie within so many metres, over this share of the deck's width.
+# Metres of ground that must lie within some metres of an end, over this share of the deck's width.
 _GROUND, _END, _CARRIED = 4.0, 12.0, 0.5
 # Points so near to the surface of a deck in metres are on it.
 _NEAR = 0.5

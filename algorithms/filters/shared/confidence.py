@@ -23,7 +23,7 @@ CELL = 1.0
 TOLERANCE, RISE_SHARE = 0.3, 0.5
 # Cells to each side of a cell that are near it, and that are round it.
 _NEAR, _AROUND = 2, 8
-# What is round a cell counts so much beside what is near, where anything is near.
+# Weight of the cells round a cell, where the weight of those near it is 1.
 _AROUND_SHARE = 0.05
 # Metres above the ground up to which a rejected point may well be ground.
 _DOUBTFUL_HEIGHT = 1.0
@@ -92,12 +92,8 @@ class Confidence(NamedTuple):
     cells: Cells
     values: np.ndarray
 
-    def of_points(self) -> np.ndarray:
-        """Return the value of the cell of each point; float32, shape (n,)."""
-        return self.values.ravel()[self.cells.index]
 
-
-def confidence(points: Points, ground: np.ndarray, weights: Weights = Weights()) -> Confidence:
+def confidence(points: Points, ground: np.ndarray) -> Confidence:
     """Return the probability that the terrain made of ground points is right, for cells of 1 m.
 
     It is right where the height of the TIN of the ground points at the middle of a cell lies within
@@ -109,8 +105,6 @@ def confidence(points: Points, ground: np.ndarray, weights: Weights = Weights())
         All points that took part, at least one.
     ground : numpy.ndarray of bool, shape (n,)
         Which of them were taken for ground, by any method.
-    weights : Weights
-        Those that were fitted.
 
     Returns
     -------
@@ -125,7 +119,7 @@ def confidence(points: Points, ground: np.ndarray, weights: Weights = Weights())
     cells = Cells.over(points, CELL)
     if not ground.any():
         return Confidence(cells, np.zeros(cells.shape, dtype=np.float32))
-    return Confidence(cells, probability(evidence(cells, points.z, ground), weights))
+    return Confidence(cells, probability(evidence(cells, points.z, ground)))
 
 
 def probability(pieces: Sequence[np.ndarray], weights: Weights = Weights()) -> np.ndarray:

@@ -15,6 +15,7 @@ from typing import Callable, NamedTuple
 
 import numpy as np
 
+from ...grids.cells import are_inside, numbered
 from ...grids.morphology import within_square
 from .relief import BORDER, STEP, STEP_SLOPE, Relief
 
@@ -30,10 +31,10 @@ _VOID_DROP, _VOID_SLOPE = 2.0, 0.05
 _TILT, _TILT_SLOPE = 0.5, 0.08
 # The feet may differ by this share of the lower drop.
 _FEET = 0.5
-# Between this share of a drop and the rest of it no ground may lie beside the edge.
+# No ground may lie beside the edge between this share of a drop and the rest of it.
 _FACE = 0.25
-# Beyond its foot the ground must stay below this share of the drop for so many metres: else it is
-# a pit, of low outliers for one. (As far as the border of the relief lets one look.)
+# Beyond the foot the ground must stay below this share of the drop for so many metres: else the
+# foot lies in a pit. The border of the relief reaches no farther.
 _PIT, _BEYOND = 0.5, BORDER - _FOOT
 # Rings in which the lowest ground is compared with an edge, in cells from it.
 _RINGS = (0, 1, 2, 4)
@@ -87,11 +88,8 @@ class Sections(NamedTuple):
         """Return which cells of the grid they cross; boolean, shape (rows, columns)."""
         crossed = np.zeros(relief.heights.shape, dtype=bool)
         section = np.repeat(np.arange(len(self.steps)), self.steps + 1)
-        step = np.arange(len(section)) - np.repeat(
-            np.cumsum(self.steps + 1) - (self.steps + 1), self.steps + 1
-        )
-        offsets = _Compass.of(relief).offsets
-        crossed.ravel()[self.start[section] + offsets[self.direction[section], step]] = True
+        offsets = _Compass.of(relief).offsets[self.direction[section], numbered(self.steps + 1)]
+        crossed.ravel()[self.start[section] + offsets] = True
         return crossed
 
 
@@ -224,15 +222,13 @@ def _feet(
         left = left[~found]
     left = np.flatnonzero((off == 0) & np.isnan(heights[compass.at(lines, 1)]))
     row, column = np.divmod(lines.start, relief.heights.shape[1])
-    rows, columns = relief.heights.shape
     for step in range(2, int(_VOID_FOOT / relief.cell) + 1):
         if not len(left):
             break
         some = lines.take(left)
         there_row = row[left] + compass.rows[some.direction, step]
         there_column = column[left] + compass.columns[some.direction, step]
-        inside = (there_row >= 0) & (there_row < rows)
-        inside &= (there_column >= 0) & (there_column < columns)
+        inside = are_inside(there_row, there_column, relief.heights.shape)
         left, cell = left[inside], compass.at(some, step)[inside]
         there = heights[cell]
         drop = _VOID_DROP + _VOID_SLOPE * step * length[left]

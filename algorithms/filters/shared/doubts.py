@@ -49,18 +49,15 @@ def tell_of_little_ground(points: Points, ground: np.ndarray, progress: Progress
 
     Parameters
     ----------
-    points : Points
-        All that the filter sees.
     ground : numpy.ndarray of bool, shape (n,)
-        Which of them it took for ground.
-    progress : Progress
-        Receives the warning.
+        Which points the filter took for ground.
+    points, progress
+        As for `tell_of_extent`.
     """
     if np.count_nonzero(ground) >= _SURELY_ENOUGH * points.count:
         return
     cells = Cells.over(points, _CELL)
-    with_ground = np.unique(cells.index[ground])
-    if len(with_ground) < _LEAST_GROUND * np.count_nonzero(cells.occupied):
+    if np.count_nonzero(cells.holding(ground)) < _LEAST_GROUND * np.count_nonzero(cells.occupied):
         progress.warning(
             f"Hardly any ground was found: fewer than {100 * _LEAST_GROUND:g} % of the square"
             " metres with points have some. The terrain between is guessed. Check the"

@@ -12,7 +12,7 @@ import numpy as np
 
 from ...grids.trend import Trend
 from .allowance import Allowance
-from .objects import covered
+from .landforms import ramps, rocks
 
 # How often regions join the ground that others have joined before.
 _JOINING_PASSES = 4
@@ -32,25 +32,23 @@ _OPEN_SHARE = 0.45
 # What is as small (m2) and stands as high (m) as a house must have such a share of its border
 # gentle: on a slope one side of a roof may be level with the ground.
 _HOUSE_AREA, _HOUSE_HEIGHT, _HOUSE_SHARE = 400.0, 2.5, 0.5
-# Standard deviation in metres of the heights of a rock. A roof is lower, or level: a band of so
-# many metres holds more than a share of it.
-_ROCK_DEVIATION, _BAND, _BAND_SHARE = 5.0, 3.0, 1.0 / 3.0
 
 
 def gentle_regions(
     filled: np.ndarray,
     known: np.ndarray,
+    surveyed: np.ndarray,
     raised: np.ndarray,
     surface: np.ndarray,
     trend: Trend | None,
     size: float,
     allowance: Allowance,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Find the raised cells whose region passes into the ground without an edge, or is a rock.
+    """Find the raised cells whose region passes into the ground without an edge.
 
     A region is what hangs together without a step. Its border is gentle where it touches the
-    ground without a step, and sharp where it drops to anything. A rock rises so much by itself
-    that it is no building, whatever its border.
+    ground without a step, and sharp where it drops to anything. Rocks and ramps are ground
+    whatever their border.
 
     Parameters
     ----------
@@ -58,6 +56,8 @@ def gentle_regions(
         Heights in metres without NaN.
     known : numpy.ndarray of bool, shape (rows, columns)
         Cells with a point.
+    surveyed : numpy.ndarray of bool, shape (rows, columns)
+        These and the small gaps between them.
     raised : numpy.ndarray of bool, shape (rows, columns)
         Cells that are judged.
     surface : numpy.ndarray of float, shape (rows, columns)
@@ -71,11 +71,11 @@ def gentle_regions(
 
     Returns
     -------
-    terrain, rocks : numpy.ndarray of bool, shape (rows, columns)
-        All cells that are ground after all, and those of them that are rocks.
+    terrain, landforms : numpy.ndarray of bool, shape (rows, columns)
+        All cells that are ground after all, and those of them that are rocks or ramps.
     """
     allowance = allowance.for_cells(size)
-    surveyed = covered(known)
+    seen = np.ones(known.size, dtype=bool)
     if allowance.judges_gaps:
         # A gap in a roof is not the ground beside it.
         raised = raised | (~known & (filled - surface > allowance.gentle_step))
@@ -83,14 +83,15 @@ def gentle_regions(
     sides = [_steps(filled, known, raised, smooth, trend, axis, size, allowance) for axis in (0, 1)]
     one, other, sign = (np.concatenate(each) for each in zip(*sides))
     if allowance.judges_gaps:
-        # What fills a gap in the survey slopes down gently from any roof.
+        # What fills a gap in the survey, or beside a wall, slopes down gently from any roof.
         both = surveyed.ravel()[one] & surveyed.ravel()[other]
         one, other, sign = one[both], other[both], sign[both]
+        seen = known.ravel()
     up = raised.ravel()
     inside = (sign == 0) & up[one] & up[other]
     region, count = _numbered(up, one[inside], other[inside])
     borders = [
-        _border(region, up, from_, to, (sign == 0, drop, rise))
+        _border(region, up, from_, to, ((sign == 0) & seen[from_], drop, rise))
         for from_, to, drop, rise in (
             (one, other, sign == -1, sign == 1),
             (other, one, sign == 1, sign == -1),
@@ -102,13 +103,18 @@ def gentle_regions(
     open_ = np.bincount(number, _unsurveyed(surveyed).ravel()[cells], count)
     heights = filled.ravel()[cells]
     above = heights - surface.ravel()[cells]
-    rocks = _rocks(number, heights, above, area, allowance)
+    feet = np.concatenate([flat[0][flat[1] == -1] for flat, _, _ in borders])
+    foot = np.bincount(feet, minlength=count) * size
+    row, column = np.divmod(cells, raised.shape[1])
+    landforms = rocks(number, heights, above, area, allowance.rock_area)
+    landforms |= ramps(number, (size * row, size * column), above, area, foot, allowance.ramp_area)
     above = np.bincount(number, above, count) * size**2 / area
+    joined = _joined(borders, area, above, open_, landforms, allowance)
     result = np.zeros((2, up.size), dtype=bool)
-    for which, grid in zip((_joined(borders, area, above, open_, rocks, allowance), rocks), result):
+    for which, grid in zip((joined, landforms), result):
         grid[cells] = which[number]
-    terrain, rocks = result.reshape(2, *raised.shape)
-    return terrain, rocks
+    terrain, landforms = result.reshape(2, *raised.shape)
+    return terrain, landforms
 
 
 def _numbered(up: np.ndarray, one: np.ndarray, other: np.ndarray) -> tuple[np.ndarray, int]:
@@ -131,44 +137,6 @@ def _numbered(up: np.ndarray, one: np.ndarray, other: np.ndarray) -> tuple[np.nd
     graph = coo_matrix((np.ones(len(one), dtype=bool), pairs), shape=(len(cells),) * 2)
     count, region[cells] = connected_components(graph, directed=False)
     return region, count
-
-
-def _rocks(
-    region: np.ndarray,
-    heights: np.ndarray,
-    above: np.ndarray,
-    area: np.ndarray,
-    allowance: Allowance,
-) -> np.ndarray:
-    """Return which regions rise by themselves as no roof, bridge or wood does.
-
-    A roof or a bridge is level; a wood on a slope is as high above the ground all over.
-
-    Parameters
-    ----------
-    region : numpy.ndarray of int64, shape (n,)
-        Region of each raised cell.
-    heights, above : numpy.ndarray of float, shape (n,)
-        Height of each, and its height above the ground, in metres.
-    area : numpy.ndarray of float, shape (regions,)
-        Square metres.
-    allowance : Allowance
-        How large a rock is at least.
-
-    Returns
-    -------
-    numpy.ndarray of bool, shape (regions,)
-    """
-    is_rock = area >= allowance.rock_area
-    for values in (heights, above):
-        number = np.bincount(region, minlength=len(area))
-        apart = values - (np.bincount(region, values, len(area)) / number)[region]
-        is_rock &= np.bincount(region, apart**2, len(area)) >= _ROCK_DEVIATION**2 * number
-    for each in np.flatnonzero(is_rock):
-        z = np.sort(heights[region == each])
-        in_band = np.searchsorted(z, z + _BAND) - np.arange(len(z))
-        is_rock[each] = in_band.max() <= _BAND_SHARE * len(z)
-    return is_rock
 
 
 def _unsurveyed(surveyed: np.ndarray) -> np.ndarray:
@@ -199,7 +167,7 @@ def _joined(
     area: np.ndarray,
     above: np.ndarray,
     open_: np.ndarray,
-    rocks: np.ndarray,
+    landforms: np.ndarray,
     allowance: Allowance,
 ) -> np.ndarray:
     """Return which regions pass into the ground, or into others that do.
@@ -214,7 +182,7 @@ def _joined(
         Mean height above the ground in metres.
     open_ : numpy.ndarray of float, shape (regions,)
         Sides of cells at the border of the survey.
-    rocks : numpy.ndarray of bool, shape (regions,)
+    landforms : numpy.ndarray of bool, shape (regions,)
         Which are ground whatever their border.
     allowance : Allowance
         Which share of the border must be gentle.
@@ -230,7 +198,12 @@ def _joined(
     open_ = np.where(is_open, open_, 0.0)
     is_house = (area < _HOUSE_AREA) & (above > _HOUSE_HEIGHT)
     share = np.where(is_house, max(_HOUSE_SHARE, allowance.gentle_share), allowance.gentle_share)
-    joined = rocks.copy()
+    level_share = np.interp(
+        np.log(area),
+        np.log((_HOUSE_AREA, allowance.wide_area)),
+        (allowance.gentle_share, allowance.wide_share),
+    )
+    joined = landforms.copy()
     for _ in range(_JOINING_PASSES):
         ground = np.append(joined, True)  # the last one is what is not raised
         level, rising = np.zeros((2, count))
@@ -241,7 +214,7 @@ def _joined(
         bounded = gentle + sharp
         new = gentle >= share * bounded
         # A ramp is level with the ground: the side of a roof rises to the next one.
-        new |= (level >= allowance.wide_share * bounded) & (area >= allowance.wide_area)
+        new |= (level >= level_share * bounded) & (area >= _HOUSE_AREA)
         new &= gentle > 0
         new |= open_ > _OPEN_SHARE * (bounded + open_)
         new &= area >= allowance.gentle_area

@@ -23,6 +23,7 @@ from ...grids.morphology import in_steps, opening, within_square
 from ...grids.trend import Trend
 from .allowance import Allowance
 from .gentle_regions import gentle_regions, slope_at, smoothed
+from .objects import covered
 
 # A first, strict opening (rise over run) gives the surface from which the terrain's slope is taken.
 _FIRST_SLOPE = 0.12
@@ -79,7 +80,14 @@ def ground_cells(
     from scipy import ndimage
 
     known = np.isfinite(heights)
+    surveyed = covered(known)
     filled = inpaint(heights, first=first).astype(np.float32)
+    if allowance.judges_gaps and not surveyed.all():
+        # Beyond the survey a roof at its border must not grow wider than it is.
+        nearest = ndimage.distance_transform_edt(
+            ~surveyed, return_distances=False, return_indices=True
+        )
+        filled = filled[tuple(nearest)]
     # Cells are taken together in fours, wherever the grid starts.
     lead = tuple((each % _TOGETHER, 0) for each in first)
     part = progress.part(0.0, 0.5)
@@ -105,8 +113,10 @@ def ground_cells(
     surface = inpaint(np.where(known & ~raised, heights, np.nan), first=first)
     progress(0.85)
     trend = Trend(filled, size, first) if allowance.follows_slopes else None
-    gentle, rocks = gentle_regions(filled, known, raised, surface, trend, size, allowance)
-    raised &= ~rocks & (objects | ~gentle)
+    gentle, landforms = gentle_regions(
+        filled, known, surveyed, raised, surface, trend, size, allowance
+    )
+    raised &= ~landforms & (objects | ~gentle)
     progress(1.0)
     return known & ~raised
 

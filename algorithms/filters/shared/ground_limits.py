@@ -9,7 +9,7 @@ import numpy as np
 from ...core.points import Points
 from ...core.progress import SILENT
 from ...core.threads import over_parts
-from ...grids.cells import Cells, lower_at
+from ...grids.cells import Cells
 from ...grids.gradient import gradient, length, steepness
 from ...grids.inpaint import inpaint
 
@@ -18,18 +18,21 @@ from ...grids.inpaint import inpaint
 _SLOPE_SMOOTHING, _MOVES, _STEEPEST = 1.5, 2, 1.5
 # Metres over which it is smoothed for the slope that adds to the tolerances.
 _FACET_SMOOTHING = 0.7
-# Metres between points from which on, and down to which, the tolerance on slopes follows them.
+# The tolerance on slopes follows the distance between points between these two, in metres.
 _SPARSE, _DENSE = 1.0, 0.25
-# Metres between points up to which their noise is to be measured: the lowest of a cell is biased.
-NOISE_SPACING = 0.17
+# Metres between points up to which their noise is measured: the lowest of many in a cell is biased.
+_NOISE_SPACING = 0.36
+# Metres between points up to which narrow cells hold enough of them, and show breaks by themselves.
+DENSE_SPACING = 0.17
 # Metres of curvature over a cell from which on there is a break, and what each more adds.
 _BREAK, _BREAK_FACTOR = 0.25, 1.5
 # Metres round the lowest points within which noise is measured, the points that a cell must have
 # for that, and the percentile of the cells: most have plants as well.
 _NOISE_WINDOW, _NOISE_POINTS, _NOISE_PERCENTILE = 0.6, 8, 25
-# What is within so many times the noise belongs to the ground; of so many points is the mean taken.
+# Points within so many times the noise belong to the ground; a mean needs so many of them, and is
+# taken so often.
 _NOISE_FACTOR, _MEAN_POINTS, _MEANS = 2.5, 4, 2
-# By so many times the noise the lowest of n points lies below the ground, times sqrt(2 ln n).
+# The lowest of n points lies below the ground by so many times the noise, times sqrt(2 ln n).
 _LOWEST_FACTOR = 0.8
 # Tolerance in metres above a surface through the middle of the noise, and what adds to it.
 _LEAST_ABOVE, _ABOVE, _ABOVE_FACTOR = 0.12, 0.05, 3.0
@@ -62,10 +65,7 @@ def plain_limits(
     Parameters, returns
         As for `ground_limits`.
     """
-    lowest = np.full(cells.rows * cells.columns, np.inf)
-    lower_at(lowest, cells.index[vertices], points.z[vertices])
-    lowest[np.isinf(lowest)] = np.nan
-    surface = inpaint(lowest.reshape(cells.shape), first=cells.first)
+    surface = inpaint(cells.minimum(points.z, vertices), first=cells.first)
     rise = tolerance.on_slopes * _smooth_steepness(surface, cells)
     return np.stack((surface - tolerance.below - rise, surface + tolerance.above + rise), axis=-1)
 
@@ -76,14 +76,15 @@ def ground_limits(
     cells: Cells,
     spacing: float,
     tolerance: Tolerance,
-    measures_noise: bool = False,
 ) -> np.ndarray:
     """Return between which heights points are ground.
 
     Each vertex is moved to the middle of its cell along the slope: the lowest point of a cell lies
     on its lower side. Where points are dense, the surface between them is known better, and the
     tolerance on slopes is less in proportion. At breaks the surface of cells is too smooth, and
-    more is tolerated.
+    more is tolerated. Where many points lie in a cell, the lowest lies far below the ground. Their
+    noise is measured there, the surface is laid through its middle, and the tolerance above
+    follows the noise.
 
     Parameters
     ----------
@@ -97,9 +98,6 @@ def ground_limits(
         Usual distance between points in metres.
     tolerance : Tolerance
         How far from the surface points are ground.
-    measures_noise : bool
-        Whether the noise of the points is measured, and the surface laid through its middle: the
-        lowest of many points lies far below the ground. The tolerance above follows the noise then.
 
     Returns
     -------
@@ -108,7 +106,7 @@ def ground_limits(
     """
     surface, slopes = _centred(points, vertices, cells)
     above = tolerance.above
-    if measures_noise:
+    if spacing <= _NOISE_SPACING:
         rises = _rises(points, cells, surface, slopes)
         level, noise = _middle(rises, cells.index, surface.size)
         surface = surface + level.reshape(surface.shape)

@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...core.points import Points
+from ...core.threads import parts_of
 
 # Neighbours that are looked at, and how many of them a side must have to be judged by.
 _NEIGHBOURS, _LEAST = 16, 4
@@ -33,7 +34,6 @@ class Sides:
     """
 
     def __init__(self, ground: Points, reach: float) -> None:
-        # Not at the start of QGIS, which loads this module, and where scipy may be missing.
         from scipy.spatial import cKDTree
 
         self._ground, self._reach = ground, reach
@@ -63,8 +63,7 @@ class Sides:
         misfit = np.full((points.count, _SIDES), np.nan)
         if self._tree is None:
             return rise, misfit
-        for first in range(0, points.count, _AT_ONCE):
-            part = slice(first, first + _AT_ONCE)
+        for part in parts_of(points.count, _AT_ONCE):
             rise[part], misfit[part] = self._of_some(points.take(part), own)
         return rise, misfit
 
@@ -75,7 +74,7 @@ class Sides:
         )
         if own:
             distance, which = distance[:, 1:], which[:, 1:]
-        # Of several that are equally far the tree returns any: then none of them counts.
+        # The tree returns any of several that are equally far away: then none of them counts.
         there = distance[:, :-1] < distance[:, -1:]
         which = np.where(there, which[:, :-1], 0)
         x, y, z = (
@@ -86,22 +85,12 @@ class Sides:
         sums = (ahead & there[:, :, None]).astype(float).transpose(0, 2, 1) @ np.stack(
             (np.ones_like(x), x, y, z, x * x, x * y, y * y, x * z, y * z, z * z), axis=-1
         )
-        return _plane(*np.moveaxis(sums, -1, 0))
+        return _plane(sums)
 
 
-def _plane(
-    count: np.ndarray,
-    x: np.ndarray,
-    y: np.ndarray,
-    z: np.ndarray,
-    xx: np.ndarray,
-    xy: np.ndarray,
-    yy: np.ndarray,
-    xz: np.ndarray,
-    yz: np.ndarray,
-    zz: np.ndarray,
-) -> tuple[np.ndarray, np.ndarray]:
+def _plane(sums: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return how far (0, 0, 0) lies above planes, and their misfit, from sums over neighbours."""
+    count, x, y, z, xx, xy, yy, xz, yz, zz = np.moveaxis(sums, -1, 0)
     total = np.maximum(count, 1.0)
     x, y, z = x / total, y / total, z / total
     xx, xy, yy = xx / total - x * x, xy / total - x * y, yy / total - y * y
@@ -114,8 +103,5 @@ def _plane(
     rise = east * x + north * y - z
     square = zz - 2.0 * (east * xz + north * yz)
     square += east * east * xx + 2.0 * east * north * xy + north * north * yy
-    few = count < _LEAST
-    return (
-        np.where(few, np.nan, rise),
-        np.where(few, np.nan, np.sqrt(np.maximum(square, 0.0))),
-    )
+    rise[count < _LEAST] = square[count < _LEAST] = np.nan
+    return rise, np.sqrt(np.maximum(square, 0.0))

@@ -8,7 +8,7 @@ from ...core.points import Points
 from ...core.progress import Progress
 from ...grids.cells import Cells, spacing
 from .objects import Objects, raised_objects
-from .outliers import low_outliers
+from .outliers import lone_points, low_outliers
 
 _OUTLIER_SLOPE = 5.0
 # Heights in metres of the drops that bound an object, the tall ones first.
@@ -55,6 +55,8 @@ class LowestPoints:
     def _without_outliers(self, heights: np.ndarray, cells: Cells) -> np.ndarray:
         spares = not self._classic
         heights[low_outliers(heights, cells.size, _OUTLIER_SLOPE, cells.first, spares)] = np.nan
+        if spares:
+            heights[lone_points(heights, cells, self._points.z)] = np.nan
         return heights
 
     def _wide(self) -> tuple[Cells, np.ndarray]:

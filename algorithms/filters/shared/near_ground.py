@@ -10,12 +10,11 @@ from ...core.points import Points
 from ...core.progress import SILENT, Progress
 from ...grids.cells import Cells, spacing
 from .breaks import checked_seeds
-from .ground_limits import NOISE_SPACING, Tolerance, ground_limits
+from .ground_limits import DENSE_SPACING, Tolerance, ground_limits
 from .near_surface import near_surface
 
-# Metres between points: less is as good as that. Up to the second there are no gaps in which breaks
-# would be lost.
-_CLOSEST, _GAPLESS = 0.01, 0.4
+# Metres between points: less is as good as that.
+_CLOSEST = 0.01
 
 
 class Candidates(NamedTuple):
@@ -75,10 +74,10 @@ def near_ground(
     """
     apart = spacing(points, _CLOSEST)
     seeds = candidates.lowest[candidates.ground]
-    if apart > _GAPLESS:
+    if apart > DENSE_SPACING:
         waiting = candidates.lowest[candidates.free & ~candidates.ground]
         seeds, _ = checked_seeds(points, seeds, waiting, cells, max(apart, cells.size))
     progress(0.5)
-    limits = ground_limits(points, seeds, cells, apart, tolerance, apart <= NOISE_SPACING)
+    limits = ground_limits(points, seeds, cells, apart, tolerance)
     progress(0.6)
     return near_surface(points, cells, limits, progress.part(0.6, 1.0))

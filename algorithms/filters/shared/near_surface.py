@@ -88,13 +88,10 @@ def _lower(place: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _bounds(limits: np.ndarray) -> np.ndarray:
-    """Return the extremes of two surfaces round each cell.
+    """Return the extremes of two surfaces round each cell, float32, shape (cells, 4).
 
-    Returns
-    -------
-    numpy.ndarray of float32, shape (cells, 4)
-        What no point near the surface is below, what it may be below only if it lies between the
-        cells so, and the same two from above.
+    What no point near the surface is below, what it may be below only if it lies between the cells
+    so, and the same two from above.
     """
     rows, columns, _ = limits.shape
     bounds = np.empty((rows * columns, 4), dtype=np.float32)

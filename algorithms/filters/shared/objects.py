@@ -35,15 +35,17 @@ _OBJECT_SHARE = 0.65
 _WHOLE_SHARE, _CLASSIC_WHOLE_SHARE = 0.5, 0.4
 # Mean height of the drop over the width of the region: what is lower and wider is terrain.
 _LEAST_STEEPNESS = 0.15
-# What is as wide (m) and has such a share of its drops on the face of a cliff is terrain: points
-# lie on the face, so that none of five steps across it makes up more than a share of their sum,
-# and none leads back by more than some metres. At the wall of a building one does.
+# A region is terrain if it is as wide (m) and has such a share of its drops on the face of a cliff.
+# Points lie on such a face: of five steps across it, none makes up more than a share of their sum,
+# and none leads back by more than some metres. At the wall of a building one step does.
 _FACE_WIDTH, _FACE_SHARE = 10.0, 0.4
 _LARGEST_STEP, _STEP_BACK = 0.7, 0.3
-# Rounds in which what others hid is looked at again.
+# Rounds in which regions are looked at again that others hid.
 _ROUNDS = 3
 # Relaxations of the surface across gaps; what bounds objects is their rim, not the filling.
 _RELAXATIONS = 2
+# Gaps up to twice as many cells wide count as surveyed.
+_GAP = 4
 
 
 class Objects(NamedTuple):
@@ -108,24 +110,15 @@ def raised_objects(
     return Objects(objects, plateaus & ~objects)
 
 
-def covered(known: np.ndarray, reach: int = 4) -> np.ndarray:
-    """Return which cells belong to the surveyed area: the known ones and the small gaps in them.
-
-    Parameters
-    ----------
-    known : numpy.ndarray of bool, shape (rows, columns)
-        Cells with a height.
-    reach : int
-        Gaps up to twice as many cells wide are closed.
-    """
-
+def covered(known: np.ndarray) -> np.ndarray:
+    """Return which cells were surveyed: those with a height (rows, columns), and small gaps."""
     from scipy import ndimage
 
-    closed = np.pad(known, reach).astype(np.uint8)
+    closed = np.pad(known, _GAP).astype(np.uint8)
     for extreme in (ndimage.maximum_filter1d, ndimage.minimum_filter1d):
         for axis in (0, 1):
-            closed = extreme(closed, 2 * reach + 1, axis=axis, mode="nearest")
-    return closed[reach : reach + known.shape[0], reach : reach + known.shape[1]].astype(bool)
+            closed = extreme(closed, 2 * _GAP + 1, axis=axis, mode="nearest")
+    return closed[_GAP:-_GAP, _GAP:-_GAP].astype(bool)
 
 
 class Relief:
@@ -174,17 +167,7 @@ class Relief:
     ) -> tuple[Regions, np.ndarray]:
         """Return the `regions`, and which cells are rims if more unevenness is allowed.
 
-        Parameters
-        ----------
-        threshold : float
-            As for `regions`.
-        roughness_factor : float
-            How many times the usual unevenness of the terrain is added for the rims.
-
-        Returns
-        -------
-        Regions
-        numpy.ndarray of bool, shape (rows, columns)
+        That many times (`roughness_factor`) its usual unevenness is added for the rims.
         """
         steps, large = self._steps(threshold, (1.0, roughness_factor))
         return self._regions(steps), self._unframed(self._rims(large))
@@ -223,7 +206,6 @@ class Relief:
         -------
         numpy.ndarray of bool, shape (rows, columns)
         """
-
         from scipy import ndimage
 
         patches, count = ndimage.label(np.pad(candidates, self._step), np.ones((3, 3)))
@@ -233,7 +215,7 @@ class Relief:
         return patches.sunken(max_size) & candidates
 
     def regrown(self, kept: np.ndarray, heights: np.ndarray, threshold: float) -> np.ndarray:
-        """Return `kept` and the cells next to it that are level with it, step by step.
+        """Return the ground that is kept and the cells beside it that are level with it.
 
         Parameters
         ----------
@@ -243,10 +225,6 @@ class Relief:
             Lowest heights, those of cells that may grow back included; NaN where there is none.
         threshold : float
             As for `regions`; a cell is compared with the mean of its kept neighbours.
-
-        Returns
-        -------
-        numpy.ndarray of bool, shape (rows, columns)
         """
         kept = np.pad(kept, self._step).ravel()
         grid = np.pad(heights.astype(np.float32), self._step, constant_values=np.nan).ravel()
@@ -377,7 +355,7 @@ class Relief:
         """Return which steps from cells to neighbours are part of a face with points on it."""
         last = self._heights.size - 1
         across = [np.clip(cells + k * offset, 0, last) for k in range(-2, 4)]
-        # What fills a cell without a point makes a slope of any wall.
+        # The filling of cells without a point would make a slope of any wall.
         z = np.stack([np.where(self._known[at], self._heights[at], np.nan) for at in across])
         rises = np.diff(z, axis=0)
         one_way = (rises.min(axis=0) > -_STEP_BACK) | (rises.max(axis=0) < _STEP_BACK)
@@ -415,7 +393,7 @@ class Regions:
     def raised(self, max_size: float, classic: bool = False) -> np.ndarray:
         """Return the cells of the regions whose border is mostly a drop, but no cliff.
 
-        Of the whole border, what lies beyond the survey included, half must be a drop: the topmost
+        Half of the whole border, what lies beyond the survey included, must be a drop: the topmost
         tread of a terrace has one drop, and the border of the survey.
 
         Parameters
@@ -431,7 +409,7 @@ class Regions:
         numpy.ndarray of bool, shape (rows, columns)
         """
         share = _CLASSIC_WHOLE_SHARE if classic else _WHOLE_SHARE
-        fits = np.ones(len(self.width), dtype=bool) if classic else self._is_no_cliff()
+        fits = True if classic else self._is_no_cliff()
         return self._bounded(max_size, 1, _OBJECT_SHARE, share, _LEAST_STEEPNESS, fits)
 
     def plateaus(self, max_size: float) -> np.ndarray:
@@ -443,19 +421,8 @@ class Regions:
         return (self.width < _FACE_WIDTH) | (self._border.share_of_faces() < _FACE_SHARE)
 
     def sunken(self, max_size: float) -> np.ndarray:
-        """Return the cells of the regions whose border is a rise nearly all round: of pits.
-
-        Parameters
-        ----------
-        max_size : float
-            Largest width in metres.
-
-        Returns
-        -------
-        numpy.ndarray of bool, shape (rows, columns)
-        """
-        fits = np.ones(len(self.width), dtype=bool)
-        return self._bounded(max_size, -1, _PIT_SHARE, _PIT_SHARE, 0.0, fits)
+        """Return the cells of the regions whose border is a rise nearly all round: of pits."""
+        return self._bounded(max_size, -1, _PIT_SHARE, _PIT_SHARE, 0.0, True)
 
     def _bounded(
         self,
@@ -464,7 +431,7 @@ class Regions:
         share: float,
         least_share: float,
         least_steepness: float,
-        fits: np.ndarray,
+        fits: np.ndarray | bool,
     ) -> np.ndarray:
         """Return the cells of regions bounded by drops (1) or rises (-1).
 
@@ -540,24 +507,12 @@ class _Border(NamedTuple):
         return on_face / np.maximum(self._total(down, up), 1)
 
     def drops(
-        self, removed: np.ndarray, sign: int = 1
+        self, removed: np.ndarray, sign: int
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Sum up where each region drops to its neighbours.
+        """Sum up where each region drops (sign 1) or rises (-1) to those that are not removed.
 
-        Parameters
-        ----------
-        removed : numpy.ndarray of bool, shape (count,)
-            Regions that do not count as neighbours.
-        sign : int
-            -1 to sum up where it rises instead.
-
-        Returns
-        -------
-        drops, known, pairs : numpy.ndarray of int, shape (count,)
-            Pairs of cells where the region drops; of these and others, where the neighbour is
-            known; and all.
-        height : numpy.ndarray of float, shape (count,)
-            Mean height of the drops in metres.
+        Returns, for each region, the pairs of cells where it does, those where the neighbour is
+        known, and all; and the mean height of the drops in metres.
         """
         pairs = ~(removed[self.first] | removed[self.second])
         known = pairs & (self.first > 0) & (self.second > 0)

@@ -4,19 +4,21 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...grids.cells import Cells
 from ...grids.inpaint import First, inpaint
 from ...grids.morphology import within_square
 
 # Metres from a pit between which cells bear witness: nearer ones may belong to the same fault.
 _NEAREST, _FARTHEST = 3.0, 10.0
-# Cells that lie as low as a pit: within so many metres, and so much for each metre of distance.
-_LEVEL, _LEVEL_SLOPE = 0.5, 0.2
-# But within this share of its depth.
-_DEPTH_SHARE = 0.33
-# So many cells at its level make a pit ground ...
-_LEAST_WITNESSES = 4
-# ... if they are at least this share of the cells of an even surface above it.
-_LEAST_SHARE = 0.15
+# A cell is as low as a pit within so many metres, and so much for each metre of distance, but
+# within this share of the depth of the pit.
+_LEVEL, _LEVEL_SLOPE, _DEPTH_SHARE = 0.5, 0.2, 0.33
+# A pit is ground if so many cells are as low, and at least this share of the cells of an even
+# surface above it.
+_LEAST_WITNESSES, _LEAST_SHARE = 4, 0.15
+# A point that lies alone is so many metres below the cells round it, of which so many are even, in
+# a cell of so many points, the next one of which is higher by this share of that.
+_LONE_DEPTH, _LEAST_EVEN, _LEAST_POINTS, _LONE_GAP = 0.6, 6, 4, 0.7
 # Metres by which a cell of an even surface departs from the median of the 3 x 3 cells round it.
 _EVEN = 0.3
 
@@ -62,6 +64,43 @@ def low_outliers(
     return pits & ~supported(grid, size, pits, depth, first) if spares_supported else pits
 
 
+def lone_points(grid: np.ndarray, cells: Cells, z: np.ndarray) -> np.ndarray:
+    """Return which cells have one point alone below an even surface: scattered points of images.
+
+    The others of its cell lie on the surface, as do most cells next to it, and hardly any other
+    cell some metres away is as low.
+
+    Parameters
+    ----------
+    grid : numpy.ndarray of float, shape (rows, columns)
+        Lowest height of each cell in metres; NaN where there is none.
+    cells : Cells
+        Those of the grid.
+    z : numpy.ndarray of float, shape (n,)
+        Heights of all points in metres.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (rows, columns)
+    """
+    from scipy import ndimage
+
+    filled = inpaint(grid, first=cells.first)
+    closed = within_square(np.minimum, within_square(np.maximum, filled, 1), 1)
+    depth = np.where(np.isfinite(grid), closed - filled, 0.0)
+    around = ndimage.uniform_filter(_even(grid, cells.first).astype(np.float32), 3, mode="nearest")
+    doubtful = (depth > _LONE_DEPTH) & (9.0 * around > _LEAST_EVEN - 0.5)
+    which = np.flatnonzero(doubtful.ravel()[cells.index])
+    which = which[np.lexsort((z[which], cells.index[which]))]
+    cell, first, count = np.unique(cells.index[which], return_index=True, return_counts=True)
+    several = count >= _LEAST_POINTS
+    cell, first = cell[several], first[several]
+    gap = z[which[first + 1]] - z[which[first]]
+    pits = np.zeros(grid.shape, dtype=bool)
+    pits.ravel()[cell] = gap >= _LONE_GAP * depth.ravel()[cell]
+    return pits & ~supported(grid, cells.size, pits, depth, cells.first)
+
+
 def supported(
     grid: np.ndarray,
     size: float,
@@ -77,20 +116,12 @@ def supported(
 
     Parameters
     ----------
-    grid : numpy.ndarray of float, shape (rows, columns)
-        Lowest height of each cell in metres; NaN where there is none.
-    size : float
-        Side of a cell in metres.
+    grid, size, first
+        As for `low_outliers`, and so is the result.
     pits : numpy.ndarray of bool, shape (rows, columns)
         Cells that lie far below those next to them.
     depth : numpy.ndarray of float, shape (rows, columns)
         How far, in metres.
-    first : tuple of int
-        Row and column of the first cell in the grid of the CRS.
-
-    Returns
-    -------
-    numpy.ndarray of bool, shape (rows, columns)
     """
     result = np.zeros(grid.shape, dtype=bool)
     row, column = np.nonzero(pits)

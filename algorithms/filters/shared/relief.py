@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core.points import Points
-from ...grids.cells import Cells, lower_at, spacing
+from ...grids.cells import Cells, spacing
 
 # Least side of a cell in metres; half the spacing of the points where they are sparse, in steps.
 _CELL, _CELL_STEP = 1.0, 0.5
@@ -55,17 +55,14 @@ class Relief(NamedTuple):
         """Return the relief of some points, of which some are ground, and their cells."""
         apart = spacing(points, step=_SPACING_STEP)
         cells = Cells.over(points, max(_CELL, _CELL_STEP * round(apart / 2.0 / _CELL_STEP)))
-        lowest = np.full(cells.rows * cells.columns, np.inf)
-        lower_at(lowest, cells.index, np.where(ground, points.z, np.inf))
+        lowest = cells.minimum(points.z, np.flatnonzero(ground))
         is_ground = np.isfinite(lowest)
-        # Of other points only where there is no ground.
+        # Other points count only where there is no ground.
         others = np.flatnonzero(~ground)
-        others = others[~is_ground[cells.index[others]]]
-        lower_at(lowest, cells.index[others], points.z[others])
-        lowest[np.isinf(lowest)] = np.nan
+        others = others[~is_ground.ravel()[cells.index[others]]]
+        lowest = np.fmin(lowest, cells.minimum(points.z, others))
         level = float(np.floor(np.nanmin(lowest)))
-        heights = (lowest - level).astype(np.float32).reshape(cells.shape)
-        is_ground = is_ground.reshape(cells.shape)
+        heights = (lowest - level).astype(np.float32)
         apart = max(apart, cells.size)
         border = math.ceil((BORDER + apart) / cells.size) + 2
         heights = np.pad(heights, border, constant_values=np.nan)

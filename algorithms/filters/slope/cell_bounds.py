@@ -79,19 +79,19 @@ class CellBounds:
         self._bound_rises()
 
     def decide(self, asked: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return which points stand far above a neighbour, and which of them may do so.
+        """Return which points asked for certainly stand far above a neighbour, and who may do so.
 
         Parameters
         ----------
         asked : numpy.ndarray of bool, shape (n,)
-            The points asked for, in the order in which the points were given.
+            In the order in which the points were given.
 
         Returns
         -------
         above : numpy.ndarray of bool, shape (n,)
-            Those that certainly do, in the order of `points`. False where it is not asked.
+            In the order of `points`.
         doubtful : numpy.ndarray of int, shape (k,)
-            Which points of `points` remain in doubt, ascending.
+            Indices in `points`, ascending.
         """
         points, asked = self.points, self.points.as_sorted(asked)
         above = asked & (points.level >= self._enough.take(points.cell))
@@ -109,17 +109,8 @@ class CellBounds:
     def heights_in_doubt(self, cell: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return between which heights above the opening it is in doubt who stands above another.
 
-        Parameters
-        ----------
-        cell : numpy.ndarray of int, shape (k,)
-            The cells of the points.
-
-        Returns
-        -------
-        needed : numpy.ndarray of float, shape (k,)
-            Metres: a point less high does not stand above any neighbour.
-        certain : numpy.ndarray of float, shape (k,)
-            Metres: a point as high or higher stands above a neighbour.
+        Metres, for points in cells (k,): those less high stand above no neighbour, and those as
+        high as the second, or higher, above one.
         """
         needed = self._too_little.take(cell) - self._low.take(cell) + 1
         certain = self._enough.take(cell) - self._high.take(cell) - 1
@@ -154,7 +145,7 @@ class CellBounds:
         """Find from which steps on it is certain that a point stands above, and up to which not."""
         lowest = self.points.table.lowest.reshape(self.points.shape)
         empty = lowest == EMPTY
-        # Of the lowest point of a cell: so many steps above the opening or more, and fewer than.
+        # The lowest point of a cell lies `least` steps above the opening or more, but not `most`.
         self.least = np.maximum(lowest - self._high - 1, 0)
         most = lowest - self._low + 1
         self.least[empty] = most[empty] = EMPTY
@@ -182,7 +173,7 @@ class CellBounds:
         points, rule, radius = self.points, self.rule, self.points.inner
         certain = np.full(points.shape, 2 * EMPTY, dtype=np.int32)
         while radius >= 0.0:
-            # Between centres; two points of the cells lie at most a diagonal farther apart.
+            # Two points lie at most a diagonal farther apart than the centres of their cells.
             farthest = (radius + math.sqrt(2.0)) * points.size
             allowed = max(rule.height, rule.slope * farthest)
             steps = min(math.ceil(allowed / points.step + ROUNDING), 2 * EMPTY)

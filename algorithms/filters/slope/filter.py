@@ -11,7 +11,6 @@ classification of airborne LIDAR data. ISPRS Journal 77, 21-30.
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -230,8 +229,7 @@ class SlopeFilter(ParameterSet):
                 apart = spacing(points)
                 chosen["search_radius"] = max(preset.search_radius, round(4.0 * apart, 1))
                 chosen["cell_size"] = apart
-        empty = {name: value for name, value in chosen.items() if getattr(self, name) is None}
-        return dataclasses.replace(self, **empty)
+        return self.filled(chosen)
 
 
 def largest_object(parameters: SlopeFilter) -> float:
@@ -291,18 +289,11 @@ def classify(points: Points, parameters: SlopeFilter, progress: Progress = SILEN
 
 
 def _in_words(parameters: SlopeFilter) -> str:
+    names = ["preset", "search_radius", "slope_threshold", "height_threshold"]
     if parameters.preset == CLASSIC:
-        last = f"minimum number of neighbours {parameters.min_neighbours}"
-    else:
-        last = (
-            f"cell size {parameters.cell_size:g} m, maximum building size"
-            f" {parameters.max_building_size:g} m"
-        )
-    return (
-        f"Slope filter: preset {parameters.preset}, search radius {parameters.search_radius:g} m,"
-        f" slope threshold {parameters.slope_threshold:g} deg, height threshold"
-        f" {parameters.height_threshold:g} m, {last}."
-    )
+        neighbours = f"minimum number of neighbours {parameters.min_neighbours}"
+        return f"Slope filter: {parameters.in_words(*names)}, {neighbours}."
+    return f"Slope filter: {parameters.in_words(*names, 'cell_size', 'max_building_size')}."
 
 
 def _on_one_scale(points: Points, parameters: SlopeFilter, progress: Progress) -> np.ndarray:

@@ -26,22 +26,14 @@ def low_clusters(
 
     Parameters
     ----------
-    grid : numpy.ndarray of float, shape (rows, columns)
-        Lowest height of each cell in metres; NaN where there is none.
-    size : float
-        Side of a cell in metres.
+    grid, size, first
+        As for `low_outliers`, and so is the result.
     slope : float
         Rise over run of the pit's sides, above that of terrain.
     widest : float
         Diameter of the widest pit in metres.
     around : float
         Radius of the surroundings in metres.
-    first : tuple of int
-        Row and column of the first cell in the grid of the CRS.
-
-    Returns
-    -------
-    numpy.ndarray of bool, shape (rows, columns)
     """
     # Single precision halves the time that the discs take.
     filled = inpaint(grid, first=first).astype(np.float32)

@@ -10,12 +10,11 @@ from typing import Callable, Iterator
 
 import numpy as np
 
+from ...core.threads import parts_of
 from ...grids.cells import lower_at
 from .cell_bounds import CellBounds
-from .sorted_points import EMPTY, ROUNDING, Table
+from .sorted_points import EMPTY, OFFSETS_A_STEP, ROUNDING, Table
 
-# Offsets of cells that are looked up at a time.
-_OFFSETS_A_STEP = 8
 # If more than so many of all cells divided by the radius in cells are asked for, it costs less to
 # find what is lowest in the discs of all cells.
 _MANY = 0.5
@@ -37,9 +36,9 @@ class PointComparison:
     def __init__(self, bounds: CellBounds, alive: Callable[[], None] = lambda: None) -> None:
         self._bounds, self._points, self._rule = bounds, bounds.points, bounds.rule
         self._alive = alive
-        # Without top-hat heights are compared as they are, but counted in steps from the base on.
+        # Without top-hat, heights are compared as they are; their steps begin at the base.
         self._zero = 0.0 if self._rule.top_hat else self._points.base
-        # Of all points, in metres; NaN where it is not known, or does not matter.
+        # In metres for each point; NaN where it is not known, or does not matter.
         count = len(bounds.points.z)
         self._eroded = np.full(count, np.nan)
         self._opened = np.full(count, np.nan if bounds.rule.top_hat else 0.0)
@@ -116,77 +115,23 @@ class PointComparison:
         self._eroded[at] = best
 
     def _lower(self, table: Table, at: np.ndarray, best: np.ndarray, sign: int = 1) -> None:
-        """Lower `best` (k,) to the least value of a neighbour.
-
-        Parameters
-        ----------
-        table : Table
-            The values.
-        at : numpy.ndarray of int, shape (k,)
-            For which points, in ascending order.
-        best : numpy.ndarray of float, shape (k,)
-            What is known to be the least.
-        sign : int
-            1 if the values are heights, -1 if they are heights negated.
-        """
+        """Lower `best` (k,) to the least value of a neighbour; see `SortedPoints.lower`."""
         if not len(at):
             return
-        points = self._points
-        cell, offsets = points.cell[at], points.offsets
+        points, offsets = self._points, self._points.offsets
         if len(at) * points.inner > _MANY * len(table.lowest):
             offsets = points.rim
-            np.minimum(best, points.lowest_within(table).take(cell), out=best)
-        limit = sign * points.steps(sign * best)
-        for group in range(0, len(offsets), _OFFSETS_A_STEP):
-            self._alive()
-            hits, others = [], []
-            for offset in offsets[group : group + _OFFSETS_A_STEP]:
-                other = cell + offset
-                hit = np.flatnonzero(table.lowest.take(other) <= limit)
-                hits.append(hit)
-                others.append(other[hit])
-            which, other = np.concatenate(hits), np.concatenate(others)
-            neighbour, last = table.start[other], table.start[other + 1]
-            # From the lowest value of the other cell upwards, until one lies within the radius.
-            while len(which):
-                value = table.values[neighbour]
-                left = np.flatnonzero(value < best[which])
-                which, neighbour, last, value = (
-                    each[left] for each in (which, neighbour, last, value)
-                )
-                near = points.distance(
-                    at[which], neighbour if table.point is None else table.point[neighbour]
-                )
-                near = near <= self._rule.radius
-                lower = which[near]
-                lower_at(best, lower, value[near])
-                limit[lower] = sign * points.steps(sign * best[lower])
-                neighbour = neighbour + 1
-                left = np.flatnonzero(~near & (neighbour < last))
-                which, neighbour, last = which[left], neighbour[left], last[left]
+            np.minimum(best, points.lowest_within(table).take(points.cell[at]), out=best)
+        points.lower(table, at, best, offsets, sign, self._alive)
 
     def _compare(
         self, at: np.ndarray, asked: np.ndarray, found: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Find which points whose opening is known stand above a neighbour.
+        """Find which of some points `at` (k,), whose opening is known, stand above a neighbour.
 
-        Parameters
-        ----------
-        at : numpy.ndarray of int, shape (k,)
-            The points.
-        asked : numpy.ndarray of int
-            For which of them to find out.
-        found : numpy.ndarray of bool, shape (k,)
-            Receives True for those that certainly do.
-
-        Returns
-        -------
-        asked : numpy.ndarray of int
-            Those that may do so, depending on the opening at other points.
-        matters : numpy.ndarray of int
-            These other points, in ascending order.
-        enough : numpy.ndarray of float
-            How high the opening must be there to matter.
+        `asked` names those to look at. Sets `found` (k,) for those that certainly do. Returns those
+        that may do so, depending on the opening at other points; these other points, ascending;
+        and how high the opening must be there to matter.
         """
         point = at[asked]
         own = self._points.z[point] - self._opened[point]
@@ -209,14 +154,8 @@ class PointComparison:
     ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
         """Yield which points (j,) may stand above one of which cells, and the least rise to it.
 
-        Parameters
-        ----------
-        point : numpy.ndarray of int, shape (k,)
-            The points.
-        own : numpy.ndarray of float, shape (k,)
-            How high they lie above their opening.
-        sure : numpy.ndarray of bool, shape (k,)
-            Who needs no other neighbour; looked at each time anew.
+        `own` (k,) says how high the points lie above their opening, and `sure` (k,), which is
+        looked at each time anew, which of them need no other neighbour.
         """
         points, rule, least = self._points, self._rule, self._bounds.least
         allowed = np.maximum(rule.height, rule.slope * points.nearest)
@@ -224,9 +163,8 @@ class PointComparison:
         most = (np.floor((own - self._zero) / points.step) + 1.0).astype(np.int16)
         allowed -= ROUNDING
         left = np.arange(len(point))
-        for group in range(0, len(points.offsets), _OFFSETS_A_STEP):
+        for part in parts_of(len(points.offsets), OFFSETS_A_STEP):
             self._alive()
-            part = slice(group, group + _OFFSETS_A_STEP)
             left = left[~sure[left]]
             cell = points.cell[point[left], None] + points.offsets[part]
             hit = np.flatnonzero(least.take(cell) <= most[left, None] - fewest[part])

@@ -7,17 +7,19 @@ bytes a cell, and its morphology is fast.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Callable, NamedTuple
 
 import numpy as np
 
 from ...core.points import Points
+from ...core.threads import parts_of
+from ...grids.cells import Cells, lower_at
 from ...grids.morphology import erosion, within_square
-from .neighbourhood import cell_size
 
-# So small that a cell holds few points, unless a disc or the plane had too many of them.
-_POINTS_A_CELL = 1.0
-_MOST_CELLS_A_RADIUS = 48
+# A cell is so small that it holds one point, unless a disc or the plane had too many cells then.
+_MOST_CELLS_A_RADIUS, _MOST_CELLS_A_POINT = 48, 4
+# Offsets of cells that are looked up at a time.
+OFFSETS_A_STEP = 8
 # Metres of a step, unless that makes more than fit into 16 bits with room for sums of two.
 _STEP, MOST_STEPS = 0.01, 32_000
 # The step of cells without points.
@@ -86,7 +88,7 @@ class SortedPoints:
 
     def __init__(self, points: Points, radius: float) -> None:
         self._radius = radius
-        self.size = cell_size(points, radius, _POINTS_A_CELL, _MOST_CELLS_A_RADIUS)
+        self.size = _cell_size(points, radius)
         self.inner = radius / self.size - math.sqrt(2.0) - ROUNDING
         self._reach = math.ceil(radius / self.size + ROUNDING)
         self._sort(points)
@@ -109,22 +111,10 @@ class SortedPoints:
         values: np.ndarray,
         point: np.ndarray | None = None,
     ) -> Table:
-        """Return the table of some values (m,).
+        """Return the table of values in metres (m,), ascending within a cell.
 
-        Parameters
-        ----------
-        cell : numpy.ndarray of int, shape (m,)
-            Their cells, ascending.
-        steps : numpy.ndarray of int16, shape (m,)
-            How low they are in steps.
-        values : numpy.ndarray of float, shape (m,)
-            The values in metres, ascending within a cell.
-        point : numpy.ndarray of int, shape (m,), optional
-            Which points have them, if not all.
-
-        Returns
-        -------
-        Table
+        `cell` are their cells, ascending; `steps` how low they are in steps, int16; and `point`
+        which points have them, if not all.
         """
         cells = self.shape[0] * self.shape[1]
         start = np.zeros(cells + 1, dtype=np.int32)
@@ -137,34 +127,61 @@ class SortedPoints:
     def lowest_within(self, table: Table) -> np.ndarray:
         """Return the least value in the cells that are within the radius from end to end.
 
-        Parameters
-        ----------
-        table : Table
-            The values.
-
-        Returns
-        -------
-        numpy.ndarray of float, shape (rows, columns)
-            Metres; inf where there is none.
+        Metres, shape (rows, columns); inf where there is none.
         """
         least = np.full(self.shape, np.inf)
         occupied = np.flatnonzero(table.lowest != EMPTY)
         least.ravel()[occupied] = table.values[table.start[occupied]]
         return erosion(least, self.inner)
 
+    def lower(
+        self,
+        table: Table,
+        at: np.ndarray,
+        best: np.ndarray,
+        offsets: np.ndarray,
+        sign: int = 1,
+        alive: Callable[[], None] = lambda: None,
+    ) -> None:
+        """Lower `best` (k,), in place, to the least value that a neighbour has in a table.
+
+        `at` (k,) are the points, ascending; `offsets` lead from the cell of a point to those that
+        are looked at. The sign is -1 if the values are heights negated. What `alive` raises, which
+        is called several times a second, ends the work.
+        """
+        cell, limit = self.cell[at], sign * self.steps(sign * best)
+        for group in parts_of(len(offsets), OFFSETS_A_STEP):
+            alive()
+            hits, others = [], []
+            for offset in offsets[group]:
+                other = cell + offset
+                hit = np.flatnonzero(table.lowest.take(other) <= limit)
+                hits.append(hit)
+                others.append(other[hit])
+            which, other = np.concatenate(hits), np.concatenate(others)
+            neighbour, last = table.start[other], table.start[other + 1]
+            # From the lowest value of the other cell upwards, until one lies within the radius.
+            while len(which):
+                value = table.values[neighbour]
+                left = np.flatnonzero(value < best[which])
+                which, neighbour, last, value = (
+                    each[left] for each in (which, neighbour, last, value)
+                )
+                near = self.distance(
+                    at[which], neighbour if table.point is None else table.point[neighbour]
+                )
+                near = near <= self._radius
+                lower = which[near]
+                lower_at(best, lower, value[near])
+                limit[lower] = sign * self.steps(sign * best[lower])
+                neighbour = neighbour + 1
+                left = np.flatnonzero(~near & (neighbour < last))
+                which, neighbour, last = which[left], neighbour[left], last[left]
+
     def around(self, grid: np.ndarray, radius: float | None = None) -> np.ndarray:
         """Return the minimum of a grid over the cells that a disc round each cell can touch.
 
-        Parameters
-        ----------
-        grid : numpy.ndarray of int16, shape (rows, columns)
-            Steps.
-        radius : float, optional
-            Of the disc in metres; the radius of the neighbours if not given.
-
-        Returns
-        -------
-        numpy.ndarray of int16, shape (rows, columns)
+        The radius is in metres; that of the neighbours if it is not given.
         """
         radius = self._radius if radius is None else radius
         return within_square(np.minimum, erosion(grid, radius / self.size + ROUNDING), 1)
@@ -215,8 +232,17 @@ class SortedPoints:
         touched = touched[np.argsort(nearest[touched], kind="stable")]
         offset = row * self.shape[1] + column
         self.offsets, self.nearest = offset[touched], nearest[touched]
-        # What is lowest is most likely found first where the disc ends.
+        # The lowest is most likely found first where the disc ends.
         between = np.hypot(row, column)[touched]
         rim = np.flatnonzero(between > self.inner)
         outermost = np.abs(between[rim] - self._radius / self.size + 0.5)
         self.rim = self.offsets[rim[np.argsort(outermost, kind="stable")]]
+
+
+def _cell_size(points: Points, radius: float) -> float:
+    """Return a size of cells that hold a point each, but are not too many a radius."""
+    coarse = Cells.over(points, max(radius, 1.0))
+    density = points.count / (np.count_nonzero(coarse.occupied) * coarse.size**2)
+    most = max(_MOST_CELLS_A_POINT * points.count, 1_000_000)
+    least = math.sqrt(coarse.rows * coarse.columns / most) * coarse.size
+    return max(min(math.sqrt(1.0 / density), radius), radius / _MOST_CELLS_A_RADIUS, least)

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...core.points import Points
 from ...core.progress import SILENT, Progress
-from ...core.threads import over_parts
+from ...core.threads import in_threads
 from .cell_bounds import CellBounds, Rule
 from .neighbourhood import Neighbourhood
 from .point_comparison import PointComparison
@@ -22,7 +22,7 @@ _POINTS_A_BLOCK = 400_000
 _REACH = 3.0
 # A block is so many radii wide or more, or most of the points looked at would lie round it.
 _LEAST_WIDTH = 16.0
-# So many values tell well enough where to cut.
+# As many values as tell well enough where to cut.
 _SAMPLE = 10_000
 _ROUNDING = 1e-6
 
@@ -55,51 +55,44 @@ def stands_above(
     if at_least:
         neighbourhood = Neighbourhood(points, rule.radius, at_least)
         if not neighbourhood.same_radius:
-            return _everywhere(neighbourhood, points.z, rule, progress)
+            return _with_grown(neighbourhood, points, rule, progress)
     above = np.zeros(points.count, dtype=bool)
     done = 0.0
     sides = math.sqrt(points.count / _POINTS_A_BLOCK)
-    for interval in _intervals(points.y, sides, rule.radius):
-        strip = _Strip(points, rule, *interval)
-        share = strip.count / points.count
-        strip.mark(above, progress.part(done, done + share))
+    for south, north in _intervals(points.y, sides, rule.radius):
+        asked = (points.y >= south) & (points.y < north)
+        share = np.count_nonzero(asked) / points.count
+        reach = _REACH * rule.radius * (1.0 + _ROUNDING)
+        near = np.flatnonzero((points.y >= south - reach) & (points.y < north + reach))
+        part = progress.part(done, done + share)
+        above[near] |= _of_strip(points.take(near), rule, asked[near], reach, part)
         done += share
     return above
 
 
-class _Strip:
-    """The points from one y up to another, with those that matter for them."""
+def _of_strip(
+    points: Points, rule: Rule, asked: np.ndarray, reach: float, progress: Progress
+) -> np.ndarray:
+    """Return which points asked for (n,) stand above a neighbour, block by block."""
+    x, above = points.x, np.zeros(points.count, dtype=bool)
+    blocks = _intervals(x, np.count_nonzero(asked) / _POINTS_A_BLOCK, rule.radius)
+    caller = threading.get_ident()
 
-    def __init__(self, points: Points, rule: Rule, south: float, north: float) -> None:
-        self._points, self._rule = points, rule
-        self._reach = _REACH * rule.radius * (1.0 + _ROUNDING)
-        beyond = (points.y < south - self._reach) | (points.y >= north + self._reach)
-        self._near = np.flatnonzero(~beyond)
-        self._x, y = points.x[self._near], points.y[self._near]
-        self._asked = (y >= south) & (y < north)
-        self.count = int(np.count_nonzero(self._asked))
+    def fill(block: tuple[int, tuple[float, float]]) -> None:
+        number, (west, east) = block
+        near = np.flatnonzero((x >= west - reach) & (x < east + reach))
+        wanted = asked[near] & (x[near] >= west) & (x[near] < east)
 
-    def mark(self, above: np.ndarray, progress: Progress) -> None:
-        """Set `above` (n,) to True for the points of the strip that stand above a neighbour."""
-        blocks = _intervals(self._x, self.count / _POINTS_A_BLOCK, self._rule.radius)
-        caller = threading.get_ident()
+        def alive() -> None:
+            # Progress is for the calling thread only.
+            if threading.get_ident() == caller:
+                progress(number / len(blocks))
 
-        def fill(part: slice) -> None:
-            (west, east), x = blocks[part.start], self._x
-            near = np.flatnonzero((x >= west - self._reach) & (x < east + self._reach))
-            asked = self._asked[near] & (x[near] >= west) & (x[near] < east)
-            if asked.any():
-                which = self._near[near]
+        if wanted.any():
+            above[near[_of_block(points.take(near), rule, wanted, alive)]] = True
 
-                def alive() -> None:
-                    # Progress is for the calling thread only.
-                    if threading.get_ident() == caller:
-                        progress(part.start / len(blocks))
-
-                found = _of_block(self._points.take(which), self._rule, asked, alive)
-                above[which[found]] = True
-
-        over_parts(fill, len(blocks), 1, progress)
+    in_threads(fill, enumerate(blocks), progress)
+    return above
 
 
 def _of_block(
@@ -122,14 +115,19 @@ def _intervals(values: np.ndarray, count: float, radius: float) -> list[tuple[fl
     return list(zip([-np.inf, *between], [*between, np.inf]))
 
 
-def _everywhere(
-    neighbourhood: Neighbourhood, z: np.ndarray, rule: Rule, progress: Progress
+def _with_grown(
+    neighbourhood: Neighbourhood, points: Points, rule: Rule, progress: Progress
 ) -> np.ndarray:
-    """Return the same where the neighbourhoods of some points have grown: all heights exact."""
-    heights = z
+    """Return the same where the neighbourhoods of some points have grown."""
+    z = points.z
     if rule.top_hat:
         eroded = neighbourhood.minimum(z, progress.part(0.0, 0.4))
         opened = neighbourhood.maximum(eroded, progress.part(0.4, 0.8))
         # Where a neighbourhood grew it may not contain the point itself from the other's view.
-        heights = z - np.minimum(opened, z)
-    return neighbourhood.stands_above(heights, rule.height, rule.slope, progress.part(0.8, 1.0))
+        z = z - np.minimum(opened, z)
+    rule, part = rule._replace(top_hat=False), progress.part(0.8, 1.0)
+    above = stands_above(points._replace(z=z), rule, progress=part)
+    for point, neighbour, distance in neighbourhood.grown_pairs():
+        rise = z[point] - z[neighbour]
+        above[point[(rise >= rule.height) & (rise > rule.slope * distance)]] = True
+    return above

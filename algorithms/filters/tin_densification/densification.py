@@ -17,7 +17,7 @@ import numpy as np
 
 from ...core.points import Points
 from ...core.progress import Progress
-from ...grids.cells import Cells
+from ...grids.cells import Cells, first_of_each
 from ...grids.inpaint import inpaint
 from ...grids.morphology import within_square
 from ...grids.tin import Tin
@@ -27,7 +27,7 @@ _RING_SPACING = 5.0
 # How many times the iteration distance a candidate may lie off the seeds' smooth surface: no facet
 # comes as close to those farther away.
 _REACHABLE = 3.0
-# With more vertices in the 3 x 3 cells round a candidate its triangle is too small to take it.
+# If the 3 x 3 cells round a candidate hold more vertices, its triangle is too small to take it.
 _MOST_VERTICES_ROUND = 4
 
 # Rounds end where none is added: how many are far away must not matter.
@@ -118,8 +118,7 @@ def densified(
     progress(0.1)
     reach = math.ceil(max(spacing / cells.size, 1.0))
     survey = _Survey(points, cells, _ring(cells, surface), reach)
-    joined = _joined(survey, first, waiting, rules, progress.part(0.1, 1.0))
-    return joined
+    return _joined(survey, first, waiting, rules, progress.part(0.1, 1.0))
 
 
 def with_lower(heights: np.ndarray, cells: Cells, points: Points, which: np.ndarray) -> np.ndarray:
@@ -140,16 +139,8 @@ def _steepness_at(cells: Cells, surface: np.ndarray, points: Points) -> np.ndarr
 class _Survey(NamedTuple):
     """What the TIN of each round is made of.
 
-    Attributes
-    ----------
-    points : Points
-        All points.
-    cells : Cells
-        Those of the points.
-    ring : Points
-        Vertices round all cells (see `_ring`).
-    reach : int
-        Cells over which vertices are next to each other.
+    `ring` are vertices round all cells (see `_ring`), and `reach` is over how many cells vertices
+    are next to each other.
     """
 
     points: Points
@@ -159,17 +150,10 @@ class _Survey(NamedTuple):
 
     def tin_round(self, vertices: np.ndarray, waiting: np.ndarray) -> Tin:
         """Return the TIN of the vertices that may bound triangles in which candidates lie."""
-        holding = (_holding(self.cells, each) for each in (vertices, waiting))
+        holding = map(self.cells.holding, (vertices, waiting))
         needed = _bounding(*holding, self.reach).ravel()
         bounding = self.points.take(vertices[needed[self.cells.index[vertices]]])
         return Tin(*bounding.and_also(self.ring))
-
-
-def _holding(cells: Cells, which: np.ndarray) -> np.ndarray:
-    """Return which cells hold one of some points."""
-    holding = np.zeros(cells.rows * cells.columns, dtype=bool)
-    holding[cells.index[which]] = True
-    return holding.reshape(cells.shape)
 
 
 def _counts_round(mask: np.ndarray) -> np.ndarray:
@@ -240,21 +224,11 @@ def _joined(
 
 
 def _bounding(vertices: np.ndarray, waiting: np.ndarray, reach: int) -> np.ndarray:
-    """Return the vertices that may bound a triangle in which a candidate lies.
+    """Return the cells whose vertices may bound a triangle in which a candidate lies.
 
     A triangulation of these alone has the same triangles there: those near candidates, and those
-    round the gaps in which candidates lie. All others, most by far, would only cost time.
-
-    Parameters
-    ----------
-    vertices, waiting : numpy.ndarray of bool, shape (rows, columns)
-        Cells that hold a vertex, and cells that hold a candidate.
-    reach : int
-        Cells over which vertices are next to each other: what is farther from all is a gap.
-
-    Returns
-    -------
-    numpy.ndarray of bool, shape (rows, columns)
+    round the gaps in which candidates lie. All others, most by far, would only cost time. What is
+    farther than `reach` cells from all vertices is a gap.
     """
     from scipy import ndimage
 
@@ -270,14 +244,9 @@ def _bounding(vertices: np.ndarray, waiting: np.ndarray, reach: int) -> np.ndarr
 def _round(
     tin: Tin, triangle: np.ndarray, points: Points, rules: DensificationRules
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Judge candidates by the triangles in which they lie.
+    """Return which candidates to add, at most one in each triangle, and a mask (candidates,).
 
-    Returns
-    -------
-    new : numpy.ndarray of intp
-        Indices of the candidates to add, at most one of each triangle.
-    mirrored : numpy.ndarray of bool, shape (candidates,)
-        Candidates that were judged in another triangle, as their own is too steep.
+    It names those that were judged in another triangle, as their own is too steep.
     """
     distance, angle, longest, mirrored = _distance_and_angle(tin, triangle, points, rules)
     allowed = np.full(len(triangle), math.radians(rules.iteration_angle))
@@ -289,11 +258,8 @@ def _round(
     if rules.stop_edge:
         fits &= longest >= rules.stop_edge
     fitting = np.flatnonzero(fits)
-    order = np.lexsort((points.y[fitting], points.x[fitting], distance[fitting], triangle[fitting]))
-    fitting = fitting[order]
-    first = np.ones(len(fitting), dtype=bool)
-    first[1:] = np.diff(triangle[fitting]) != 0
-    return fitting[first], mirrored
+    keys = distance[fitting], points.x[fitting], points.y[fitting]
+    return fitting[first_of_each(triangle[fitting], len(tin.triangles), *keys)], mirrored
 
 
 def _distance_and_angle(

@@ -24,7 +24,7 @@ from ...grids.model_key_points import ModelKeyPoints, model_key_points
 from ..shared.allowance import CLASSIC as CLASSIC_ALLOWANCE
 from ..shared.breaks import checked_seeds
 from ..shared.doubts import tell_of_outliers
-from ..shared.ground_limits import NOISE_SPACING, Tolerance, ground_limits, plain_limits
+from ..shared.ground_limits import DENSE_SPACING, Tolerance, ground_limits, plain_limits
 from ..shared.lowest_points import LowestPoints
 from ..shared.near_surface import near_surface
 from .densification import DensificationRules, densified, with_lower
@@ -33,9 +33,6 @@ from .seeds import seeds_of_one_grid, seeds_of_two_grids
 # Side in metres of the cells whose lowest points may become vertices of the TIN, if points are not
 # farther apart than that, and of those where points are so dense that their noise is measured.
 _CELL, _DENSE_CELL = 1.0, 0.5
-# Metres between points up to which each cell holds so many that it hardly matters where it begins,
-# that its lowest is hardly ever a plant, and that no break is lost between them.
-_CROWDED = 0.36
 # Metres between points: less is as good as that.
 _LEAST_SPACING = 0.01
 # Metres beyond which points do not matter: so many times the largest building, but at least this.
@@ -213,10 +210,7 @@ class TinDensification(ParameterSet):
         points : Points
             The whole survey: its blocks must all be classified with the same values.
         """
-        preset = PRESETS[self.preset]
-        names = ("max_building_size", "iteration_angle", "iteration_distance")
-        empty = {name: getattr(preset, name) for name in names if getattr(self, name) is None}
-        return dataclasses.replace(self, **empty)
+        return self.filled(vars(PRESETS[self.preset]))
 
 
 def largest_object(parameters: TinDensification) -> float:
@@ -268,7 +262,7 @@ def classify(
     resolved = parameters.resolve(points)
     is_classic = parameters.preset == CLASSIC
     apart = spacing(points, _LEAST_SPACING)
-    is_dense = apart <= NOISE_SPACING and not is_classic
+    is_dense = apart <= DENSE_SPACING and not is_classic
     if resolved != parameters or is_dense:
         progress.choice(_in_words(resolved, apart, is_dense))
     size = _DENSE_CELL if is_dense else _CELL if is_classic else max(_CELL, apart)
@@ -277,7 +271,7 @@ def classify(
     tell_of_outliers(len(survey.lowest), survey.heights, progress)
     ground, waiting = _seeds(points, survey, resolved, apart, progress.part(0.1, 0.7))
     cells = survey.cells
-    heights = with_lower(np.full(cells.shape, np.nan), cells, points, ground)
+    heights = cells.minimum(points.z, ground)
     if known_ground is not None and known_ground.any():
         known = _lowest_of(points, np.flatnonzero(known_ground))
         ground, heights = np.append(ground, known), with_lower(heights, cells, points, known)
@@ -295,7 +289,7 @@ def classify(
     if is_classic:
         limits = plain_limits(points, vertices, cells, tolerance)
     else:
-        limits = ground_limits(points, vertices, cells, apart, tolerance, is_dense)
+        limits = ground_limits(points, vertices, cells, apart, tolerance)
     found = near_surface(points, cells, limits, progress.part(0.8, 0.95))
     return _key_points(points, found, resolved, progress.part(0.95, 1.0))
 
@@ -312,13 +306,14 @@ def _seeds(
     if parameters.preset == CLASSIC:
         return seeds_of_one_grid(survey, size, progress, CLASSIC_ALLOWANCE)
     part = progress.part(0.0, 0.8)
-    if spacing > _CROWDED:
-        seeds = seeds_of_two_grids(points, survey, size, part)
-        return checked_seeds(points, *seeds, survey.cells, survey.spacing)
-    seeds = seeds_of_one_grid(survey, size, part)
-    if spacing > NOISE_SPACING:
-        return seeds
-    return checked_seeds(points, *seeds, survey.cells, survey.spacing, has_gaps=False)
+    # Cells hold so many points then that it hardly matters where they begin.
+    is_dense = spacing <= DENSE_SPACING
+    seeds = (
+        seeds_of_one_grid(survey, size, part)
+        if is_dense
+        else seeds_of_two_grids(points, survey, size, part)
+    )
+    return checked_seeds(points, *seeds, survey.cells, survey.spacing, has_gaps=not is_dense)
 
 
 def _in_words(parameters: TinDensification, spacing: float, is_dense: bool) -> str:
@@ -328,11 +323,8 @@ def _in_words(parameters: TinDensification, spacing: float, is_dense: bool) -> s
         if is_dense
         else ""
     )
-    return (
-        f"TIN densification: preset {parameters.preset}, maximum building size"
-        f" {parameters.max_building_size:g} m, iteration angle {parameters.iteration_angle:g} deg,"
-        f" iteration distance {parameters.iteration_distance:g} m{cells}."
-    )
+    names = "preset", "max_building_size", "iteration_angle", "iteration_distance"
+    return f"TIN densification: {parameters.in_words(*names)}{cells}."
 
 
 def _lowest_of(points: Points, which: np.ndarray) -> np.ndarray:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-from typing import NamedTuple
 
 import numpy as np
 
@@ -19,27 +18,12 @@ from ..shared.lowest_points import LowestPoints
 _HIDDEN, _OBJECT, _OPEN, _GROUND = range(4)
 
 
-class Seeds(NamedTuple):
-    """Points to start from.
-
-    Attributes
-    ----------
-    ground : numpy.ndarray of intp
-        Indices of the points that are taken for ground.
-    waiting : numpy.ndarray of intp
-        Indices of the lowest points that may be ground.
-    """
-
-    ground: np.ndarray
-    waiting: np.ndarray
-
-
 def seeds_of_one_grid(
     survey: LowestPoints,
     max_size: float,
     progress: Progress,
     allowance: Allowance = Allowance(),
-) -> Seeds:
+) -> tuple[np.ndarray, np.ndarray]:
     """Return the points that are ground on one grid.
 
     Parameters
@@ -52,16 +36,21 @@ def seeds_of_one_grid(
         Receives progress.
     allowance : Allowance
         What may stand out and still be ground. With the classic one, objects may be ground, too.
+
+    Returns
+    -------
+    ground, waiting : numpy.ndarray of intp
+        Indices of the points that are taken for ground, and of the lowest points that may be.
     """
     ground, is_open = _judged(survey, max_size, allowance, progress)
     if allowance is CLASSIC:
         is_open = np.isfinite(survey.heights).ravel()[survey.cell]
-    return Seeds(survey.lowest[ground], survey.lowest[~ground & is_open])
+    return survey.lowest[ground], survey.lowest[~ground & is_open]
 
 
 def seeds_of_two_grids(
     points: Points, survey: LowestPoints, max_size: float, progress: Progress
-) -> Seeds:
+) -> tuple[np.ndarray, np.ndarray]:
     """Return the points that are ground on two grids, half a cell apart.
 
     Where cells begin is chance. A point that is the lowest of its cell on both grids must be
@@ -73,10 +62,8 @@ def seeds_of_two_grids(
         All points.
     survey : LowestPoints
         The first grid.
-    max_size : float
-        Shorter side of the largest object in metres.
-    progress : Progress
-        Receives progress.
+    max_size, progress
+        As for `seeds_of_one_grid`, and so is the result.
     """
     size = survey.cells.size
     moved = points._replace(x=points.x + 0.5 * size, y=points.y + 0.5 * size)
@@ -97,7 +84,7 @@ def seeds_of_two_grids(
     ground = (one == _GROUND) & ((other == _GROUND) | (other == _HIDDEN))
     ground |= (other == _GROUND) & (one == _HIDDEN)
     is_open = ~ground & ((one >= _OPEN) | (other >= _OPEN))
-    return Seeds(lowest[ground], lowest[is_open])
+    return lowest[ground], lowest[is_open]
 
 
 def _judged(

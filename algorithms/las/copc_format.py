@@ -1,0 +1,229 @@
+"""What COPC wants of a file: its point formats, header and records."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..core.progress import Progress
+from ..crs.system import compound_wkt
+from . import header as fields
+from .copc_octree import Cube
+from .crs_records import GEOKEY_RECORDS, WKT_RECORD, read_crs, wkt_text
+from .lasfile import (
+    COPC_EXTENTS,
+    COPC_HIERARCHY,
+    COPC_INFO,
+    FIRST_EXTENDED_FORMAT,
+    LARGEST_VLR,
+    LASZIP,
+    RECORD_LENGTHS,
+    WAVEFORM_PACKETS,
+    Evlr,
+    LasFile,
+    Vlr,
+    new_vlr,
+)
+from .records import Tally, column, laszip_vlr, named
+
+_GPS_TIME_TYPE, _SYNTHETIC_RETURNS, _WKT = 0x01, 0x08, 0x10
+_WAVEFORM_DESCRIPTORS = range(100, 355)
+# Where a record has its GPS time, its colours and its near infrared, by point format.
+_GPS_TIMES = {1: 20, 3: 20, 4: 20, 5: 20}
+_COLOURS = {2: 20, 3: 28, 5: 28}
+_WITH_WAVEFORMS = (4, 5, 9, 10)
+NEW_FORMATS = (6, 6, 7, 7, 6, 7, 6, 7, 8, 6, 8)
+# Degrees to the unit of scan angles since LAS 1.4.
+_ANGLE_UNIT = 0.006
+
+
+class Statistics(Tally):
+    """Counts what header and info record say of points.
+
+    Attributes
+    ----------
+    gps_time : tuple of float
+        The smallest and the largest; 0 and 0 where no point has any.
+    """
+
+    def __init__(self, layout: LasFile) -> None:
+        super().__init__(layout)
+        self._first, self._last = np.inf, -np.inf
+
+    def add(self, records: np.ndarray) -> None:
+        """Count points, given as their bytes."""
+        super().add(records)
+        points = named(self._layout, records)
+        if "gps_time" in points.point_format.dimension_names:
+            times = np.asarray(points["gps_time"])
+            # Damaged times must not make the whole range useless.
+            known = np.isfinite(times)
+            self._first = float(times.min(where=known, initial=self._first))
+            self._last = float(times.max(where=known, initial=self._last))
+
+    @property
+    def gps_time(self) -> tuple[float, float]:
+        """The smallest and the largest; 0 and 0 where no point has any."""
+        return (self._first, self._last) if self._first <= self._last else (0.0, 0.0)
+
+    @property
+    def extent(self) -> tuple[np.ndarray, np.ndarray]:
+        """The smallest and the largest coordinates."""
+        scale, offset = np.array(self._layout.scale), np.array(self._layout.offset)
+        return self.lowest * scale + offset, self.highest * scale + offset
+
+    @property
+    def cube(self) -> Cube:
+        """The cube of the octree.
+
+        Some readers take the smallest coordinates in the header for its corner, whatever the info
+        record says: here they are.
+        """
+        (lowest, highest), scale = self.extent, self._layout.scale
+        side = max(float((highest - lowest).max()), *scale)
+        return Cube(tuple(lowest.tolist()), side, scale, self._layout.offset)
+
+
+def stated_cube(layout: LasFile) -> Cube:
+    """Return the cube of the octree, if the header of a file is right about its points."""
+    stated = Statistics(layout)
+    stated.lowest = stated.highest = np.zeros(3)
+    if layout.states_extent:
+        with np.errstate(over="ignore"):
+            corners = (np.array([layout.minimum, layout.maximum]) - layout.offset) / layout.scale
+        stated.lowest, stated.highest = np.rint(corners).clip(-(2.0**31), 2.0**31)
+    return stated.cube
+
+
+def record_length(layout: LasFile) -> int:
+    """Return the bytes of a point of a file once it is COPC."""
+    return RECORD_LENGTHS[NEW_FORMATS[layout.point_format]] + layout.extra_bytes
+
+
+def convert(layout: LasFile, old: np.ndarray, classes: np.ndarray, new: np.ndarray) -> None:
+    """Put points, with other classes, into records of a format that COPC takes.
+
+    Parameters
+    ----------
+    layout : LasFile
+        The file whose point format the old records have.
+    old : numpy.ndarray of uint8, shape (n, record length)
+        Records.
+    classes : numpy.ndarray of uint8, shape (n,)
+        The new classes.
+    new : numpy.ndarray of uint8, shape (n, new record length)
+        Zeros, to be filled.
+    """
+    length = RECORD_LENGTHS[NEW_FORMATS[layout.point_format]]
+    if layout.point_format >= FIRST_EXTENDED_FORMAT:
+        # 9 and 10 are 6 and 8 with waveforms behind.
+        new[:, :length] = old[:, :length]
+    else:
+        _modernise(old, new, layout.point_format)
+    new[:, length:] = old[:, RECORD_LENGTHS[layout.point_format] :]
+    new[:, 16] = classes
+
+
+def _modernise(old: np.ndarray, new: np.ndarray, point_format: int) -> None:
+    """Put points of the formats 0 to 5 into records of the formats 6 and 7, but for the class."""
+    new[:, :14] = old[:, :14]  # x, y, z, intensity
+    bits = old[:, 14]
+    new[:, 14] = (bits & 0x07) | ((bits & 0x38) << 1)  # return number, number of returns
+    # Synthetic, key point, withheld; scan direction and edge of flight line.
+    new[:, 15] = (old[:, 15] >> 5) | (bits & 0xC0)
+    new[:, 17] = old[:, 17]  # user data
+    angles = old[:, 16].view(np.int8) / _ANGLE_UNIT
+    column(new, 18, "<i2")[:] = np.rint(angles)
+    new[:, 20:22] = old[:, 18:20]  # point source
+    if point_format in _GPS_TIMES:
+        start = _GPS_TIMES[point_format]
+        new[:, 22:30] = old[:, start : start + 8]
+    if point_format in _COLOURS:
+        start = _COLOURS[point_format]
+        new[:, 30:36] = old[:, start : start + 6]
+
+
+def new_header(layout: LasFile, point_format: int, statistics: Statistics) -> bytearray:
+    """Return a header of LAS 1.4 that says what that of the input said, but not what lies where."""
+    header = bytearray(fields.HEADER_SIZES[4])
+    until = fields.EXTENT.start
+    header[:until] = layout.header[:until]
+    encoding = layout.global_encoding if layout.minor_version >= 2 else 0
+    encoding = (encoding & (_GPS_TIME_TYPE | _SYNTHETIC_RETURNS)) | _WKT
+    fields.GLOBAL_ENCODING.put(header, encoding)
+    fields.VERSION.put(header, 1, 4)
+    fields.HEADER_SIZE.put(header, len(header))
+    # The old fields for numbers of points, of 32 bits, stay empty since the formats from 6 on.
+    fields.LEGACY_COUNT.put(header, 0)
+    fields.LEGACY_RETURNS.put(header, *[0] * 5)
+    fields.POINT_FORMAT.put(header, point_format | 0x80)
+    fields.RECORD_LENGTH.put(header, record_length(layout))
+    lowest, highest = statistics.extent
+    corners = np.column_stack((highest, lowest)).ravel()
+    fields.EXTENT.put(header, *corners)
+    fields.COUNT.put(header, layout.count)
+    fields.RETURNS.put(header, *statistics.returns.tolist())
+    return header
+
+
+def new_vlrs(layout: LasFile, point_format: int, progress: Progress) -> list[Vlr]:
+    """Return the records before the points; the first is the info record, to be filled in."""
+    kept = [vlr for vlr in layout.vlrs if _is_kept(vlr)]
+    wkt = _wkt(layout, progress)
+    if wkt is not None:
+        kept = [vlr for vlr in kept if vlr.key not in (*GEOKEY_RECORDS, WKT_RECORD)]
+        kept.insert(0, wkt)
+    laszip = laszip_vlr(point_format, layout.extra_bytes, variable_chunks=True)
+    return [new_vlr(COPC_INFO, bytes(160), ""), laszip, *kept]
+
+
+def kept_evlrs(layout: LasFile) -> list[Evlr]:
+    """Return the records behind the points that still hold."""
+    return [evlr for evlr in layout.evlrs if _is_kept(evlr)]
+
+
+def _is_kept(record: Vlr | Evlr) -> bool:
+    """Return whether a record still holds; those of COPC and LAZ are made anew."""
+    user, number = record.key
+    if user == "LASF_Spec" and number in _WAVEFORM_DESCRIPTORS:
+        return False
+    return record.key not in (LASZIP, COPC_INFO, COPC_HIERARCHY, COPC_EXTENTS, WAVEFORM_PACKETS)
+
+
+def _wkt(layout: LasFile, progress: Progress) -> Vlr | None:
+    """Return the record of the CRS as well-known text, the only way that COPC has for it."""
+    crs = read_crs(layout)
+    text = compound_wkt(crs)
+    if text is None:
+        if layout.vlr(*GEOKEY_RECORDS) is not None:
+            progress.warning(
+                "The CRS of the input is not known as well-known text, as COPC wants it: it stays"
+                " in GeoTIFF keys, which not every program will read."
+            )
+        return None
+    if len(text.encode()) >= LARGEST_VLR:
+        progress.warning(
+            "The well-known text of the CRS is too long for a record of COPC: its records stay as"
+            " they are, which not every program will read."
+        )
+        return None
+    for vlr in layout.vlrs:
+        if vlr.key == WKT_RECORD and wkt_text(vlr.data) == text:
+            return vlr
+    if layout.vlr(*GEOKEY_RECORDS) is not None:
+        progress.info("The CRS, given as GeoTIFF keys, becomes well-known text, as COPC wants it.")
+    return new_vlr(WKT_RECORD, text.encode() + b"\0", "OGC WKT Coordinate System")
+
+
+def tell_of_format(layout: LasFile, point_format: int, progress: Progress) -> None:
+    """Tell what becomes other, and what is lost."""
+    if layout.point_format in _WITH_WAVEFORMS:
+        progress.warning(
+            f"COPC cannot hold the waveforms of point format {layout.point_format}: they are left"
+            f" out, and the points become point format {point_format}."
+        )
+    elif point_format != layout.point_format:
+        progress.info(
+            f"Point format {layout.point_format} becomes {point_format}, as COPC wants it."
+        )
+    if len(layout.header) > fields.HEADER_SIZES[layout.minor_version]:
+        progress.warning("COPC cannot hold the bytes that were added to the header: left out.")

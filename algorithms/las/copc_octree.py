@@ -1,0 +1,339 @@
+"""The octree of COPC: which node each point belongs to.
+
+Each node takes, of the points that the nodes above it left, the first in file order of each cell of
+its grid, and leaves the rest to its eight children. That the cells of a node lie within its
+children, and those of these within theirs, is what lets points be taken for several depths before
+it is known which nodes there are: only the counts say that, see `nodes_of`.
+
+References
+----------
+COPC specification 1.0, https://copc.io
+"""
+
+from __future__ import annotations
+
+from typing import Iterator, NamedTuple, Protocol, Sequence
+
+import numpy as np
+
+from ..core.progress import SILENT, Progress
+from ..core.threads import parts_of
+from .records import column
+
+# A node takes one point for each cell of a grid of so many cells along each side, ...
+_GRID_BITS = 7
+# ... or all of its points, where they are no more than these.
+_LEAF_POINTS = 100_000
+# So few points are not worth a node: they stay with the node above.
+_SMALL_NODE = 500
+# Cells along a side of the whole cube, the finest that are told apart; three times so many bits
+# have to fit into 64.
+_CUBE_BITS = 21
+_DEEPEST = _CUBE_BITS - _GRID_BITS
+# Depths for which points are taken at a time: no more than `_GRID_BITS`, or the cells of the first
+# would reach beyond the nodes below the last.
+_DEPTHS = 3
+# Points whose codes are computed at a time.
+_CODED = 1_000_000
+# Bytes that sorting takes a point, besides its record.
+_BYTES_TO_SORT = 60
+
+
+class Cube(NamedTuple):
+    """The cube of the topmost node.
+
+    Attributes
+    ----------
+    corner : tuple of float
+        The smallest x, y and z.
+    side : float
+        Its edge.
+    scale, offset : tuple of float
+        What makes coordinates of the integers of the points.
+    """
+
+    corner: tuple[float, float, float]
+    side: float
+    scale: tuple[float, float, float]
+    offset: tuple[float, float, float]
+
+    @property
+    def spacing(self) -> float:
+        """Distance between the points of the topmost node."""
+        return self.side / (1 << _GRID_BITS)
+
+    def codes(self, records: np.ndarray, progress: Progress = SILENT) -> np.ndarray:
+        """Return where points lie, as Morton codes.
+
+        Sorted by these, the points of any cell of any depth lie side by side.
+
+        Parameters
+        ----------
+        records : numpy.ndarray of uint8, shape (n, record length)
+            The points.
+        progress : Progress
+            Receives progress.
+
+        Returns
+        -------
+        numpy.ndarray of uint64, shape (n,)
+        """
+        codes = np.zeros(len(records), dtype=np.uint64)
+        for piece in parts_of(len(records), _CODED):
+            for axis in range(3):
+                cells = column(records[piece], 4 * axis, "<i4") * self.scale[axis]
+                cells += self.offset[axis] - self.corner[axis]
+                cells *= (1 << _CUBE_BITS) / self.side
+                np.clip(cells, 0, (1 << _CUBE_BITS) - 1, out=cells)
+                codes[piece] |= _spread(cells.astype(np.uint64)) << np.uint64(axis)
+            progress(piece.stop / len(records))
+        return codes
+
+
+class Branch(NamedTuple):
+    """A node with all below it, by its depth and its number among the nodes of this depth."""
+
+    depth: int
+    number: int
+
+    @property
+    def depths(self) -> int:
+        """For how many depths its points are taken at a time."""
+        return min(_DEPTHS, _DEEPEST - self.depth)
+
+    @property
+    def cell_count(self) -> int:
+        """Branches below the last of these depths."""
+        return 1 << 3 * self.depths
+
+    def below(self, cell: int) -> Branch:
+        """Return one of these."""
+        return Branch(self.depth + self.depths, self.number * self.cell_count + cell)
+
+
+TOP = Branch(0, 0)
+
+
+class BranchPoints(Protocol):
+    """The points of a branch, wherever they wait.
+
+    Attributes
+    ----------
+    branch : Branch
+        The branch.
+    counts : numpy.ndarray of int64, shape (depths + 1, cells)
+        Points that each of its depths takes in each branch below, if no node ends before; then
+        those that are left.
+    """
+
+    branch: Branch
+    counts: np.ndarray
+
+    def records(self, groups: np.ndarray) -> np.ndarray:
+        """Return points in file order, given of which depths and branches as `counts` has them."""
+
+    def below(self, cell: int) -> BranchPoints:
+        """Return what is left for a branch below."""
+
+
+def nodes_of(
+    points: BranchPoints, depth: int = 0, cell: int = 0
+) -> Iterator[tuple[Branch, np.ndarray]]:
+    """Yield the nodes of a branch and their points: each before the nodes below it.
+
+    Parameters
+    ----------
+    points : BranchPoints
+        The points of the branch.
+    depth, cell : int
+        The node within the branch to begin with.
+    """
+    branch = points.branch
+    width = 3 * (branch.depths - depth)
+    cells = slice(cell << width, (cell + 1) << width)
+    counts, groups = points.counts[depth:, cells], np.zeros(points.counts.shape, dtype=bool)
+    node = Branch(branch.depth + depth, (branch.number << 3 * depth) + cell)
+    if counts.sum() <= _LEAF_POINTS or node.depth == _DEEPEST:
+        groups[depth:, cells] = True
+        yield node, points.records(groups)
+    elif depth == branch.depths:
+        yield from nodes_of(points.below(cell))
+    else:
+        left = counts[1:].sum(axis=0).reshape(8, -1).sum(axis=1)
+        groups[depth, cells] = True
+        groups[depth + 1 :, cells] = np.repeat(left < _SMALL_NODE, counts.shape[1] // 8)
+        yield node, points.records(groups)
+        for child in np.flatnonzero(left >= _SMALL_NODE).tolist():
+            yield from nodes_of(points, depth + 1, 8 * cell + child)
+
+
+class SortedPoints:
+    """The points of a branch in memory, sorted by the depths that take them and by branches below.
+
+    Parameters
+    ----------
+    branch : Branch
+        The branch.
+    records : numpy.ndarray of uint8, shape (n, record length)
+        Points in file order, those of the branch among them.
+    codes : numpy.ndarray of uint64, shape (k,)
+        Codes of the points of the branch, ascending.
+    order : numpy.ndarray of unsigned integers, shape (k,)
+        The row of `records` of each of them.
+    taken : sequence of Taken
+        The cells of each depth of which points before these were taken.
+    progress : Progress
+        Receives progress.
+
+    Attributes
+    ----------
+    branch, counts
+        As `BranchPoints` says.
+    order : numpy.ndarray of unsigned integers, shape (k,)
+        The rows, sorted.
+    """
+
+    def __init__(
+        self,
+        branch: Branch,
+        records: np.ndarray,
+        codes: np.ndarray,
+        order: np.ndarray,
+        taken: Sequence[Taken] = (),
+        progress: Progress = SILENT,
+    ) -> None:
+        self.branch, self._records = branch, records
+        finest = np.uint64(3 * (_CUBE_BITS - branch.depth - branch.depths))
+        cells = (codes >> finest & np.uint64(branch.cell_count - 1)).astype(np.uint16)
+        cells += np.uint16(branch.cell_count) * _depths(branch, codes, order, taken, progress)
+        self.counts = np.bincount(cells, minlength=(branch.depths + 1) * branch.cell_count)
+        self.counts = self.counts.reshape(-1, branch.cell_count)
+        by_group = np.argsort(cells, kind="stable")
+        self._codes, self.order = codes[by_group], order[by_group]
+
+    @classmethod
+    def of(
+        cls,
+        branch: Branch,
+        records: np.ndarray,
+        cube: Cube,
+        taken: Sequence[Taken] = (),
+        progress: Progress = SILENT,
+    ) -> SortedPoints:
+        """Sort all of some points, which are in file order."""
+        codes = cube.codes(records, progress.part(0.0, 0.4))
+        order = np.argsort(codes, kind="stable").astype(np.min_scalar_type(len(codes)))
+        progress(0.7)
+        codes = codes[order]
+        return cls(branch, records, codes, order, taken, progress.part(0.75, 1.0))
+
+    def records(self, groups: np.ndarray) -> np.ndarray:
+        """Return points in file order, given of which depths and branches."""
+        rows = np.concatenate([self.order[start:end] for start, end in runs(self.counts, groups)])
+        rows.sort()
+        return self._records[rows]
+
+    def below(self, cell: int) -> SortedPoints:
+        """Return what is left for a branch below."""
+        start = self.counts[:-1].sum() + self.counts[-1, :cell].sum()
+        end = start + self.counts[-1, cell]
+        branch = self.branch.below(cell)
+        return SortedPoints(branch, self._records, self._codes[start:end], self.order[start:end])
+
+
+def most_in_memory(memory: int, record_length: int) -> int:
+    """Return how many points can be sorted in so many bytes; never less than a node may have."""
+    return max(memory // (record_length + _BYTES_TO_SORT), _LEAF_POINTS)
+
+
+class Taken:
+    """The cells of a depth of which points were taken, as bits.
+
+    Parameters
+    ----------
+    depth : int
+        Counted from that of the branch.
+    """
+
+    def __init__(self, depth: int) -> None:
+        bits = 3 * (depth + _GRID_BITS)
+        self._last, self._bits = np.uint64((1 << bits) - 1), np.zeros((1 << bits) // 8, np.uint8)
+
+    def add(self, cells: np.ndarray) -> np.ndarray:
+        """Add cells, none of them twice; return which were not there."""
+        cells = cells & self._last
+        byte, bit = (cells >> np.uint64(3)).astype(np.intp), (cells & np.uint64(7)).astype(np.uint8)
+        bit = np.left_shift(np.uint8(1), bit)
+        new = self._bits[byte] & bit == 0
+        np.bitwise_or.at(self._bits, byte[new], bit[new])
+        return new
+
+
+def _depths(
+    branch: Branch,
+    codes: np.ndarray,
+    order: np.ndarray,
+    taken: Sequence[Taken],
+    progress: Progress,
+) -> np.ndarray:
+    """Return which depth of a branch takes each point, if no node ends before.
+
+    Returns
+    -------
+    numpy.ndarray of uint16, shape (n,)
+        Counted from that of the branch; the number of its depths for points that are left.
+    """
+    depths = np.full(len(codes), branch.depths, dtype=np.uint16)
+    left = np.arange(len(codes), dtype=order.dtype)
+    for depth in range(branch.depths):
+        cells = codes[left] >> np.uint64(3 * (_DEEPEST - branch.depth - depth))
+        starts = np.flatnonzero(np.concatenate(([True], cells[1:] != cells[:-1])))
+        sizes, rows = np.diff(starts, append=len(cells)), order[left]
+        # The first of each cell, in the order of the file.
+        takes = rows == np.repeat(np.minimum.reduceat(rows, starts), sizes)
+        if taken:
+            takes &= np.repeat(taken[depth].add(cells[starts]), sizes)
+        depths[left[takes]] = depth
+        left = left[~takes]
+        progress((depth + 1) / branch.depths)
+        if not len(left):
+            break
+    return depths
+
+
+def runs(counts: np.ndarray, groups: np.ndarray) -> np.ndarray:
+    """Return start and end of some groups among sorted points, those side by side as one."""
+    edges = np.flatnonzero(np.diff(groups.ravel(), prepend=False, append=False))
+    return np.concatenate(([0], np.cumsum(counts, dtype=np.int64)))[edges].reshape(-1, 2)
+
+
+def keys_of(nodes: Sequence[Branch]) -> np.ndarray:
+    """Return depth, x, y and z of nodes, an array of int32 of shape (n, 4)."""
+    depths, numbers = np.array(nodes, dtype=np.uint64).T
+    axes = [_gather(numbers >> np.uint64(axis)) for axis in range(3)]
+    return np.column_stack([depths, *axes]).astype(np.int32)
+
+
+# The steps that put two zero bits between the 21 bits of a number; known as Morton or z-order.
+_SPREAD = (
+    (32, 0x001F00000000FFFF),
+    (16, 0x001F0000FF0000FF),
+    (8, 0x100F00F00F00F00F),
+    (4, 0x10C30C30C30C30C3),
+    (2, 0x1249249249249249),
+)
+
+
+def _spread(numbers: np.ndarray) -> np.ndarray:
+    for shift, mask in _SPREAD:
+        numbers = (numbers | (numbers << np.uint64(shift))) & np.uint64(mask)
+    return numbers
+
+
+def _gather(numbers: np.ndarray) -> np.ndarray:
+    """Undo `_spread`."""
+    numbers = numbers & np.uint64(_SPREAD[-1][1])
+    masks = [mask for _, mask in _SPREAD[-2::-1]] + [(1 << _CUBE_BITS) - 1]
+    for (shift, _), mask in zip(_SPREAD[::-1], masks):
+        numbers = (numbers | (numbers >> np.uint64(shift))) & np.uint64(mask)
+    return numbers

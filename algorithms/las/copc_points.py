@@ -1,0 +1,172 @@
+"""Points that wait in a temporary file for the octree of COPC, because they do not fit into memory.
+
+They are written some at a time, each time sorted as `SortedPoints` has them, with a number before
+each record that says where among these it stood. So the points of a node, or of a branch below,
+are a few runs of each time, and are put back into file order when they are read.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import tempfile
+from pathlib import Path
+from typing import BinaryIO, Iterable, Iterator
+
+import numpy as np
+
+from ..core.progress import Progress
+from .copc_octree import Branch, Cube, SortedPoints, Taken, runs
+from .records import column
+
+# Most points that are sorted and written at a time.
+_MOST_AT_ONCE = 500_000
+# Bytes of the number before each record.
+_NUMBER = 4
+
+
+class Steady(Progress):
+    """Tells how far the whole is; while a part goes on of which that is not known, the same again.
+
+    Parameters
+    ----------
+    whole : Progress
+        Receives progress.
+    """
+
+    def __init__(self, whole: Progress) -> None:
+        self._whole, self._start, self._end = whole, 0.0, 0.0
+
+    def move(self, start: float, end: float | None = None) -> None:
+        """Say how far the whole is; what is reported until the next call goes on to `end`."""
+        self._start, self._end = start, start if end is None else end
+        self._whole(start)
+
+    def report(self, fraction: float) -> None:
+        """Say that the part goes on."""
+        self._whole(self._start + fraction * (self._end - self._start))
+
+
+class Room:
+    """How many points may be in memory, and a temporary file without a name for the others.
+
+    The file is gone as soon as the block ends, or the process, however that may be.
+
+    Parameters
+    ----------
+    folder : Path
+        Where the file is to be.
+    most : int
+        Points that may be in memory.
+    progress : Progress
+        Receives progress.
+
+    Attributes
+    ----------
+    cube : Cube
+        That of the octree, once it is known.
+    """
+
+    cube: Cube
+
+    def __init__(self, folder: Path, most: int, progress: Progress) -> None:
+        self._folder, self._files = folder, contextlib.ExitStack()
+        self.most, self.progress = most, Steady(progress)
+        self.most_at_once = min(most, _MOST_AT_ONCE)
+
+    def __enter__(self) -> Room:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self._files.close()
+
+    @functools.cached_property
+    def file(self) -> BinaryIO:
+        """The file, made when it is needed first."""
+        return self._files.enter_context(tempfile.TemporaryFile(dir=self._folder))
+
+    def clear(self, cube: Cube) -> None:
+        """Forget the points that wait; those that follow are for another cube."""
+        self.file.truncate(0)
+        self.cube = cube
+
+
+class WaitingPoints:
+    """The points of a branch in a temporary file.
+
+    Parameters
+    ----------
+    branch : Branch
+        The branch.
+    parts : iterable of numpy.ndarray of uint8, shape (k, record length)
+        Its points in file order, not too many at a time.
+    room : Room
+        Where they wait.
+
+    Attributes
+    ----------
+    branch, counts
+        As `BranchPoints` says.
+    """
+
+    def __init__(self, branch: Branch, parts: Iterable[np.ndarray], room: Room) -> None:
+        self.branch, self._room = branch, room
+        shape = branch.depths + 1, branch.cell_count
+        self.counts = np.zeros(shape, dtype=np.int64)
+        # Where each part begins in the file, and its counts.
+        self._parts: list[tuple[int, np.ndarray]] = []
+        taken = [Taken(depth) for depth in range(branch.depths)]
+        for records in parts:
+            some = SortedPoints.of(branch, records, room.cube, taken, room.progress)
+            rows = np.empty((len(records), _NUMBER + records.shape[1]), dtype=np.uint8)
+            column(rows, 0, "<u4")[:] = some.order
+            rows[:, _NUMBER:] = records[some.order]
+            self._parts.append((room.file.seek(0, 2), some.counts.astype(np.uint32)))
+            room.file.write(rows.data)
+            self.counts += some.counts
+            self._width = rows.shape[1]
+
+    def records(self, groups: np.ndarray) -> np.ndarray:
+        """Return points in file order, given of which depths and branches."""
+        records = np.empty((self.counts[groups].sum(), self._width - _NUMBER), dtype=np.uint8)
+        start = 0
+        for some in self._read(groups):
+            records[start : start + len(some)] = some
+            start += len(some)
+        return records
+
+    def _read(self, groups: np.ndarray) -> Iterator[np.ndarray]:
+        """Yield points in file order, those of each part at a time."""
+        file, width = self._room.file, self._width
+        for begin, counts in self._parts:
+            rows, at = np.empty((counts[groups].sum(), width), dtype=np.uint8), 0
+            if not len(rows):
+                continue
+            for start, end in runs(counts, groups).tolist():
+                file.seek(begin + start * width)
+                data = file.read((end - start) * width)
+                rows[at : at + end - start] = np.frombuffer(data, np.uint8).reshape(-1, width)
+                at += end - start
+            yield rows[np.argsort(column(rows, 0, "<u4")), _NUMBER:]
+            self._room.progress(0.0)
+
+    def below(self, cell: int) -> SortedPoints | WaitingPoints:
+        """Return what is left for a branch below: in memory, if it fits."""
+        groups, branch = np.zeros(self.counts.shape, dtype=bool), self.branch.below(cell)
+        groups[-1, cell] = True
+        if self.counts[-1, cell] > self._room.most:
+            return WaitingPoints(branch, self._joined(groups), self._room)
+        room = self._room
+        return SortedPoints.of(branch, self.records(groups), room.cube, progress=room.progress)
+
+    def _joined(self, groups: np.ndarray) -> Iterator[np.ndarray]:
+        """Yield points in file order, those of several parts together where they are few."""
+        waiting: list[np.ndarray] = []
+        count = 0
+        for part in self._read(groups):
+            if count + len(part) > self._room.most_at_once:
+                yield np.concatenate(waiting)
+                waiting, count = [], 0
+            waiting.append(part)
+            count += len(part)
+        yield np.concatenate(waiting)
