@@ -2,7 +2,16 @@
 
 from __future__ import annotations
 
-from bare_earth.algorithms.core.progress import SILENT
+import contextlib
+import io
+import os
+import sys
+from pathlib import Path
+
+import bare_earth.algorithms as package
+from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.core.errors import Cancelled
+from bare_earth.algorithms.core.progress import SILENT, Progress
 from bare_earth.algorithms.engine import many_files, one_file
 from bare_earth.algorithms.engine.heights import HeightOutput
 from bare_earth.algorithms.engine.key_points import KeyPointMark
@@ -22,6 +31,37 @@ from bare_earth.algorithms.products.surface_model import SurfaceModel
 from bare_earth.algorithms.products.terrain_model import TerrainModel
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
+
+
+class CancelAt(Progress):
+    """Cancels from a share of the work on, and knows how far it came."""
+
+    def __init__(self, fraction=0.0):
+        self.fraction, self.last = fraction, 0.0
+
+    def report(self, fraction):
+        self.last = max(self.last, fraction)
+        if fraction >= self.fraction:
+            raise Cancelled
+
+
+def said(*words):
+    """Run the command here; return its exit code, what it says, and what of what went wrong."""
+    out, errors = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stderr(errors), contextlib.redirect_stdout(out):
+        code = main([*map(str, words)])
+    return code, out.getvalue(), errors.getvalue()
+
+
+def command(*words):
+    """Return the command as a process of its own takes it."""
+    return [sys.executable, "-m", "bare_earth.algorithms", *map(str, words)]
+
+
+def environment():
+    """Return the environment of such a process, which finds the package."""
+    path = [str(Path(package.__file__).parents[2]), os.environ.get("PYTHONPATH", "")]
+    return {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, path))}
 
 
 def classify_file(

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import os
 import signal
+from pathlib import Path
 
 import laspy
 import numpy as np
 
+from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.engine.jobs import TileJob
+from bare_earth.algorithms.las.cloud import PointCloud
 
 SCALE = (0.01, 0.01, 0.01)
 ORIGIN = (500_000.0, 5_700_000.0, 0.0)
@@ -24,6 +27,16 @@ def strip(count=12_000, width=300.0, depth=130.0, seed=3):
     z[trees] += random.uniform(1, 9, trees.sum())
     z[random.choice(count, 8, replace=False)] -= 15.0
     return np.round(np.column_stack((x, y, z)) * 100).astype(np.int64)
+
+
+def cloud_of(x, y, z, offset=(0.0, 0.0, 0.0), scale=0.01, classes=1, point_format=6):
+    """Return a cloud of integers, each the only return of its pulse."""
+    integers = [np.asarray(each).astype(np.int32) for each in (x, y, z)]
+    ones = np.ones(len(integers[0]), np.uint8)
+    return PointCloud(
+        Path("in.las"), *integers, (scale,) * 3, offset, classes * ones, ones, ones,
+        np.zeros(len(ones), bool), point_format, Crs(),
+    )  # fmt: skip
 
 
 def write(path, integers, shift=(0, 0, 0), classes=1):

@@ -25,7 +25,8 @@ EAST, NORTH = 500_000.0, 5_700_000.0
 TRIANGLE = np.add([(20.0, 10.0), (170.0, 20.0), (60.0, 120.0)], (EAST, NORTH))
 AREA = Area(polygons=((TRIANGLE,),))
 ELSEWHERE = Area((EAST + 5000.0, NORTH, EAST + 5100.0, NORTH + 100.0))
-ALL = ClassifyRequest(parameters=SlopeFilter(), area=AREA)
+# `test_classification.py` has an area with what each method sees of the points round it.
+ALL = ClassifyRequest(parameters=SlopeFilter(preset="whitebox"), area=AREA)
 ONLY = replace(ALL, output=Output(area_only=True))
 
 

@@ -200,6 +200,7 @@ def test_scaling_respects_kind_and_limits(kind, value, factor, expected):
     assert scaled(declaration, value, factor) == expected
 
 
+@pytest.mark.long
 def test_sensitivity_moves_defaults_that_are_chosen(folder):
     cloud, reference = data.load(data.isprs()[0])
     rows = sensitivity(["slope"], {"here": Place(tuple(data.isprs()))})["slope"]["here"]

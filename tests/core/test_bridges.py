@@ -1,20 +1,17 @@
 """Decks of bridges are found, whatever a filter made of them; what only looks like one stays."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
+import surveys
 from realdata import real
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
 from bare_earth.algorithms.filters.shared.bridges import bridge_decks
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
-from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.survey.selection import Selection
 from benchmarks.scenes.simple import scatter, surveyed
@@ -171,12 +168,8 @@ def test_without_ground_there_is_no_bridge():
 # What becomes of them
 
 
-def cloud_of(points, classes=1, point_format=6):
-    ones = np.ones(points.count, np.uint8)
-    return PointCloud(
-        Path("in.las"), *(np.round(each * 100).astype(np.int32) for each in points), (0.01,) * 3,
-        (0.0,) * 3, classes * ones, ones, ones, np.zeros(points.count, bool), point_format, Crs(),
-    )  # fmt: skip
+def cloud_of(points, **others):
+    return surveys.cloud_of(*(np.round(each * 100) for each in points), **others)
 
 
 @pytest.mark.parametrize("parameters", [TinDensification(), GridMinimum(), SlopeFilter()])
@@ -217,7 +210,7 @@ def test_known_ground_and_low_outliers_stay_what_they_are():
     z = points.z.copy()
     z[low] -= 20.0
     classes = np.where(deck, 8, 1).astype(np.uint8)
-    cloud = cloud_of(Points(points.x, points.y, z), classes)
+    cloud = cloud_of(Points(points.x, points.y, z), classes=classes)
     selection = Selection(seed_classes=(8,), low_noise_class=True, bridge_class=17)
     found, _ = classify_cloud(cloud, TinDensification(), selection)
     assert (found[deck] == 2).all()

@@ -17,7 +17,7 @@ from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.las.writing import write_changed, write_classified
 
-COUNT, CLASS_LAYER = 120_000, 2
+COUNT, CHUNK, CLASS_LAYER = 24_000, 10_000, 2
 LAYERS = {6: 9, 7: 10, 8: 11}
 
 
@@ -49,19 +49,20 @@ def chunks_of(path):
 @pytest.mark.parametrize("in_memory", [True, False])
 @pytest.mark.parametrize(("point_format", "extra"), [(6, 0), (7, 3), (8, 0)])
 def test_only_the_layer_of_the_classes_is_another(las, monkeypatch, point_format, extra, in_memory):
-    monkeypatch.setattr(module, "_POINTS_A_GROUP", 60_000)
+    monkeypatch.setattr(module, "_POINTS_A_GROUP", 12_000)
+    made = {"version": 4, "point_format": point_format, "extra": extra, "chunk_size": CHUNK}
     records = las.records(point_format, COUNT, extra)
     records[:, 15] &= 0xDF  # two scanner channels
     records[: COUNT // 4, 15] &= 0xCF  # of which the second is not there at first
     records[::97, 14] = 0  # return 0 of 0, as some writers have it
-    source = las.make("in.laz", version=4, point_format=point_format, extra=extra, records=records)
+    source = las.make("in.laz", records=records, **made)
     target, classes = las.folder / "out.laz", classes_of(COUNT)
     cloud = read_cloud(source) if in_memory else None
     write_changed(source, target, Edits(classification=classes), cloud=cloud)
     records[:, 16] = classes
     np.testing.assert_array_equal(las.split(target).records, records)
     # As if all of it had been compressed anew.
-    whole = las.make("all.laz", version=4, point_format=point_format, extra=extra, records=records)
+    whole = las.make("all.laz", records=records, **made)
     assert target.read_bytes() == whole.read_bytes()
     pairs = list(zip(chunks_of(source), chunks_of(target)))
     assert len(pairs) == 3

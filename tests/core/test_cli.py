@@ -6,6 +6,7 @@ import sys
 import laspy
 import numpy as np
 import pytest
+from runs import command, environment
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
@@ -196,8 +197,7 @@ def test_verbose_tells_where_an_error_arose(error, file, out, capsys, monkeypatc
     ("words", "code"), [(["--version"], 0), (["--help"], 0), (["classify"], 2), (["info", "x"], 1)]
 )
 def test_as_a_command(words, code):
-    command = [sys.executable, "-m", "bare_earth.algorithms", *words]
-    done = subprocess.run(command, capture_output=True, text=True)
+    done = subprocess.run(command(*words), env=environment(), capture_output=True, text=True)
     assert done.returncode == code and "Traceback" not in done.stderr
     assert done.stdout.startswith(("bare-earth", "usage")) == (code == 0)
 

@@ -30,11 +30,15 @@ def mean_in(found, points, where):
     return float(found.values.ravel()[found.cells.index[where]].mean())
 
 
+@pytest.fixture(scope="module")
+def scenes():
+    return [make(kind, seed=7, size=110.0) for kind in ("village", "open_forest")]
+
+
 @pytest.mark.parametrize("method", METHODS)
-def test_it_is_right_as_often_as_it_says(method):
+def test_it_is_right_as_often_as_it_says(method, scenes):
     seen = []
-    for kind in ("village", "open_forest"):
-        scene = make(kind, seed=7, size=110.0)
+    for scene in scenes:
         classes, takes_part = classify_cloud(scene.cloud(), METHODS[method].parameters())
         points, ground = scene.points.take(takes_part), classes[takes_part] == 2
         seen.append(compared(points, ground, scene.terrain))
@@ -91,7 +95,7 @@ def test_without_ground_nothing_is_sure():
 
 def test_the_fit_finds_the_weights_that_made_the_data():
     random = np.random.default_rng(3)
-    pieces = random.uniform(0, 1, (200_000, 5)) * (1.0, 0.5, 4.0, 4.0, 0.2)
+    pieces = random.uniform(0, 1, (100_000, 5)) * (1.0, 0.5, 4.0, 4.0, 0.2)
     true = np.array(Weights(2.0, -1.0, -3.0, -0.4, -0.2, -6.0))
     right = random.random(len(pieces)) < 1 / (1 + np.exp(-true[0] - pieces @ true[1:]))
     found = fitted([Seen("", False, pieces, right), Seen("", True, pieces, right)])

@@ -222,7 +222,9 @@ def with_blank_block(path, start, length=4096):
     return path
 
 
-@pytest.mark.parametrize("point_format", [1, 3, 4, 6, 7])
+@pytest.mark.parametrize(
+    "point_format", [1, 6, *(pytest.param(n, marks=pytest.mark.long) for n in (3, 4, 7))]
+)
 def test_a_blank_block_among_the_gps_times_does_not_fill_the_stack(make, point_format):
     records = make_records(point_format, 3000)
     times = 1e8 + np.arange(3000) // 3 * 1e-3 + np.arange(3000) % 2 * 50.0

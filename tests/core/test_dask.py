@@ -74,10 +74,27 @@ def running_cluster(folder, secret=None, count=2):
 
 
 @pytest.fixture(scope="module")
-def dask(tmp_path_factory):
-    with running_cluster(tmp_path_factory.mktemp("dask")) as cluster:
-        wait_for_workers(cluster[0], 2)
-        yield cluster
+def clusters(tmp_path_factory):
+    """Return a function that gives the running cluster, or a new one where it was harmed."""
+    with contextlib.ExitStack() as stack:
+        running = []
+
+        def running_one():
+            if not running or any(each.poll() is not None for each in running[0][1:]):
+                stack.close()
+                folder = tmp_path_factory.mktemp("dask")
+                address, workers, scheduler = stack.enter_context(running_cluster(folder))
+                wait_for_workers(address, 2)
+                running[:] = [(address, *workers, scheduler)]
+            return running[0]
+
+        yield running_one
+
+
+@pytest.fixture
+def dask(clusters):
+    """Yield the address of a cluster, two workers, and the scheduler."""
+    return clusters()
 
 
 def wait_for_workers(address, count):
@@ -118,6 +135,26 @@ def test_a_scheduler_that_is_not_there_is_told(survey, tmp_path, monkeypatch, ca
     assert f"There is no Dask scheduler at {address}" in capsys.readouterr().err
 
 
+KEYS = ("tls.ca-file", "tls.client.cert", "tls.client.key")
+
+
+@pytest.mark.parametrize(
+    ("scheme", "settings", "told"),
+    [
+        ("tls", {}, "TLS needs a certificate, a key and an authority"),
+        ("tcp", {"require-encryption": True}, "encryption is required"),
+        ("tls", dict.fromkeys(KEYS, "none"), "certificate or key do not do"),
+    ],
+)
+def test_an_address_that_the_keys_do_not_fit_is_refused(scheme, settings, told, survey, tmp_path):
+    from dask import config
+
+    workers = Cluster(f"{scheme}://127.0.0.1:{free_port()}")
+    settings = {f"distributed.comm.{name}": value for name, value in settings.items()}
+    with config.set(settings), pytest.raises(BareEarthError, match=told):
+        classify_tiles([survey[0]], tmp_path / "out", FAST, workers=workers)
+
+
 def test_workers_of_another_version_are_refused(dask, survey, tmp_path, monkeypatch):
     monkeypatch.setattr(version, "__version__", "99.9")
     with pytest.raises(BareEarthError, match=r"has version .* and this computer 99\.9"):
@@ -150,8 +187,7 @@ def test_a_cancel_leaves_the_finished_tiles(dask, survey, tmp_path):
 
 @pytest.mark.skipif(os.name == "nt", reason="it kills by signals")
 def test_a_worker_that_is_killed_loses_nothing(dask, survey, tmp_path):
-    # From here on the cluster has one worker.
-    address, workers, _ = dask
+    address, worker, *_ = dask
     folder, expected = survey
 
     class Killer(Progress):
@@ -159,7 +195,7 @@ def test_a_worker_that_is_killed_loses_nothing(dask, survey, tmp_path):
 
         def info(self, text):
             if ".laz:" in text and self.done is None:
-                workers[0].send_signal(signal.SIGKILL)
+                worker.send_signal(signal.SIGKILL)
                 self.done = 0
             elif self.done is not None:
                 self.done += 1
@@ -167,15 +203,14 @@ def test_a_worker_that_is_killed_loses_nothing(dask, survey, tmp_path):
     killer = Killer()
     out = tmp_path / "out"
     summary = classify_tiles([folder], out, FAST, progress=killer, workers=Cluster(address))
-    assert workers[0].wait() == -signal.SIGKILL and killer.done >= 14
+    assert worker.wait() == -signal.SIGKILL and killer.done >= 14
     assert not summary.failures and summary.done_count == 16
     assert bytes_of(out) == expected
     assert not [path for path in out.rglob("*") if ".part" in path.name]
 
 
 def test_a_scheduler_that_ends_is_told_and_the_run_goes_on_without_it(dask, survey, tmp_path):
-    # The last test: it leaves no cluster.
-    address, _, scheduler = dask
+    address, *_, scheduler = dask
     folder, expected = survey
 
     class Killer(Progress):
@@ -253,6 +288,7 @@ def secret(tmp_path_factory):
     return {f"distributed.{name}": value for name, value in files.items()}
 
 
+@pytest.mark.long
 def test_over_tls_the_bytes_are_the_same_and_without_keys_nobody_gets_in(
     survey, secret, tmp_path, capsys
 ):

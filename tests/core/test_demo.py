@@ -28,7 +28,7 @@ def scene(demo):
 
 @pytest.fixture(scope="module")
 def survey(scene):
-    return make(scene.KIND, scene.SEED, density=2.0)
+    return make(scene.KIND, scene.SEED, density=1.5)
 
 
 def test_every_kind_of_thing_is_there(survey):

@@ -1,11 +1,9 @@
 """What a filter is not sure of is told, once and in words."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
+from surveys import cloud_of
 
-from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.ground import label_ground
 from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
@@ -14,7 +12,7 @@ from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
-from bare_earth.algorithms.las.cloud import PointCloud, survey_frame
+from bare_earth.algorithms.las.cloud import survey_frame
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
 METHODS_BY_TYPE = {method.parameters: method for method in METHODS.values()}
@@ -28,12 +26,7 @@ def land(width, depth, outliers=0.0, density=2.0, seed=4):
     x, y = random.uniform(0, width, count), random.uniform(0, depth, count)
     z = random.normal(0, 0.03, count)
     z[random.random(count) < outliers] -= random.uniform(15, 60)
-    integers = [np.round(each * 100).astype(np.int32) for each in (x, y, z)]
-    ones = np.ones(count, np.uint8)
-    return PointCloud(
-        Path("in.las"), *integers, (0.01,) * 3, (0.0,) * 3, ones, ones, ones,
-        np.zeros(count, bool), 6, Crs(),
-    )  # fmt: skip
+    return cloud_of(*(np.round(each * 100) for each in (x, y, z)))
 
 
 def warnings_of(cloud, parameters, las):

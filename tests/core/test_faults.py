@@ -16,9 +16,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from runs import command, environment
 from surveys import cut, strip, write
 
-import bare_earth.algorithms as package
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.engine import workers
 from bare_earth.algorithms.rasters.geotiff import read_raster
@@ -74,18 +74,9 @@ def inputs(tmp_path_factory):
     return _made_inputs(folder, 60_000, 400.0, lambda *words: _run(*words).returncode)
 
 
-def _environment():
-    path = [str(Path(package.__file__).parents[2]), os.environ.get("PYTHONPATH", "")]
-    return {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, path))}
-
-
-def _command(*words):
-    return [sys.executable, "-m", "bare_earth.algorithms", *map(str, words)]
-
-
 def _run(*words, **more):
     return subprocess.run(
-        _command(*words), env=_environment(), capture_output=True, text=True, timeout=300, **more
+        command(*words), env=environment(), capture_output=True, text=True, timeout=300, **more
     )
 
 
@@ -206,7 +197,7 @@ test_faults.json.dump(ends, sys.stdout)
 """
     found = subprocess.run(
         ["unshare", "--mount", sys.executable, "-c", script],
-        capture_output=True, text=True, timeout=600, env=_environment(),
+        capture_output=True, text=True, timeout=600, env=environment(),
     )  # fmt: skip
     if found.returncode and "unshare" in found.stderr:
         pytest.skip("this machine permits no mounts")
@@ -231,7 +222,7 @@ def test_killed_runs_leave_old_files_or_whole_new_ones(name, inputs, tmp_path):
             shutil.rmtree(out)
             old = _old_outputs(name, inputs, out)
         process = subprocess.Popen(
-            _command(*_words(name, inputs, out)), env=_environment(),
+            command(*_words(name, inputs, out)), env=environment(),
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
         )  # fmt: skip
         # One that goes on from where the last was killed takes less time.

@@ -4,8 +4,6 @@ Every version, point format and container, with records before and behind the po
 all types, waveforms, every flag, and integers as large as can be; and the files of other projects.
 """
 
-import contextlib
-import io
 import itertools
 import shutil
 import struct
@@ -16,8 +14,8 @@ import pytest
 from conftest import evlr, las_bytes, make_records, vlr
 from copcs import many_nodes
 from independent import CLASS, KEY_POINT, copc_nodes, in_any_order, meaning, without
+from runs import said
 
-from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.las.writing import write_classified
 from benchmarks.data import FOLDER
 
@@ -163,14 +161,6 @@ def test_nothing_but_the_class_changes(written, tmp_path, version, point_format,
 # Through the commands
 
 
-def said(*words):
-    """Run the command; return its exit code and what it says of what went wrong."""
-    errors = io.StringIO()
-    with contextlib.redirect_stderr(errors), contextlib.redirect_stdout(io.StringIO()):
-        code = main([*map(str, words)])
-    return code, errors.getvalue()
-
-
 def command(name, source, target):
     return {
         "classify": ["classify", source, target, "--method", "slope"],
@@ -219,13 +209,16 @@ def kept_by(name, before, after):
     assert np.array_equal(old, points)
 
 
-SOME = [(2, 3), (3, 5), (4, 1), (4, 8), (4, 10)]
+# Those that are not left to `make test-long`: each container, old and new formats, with waveforms.
+SOME = {(2, 3, "las"), (3, 5, "LASzip laz"), (4, 1, "laz"), (4, 8, "LASzip laz"), (4, 10, "laz")}
 
 
-@pytest.mark.parametrize("container", ["las", "laz", "LASzip laz"])
 @pytest.mark.parametrize(
-    ("version", "point_format"),
-    [each if each in SOME else pytest.param(*each, marks=pytest.mark.long) for each in EVERY],
+    ("version", "point_format", "container"),
+    [
+        pytest.param(*each, marks=() if each in SOME else pytest.mark.long)
+        for each in ((*pair, kind) for pair in EVERY for kind in ("las", "laz", "LASzip laz"))
+    ],
 )
 def test_commands_change_what_they_are_for_and_nothing_else(
     tmp_path, version, point_format, container
@@ -242,13 +235,18 @@ def test_commands_change_what_they_are_for_and_nothing_else(
         if name == "height" and container == "LASzip laz":
             source = tmp_path / "classified.laz"
             assert said(*command("classify", tmp_path / "source.laz", source))[0] == 0
-        code, errors = said(*command(name, source, target))
+        code, _, errors = said(*command(name, source, target))
         assert code == 0, errors
         kept_by(name, independent.read(source), independent.read(target))
 
 
-@pytest.mark.parametrize("point_format", [6, 7, 8])
-@pytest.mark.parametrize("name", COMMANDS)
+@pytest.mark.parametrize(
+    ("name", "point_format"),
+    [
+        pytest.param(*each, marks=() if each[0] == "classify" or each[1] == 7 else pytest.mark.long)
+        for each in itertools.product(COMMANDS, (6, 7, 8))
+    ],
+)
 def test_copc_with_sub_pages_stays_whole(tmp_path, name, point_format):
     source, target = tmp_path / "in.copc.laz", tmp_path / "out.copc.laz"
     source.write_bytes(many_nodes(tmp_path, point_format))
@@ -257,7 +255,7 @@ def test_copc_with_sub_pages_stays_whole(tmp_path, name, point_format):
         classified = tmp_path / "classified.copc.laz"
         assert said(*command("classify", source, classified))[0] == 0
         source = classified
-    code, errors = said(*command(name, source, target))
+    code, _, errors = said(*command(name, source, target))
     assert code == 0, errors
     before, after = independent.read(source), independent.read(target)
     kept_by(name, before, after)
@@ -322,7 +320,7 @@ def test_files_of_other_projects_keep_what_they_say_or_are_refused_in_a_sentence
     data, done = source.read_bytes(), 0
     for name, words, target in outputs(source):
         before = {path: path.stat() for path in tmp_path.rglob("*")}
-        code, errors = said(*words)
+        code, _, errors = said(*words)
         assert source.read_bytes() == data
         assert not list(tmp_path.rglob("*.part.*"))
         if code == 0:

@@ -3,16 +3,14 @@ import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import laspy
 import numpy as np
 import pytest
 from realdata import real
-from runs import classify_file, write_height_above_ground
+from runs import CancelAt, classify_file, environment, write_height_above_ground
 
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine import disk_points, file_points, labelling
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.heights import HeightOutput
@@ -33,6 +31,7 @@ PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
 LITTLE = Resources(threads=2, memory=0.001)
 MUCH = Resources(threads=2, memory=4.0)
 EAST, NORTH = 500_000.0, 5_700_000.0
+LONG = pytest.mark.long
 
 
 @pytest.fixture(autouse=True)
@@ -101,12 +100,12 @@ def run(source, folder, parameters, resources, *policy, **options):
     [
         *((each, Selection(low_noise_class=True), None) for each in PARAMETERS),
         (SlopeFilter(), Selection(seed_classes=(9,), returns="all", others="unclassified"), None),
-        (TinDensification(), Selection(seed_classes=(9,), from_classes=(1, 2, 7)), None),
+        (SlopeFilter(), Selection(seed_classes=(9,), from_classes=(1, 2, 7)), None),
         (GridMinimum(), Selection(), Area((EAST + 20, NORTH + 10, EAST + 110, NORTH + 60))),
     ],
 )
 def test_the_same_bytes_in_memory_and_on_disk(small, las, tmp_path, parameters, selection, area):
-    source = write(tmp_path / "in.las", 4000)
+    source = write(tmp_path / "in.las", 3000, shape=(130.0, 70.0))
     heard = las.Heard(), las.Heard()
     results = [
         run(
@@ -124,7 +123,7 @@ def test_the_same_bytes_in_memory_and_on_disk(small, las, tmp_path, parameters, 
     assert heard[1].fractions[-1] == 1.0 and heard[1].fractions == sorted(heard[1].fractions)
 
 
-@pytest.mark.parametrize("name", ["isprs/samp52.laz", "real/ign_pf8.las"])
+@pytest.mark.parametrize("name", [pytest.param("isprs/samp52.laz", marks=LONG), "real/ign_pf8.las"])
 def test_real_points_give_the_same_bytes_in_memory_and_on_disk(name, tmp_path):
     source = real(name)
     results = [
@@ -239,20 +238,10 @@ def test_the_same_errors_on_disk(selection, area, word, tmp_path):
 # Ends
 
 
-class CancelAt(Progress):
-    """Cancels, and knows when it was asked to."""
-
-    def __init__(self, fraction):
-        self.fraction, self.last = fraction, 0.0
-
-    def report(self, fraction):
-        self.last = max(self.last, fraction)
-        if fraction >= self.fraction:
-            raise Cancelled
-
-
 @pytest.mark.parametrize("resources", [MUCH, LITTLE], ids=["much", "little"])
-@pytest.mark.parametrize("fraction", [0.0, 0.05, 0.3, 0.6, 0.8, 0.95])
+@pytest.mark.parametrize(
+    "fraction", [0.05, 0.6, 0.95, *(pytest.param(each, marks=LONG) for each in (0.0, 0.3, 0.8))]
+)
 def test_a_cancel_leaves_nothing(small, fraction, resources, tmp_path):
     source, progress = write(tmp_path / "in.las", 4000), CancelAt(fraction)
     with pytest.raises(Cancelled):
@@ -286,14 +275,13 @@ def test_a_killed_run_leaves_nothing_beside_the_output(module, number, tmp_path)
         wait = "import time; time.sleep(30)"
     source, out = write(tmp_path / "in.las", 9000), tmp_path / "out"
     out.mkdir()
-    root = Path(labelling.__file__).parents[2]
     process = subprocess.Popen(
         [
             sys.executable, "-c", _RUN.format(module=module, name=name, wait=wait), "classify",
             str(source), str(out / "out.laz"), "--method", "slope", "--memory", "0.001",
         ],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-        env={**os.environ, "PYTHONPATH": str(root)},
+        env=environment(),
     )  # fmt: skip
     assert process.stdout.readline() == "begun\n"
     process.send_signal(number)

@@ -6,13 +6,12 @@ import os
 import laspy
 import numpy as np
 import pytest
-from runs import write_height_above_ground, write_key_points, write_terrain_models
+from runs import CancelAt, write_height_above_ground, write_key_points, write_terrain_models
 from surveys import cut, strip
 from surveys import write as write_strip
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine import raster_files
 from bare_earth.algorithms.engine.heights import HeightOutput
 from bare_earth.algorithms.engine.key_points import KeyPointMark
@@ -380,15 +379,6 @@ def test_rasters_that_cannot_be_made(tmp_path, files, text):
         write_terrain_models(tmp_path / "in.las", files)
 
 
-class CancelAt(Progress):
-    def __init__(self, fraction):
-        self._fraction = fraction
-
-    def report(self, fraction):
-        if fraction >= self._fraction:
-            raise Cancelled
-
-
 @pytest.mark.parametrize("fraction", [0.0, 0.3, 0.6, 0.8, 0.95, 1.0])
 def test_a_cancel_leaves_nothing(tmp_path, fraction):
     scene(tmp_path / "in.las")
@@ -437,7 +427,7 @@ def test_the_commands(tmp_path, capsys):
 def test_heights_of_many_files_are_those_of_one(tmp_path, as_z, request):
     if as_z:
         request.getfixturevalue("threads_for_processes")
-    points = strip(12_000, 380.0, 190.0)
+    points = strip(6000, 240.0, 120.0)
     ground = np.where(points[:, 2] % 10, 2, 1)
     write_strip(tmp_path / "one.laz", points, classes=ground)
     cut(tmp_path / "many", points, 8)

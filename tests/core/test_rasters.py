@@ -8,13 +8,12 @@ import os
 import laspy
 import numpy as np
 import pytest
-from runs import classify_file, classify_tiles, write_terrain_models
-from surveys import cut, strip, write
+from runs import CancelAt, classify_file, classify_tiles, write_terrain_models
+from surveys import cloud_of, cut, strip, write
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.core.progress import SILENT, Progress
-from bare_earth.algorithms.crs.system import Crs
+from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.engine import blocks as blocks_module
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
@@ -23,7 +22,7 @@ from bare_earth.algorithms.engine.rasters import MakeRasters, RasterRequest, wri
 from bare_earth.algorithms.engine.workers import Processes, Threads
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 from bare_earth.algorithms.grids.tin import Tin, hull_corners
-from bare_earth.algorithms.las.cloud import PointCloud, survey_frame
+from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.products.raster_block import LAYERS
 from bare_earth.algorithms.products.surface_model import SurfaceModel
 from bare_earth.algorithms.products.terrain_model import TerrainModel
@@ -34,13 +33,7 @@ MUCH, LITTLE = Resources(threads=2, memory=2.0), Resources(threads=2, memory=0.0
 
 
 def _cloud(x, y, z):
-    x, y, z = (np.rint(each * 100).astype(np.int32) for each in (x, y, z))
-    count = len(x)
-    ones = np.ones(count, dtype=np.uint8)
-    return PointCloud(
-        "a.las", x, y, z, (0.01,) * 3, (0.0,) * 3, ones * 2, ones, ones,
-        np.zeros(count, dtype=bool), 6, Crs(),
-    )  # fmt: skip
+    return cloud_of(*(np.rint(each * 100) for each in (x, y, z)), classes=2)
 
 
 def _hills(count, size=900.0, keep=None):
@@ -92,9 +85,9 @@ def _is_lake(x, y, margin=0.0):
 
 
 CLOUDS = {
-    "dense": _hills(50_000, 450.0),
-    "uneven": _hills(30_000, keep=lambda x, y: np.random.default_rng(2).random(len(x)) > y / 900.0),
-    "lake": _hills(60_000, keep=lambda x, y: ~_is_lake(x, y)),
+    "dense": _hills(25_000, 320.0),
+    "uneven": _hills(20_000, keep=lambda x, y: np.random.default_rng(2).random(len(x)) > y / 900.0),
+    "lake": _hills(40_000, keep=lambda x, y: ~_is_lake(x, y)),
     "sparse": _hills(200),
 }
 
@@ -164,7 +157,7 @@ def _same(one, other):
 def survey(tmp_path_factory):
     """One classified file, and the same points in 24 of any extents."""
     folder = tmp_path_factory.mktemp("survey")
-    points = strip(20_000, 850.0, 450.0)
+    points = strip(8000, 450.0, 250.0)
     write(folder / "one.laz", points, classes=np.where(points[:, 2] % 10, 2, 1))
     cut(folder / "many", points, 24)
     for path in (folder / "many").iterdir():
@@ -172,6 +165,12 @@ def survey(tmp_path_factory):
         las.classification[:] = np.where(np.round(np.asarray(las.z) * 100) % 10, 2, 1)
         las.write(str(path))
     return folder
+
+
+@pytest.fixture(scope="module")
+def of_one(survey):
+    """The rasters of the one file, in blocks of the usual size."""
+    return _of_files(survey / "one.laz", survey / "rasters")
 
 
 def test_many_files_give_the_rasters_of_one_cell_by_cell(survey, small_blocks, tmp_path):
@@ -182,14 +181,13 @@ def test_many_files_give_the_rasters_of_one_cell_by_cell(survey, small_blocks, t
     assert names == ["chm", "dsm", "dtm", "shade", "sure"]
 
 
-def test_processes_give_the_rasters_of_threads(survey, tmp_path):
-    one = _of_files([survey / "many"], tmp_path / "threads")
-    assert _same(one, _of_files([survey / "many"], tmp_path / "more", workers=Processes(MUCH)))
+def test_processes_give_the_rasters_of_threads(survey, of_one, tmp_path):
+    many = _of_files([survey / "many"], tmp_path / "more", workers=Processes(MUCH))
+    assert _same(of_one, many)
 
 
-def test_a_file_that_does_not_fit_into_memory_gives_the_same_rasters(survey, tmp_path):
-    one = _of_files(survey / "one.laz", tmp_path / "one")
-    assert _same(one, _of_files(survey / "one.laz", tmp_path / "other", LITTLE))
+def test_a_file_that_does_not_fit_into_memory_gives_the_same_rasters(survey, of_one, tmp_path):
+    assert _same(of_one, _of_files(survey / "one.laz", tmp_path / "other", LITTLE))
 
 
 def test_classified_tiles_give_the_terrain_model_of_one_file(survey, tmp_path):
@@ -205,7 +203,7 @@ def test_classified_tiles_give_the_terrain_model_of_one_file(survey, tmp_path):
 def test_the_terrain_command_takes_a_folder(survey, tmp_path, capsys, threads_for_processes):
     words = ["terrain", str(survey / "many"), "--dtm", str(tmp_path / "dtm.tif"), "--json"]
     assert main(words) == 0
-    assert json.loads(capsys.readouterr().out)["columns"] == 850
+    assert json.loads(capsys.readouterr().out)["columns"] == 450
     words = ["classify-tiles", str(survey / "many"), str(tmp_path / "out"), "--method", "slope"]
     assert main([*words, "--hillshade", str(tmp_path / "out" / "shade.tif")]) == 0
     assert (tmp_path / "out" / "shade.tif").exists()
@@ -213,13 +211,8 @@ def test_the_terrain_command_takes_a_folder(survey, tmp_path, capsys, threads_fo
 
 @pytest.mark.parametrize("fraction", [0.1, 0.5, 0.9])
 def test_a_cancel_leaves_nothing(survey, tmp_path, fraction):
-    class Stopped(Progress):
-        def report(self, done):
-            if done > fraction:
-                raise Cancelled
-
     with pytest.raises(Cancelled):
-        _of_files([survey / "many"], tmp_path / "out", progress=Stopped())
+        _of_files([survey / "many"], tmp_path / "out", progress=CancelAt(fraction))
     assert os.listdir(tmp_path / "out") == []
 
 
@@ -231,7 +224,7 @@ def test_confidence_is_low_across_gaps_and_high_where_ground_is_dense(tmp_path):
 
 
 def test_the_file_is_cloud_optimised(tmp_path):
-    _made(CLOUDS["dense"], tmp_path, cell=0.5)
+    _made(CLOUDS["dense"], tmp_path, cell=0.4)
     with rasterio.open(tmp_path / "dtm.tif") as raster:
         assert raster.overviews(1) == [2, 4]
         assert raster.profile["tiled"] and raster.profile["compress"] == "deflate"

@@ -4,6 +4,7 @@ import laspy
 import lazrs
 import numpy as np
 import pytest
+from runs import CancelAt
 
 from bare_earth.algorithms.core import progress
 from bare_earth.algorithms.core.errors import Cancelled
@@ -63,12 +64,8 @@ def test_several_chunks_are_joined_in_order(las, monkeypatch):
 
 
 def test_reading_can_be_cancelled(las):
-    class Impatient(las.Heard):
-        def report(self, fraction):
-            raise Cancelled
-
     with pytest.raises(Cancelled):
-        read_cloud(las.make(), Impatient())
+        read_cloud(las.make(), CancelAt())
 
 
 def test_points_are_metres_from_a_round_place_near_the_corner_of_the_cloud(las):

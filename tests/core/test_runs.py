@@ -31,13 +31,13 @@ from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
 
-SLOPE = SlopeFilter()
+SLOPE = SlopeFilter(preset="whitebox")
 
 
 @pytest.fixture
 def survey(tmp_path):
     """One file, and the same points in six."""
-    points = strip(12_000, 300.0, 150.0)
+    points = strip(9000, 240.0, 130.0)
     cut(tmp_path / "in", points, 6)
     return write(tmp_path / "one.laz", points)
 
@@ -116,7 +116,9 @@ def test_heights_go_on_where_a_run_ended(survey, tmp_path):
     assert [each.name for each in summary.tiles] == sorted(each.name for each in finished(folder))
 
 
-def test_key_points_of_many_files_are_as_good_as_those_of_one(survey, tmp_path):
+def test_key_points_of_many_files_are_as_good_as_those_of_one(
+    survey, tmp_path, threads_for_processes
+):
     classify_tiles([tmp_path / "in"], tmp_path / "classified", SLOPE)
     classify_file(survey, tmp_path / "classified.laz", SLOPE)
     one = write_key_points(tmp_path / "classified.laz", tmp_path / "keys.laz")

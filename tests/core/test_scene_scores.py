@@ -70,6 +70,7 @@ def test_a_scene_is_remembered_whole(tmp_path, monkeypatch):
         np.testing.assert_array_equal(getattr(one, name), getattr(other, name))
 
 
+@pytest.mark.long
 def test_scenes_are_told_from_the_command_line(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(cache, "FOLDER", tmp_path)
     monkeypatch.setattr(work, "PROCESSES", 1)

@@ -59,7 +59,7 @@ def cloud(kind, random):
 @pytest.mark.parametrize("kind", ["random", "grid", "duplicates", "clumps"])
 def test_brute_force_agrees_on_every_point(kind, slope_norm):
     random = np.random.default_rng(7)
-    for _ in range(25):
+    for _ in range(15):
         points = cloud(kind, random)
         parameters = SlopeFilter(
             preset="whitebox",
@@ -73,7 +73,7 @@ def test_brute_force_agrees_on_every_point(kind, slope_norm):
 
 
 def test_brute_force_agrees_on_houses_trees_and_noise():
-    points, _ = village(size=30.0)
+    points, _ = village(size=24.0)
     for radius in (2.0, 10.0):
         parameters = CLASSIC.resolve(points)
         parameters = dataclasses.replace(parameters, search_radius=radius)
@@ -103,7 +103,7 @@ def test_the_classic_filter_gives_the_same_in_blocks_and_in_threads(radius, monk
 
 @pytest.mark.parametrize("depth", [3e2, 3e4])
 def test_brute_force_agrees_where_an_outlier_makes_the_steps_of_height_coarse(depth):
-    points, _ = village(size=30.0)
+    points, _ = village(size=20.0)
     points.z[7] -= depth
     parameters = CLASSIC.resolve(points)
     assert np.array_equal(classify(points, parameters), by_brute_force(points, parameters))

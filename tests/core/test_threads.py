@@ -3,10 +3,11 @@ import time
 
 import numpy as np
 import pytest
+from runs import CancelAt
 
 from bare_earth.algorithms.core import progress as progress_module
 from bare_earth.algorithms.core.errors import Cancelled
-from bare_earth.algorithms.core.progress import SILENT, Progress, paced
+from bare_earth.algorithms.core.progress import SILENT, paced
 from bare_earth.algorithms.core.threads import (
     available_cpus,
     in_threads,
@@ -67,10 +68,6 @@ def test_parts_cover_a_range_once(count):
 
 @pytest.mark.parametrize("count", [1, 3])
 def test_a_cancel_between_parts_ends_the_threads(count):
-    class Stopped(Progress):
-        def report(self, fraction):
-            raise Cancelled
-
     begun = []
 
     def late(part):
@@ -78,7 +75,7 @@ def test_a_cancel_between_parts_ends_the_threads(count):
         time.sleep(0.01)
 
     with may_use(count), pytest.raises(Cancelled):
-        over_parts(late, 1000, 1, Stopped())
+        over_parts(late, 1000, 1, CancelAt())
     # One each, and some more where the calling thread has to wait for a processor.
     assert len(begun) <= (1 if count == 1 else 100)
     assert not [each for each in threading.enumerate() if each.name == "strip"]

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from conftest import Heard
 from pyproj import CRS
+from runs import CancelAt
 from test_assessment import Tags
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine.trial import compare_settings
 from bare_earth.algorithms.engine.trial_options import SETTINGS, TrialOptions
 from bare_earth.algorithms.las.writing import write_classified
@@ -29,7 +29,7 @@ FOOT = 0.3048
 def scene():
     """Return x, y, z in metres from the origin, and which points are on the roof."""
     random = np.random.default_rng(7)
-    x, y = random.uniform(0, SIDE, (2, 60_000))
+    x, y = random.uniform(0, SIDE, (2, 25_000))
     roof = (x > HALL[0]) & (x < HALL[1]) & (y > HALL[2]) & (y < HALL[3])
     z = 100 + 0.03 * x + np.where(roof, 9.0, 0.0) + random.normal(0, 0.02, len(x))
     return *(np.round(each, 3) for each in (x, y, z)), roof
@@ -215,13 +215,8 @@ def test_values_that_do_not_do_are_refused(source, tmp_path):
 
 
 def test_a_cancel_leaves_nothing(source, tmp_path):
-    class Stop(Progress):
-        def report(self, fraction):
-            if fraction > 0.5:
-                raise Cancelled
-
     with pytest.raises(Cancelled):
-        compare_settings([source], tmp_path / "p.html", WINDOW, BOTH, progress=Stop())
+        compare_settings([source], tmp_path / "p.html", WINDOW, BOTH, progress=CancelAt(0.5))
     assert not list(tmp_path.iterdir())
 
 

@@ -48,6 +48,13 @@ def _tree(path):
     return ast.parse(path.read_text(encoding="utf-8"))
 
 
+def _nodes():
+    """Yield each piece of shipped code, with its file."""
+    for path in SHIPPED:
+        for node in ast.walk(_tree(path)):
+            yield path, node
+
+
 @functools.cache
 def _imports(path):
     """Return the modules that a file imports anywhere; those of the package as ".algorithms..."."""
@@ -66,11 +73,6 @@ def _imports(path):
 
 def _within(modules, *packages):
     return {each for each in modules if any(f"{each}.".startswith(f"{name}.") for name in packages)}
-
-
-@pytest.fixture(params=SHIPPED, ids=_name)
-def shipped(request):
-    return request.param
 
 
 def test_the_imports_are_read_rightly(tmp_path):
@@ -138,18 +140,25 @@ def test_only_the_point_cloud_package_knows_the_file_format():
             assert not _within(_imports(path), "laspy", "lazrs", "copclib"), path
 
 
-def test_imports_inside_the_package_are_relative(shipped):
+def test_imports_inside_the_package_are_relative():
     # The plugin folder may have any name.
-    assert not _within(_imports(shipped), "bare_earth", "algorithms", "plugin")
+    for path in SHIPPED:
+        assert not _within(_imports(path), "bare_earth", "algorithms", "plugin"), path
 
 
-def test_qt_comes_from_qgis_only(shipped):
-    assert not _within(_imports(shipped), *QT)
+def test_qt_comes_from_qgis_only():
+    for path in SHIPPED:
+        assert not _within(_imports(path), *QT), path
 
 
-def test_shipped_code_holds_none_of_what_hides_or_varies(shipped):
-    for node in ast.walk(_tree(shipped)):
-        where = f"{_name(shipped)}:{getattr(node, 'lineno', 0)}"
+def test_results_are_deterministic():
+    for path in SHIPPED:
+        assert not _within(_imports(path), "random"), path
+
+
+def test_shipped_code_holds_none_of_what_hides_or_varies():
+    for path, node in _nodes():
+        where = f"{_name(path)}:{getattr(node, 'lineno', 0)}"
         assert not isinstance(node, ast.Assert), f"{where}: python -O removes assert"
         if isinstance(node, ast.ExceptHandler):
             assert node.type is not None, f"{where}: a bare except hides everything"
@@ -157,7 +166,6 @@ def test_shipped_code_holds_none_of_what_hides_or_varies(shipped):
             assert not hides, f"{where}: an error is swallowed"
         if isinstance(node, ast.Constant) and isinstance(node.value, str):
             assert "/tmp" not in node.value, f"{where}: not every system has it"
-    assert not _within(_imports(shipped), "random"), "results are deterministic"
 
 
 @pytest.mark.parametrize("wrapper", WRAPPERS, ids=_name)

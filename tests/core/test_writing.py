@@ -5,6 +5,7 @@ import laspy
 import numpy as np
 import pytest
 from realdata import real
+from runs import CancelAt
 
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.las import edits
@@ -221,14 +222,10 @@ def test_a_wrong_number_of_classes_is_refused(las):
 
 @pytest.mark.parametrize("name", ["out.las", "out.laz", "out.copc.laz"])
 def test_a_cancel_in_the_middle_leaves_the_old_output_and_nothing_else(las, name):
-    class Impatient(las.Heard):
-        def report(self, fraction):
-            raise Cancelled
-
     source, target = las.make(), las.folder / name
     target.write_bytes(b"old")
     with pytest.raises(Cancelled):
-        write_classified(source, target, new_classes(60), Impatient())
+        write_classified(source, target, new_classes(60), CancelAt())
     assert target.read_bytes() == b"old"
     assert sorted(las.folder.iterdir()) == sorted([source, target])
 
