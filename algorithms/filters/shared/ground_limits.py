@@ -84,7 +84,7 @@ def ground_limits(
     tolerance on slopes is less in proportion. At breaks the surface of cells is too smooth, and
     more is tolerated. Where many points lie in a cell, the lowest lies far below the ground. Their
     noise is measured there, the surface is laid through its middle, and the tolerance above
-    follows the noise.
+    grows with the noise.
 
     Parameters
     ----------
@@ -110,7 +110,8 @@ def ground_limits(
         rises = _rises(points, cells, surface, slopes)
         level, noise = _middle(rises, cells.index, surface.size)
         surface = surface + level.reshape(surface.shape)
-        above = max(_LEAST_ABOVE, _ABOVE + _ABOVE_FACTOR * noise)
+        least = _LEAST_ABOVE if spacing <= DENSE_SPACING else above
+        above = max(least, _ABOVE + _ABOVE_FACTOR * noise)
     factor = tolerance.on_slopes * min(max(spacing, _DENSE), _SPARSE) / _SPARSE
     rise = factor * _smooth_steepness(surface, cells)
     if spacing < _SPARSE:
