@@ -36,7 +36,7 @@ _NOISE_FACTOR, _MEAN_POINTS, _MEANS = 2.5, 4, 2
 _LOWEST_FACTOR = 0.8
 # Tolerance in metres above a surface through the middle of the noise, and what adds to it.
 _LEAST_ABOVE, _ABOVE, _ABOVE_FACTOR = 0.12, 0.05, 3.0
-_POINTS_A_PART = 1 << 17
+_POINTS_A_PART, _POINTS_A_SUM = 1 << 17, 1 << 20
 
 
 class Tolerance(NamedTuple):
@@ -193,25 +193,33 @@ def _middle(rises: np.ndarray, index: np.ndarray, cells: int) -> tuple[np.ndarra
     The lowest points give a first guess, as they lie below by a multiple of the noise that their
     number tells; then the points round the guess are averaged.
     """
-    near = np.abs(rises) < _NOISE_WINDOW
-    cell, value = index[near], rises[near].astype(np.float64)
-    count, mean = _means(value, cell, cells)
+    count, total, square = _sums(rises, index, np.zeros(cells, np.float32), _NOISE_WINDOW)
     enough = count >= _NOISE_POINTS
     if not enough.any():
         return np.zeros(cells), 0.0
-    square = _means(value * value, cell, cells)[1]
-    spread = np.sqrt(np.maximum(square - mean * mean, 0.0))
+    number = np.maximum(count, 1)
+    spread = np.sqrt(np.maximum(square / number - (total / number) ** 2, 0.0))
     noise = float(np.percentile(spread[enough], _NOISE_PERCENTILE))
-    lowest = np.sqrt(2.0 * np.log(np.maximum(count, 1)))
-    level = _LOWEST_FACTOR * noise * lowest
+    level = _LOWEST_FACTOR * noise * np.sqrt(2.0 * np.log(number))
     for _ in range(_MEANS):
-        near = np.abs(rises - level[index]) <= _NOISE_FACTOR * noise
-        count, mean = _means(rises[near], index[near], cells)
-        level = np.where(count >= _MEAN_POINTS, mean, level)
+        count, total = _sums(rises, index, level, _NOISE_FACTOR * noise, powers=1)
+        level = np.where(count >= _MEAN_POINTS, total / np.maximum(count, 1), level)
     return level, noise
 
 
-def _means(values: np.ndarray, index: np.ndarray, cells: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return how many values each cell has, and their mean."""
-    count = np.bincount(index, minlength=cells)
-    return count, np.bincount(index, values, minlength=cells) / np.maximum(count, 1)
+def _sums(
+    rises: np.ndarray, index: np.ndarray, level: np.ndarray, most: float, powers: int = 2
+) -> list[np.ndarray]:
+    """Return how many rises of each cell lie near its level, their sum, and that of their squares.
+
+    A part of the points is taken at a time, as each takes 8 bytes a point and more.
+    """
+    sums = [np.zeros(level.size, dtype=np.int64), *np.zeros((powers, level.size))]
+    for first in range(0, len(rises), _POINTS_A_SUM):
+        cell, value = index[first : first + _POINTS_A_SUM], rises[first : first + _POINTS_A_SUM]
+        near = np.abs(value - level[cell]) <= most
+        cell, value = cell[near], value[near].astype(np.float64)
+        sums[0] += np.bincount(cell, minlength=level.size)
+        for power in range(1, powers + 1):
+            sums[power] += np.bincount(cell, value**power, minlength=level.size)
+    return sums
