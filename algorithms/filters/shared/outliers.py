@@ -57,9 +57,7 @@ def low_outliers(
     Pingel, T., Clarke, K., McBride, W. (2013): An improved simple morphological filter for the
     terrain classification of airborne LIDAR data. ISPRS Journal 77, section 2.2.
     """
-    filled = inpaint(grid, first=first)
-    closed = within_square(np.minimum, within_square(np.maximum, filled, 1), 1)
-    depth = np.where(np.isfinite(grid), closed - filled, 0.0)
+    depth = _depth(grid, first)
     pits = depth > slope * size
     return pits & ~supported(grid, size, pits, depth, first) if spares_supported else pits
 
@@ -85,9 +83,7 @@ def lone_points(grid: np.ndarray, cells: Cells, z: np.ndarray) -> np.ndarray:
     """
     from scipy import ndimage
 
-    filled = inpaint(grid, first=cells.first)
-    closed = within_square(np.minimum, within_square(np.maximum, filled, 1), 1)
-    depth = np.where(np.isfinite(grid), closed - filled, 0.0)
+    depth = _depth(grid, cells.first)
     around = ndimage.uniform_filter(_even(grid, cells.first).astype(np.float32), 3, mode="nearest")
     doubtful = (depth > _LONE_DEPTH) & (9.0 * around > _LEAST_EVEN - 0.5)
     which = np.flatnonzero(doubtful.ravel()[cells.index])
@@ -156,6 +152,13 @@ def _witnesses(size: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     distance = np.hypot(rows, columns) * size
     ring = (distance >= _NEAREST) & (distance <= _FARTHEST)
     return rows[ring], columns[ring], _LEVEL + _LEVEL_SLOPE * distance[ring]
+
+
+def _depth(grid: np.ndarray, first: First) -> np.ndarray:
+    """Return how many metres a closing by 3 x 3 cells raises each cell; 0 where there is none."""
+    filled = inpaint(grid, first=first)
+    closed = within_square(np.minimum, within_square(np.maximum, filled, 1), 1)
+    return np.where(np.isfinite(grid), closed - filled, 0.0)
 
 
 def _even(grid: np.ndarray, first: First) -> np.ndarray:
