@@ -14,10 +14,12 @@ from bare_earth.algorithms.engine import workers
 from bare_earth.algorithms.las.laszip import with_chunk_size
 
 # Where Python is told to keep no bytecode, each process that a test starts compiles scipy anew:
-# that takes longer than what it is to show. Here it is kept, and not among the sources.
-os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
-os.environ["PYTHONPYCACHEPREFIX"] = str(Path(__file__).parents[2] / "build" / "bytecode")
-sys.pycache_prefix, sys.dont_write_bytecode = os.environ["PYTHONPYCACHEPREFIX"], False
+# that takes longer than what it is to show. Here it is kept, and not among the sources, as
+# tools/environment does it.
+if sys.dont_write_bytecode:
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+    os.environ["PYTHONPYCACHEPREFIX"] = str(Path(__file__).parents[2] / "build" / "bytecode")
+    sys.pycache_prefix, sys.dont_write_bytecode = os.environ["PYTHONPYCACHEPREFIX"], False
 
 LENGTHS = (20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67)
 HEADER_SIZES = (227, 227, 227, 235, 375)
