@@ -30,7 +30,7 @@ _CELLS_A_REACH, _LEAST_GAP = 10, 5.0
 
 @dataclass(frozen=True)
 class Cells:
-    """A grid of square cells anchored at (0, 0) of the points' frame.
+    """A grid of square cells, as a rule anchored at (0, 0) of the points' frame.
 
     Attributes
     ----------
@@ -52,8 +52,18 @@ class Cells:
     index: np.ndarray
 
     @classmethod
-    def over(cls, points: Points, size: float) -> Cells:
+    def over(cls, points: Points, size: float, shift: float = 0.0) -> Cells:
         """Return the cells that cover `points`.
+
+        Parameters
+        ----------
+        points : Points
+            At least one.
+        size : float
+            Side of a cell in metres.
+        shift : float
+            Metres by which the cells begin farther west and south: they are those of points that
+            lie so much farther east and north.
 
         Raises
         ------
@@ -61,7 +71,7 @@ class Cells:
             If they would not fit into memory.
         """
         first_row, first_column, last_row, last_column = (
-            int(np.floor(extreme / size))
+            int(np.floor((extreme + shift) / size))
             for extreme in (points.y.min(), points.x.min(), points.y.max(), points.x.max())
         )
         rows, columns = last_row - first_row + 1, last_column - first_column + 1
@@ -73,10 +83,10 @@ class Cells:
         index = np.empty(points.count, dtype=np.int32)
 
         def fill(part: slice) -> None:
-            row = np.floor(points.y[part] / size)
+            row = np.floor((points.y[part] + shift) / size)
             row -= first_row
             row *= columns
-            row += np.floor(points.x[part] / size) - first_column
+            row += np.floor((points.x[part] + shift) / size) - first_column
             index[part] = row
 
         over_parts(fill, points.count, _POINTS_A_PART, SILENT)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import threading
 from typing import NamedTuple
 
 import numpy as np
 
 from ...core.points import Points
 from ...core.progress import SILENT
-from ...core.threads import over_parts
+from ...core.threads import in_threads, over_parts, parts_of
 from ...grids.cells import Cells
 from ...grids.gradient import gradient, length, steepness
 from ...grids.inpaint import inpaint
@@ -29,6 +30,8 @@ _BREAK, _BREAK_FACTOR = 0.25, 1.5
 # Metres round the lowest points within which noise is measured, the points that a cell must have
 # for that, and the percentile of the cells: most have plants as well.
 _NOISE_WINDOW, _NOISE_POINTS, _NOISE_PERCENTILE = 0.6, 8, 25
+# Metres from the lowest points beyond which no point is noise, and how finely rises are told.
+_FARTHEST, _STEPS_A_METRE = 2.4, 1 << 14
 # Points within so many times the noise belong to the ground; a mean needs so many of them, and is
 # taken so often.
 _NOISE_FACTOR, _MEAN_POINTS, _MEANS = 2.5, 4, 2
@@ -36,7 +39,7 @@ _NOISE_FACTOR, _MEAN_POINTS, _MEANS = 2.5, 4, 2
 _LOWEST_FACTOR = 0.8
 # Tolerance in metres above a surface through the middle of the noise, and what adds to it.
 _LEAST_ABOVE, _ABOVE, _ABOVE_FACTOR = 0.12, 0.05, 3.0
-_POINTS_A_PART, _POINTS_A_SUM = 1 << 17, 1 << 20
+_POINTS_A_PART, _POINTS_A_SUM = 1 << 17, 1 << 19
 
 
 class Tolerance(NamedTuple):
@@ -107,8 +110,7 @@ def ground_limits(
     surface, slopes = _centred(points, vertices, cells)
     above = tolerance.above
     if spacing <= NOISE_SPACING:
-        rises = _rises(points, cells, surface, slopes)
-        level, noise = _middle(rises, cells.index, surface.size)
+        level, noise = _middle(*_rises(points, cells, surface, slopes), surface.size)
         surface = surface + level.reshape(surface.shape)
         least = _LEAST_ABOVE if spacing <= DENSE_SPACING else above
         above = max(least, _ABOVE + _ABOVE_FACTOR * noise)
@@ -172,28 +174,36 @@ def _from_middle(points: Points, cells: Cells, cell: np.ndarray) -> tuple[np.nda
 
 def _rises(
     points: Points, cells: Cells, surface: np.ndarray, slopes: tuple[np.ndarray, np.ndarray]
-) -> np.ndarray:
-    """Return the height of each point above the surface, float32."""
-    rises = np.empty(points.count, dtype=np.float32)
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the cells of the points that may be noise of the ground, int32, and how far they rise.
+
+    Rises above the surface are float32, multiples of a power of two: their sums are exact, in
+    whatever order they are taken.
+    """
     height, to_north, to_east = (each.ravel() for each in (surface, *slopes))
 
-    def fill(part: slice) -> None:
+    def find(part: slice) -> tuple[np.ndarray, np.ndarray]:
         cell = cells.index[part]
         north, east = _from_middle(points.take(part), cells, cell)
-        under = height[cell] + to_north[cell] * north + to_east[cell] * east
-        rises[part] = points.z[part] - under
+        rise = points.z[part] - height[cell]
+        rise -= to_north[cell] * north
+        rise -= to_east[cell] * east
+        near = np.flatnonzero(np.abs(rise) <= _FARTHEST)
+        rise = np.rint(rise[near] * _STEPS_A_METRE) / _STEPS_A_METRE
+        return cell[near], rise.astype(np.float32)
 
-    over_parts(fill, points.count, _POINTS_A_PART, SILENT)
-    return rises
+    found = in_threads(find, parts_of(points.count, _POINTS_A_PART))
+    cell, rise = (np.concatenate(each) for each in zip(*found))
+    return cell, rise
 
 
-def _middle(rises: np.ndarray, index: np.ndarray, cells: int) -> tuple[np.ndarray, float]:
+def _middle(cell: np.ndarray, rise: np.ndarray, cells: int) -> tuple[np.ndarray, float]:
     """Return the middle of the ground points of each cell, and their noise, both in metres.
 
     The lowest points give a first guess, as they lie below by a multiple of the noise that their
     number tells; then the points round the guess are averaged.
     """
-    count, total, square = _sums(rises, index, np.zeros(cells, np.float32), _NOISE_WINDOW)
+    count, total, square = _sums(cell, rise, np.zeros(cells, np.float32), _NOISE_WINDOW)
     enough = count >= _NOISE_POINTS
     if not enough.any():
         return np.zeros(cells), 0.0
@@ -202,24 +212,46 @@ def _middle(rises: np.ndarray, index: np.ndarray, cells: int) -> tuple[np.ndarra
     noise = float(np.percentile(spread[enough], _NOISE_PERCENTILE))
     level = _LOWEST_FACTOR * noise * np.sqrt(2.0 * np.log(number))
     for _ in range(_MEANS):
-        count, total = _sums(rises, index, level, _NOISE_FACTOR * noise, powers=1)
+        count, total = _sums(cell, rise, level, _NOISE_FACTOR * noise, powers=1)
         level = np.where(count >= _MEAN_POINTS, total / np.maximum(count, 1), level)
     return level, noise
 
 
 def _sums(
-    rises: np.ndarray, index: np.ndarray, level: np.ndarray, most: float, powers: int = 2
-) -> list[np.ndarray]:
+    cell: np.ndarray, rise: np.ndarray, level: np.ndarray, most: float, powers: int = 2
+) -> np.ndarray:
     """Return how many rises of each cell lie near its level, their sum, and that of their squares.
 
-    A part of the points is taken at a time, as each takes 8 bytes a point and more.
+    Parameters
+    ----------
+    cell, rise : numpy.ndarray, shape (n,)
+        As `_rises` returns them.
+    level : numpy.ndarray of float, shape (cells,)
+        Metres.
+    most : float
+        Metres from the level.
+    powers : int
+        2, or 1 if nobody asks for the squares.
+
+    Returns
+    -------
+    numpy.ndarray of float64, shape (powers + 1, cells)
     """
-    sums = [np.zeros(level.size, dtype=np.int64), *np.zeros((powers, level.size))]
-    for first in range(0, len(rises), _POINTS_A_SUM):
-        cell, value = index[first : first + _POINTS_A_SUM], rises[first : first + _POINTS_A_SUM]
-        near = np.abs(value - level[cell]) <= most
-        cell, value = cell[near], value[near].astype(np.float64)
-        sums[0] += np.bincount(cell, minlength=level.size)
-        for power in range(1, powers + 1):
-            sums[power] += np.bincount(cell, value**power, minlength=level.size)
+    sums, lock = np.zeros((powers + 1, level.size)), threading.Lock()
+
+    def add(part: slice) -> None:
+        at, value = cell[part], rise[part]
+        near = np.flatnonzero(np.abs(value - level.take(at)) <= most)
+        if not len(near):
+            return
+        at, value = at.take(near), value.take(near).astype(np.float64)
+        first = int(at.min())
+        at = (at - first).astype(np.intp)
+        found = [np.bincount(at), np.bincount(at, value)]
+        if powers > 1:
+            found.append(np.bincount(at, value * value))
+        with lock:
+            sums[:, first : first + len(found[0])] += found
+
+    over_parts(add, len(cell), _POINTS_A_SUM, SILENT)
     return sums

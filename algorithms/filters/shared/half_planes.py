@@ -10,7 +10,8 @@ from __future__ import annotations
 import numpy as np
 
 from ...core.points import Points
-from ...core.threads import parts_of
+from ...core.progress import SILENT
+from ...core.threads import over_parts
 
 # Neighbours that are looked at, and how many of them a side must have to be judged by.
 _NEIGHBOURS, _LEAST = 16, 4
@@ -18,6 +19,8 @@ _NEIGHBOURS, _LEAST = 16, 4
 _SIDES = 8
 # Points that are judged at a time.
 _AT_ONCE = 1 << 13
+# Points of a leaf of the tree: more than usual, as it is made for few queries.
+_LEAF = 32
 # Square metres that are added to the spread of the neighbours.
 _STIFFNESS = 0.1
 
@@ -40,7 +43,7 @@ class Sides:
         self._tree = None
         if ground.count:
             places = np.column_stack((ground.x, ground.y))
-            self._tree = cKDTree(places, balanced_tree=False, compact_nodes=False)
+            self._tree = cKDTree(places, _LEAF, compact_nodes=False, balanced_tree=False)
 
     def rises(self, points: Points, own: bool) -> tuple[np.ndarray, np.ndarray]:
         """Return how far points lie above the plane of each side, and how well it fits.
@@ -63,8 +66,11 @@ class Sides:
         misfit = np.full((points.count, _SIDES), np.nan)
         if self._tree is None:
             return rise, misfit
-        for part in parts_of(points.count, _AT_ONCE):
+
+        def judge(part: slice) -> None:
             rise[part], misfit[part] = self._of_some(points.take(part), own)
+
+        over_parts(judge, points.count, _AT_ONCE, SILENT)
         return rise, misfit
 
     def _of_some(self, points: Points, own: bool) -> tuple[np.ndarray, np.ndarray]:

@@ -27,6 +27,8 @@ class LowestPoints:
     classic : bool
         True for the rules of other programs' presets: every pit is a low outlier, and less of the
         border of an object must be a drop.
+    shift : float
+        Metres by which the cells begin farther west and south.
 
     Attributes
     ----------
@@ -42,10 +44,12 @@ class LowestPoints:
         Their heights, without low outliers; NaN where there is none.
     """
 
-    def __init__(self, points: Points, size: float, classic: bool = False) -> None:
-        self._points, self._classic = points, classic
+    def __init__(
+        self, points: Points, size: float, classic: bool = False, shift: float = 0.0
+    ) -> None:
+        self._points, self._classic, self._shift = points, classic, shift
         self.spacing = spacing(points)
-        self.cells = Cells.over(points, size)
+        self.cells = Cells.over(points, size, shift)
         self.lowest = self.cells.lowest_points(points)
         self.cell = self.cells.index[self.lowest]
         heights = np.full(self.cells.rows * self.cells.columns, np.nan)
@@ -63,7 +67,7 @@ class LowestPoints:
         """Cells wide enough to be without gaps, which would break the rims of objects."""
         if self.spacing <= self.cells.size:
             return self.cells, self.heights
-        cells = Cells.over(self._points, self.spacing)
+        cells = Cells.over(self._points, self.spacing, self._shift)
         return cells, self._without_outliers(cells.minimum(self._points.z), cells)
 
     def objects(self, max_size: float, progress: Progress) -> Objects:

@@ -84,7 +84,8 @@ def lone_points(grid: np.ndarray, cells: Cells, z: np.ndarray) -> np.ndarray:
     from scipy import ndimage
 
     depth = _depth(grid, cells.first)
-    around = ndimage.uniform_filter(_even(grid, cells.first).astype(np.float32), 3, mode="nearest")
+    even = _even(grid, cells.first)
+    around = ndimage.uniform_filter(even.astype(np.float32), 3, mode="nearest")
     doubtful = (depth > _LONE_DEPTH) & (9.0 * around > _LEAST_EVEN - 0.5)
     which = np.flatnonzero(doubtful.ravel()[cells.index])
     which = which[np.lexsort((z[which], cells.index[which]))]
@@ -94,7 +95,7 @@ def lone_points(grid: np.ndarray, cells: Cells, z: np.ndarray) -> np.ndarray:
     gap = z[which[first + 1]] - z[which[first]]
     pits = np.zeros(grid.shape, dtype=bool)
     pits.ravel()[cell] = gap >= _LONE_GAP * depth.ravel()[cell]
-    return pits & ~supported(grid, cells.size, pits, depth, cells.first)
+    return pits & ~supported(grid, cells.size, pits, depth, cells.first, even)
 
 
 def supported(
@@ -103,6 +104,7 @@ def supported(
     pits: np.ndarray,
     depth: np.ndarray,
     first: First = (0, 0),
+    even: np.ndarray | None = None,
 ) -> np.ndarray:
     """Return the pits that are ground: others lie as low, some metres away.
 
@@ -118,6 +120,8 @@ def supported(
         Cells that lie far below those next to them.
     depth : numpy.ndarray of float, shape (rows, columns)
         How far, in metres.
+    even : numpy.ndarray of bool, shape (rows, columns), optional
+        Cells that lie on an even surface, where they are known.
     """
     result = np.zeros(grid.shape, dtype=bool)
     row, column = np.nonzero(pits)
@@ -126,7 +130,7 @@ def supported(
     rows, columns, level = _witnesses(size)
     reach = int(np.ceil(_FARTHEST / size))
     heights = np.pad(grid.astype(np.float32), reach, constant_values=np.nan)
-    even = np.pad(_even(grid, first), reach)
+    even = np.pad(_even(grid, first) if even is None else even, reach)
     width = heights.shape[1]
     centre = (row + reach) * width + column + reach
     own, heights, even = heights.take(centre), heights.ravel(), even.ravel()

@@ -19,6 +19,7 @@ from ...core.errors import BareEarthError
 from ...core.parameters import ParameterSet, parameter, parameter_of
 from ...core.points import Points
 from ...core.progress import SILENT, Progress
+from ...core.threads import in_threads
 from ...grids.cells import Cells, spacing
 from ...grids.model_key_points import ModelKeyPoints, model_key_points
 from ..shared.allowance import CLASSIC as CLASSIC_ALLOWANCE
@@ -272,10 +273,13 @@ def classify(
     if resolved != parameters or (apart <= NOISE_SPACING and not is_classic):
         progress.choice(_in_words(resolved, apart, is_dense))
     size = _DENSE_CELL if is_dense else _CELL if is_classic else max(_CELL, apart)
-    survey = LowestPoints(points, size, is_classic)
+    # Dense points fill their cells so well that it hardly matters where they begin.
+    shifts = (0.0,) if is_dense or is_classic else (0.0, 0.5 * size)
+    grids = in_threads(lambda shift: LowestPoints(points, size, is_classic, shift), shifts)
+    survey = grids[0]
     progress(0.1)
     tell_of_outliers(len(survey.lowest), survey.heights, progress)
-    ground, waiting = _seeds(points, survey, resolved, apart, progress.part(0.1, 0.7))
+    ground, waiting = _seeds(points, grids, resolved, progress.part(0.1, 0.7))
     cells = survey.cells
     heights = cells.minimum(points.z, ground)
     if known_ground is not None and known_ground.any():
@@ -301,25 +305,18 @@ def classify(
 
 
 def _seeds(
-    points: Points,
-    survey: LowestPoints,
-    parameters: TinDensification,
-    spacing: float,
-    progress: Progress,
+    points: Points, grids: list[LowestPoints], parameters: TinDensification, progress: Progress
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the indices of the first points of the ground, and of those that may join them."""
-    size = parameters.max_building_size
+    size, survey, part = parameters.max_building_size, grids[0], progress.part(0.0, 0.8)
     if parameters.preset == CLASSIC:
         return seeds_of_one_grid(survey, size, progress, CLASSIC_ALLOWANCE)
-    part = progress.part(0.0, 0.8)
-    # Cells hold so many points then that it hardly matters where they begin.
-    is_dense = spacing <= DENSE_SPACING
-    seeds = (
-        seeds_of_one_grid(survey, size, part)
-        if is_dense
-        else seeds_of_two_grids(points, survey, size, part)
-    )
-    return checked_seeds(points, *seeds, survey.cells, survey.spacing, has_gaps=not is_dense)
+    if len(grids) == 1:
+        seeds = seeds_of_one_grid(survey, size, part)
+    else:
+        seeds = seeds_of_two_grids(points.count, grids, size, part)
+    has_gaps = len(grids) > 1
+    return checked_seeds(points, *seeds, survey.cells, survey.spacing, has_gaps)
 
 
 def _in_words(parameters: TinDensification, spacing: float, is_dense: bool) -> str:

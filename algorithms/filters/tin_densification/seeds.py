@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import threading
+from typing import Sequence
 
 import numpy as np
 
-from ...core.points import Points
 from ...core.progress import SILENT, Progress
 from ...core.threads import in_threads
 from ..shared.allowance import CLASSIC, Allowance
@@ -49,7 +49,7 @@ def seeds_of_one_grid(
 
 
 def seeds_of_two_grids(
-    points: Points, survey: LowestPoints, max_size: float, progress: Progress
+    count: int, grids: Sequence[LowestPoints], max_size: float, progress: Progress
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the points that are ground on two grids, half a cell apart.
 
@@ -58,30 +58,26 @@ def seeds_of_two_grids(
 
     Parameters
     ----------
-    points : Points
-        All points.
-    survey : LowestPoints
-        The first grid.
+    count : int
+        Number of points.
+    grids : sequence of LowestPoints
+        The two grids.
     max_size, progress
         As for `seeds_of_one_grid`, and so is the result.
     """
-    size = survey.cells.size
-    moved = points._replace(x=points.x + 0.5 * size, y=points.y + 0.5 * size)
-    kinds = np.zeros((2, points.count), dtype=np.int8)
-    lowest = [survey.lowest] * 2
+    kinds = np.zeros((2, count), dtype=np.int8)
     caller = threading.get_ident()
 
     def judge(number: int) -> None:
-        grid = LowestPoints(moved, size) if number else survey
+        grid = grids[number]
         part = progress.part(0.5 * number, 0.5 + 0.5 * number)
         # Progress is for the calling thread only.
         part = part if threading.get_ident() == caller else SILENT
         ground, is_open = _judged(grid, max_size, Allowance(), part)
-        lowest[number] = grid.lowest
         kinds[number, grid.lowest] = np.where(ground, _GROUND, np.where(is_open, _OPEN, _OBJECT))
 
     in_threads(judge, range(len(kinds)))
-    either = np.union1d(*lowest)
+    either = np.flatnonzero(kinds[0] | kinds[1])
     one, other = kinds[:, either]
     ground = (one == _GROUND) & ((other == _GROUND) | (other == _HIDDEN))
     ground |= (other == _GROUND) & (one == _HIDDEN)
