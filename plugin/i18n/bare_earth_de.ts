@@ -668,16 +668,16 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Nicht beachtete Klassen der Referenz</translation>
     </message>
     <message>
+        <source>In the command line some layers are missing: save each in the CRS of the points as GeoJSON, and add {}.</source>
+        <translation>In der Befehlszeile fehlen einige Layer: Speichern Sie jeden im KBS der Punkte als GeoJSON, und ergänzen Sie {}.</translation>
+    </message>
+    <message>
         <source>In the command line the boundary is missing: save it in the CRS of the points as boundary.geojson, and add --boundary boundary.geojson.</source>
         <translation>In der Befehlszeile fehlt die Begrenzung: Speichern Sie sie im KBS der Punkte als boundary.geojson, und fügen Sie --boundary boundary.geojson hinzu.</translation>
     </message>
     <message>
         <source>In the command line the corrections are missing: save them in the CRS of the points as corrections.geojson, their class as the attribute "{}", and add --corrections corrections.geojson.</source>
         <translation>In der Befehlszeile fehlen die Korrekturen: Speichern Sie sie im KBS der Punkte als corrections.geojson, ihre Klasse als Attribut „{}“, und fügen Sie --corrections corrections.geojson hinzu.</translation>
-    </message>
-    <message>
-        <source>In the command line the layers are missing: save them as GeoJSON.</source>
-        <translation>In der Befehlszeile fehlen die Layer: Speichern Sie sie als GeoJSON.</translation>
     </message>
     <message>
         <source>In the last pass whatever stands this far above the ground beside it is removed: bushes, cars, walls. Larger spares rough ground. Empty: from the preset.</source>

@@ -668,16 +668,16 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Classes ignorées de la référence</translation>
     </message>
     <message>
+        <source>In the command line some layers are missing: save each in the CRS of the points as GeoJSON, and add {}.</source>
+        <translation>Dans la ligne de commande, certaines couches manquent : enregistrez chacune en GeoJSON dans le SCR des points, et ajoutez {}.</translation>
+    </message>
+    <message>
         <source>In the command line the boundary is missing: save it in the CRS of the points as boundary.geojson, and add --boundary boundary.geojson.</source>
         <translation>Dans la ligne de commande, la limite manque : enregistrez-la dans le SCR des points comme boundary.geojson, et ajoutez --boundary boundary.geojson.</translation>
     </message>
     <message>
         <source>In the command line the corrections are missing: save them in the CRS of the points as corrections.geojson, their class as the attribute "{}", and add --corrections corrections.geojson.</source>
         <translation>Dans la ligne de commande, les corrections manquent : enregistrez-les dans le SCR des points comme corrections.geojson, leur classe comme attribut « {} », et ajoutez --corrections corrections.geojson.</translation>
-    </message>
-    <message>
-        <source>In the command line the layers are missing: save them as GeoJSON.</source>
-        <translation>Dans la ligne de commande, les couches manquent : enregistrez-les en GeoJSON.</translation>
     </message>
     <message>
         <source>In the last pass whatever stands this far above the ground beside it is removed: bushes, cars, walls. Larger spares rough ground. Empty: from the preset.</source>

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any, Sequence
 
 from qgis.core import (
@@ -19,8 +18,8 @@ from ...algorithms.engine.output import Output
 from ...algorithms.survey.area import Area, Polygon
 from .. import compat
 from ..i18n import tr
-from .corrections import add_corrections, corrections_of
-from .inputs import crs_of, features_of, is_empty, polygons_of
+from .constraints import add_known, known_of
+from .inputs import CloudCrs, features_of, is_empty, polygons_of
 
 # Name, label and help of the fields of an area.
 _AREA_FIELDS = {
@@ -54,9 +53,9 @@ def area_of(
     algorithm: QgsProcessingAlgorithm,
     parameters: dict[str, Any],
     context: QgsProcessingContext,
-    cloud: Path,
+    crs: CloudCrs,
 ) -> Area | None:
-    """Return what the fields of `add_area` hold, in the CRS that a cloud states, if any.
+    """Return what the fields of `add_area` hold, in the CRS of the points.
 
     Raises
     ------
@@ -66,15 +65,14 @@ def area_of(
     given = [name for name in _AREA_FIELDS if not is_empty(parameters.get(name))]
     if not given:
         return None
-    crs = crs_of(cloud)
     box = None
     polygons: tuple[Polygon, ...] = ()
     if "EXTENT" in given:
-        extent = algorithm.parameterAsExtent(parameters, "EXTENT", context, crs)
+        extent = algorithm.parameterAsExtent(parameters, "EXTENT", context, crs.value)
         box = extent.xMinimum(), extent.yMinimum(), extent.xMaximum(), extent.yMaximum()
     if "BOUNDARY" in given:
         source = algorithm.parameterAsSource(parameters, "BOUNDARY", context)
-        features = features_of(source, _AREA_FIELDS["BOUNDARY"][0], crs, context)
+        features = features_of(source, _AREA_FIELDS["BOUNDARY"][0], crs.value, context)
         polygons = tuple(each for one in features for each in polygons_of(one.geometry()))
         if not polygons:
             raise BareEarthError(tr("The boundary holds no polygon. Choose one that does."))
@@ -104,20 +102,18 @@ def area_options(area: Area | None, progress: Progress) -> list[str]:
 
 
 def add_limits(algorithm: QgsProcessingAlgorithm, advanced: Sequence[str] = ("BOUNDARY",)) -> None:
-    """Add the fields of an area, some of them `advanced`, and of corrections to a dialog."""
+    """Add the fields of an area, some of them `advanced`, and of `add_known` to a dialog."""
     add_area(algorithm, advanced)
-    add_corrections(algorithm)
+    add_known(algorithm)
 
 
 def limits_of(
     algorithm: QgsProcessingAlgorithm,
     parameters: dict[str, Any],
     context: QgsProcessingContext,
-    cloud: Path,
+    crs: CloudCrs,
     progress: Progress,
 ) -> dict[str, Any]:
-    """Return area and corrections, as `ClassifyRequest` names them; see their functions."""
-    return {
-        "area": area_of(algorithm, parameters, context, cloud),
-        "corrections": corrections_of(algorithm, parameters, context, cloud, progress),
-    }
+    """Return area, corrections and constraints, as `ClassifyRequest` names them."""
+    known = known_of(algorithm, parameters, context, crs, progress)
+    return {"area": area_of(algorithm, parameters, context, crs), **known}

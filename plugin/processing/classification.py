@@ -20,6 +20,7 @@ from .classified import show_classified
 from .feedback import FeedbackProgress
 from .inputs import (
     CLOUD_HELP,
+    CloudCrs,
     PointCloudInput,
     ignored_filter,
     name_of,
@@ -82,11 +83,11 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> None:
-        """Find the input, and read area and corrections."""
+        """Find the input, and read its area and what is known of it."""
         super().prepare(parameters, context, progress)
         if ignored_filter(self, parameters, "INPUT", context):
             progress.warning(tr("The layer's filter is not applied: all points are read."))
-        self._limits = limits_of(self, parameters, context, self._source, progress)
+        self._limits = limits_of(self, parameters, context, CloudCrs(self._source), progress)
 
     def compute(
         self,

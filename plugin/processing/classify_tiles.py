@@ -13,7 +13,7 @@ from ..i18n import mark
 from .area import add_limits, area_options, limits_of
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified
-from .inputs import add_clouds, clouds_of, names_of
+from .inputs import CloudCrs, add_clouds, clouds_of, names_of
 from .outputs import TILES_STAY, add_rasters, add_tiles, raster_files, raster_paths
 
 _NUMBERS = {
@@ -54,9 +54,11 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         self.subject = names_of(self._sources)
 
     def prepare(self, parameters, context, progress):
-        """Find the files, and read area and corrections in the CRS of the points."""
+        """Find the files, and read their area and what is known of them."""
         super().prepare(parameters, context, progress)
-        self._limits = limits_of(self, parameters, context, self._sources[0], progress)
+        recursive = self.parameterAsBool(parameters, "RECURSIVE", context)
+        crs = CloudCrs(*self._sources, recursive=recursive)
+        self._limits = limits_of(self, parameters, context, crs, progress)
 
     def compute(self, parameters, context, progress):
         """Classify the files."""

@@ -12,7 +12,7 @@ from ...algorithms.engine.trial_options import TrialOptions
 from ..i18n import tr
 from .area import area_of
 from .base import BareEarthAlgorithm, command_line
-from .inputs import ANY_CLOUD_HELP, PointCloudInput, name_of, source_path
+from .inputs import ANY_CLOUD_HELP, CloudCrs, PointCloudInput, name_of, source_path
 
 _EXTENT_HELP = (
     "The window that is classified, such as the map's extent; at most 1,000 m wide, and quick up to"
@@ -56,7 +56,7 @@ class CompareSettingsAlgorithm(BareEarthAlgorithm):
     def prepare(self, parameters, context, progress):
         """Read the window in the CRS of the points, too."""
         super().prepare(parameters, context, progress)
-        self._window = area_of(self, parameters, context, self._source).box
+        self._window = area_of(self, parameters, context, CloudCrs(self._source)).box
 
     def compute(self, parameters, context, progress):
         """Make the page."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any, Callable, Iterator
 
 import numpy as np
@@ -18,7 +17,7 @@ from ...algorithms.engine.constraints import Constraints
 from .. import compat
 from ..i18n import tr
 from .corrections import add_corrections, corrections_of
-from .inputs import crs_of, features_of, is_empty, polygons_of
+from .inputs import CloudCrs, features_of, is_empty, polygons_of
 
 # Name, label, kind of the layer and help of each field.
 _FIELDS = {
@@ -66,11 +65,11 @@ def known_of(
     algorithm: QgsProcessingAlgorithm,
     parameters: dict[str, Any],
     context: QgsProcessingContext,
-    cloud: Path,
+    crs: CloudCrs,
     progress: Progress,
 ) -> dict[str, Any]:
     """Return corrections and constraints, as `MapRequest` names them; see their functions."""
-    given = parameters, context, cloud, progress
+    given = parameters, context, crs, progress
     return {
         "corrections": corrections_of(algorithm, *given),
         "constraints": constraints_of(algorithm, *given),
@@ -81,10 +80,10 @@ def constraints_of(
     algorithm: QgsProcessingAlgorithm,
     parameters: dict[str, Any],
     context: QgsProcessingContext,
-    cloud: Path,
+    crs: CloudCrs,
     progress: Progress,
 ) -> Constraints:
-    """Return what the layers hold, in the CRS of a cloud; progress is told what commands lack.
+    """Return what the layers hold, in the CRS of the points; progress is told what commands lack.
 
     Raises
     ------
@@ -94,17 +93,28 @@ def constraints_of(
     given = [name for name in _FIELDS if not is_empty(parameters.get(name))]
     if not given:
         return Constraints()
-    crs, found = crs_of(cloud), {}
+    found = {}
     for name in given:
         label, kind, _ = _FIELDS[name]
         source = algorithm.parameterAsSource(parameters, name, context)
         shapes: Callable[[QgsGeometry], Iterator[Any]] = (
             polygons_of if kind == compat.POLYGONS else _lines_of
         )
-        features = features_of(source, label, crs, context)
+        features = features_of(source, label, crs.value, context)
         found[name.lower()] = tuple(each for one in features for each in shapes(one.geometry()))
-    progress.info(tr("In the command line the layers are missing: save them as GeoJSON."))
+    progress.info(
+        tr(
+            "In the command line some layers are missing: save each in the CRS of the points as"
+            " GeoJSON, and add {}."
+        ).format(" ".join(map(_option, given)))
+    )
     return Constraints(**found)
+
+
+def _option(name: str) -> str:
+    """Return the option of the command line for a field, with a file of the same name."""
+    name = name.lower().replace("_", "-")
+    return f"--{name} {name}.geojson"
 
 
 def _lines_of(geometry: QgsGeometry) -> Iterator[np.ndarray]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 from qgis.core import (
@@ -17,7 +16,7 @@ from ...algorithms.core.progress import SILENT, Progress
 from ...algorithms.survey.corrections import CLASS_FIELD, NO_CORRECTIONS, Corrections
 from .. import compat
 from ..i18n import tr
-from .inputs import crs_of, features_of, is_empty, polygons_of
+from .inputs import CloudCrs, features_of, is_empty, polygons_of
 
 _LAYER, _FIELD = "CORRECTIONS", "CORRECTIONS_FIELD"
 # Label and help of each field.
@@ -51,10 +50,10 @@ def corrections_of(
     algorithm: QgsProcessingAlgorithm,
     parameters: dict[str, Any],
     context: QgsProcessingContext,
-    cloud: Path,
+    crs: CloudCrs,
     progress: Progress = SILENT,
 ) -> Corrections:
-    """Return what the fields hold, in the CRS of a cloud, which may be a folder or a list.
+    """Return what the fields hold, in the CRS of the points.
 
     Progress is told what the command line lacks.
 
@@ -77,10 +76,9 @@ def corrections_of(
         " corrections.geojson."
     )
     progress.info(text.format(CLASS_FIELD))
-    crs = crs_of(cloud)
     found = [
         (polygon, feature[name])
-        for feature in features_of(source, _TEXTS[_LAYER][0], crs, context, [name])
+        for feature in features_of(source, _TEXTS[_LAYER][0], crs.value, context, [name])
         for polygon in polygons_of(feature.geometry())
     ]
     return Corrections(*zip(*found))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from pathlib import Path
 from typing import Any, Iterator, Sequence
 
@@ -223,15 +224,33 @@ def is_empty(value: Any) -> bool:
     return compat.is_null(value) or value == ""
 
 
-def crs_of(cloud: Path) -> QgsCoordinateReferenceSystem:
-    """Return the CRS that a cloud states, which may be a folder or a list of files.
+class CloudCrs:
+    """The CRS of the point clouds of a run, read from the first file when it is first needed.
 
-    It is invalid, so that nothing is transformed, if none is stated.
+    Parameters
+    ----------
+    *sources : Path
+        Files, folders, and lists of files.
+    recursive : bool
+        Whether the run searches the subfolders of a folder, too.
     """
-    crs = read_crs(open_las(find_files([cloud], recursive=True)[0]))
-    if crs.epsg:
-        return QgsCoordinateReferenceSystem.fromEpsgId(crs.epsg)
-    return QgsCoordinateReferenceSystem.fromWkt(crs.wkt or "")
+
+    def __init__(self, *sources: Path, recursive: bool = False) -> None:
+        self._sources, self._recursive = sources, recursive
+
+    @functools.cached_property
+    def value(self) -> QgsCoordinateReferenceSystem:
+        """The CRS; invalid, so that nothing is transformed, if the file states none.
+
+        Raises
+        ------
+        BareEarthError
+            If there is no file, or it cannot be read.
+        """
+        crs = read_crs(open_las(find_files(self._sources, self._recursive)[0]))
+        if crs.epsg:
+            return QgsCoordinateReferenceSystem.fromEpsgId(crs.epsg)
+        return QgsCoordinateReferenceSystem.fromWkt(crs.wkt or "")
 
 
 def features_of(

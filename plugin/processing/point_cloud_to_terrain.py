@@ -18,7 +18,7 @@ from .base import BareEarthAlgorithm
 from .classified import show_classified
 from .commands import terrain_commands
 from .constraints import add_known, known_of
-from .inputs import add_survey, names_of, survey_of
+from .inputs import CloudCrs, add_survey, names_of, survey_of
 
 
 class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
@@ -56,7 +56,7 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         """Make what is wanted."""
         from ...algorithms.engine.terrain_maps import MapFiles, MapRequest, make_maps
 
-        known = known_of(self, parameters, context, self._sources[0], progress)
+        known = known_of(self, parameters, context, CloudCrs(*self._sources), progress)
         chosen = self.chosen(parameters, context)
         request = MapRequest.of(chosen, **known)
         cloud = self.point_cloud_destination(parameters, "OUTPUT", context)

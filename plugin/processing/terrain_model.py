@@ -10,6 +10,7 @@ from ...algorithms.survey.ground_classes import GroundClasses
 from ..i18n import mark, tr
 from .base import command_line
 from .constraints import add_constraints, constraints_of
+from .inputs import CloudCrs
 from .outputs import add_rasters, raster_files, raster_paths
 from .products import ProductAlgorithm
 
@@ -49,7 +50,7 @@ class TerrainModelAlgorithm(ProductAlgorithm):
         if not paths:
             raise BareEarthError(tr("Choose at least one raster to make."))
         progress.command(command_line("terrain", [str(self.source)], chosen, paths))
-        known = constraints_of(self, parameters, context, self.source, progress)
+        known = constraints_of(self, parameters, context, CloudCrs(self.source), progress)
         request = TerrainRequest.of(chosen, rasters=raster_files(paths), constraints=known)
         summary = terrain(self.source, request, progress)
         size = summary.columns, summary.rows

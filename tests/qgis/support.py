@@ -5,7 +5,13 @@ from pathlib import Path
 import laspy
 import numpy as np
 from laspy.vlrs.known import WktCoordinateSystemVlr
-from qgis.core import QgsCoordinateReferenceSystem, QgsProcessingFeedback
+from qgis.core import (
+    QgsCoordinateReferenceSystem,
+    QgsFeature,
+    QgsGeometry,
+    QgsProcessingFeedback,
+    QgsVectorLayer,
+)
 from qgis.PyQt import sip
 
 ROOT = Path(__file__).parents[2]
@@ -67,6 +73,15 @@ def write_scene(path, epsg=25832, origin=(500_000.0, 5_700_000.0)):
     las.return_number[:] = las.number_of_returns[:] = 1
     las.write(str(path))
     return ground
+
+
+def layer_of(kind, wkt):
+    """Return a layer in memory with one feature."""
+    layer = QgsVectorLayer(f"{kind}?crs=EPSG:25832", "layer", "memory")
+    feature = QgsFeature()
+    feature.setGeometry(QgsGeometry.fromWkt(wkt))
+    assert layer.dataProvider().addFeatures([feature])[0]
+    return layer
 
 
 class Scene:

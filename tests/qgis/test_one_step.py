@@ -11,14 +11,11 @@ import numpy as np
 import pytest
 from osgeo import gdal, ogr
 from qgis.core import (
-    QgsFeature,
-    QgsGeometry,
     QgsProcessingException,
     QgsProcessingOutputLayerDefinition,
     QgsProject,
-    QgsVectorLayer,
 )
-from support import Log, write_scene
+from support import Log, layer_of, write_scene
 
 ALL_IN_ONE = "bareearth:pointcloudtoterrain"
 RASTERS = ("DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE", "RELIEF")
@@ -119,15 +116,7 @@ def test_the_terrain_respects_lines_and_polygons(scene, tmp_path, how):
     lake = np.s_[-16:-7, 7:23]
     assert np.ptp(fixed[lake]) < 0.01 < 0.5 < np.ptp(plain[lake])
     assert np.nanmax(band(outputs["RELIEF"])) > 10.0
-    assert "the layers are missing" in log.text
-
-
-def layer_of(kind, wkt):
-    layer = QgsVectorLayer(f"{kind}?crs=EPSG:25832", "layer", "memory")
-    feature = QgsFeature()
-    feature.setGeometry(QgsGeometry.fromWkt(wkt))
-    assert layer.dataProvider().addFeatures([feature])[0]
-    return layer
+    assert "add --breaklines breaklines.geojson --water water.geojson." in log.text
 
 
 def test_every_output_may_be_left_out(scene, tmp_path):

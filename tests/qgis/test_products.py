@@ -9,16 +9,13 @@ import pytest
 from osgeo import gdal
 from qgis.core import (
     Qgis,
-    QgsFeature,
-    QgsGeometry,
     QgsPointCloudAttribute,
     QgsPointCloudLayer,
     QgsProcessingException,
     QgsProcessingParameterDefinition,
     QgsProviderRegistry,
-    QgsVectorLayer,
 )
-from support import Log
+from support import Log, layer_of
 
 gdal.UseExceptions()
 
@@ -194,8 +191,8 @@ def test_a_terrain_model_respects_lines_and_polygons(labelled, out):
     x, y = np.asarray(las.x)[~labelled.ground], np.asarray(las.y)[~labelled.ground]
     west, south, east, north = x.min() - 1, y.min() - 1, x.max() + 1, y.max() + 1
     ring = f"{west} {south}, {east} {south}, {east} {north}, {west} {north}, {west} {south}"
-    house = _layer("Polygon", f"POLYGON(({ring}))")
-    line = _layer("LineStringZ", f"LINESTRINGZ({west} {south - 9} 150, {east} {south - 9} 150)")
+    house = layer_of("Polygon", f"POLYGON(({ring}))")
+    line = layer_of("LineStringZ", f"LINESTRINGZ({west} {south - 9} 150, {east} {south - 9} 150)")
 
     def heights(**layers):
         parameters = {"INPUT": str(labelled.path), "DTM": str(out / "dtm.tif"), **layers}
@@ -212,12 +209,3 @@ def test_a_terrain_model_respects_lines_and_polygons(labelled, out):
     assert np.nanmax(heights()) > 2.0
     assert np.nanmax(np.abs(heights(NO_GROUND=house))) < 0.3
     assert np.nanmax(heights(NO_GROUND=house, BREAKLINES=line)) > 20.0
-
-
-def _layer(kind, wkt):
-    """Return a layer in memory with one feature."""
-    layer = QgsVectorLayer(f"{kind}?crs=EPSG:25832", "layer", "memory")
-    feature = QgsFeature()
-    feature.setGeometry(QgsGeometry.fromWkt(wkt))
-    assert layer.dataProvider().addFeatures([feature])[0]
-    return layer

@@ -1,0 +1,78 @@
+"""Breaklines, water and places without ground, in the algorithms that classify."""
+
+import laspy
+import numpy as np
+import pytest
+from osgeo import gdal
+from qgis.core import QgsProcessingException
+from support import Log, layer_of, write_scene
+
+from bare_earth.plugin.processing.inputs import CloudCrs
+
+EAST, NORTH = 500_000.0, 5_700_000.0
+CLASSIFIERS = ["tindensification", "gridminimum", "slopefilter", "classifytiles"]
+
+
+@pytest.fixture
+def line():
+    """A line 50 m above the slope."""
+    start, end = f"{EAST + 5} {NORTH + 60.5} 150", f"{EAST + 70} {NORTH + 60.5} 150"
+    return layer_of("LineStringZ", f"LINESTRINGZ({start}, {end})")
+
+
+def run(name, scene, tmp_path, **given):
+    """Classify the scene; return the classes, and what was said."""
+    import processing
+
+    log = Log()
+    is_many = name == "classifytiles"
+    output = tmp_path / "out" if is_many else tmp_path / "out.laz"
+    parameters = {
+        "INPUT": [str(scene.path)] if is_many else str(scene.path),
+        "OUTPUT_FOLDER" if is_many else "OUTPUT": str(output),
+        **given,
+    }
+    processing.run(f"bareearth:{name}", parameters, feedback=log)
+    file = output / scene.path.name if is_many else output
+    return np.asarray(laspy.read(file).classification), log.text
+
+
+@pytest.mark.parametrize("name", CLASSIFIERS)
+def test_the_terrain_model_respects_them_and_the_classes_stay(name, scene, tmp_path, line):
+    path = str(tmp_path / "dtm.tif")
+    plain, _ = run(name, scene, tmp_path, DTM=path)
+    assert np.nanmax(heights(path)) < 106.0
+    classes, said = run(name, scene, tmp_path, DTM=path, BREAKLINES=line)
+    assert np.nanmax(heights(path)) > 145.0
+    assert np.array_equal(classes, plain)
+    assert "add --breaklines breaklines.geojson." in said
+
+
+def test_without_a_raster_they_have_no_use(scene, tmp_path, line):
+    with pytest.raises(QgsProcessingException, match="terrain model"):
+        run("slopefilter", scene, tmp_path, BREAKLINES=line, DTM="", HILLSHADE="")
+    assert not (tmp_path / "out.laz").exists()
+
+
+def test_the_crs_is_that_of_the_files_that_the_run_reads(tmp_path):
+    (tmp_path / "a").mkdir()
+    write_scene(tmp_path / "a" / "elsewhere.laz", epsg=25833)
+    write_scene(tmp_path / "b.laz")
+    assert CloudCrs(tmp_path).value.authid() == "EPSG:25832"
+    assert CloudCrs(tmp_path, recursive=True).value.authid() == "EPSG:25833"
+
+
+def test_the_crs_is_read_once_and_only_if_it_is_needed(tmp_path):
+    path = tmp_path / "scene.laz"
+    crs = CloudCrs(path)
+    write_scene(path)
+    assert crs.value.isValid()
+    path.unlink()
+    assert crs.value.authid() == "EPSG:25832"
+
+
+def heights(path):
+    """Return the heights of a raster."""
+    raster = gdal.Open(path)
+    values = raster.ReadAsArray()
+    return np.where(values == raster.GetRasterBand(1).GetNoDataValue(), np.nan, values)
