@@ -53,10 +53,10 @@ class LazDialog(QDialog):
         self.setWindowTitle(tr("LAZ support"))
         about = QLabel(
             tr(
-                "Compressed point clouds (.laz, .copc.laz) need the package lazrs, which few builds"
-                " of QGIS have. Here you get it from the Python Package Index (0.6 MB), or, without"
-                " the internet, from a wheel file of lazrs for {}. It goes into your profile; QGIS"
-                " itself is left as it is."
+                "Compressed point clouds (.laz, .copc.laz) need the Python package lazrs, which"
+                " few builds of QGIS have. Here you can get it from the Python Package Index (0.6"
+                " MB) or, without internet, from a wheel file of lazrs for {}. It is stored in"
+                " your profile; QGIS itself does not change."
             ).format(Build.here().wheels)
         )
         self.state, self.result = QLabel(), QLabel()

@@ -93,7 +93,11 @@ class BareEarthPlugin:
         """Say once that .laz files need a package, with the way to it."""
         bar = self._iface.messageBar()
         message = bar.createMessage(
-            _MENU, tr("Ready. Compressed point clouds (.laz) need one package more, once.")
+            _MENU,
+            tr(
+                "Ready. Compressed point clouds (.laz) need one more package, which is"
+                " installed only once."
+            ),
         )
         button = QPushButton(tr("LAZ support…"))
         button.clicked.connect(self.show_laz_support)

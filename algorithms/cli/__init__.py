@@ -13,6 +13,7 @@ from . import classifying, comparing, products
 from .command import FAILED, USAGE
 from .options import UsageError
 
+_EMPTY = "Where the help says what an empty value means, give the word none for it."
 _COMMANDS = (*classifying.COMMANDS, *comparing.COMMANDS, *products.COMMANDS)
 
 
@@ -73,11 +74,11 @@ def _parser(arguments: Sequence[str]) -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
     common = argparse.ArgumentParser(add_help=False)
     common.add_argument(
-        "--verbose", action="store_true", help="say what is done, and where an error arose"
+        "--verbose", action="store_true", help="print what is done, and where an error arose"
     )
     for each in _COMMANDS:
         its_parser = commands.add_parser(
-            each.name, parents=[common], help=each.help, description=each.description
+            each.name, parents=[common], help=each.help, description=each.description, epilog=_EMPTY
         )
         its_parser.set_defaults(run=each.run)
         # Declarations of parameters load numpy: those of other commands are not needed.

@@ -36,25 +36,29 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
     add_inputs(parser)
     parser.add_argument(
         "output", metavar="OUTPUT", type=Path,
-        help="the file to write (.las, .laz or .copc.laz); of many inputs a folder",
+        help="the file to write (.las, .laz or .copc.laz), or a folder if there are many inputs",
     )  # fmt: skip
     add_rasters(parser)
     add_constraints(parser, "for the rasters, ")
-    add_extent(parser, "classify only points in this rectangle")
+    add_extent(
+        parser, "classify only points in this rectangle",
+        "; points outside are written too, with the class that they have, unless --area-only is"
+        " given",
+    )  # fmt: skip
     parser.add_argument(
         "--boundary", metavar="FILE", type=Path,
         help="classify only points in these polygons (.geojson, .json, .wkt), in the CRS of the"
-        " points",
+        " points; for points outside as --extent",
     )  # fmt: skip
     parser.add_argument(
         "--corrections", metavar="FILE", type=Path,
-        help="polygons whose points have the class that the attribute 'class' says, whatever the"
-        " filter makes of them (.geojson, .json), in the CRS of the points",
+        help="polygons in which you know the class (.geojson, .json), in the CRS of the points;"
+        " the attribute 'class' holds it, and it replaces the result of the filter",
     )  # fmt: skip
     parser.add_argument(
         "--vpc", metavar="FILE", type=Path,
-        help="of many files, the virtual point cloud of the results (default: classified.vpc in"
-        " the folder)",
+        help="with many files: the virtual point cloud that lists the results (default:"
+        " classified.vpc in the output folder)",
     )  # fmt: skip
     add_scheduler(parser)
     method = _add_method(parser, arguments)
@@ -131,23 +135,23 @@ def _area_of(options: argparse.Namespace) -> Area | None:
 
 _TILES = "classify-tiles"
 _ABOUT = (
-    " Of many files, folders and virtual point clouds, each point gets the class that it would get"
-    " if all were one file: there is no seam. A file that cannot be classified is reported at the"
-    " end. Give --method before --help to see its parameters."
+    " Many files, folders and virtual point clouds are one survey: each point gets the class that"
+    " it would get if all were one file, so there are no seams. A file that cannot be classified"
+    " is reported at the end. To see the parameters of a method, give --method before --help."
 )
 
 COMMANDS = (
     Command(
         "classify",
         "classify the ground points of a file, or of many as one survey",
-        "Classifies the ground points of LAS, LAZ and COPC files. The output equals the input but"
-        " for the classification." + _ABOUT,
+        "Classifies the ground points of LAS, LAZ and COPC files. Only the classification changes"
+        " in the output." + _ABOUT,
         _add_classify,
         _classify,
     ),
     Command(
         _TILES,
-        "the same as classify, the output always a folder",
+        "the same as classify, but always writes into a folder",
         "Classifies the ground points of LAS, LAZ and COPC files, and writes each into a folder."
         + _ABOUT,
         _add_classify,

@@ -30,8 +30,13 @@ def _info(options: argparse.Namespace) -> int:
 def _add_assess(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..products.comparison import AssessmentOptions
 
-    parser.add_argument("classified", metavar="CLASSIFIED", type=Path, help="the classified file")
-    parser.add_argument("reference", metavar="REFERENCE", type=Path, help="the reference")
+    parser.add_argument("classified", metavar="CLASSIFIED", type=Path, help="the file to check")
+    parser.add_argument(
+        "reference",
+        metavar="REFERENCE",
+        type=Path,
+        help="a file with the same points and their true classes",
+    )
     add_json(parser, "")
     parser.add_argument("--report", metavar="FILE", type=Path, help="write a report (.html)")
     parser.add_argument(

@@ -20,16 +20,18 @@ def add_inputs(parser: argparse.ArgumentParser, first: str = "") -> None:
     """Add the argument that names any number of point clouds to read."""
     parser.add_argument(
         "input", metavar="INPUT", type=Path, nargs="+",
-        help=first + "files, folders, virtual point clouds (.vpc), or lists of files (.txt): all"
-        " are one survey",
+        help=first + "files, folders, virtual point clouds (.vpc), or lists of files (.txt); all"
+        " of them together are one survey",
     )  # fmt: skip
 
 
-def add_extent(parser: argparse.ArgumentParser, what: str, required: bool = False) -> None:
-    """Add the option for a rectangle; `what` says what it is for."""
+def add_extent(
+    parser: argparse.ArgumentParser, what: str, more: str = "", required: bool = False
+) -> None:
+    """Add the option for a rectangle; `what` says what it is for, `more` what else to know."""
     parser.add_argument(
         "--extent", nargs=4, type=float, metavar=("XMIN", "YMIN", "XMAX", "YMAX"),
-        required=required, help=f"{what}, in the CRS of the points",
+        required=required, help=f"{what}, in the CRS of the points{more}",
     )  # fmt: skip
 
 
@@ -80,14 +82,16 @@ def _add_options(parser: Any, declared: type[ParameterSet]) -> None:
             names = {"choices": list(each.choices), "metavar": each.name.upper().rstrip("S")}
             parser.add_argument(flag, nargs="+", **names, **words)
         elif each.kind in ("numbers", "integers"):
-            parser.add_argument(flag, nargs="*", metavar="N", **words)
+            parser.add_argument(flag, nargs="*", metavar=each.unit or "N", **words)
         else:
             parser.add_argument(flag, metavar=each.unit or "N", **words)
 
 
 def _help_of(each: Declaration) -> str:
     default = each.default
-    if isinstance(default, tuple):
+    if isinstance(default, bool):
+        default = "on" if default else "off"
+    elif isinstance(default, tuple):
         default = " ".join(map(shown_value, default)) or "none"
     unit = f" {each.unit}" if each.unit and default is not None else ""
     words = [each.help, f"(default: {each.empty if default is None else default}{unit})"]
@@ -98,7 +102,9 @@ def _help_of(each: Declaration) -> str:
 def _from_options(declared: type[ParameterSet], options: argparse.Namespace) -> ParameterSet:
     values = {each.name: getattr(options, each.name) for each in declared.declarations()}
     for each in declared.declarations():
-        if each.optional and str(values[each.name]).lower() in _NOT_USED:
+        value = values[each.name]
+        word = value[0] if isinstance(value, list) and len(value) == 1 else value
+        if each.optional and str(word).lower() in _NOT_USED:
             values[each.name] = None
     try:
         return declared(**values)

@@ -28,7 +28,7 @@ def _add_remove_objects(parser: argparse.ArgumentParser, arguments: Sequence[str
     from ..products.off_terrain import OffTerrain
 
     parser.add_argument("input", metavar="INPUT", help="a raster that GDAL reads")
-    parser.add_argument("output", metavar="OUTPUT", type=Path, help="GeoTIFF (.tif)")
+    parser.add_argument("output", metavar="OUTPUT", type=Path, help="a GeoTIFF (.tif) to write")
     add_json(parser)
     add_parameters(parser, OffTerrain)
 
@@ -64,7 +64,7 @@ def _add_files(parser: argparse.ArgumentParser, *sets: type[ParameterSet]) -> No
     add_inputs(parser, "a classified file, or ")
     parser.add_argument(
         "output", metavar="OUTPUT", type=Path,
-        help="the file to write (.las, .laz or .copc.laz); of many inputs a folder",
+        help="the file to write (.las, .laz or .copc.laz), or a folder if there are many inputs",
     )  # fmt: skip
     add_scheduler(parser)
     add_json(parser)
@@ -127,34 +127,34 @@ def _terrain(options: argparse.Namespace) -> int:
 COMMANDS = (
     Command(
         "remove-off-terrain-objects",
-        "take buildings and trees out of an elevation raster",
-        "Takes what stands steeply above the terrain round it out of an elevation"
-        " raster, and fills the gaps smoothly.",
+        "remove buildings and trees from an elevation raster",
+        "Removes buildings, trees and other steep-sided objects from an elevation raster, and"
+        " fills the gaps smoothly.",
         _add_remove_objects,
         _remove_objects,
     ),
     Command(
         "height",
         "add the height above ground of every point",
-        "Writes a classified file, or many as one survey, anew with the height of every point"
-        " above the TIN of the ground points, in the vertical unit of the CRS.",
+        "Adds to every point its height above the TIN of the ground points, in the vertical unit"
+        " of the CRS. The input is a classified file, or many as one survey.",
         _add_height,
         _write,
     ),
     Command(
         "key-points",
         "mark the ground points that a terrain model needs",
-        "Writes a classified file, or many as one survey, anew with the model key points marked:"
-        " the few ground points from whose TIN no other ground point lies farther than the"
-        " tolerance.",
+        "Marks the model key points of a classified file, or of many as one survey: the few ground"
+        " points that a terrain model needs. No other ground point lies farther from their TIN"
+        " than the tolerances.",
         _add_key_points,
         _write,
     ),
     Command(
         "terrain",
         "make rasters of the terrain and of what stands on it",
-        "Makes rasters (GeoTIFF) of a classified file, or of many as one survey. Name at least"
-        " one.",
+        "Makes rasters (GeoTIFF) of a classified file, or of many as one survey. Give at least one"
+        " of --dtm, --dsm, --chm, --hillshade and --confidence.",
         _add_terrain,
         _terrain,
     ),

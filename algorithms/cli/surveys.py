@@ -20,11 +20,11 @@ if TYPE_CHECKING:
 
 
 _CONSTRAINTS = {
-    "breaklines": "lines that no triangle of the terrain crosses; without z they get the height of"
-    " the nearest ground point",
-    "water": "polygons of water, flattened to one level",
-    "rivers": "lines along which the water in such polygons falls",
-    "no-ground": "polygons in which no point is ground, such as bridges and roofs",
+    "breaklines": "lines that no triangle of the terrain crosses; a line without z gets the height"
+    " of the nearest ground point on each side",
+    "water": "polygons of water; each is flattened to one level",
+    "rivers": "lines along which the level of the water polygons falls",
+    "no-ground": "polygons in which the terrain uses no ground points, such as bridges and roofs",
 }
 
 
@@ -73,8 +73,8 @@ def add_scheduler(parser: argparse.ArgumentParser) -> None:
     """Add the option for a cluster."""
     parser.add_argument(
         "--scheduler", metavar="ADDRESS",
-        help="of many files, let the workers of this Dask scheduler do it, such as"
-        " tcp://host:8786; without it, processes of this computer do",
+        help="with many files: the address of a Dask scheduler, such as tcp://host:8786, whose"
+        " workers do the work; without it, processes of this computer do it",
     )  # fmt: skip
 
 
@@ -93,7 +93,7 @@ def finished_files_stay() -> Iterator[None]:
         yield
     except (Cancelled, KeyboardInterrupt) as error:
         raise BareEarthError(
-            "Cancelled; the files that are finished stay. Go on with --resume."
+            "Cancelled. The finished files stay. Continue with --resume."
         ) from error
 
 

@@ -23,8 +23,8 @@ _REASONS = {
     errno.EROFS: "the disk is read-only. Choose another folder",
     errno.ENAMETOOLONG: "the name is too long. Choose a shorter one",
     errno.ESTALE: "the network disk lost the file. Run it again",
-    errno.EBUSY: "another program holds it. Close it there, or choose another name",
-    errno.EXDEV: "the folder lies across two disks. Choose another folder",
+    errno.EBUSY: "another program uses it. Close it there, or choose another name",
+    errno.EXDEV: "the folder spans two disks. Choose another folder",
 }
 
 
@@ -56,7 +56,7 @@ def check_output(target: Path, sources: tuple[Path, ...] = ()) -> None:
             raise BareEarthError(f"Cannot write {target}: it is a folder. Give a file name.")
         if target.exists() and not target.is_file():
             raise BareEarthError(
-                f"Cannot write {target}: it is no file, but a device or a pipe. Choose another"
+                f"Cannot write {target}: it is a device or a pipe, not a file. Choose another"
                 " output."
             )
         for source in sources:

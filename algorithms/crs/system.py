@@ -171,12 +171,12 @@ def _crs_of(text: str | None, facts: WktFacts, progress: Progress) -> Crs:
         vertical = horizontal
         if facts.has_vertical:
             progress.warning(
-                f"The unit of the heights is not known: taken as that of x and y,"
+                "The unit of the heights is not known: that of x and y is used,"
                 f" {unit_name(horizontal)}."
             )
         elif not math.isclose(horizontal, 1.0):
             progress.info(
-                "The file does not state the unit of its heights: taken as that of x and y,"
+                "The file does not state the unit of its heights: that of x and y is used,"
                 f" {unit_name(horizontal)}."
             )
     return replace(crs, horizontal_unit=horizontal, vertical_unit=vertical)

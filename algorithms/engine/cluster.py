@@ -89,9 +89,9 @@ class Cluster(Workers):
             self._client = Client(self._address, timeout=_CONNECTING, set_as_default=False)
         except (OSError, ValueError) as error:
             raise BareEarthError(
-                f"There is no Dask scheduler at {self._address} that answers this computer. Start"
-                " one with 'dask scheduler', and give the address that it prints. With TLS, the"
-                " certificates must be of one authority."
+                f"No Dask scheduler answers at {self._address}. Start one with 'dask scheduler',"
+                " and give the address that it prints. With TLS, all certificates must come from"
+                " the same authority."
             ) from error
         try:
             self._mark = _marked(folder)
@@ -234,7 +234,9 @@ def _check_encryption(address: str) -> None:
         security = Security()
         has_keys = security.get_connection_args("client")["ssl_context"] is not None
     except (OSError, ValueError, ImportError) as error:
-        raise BareEarthError(f"{what}: certificate or key do not do ({error}). {where}") from error
+        raise BareEarthError(
+            f"{what}: the certificate or the key cannot be used ({error}). {where}"
+        ) from error
     is_secret = address.startswith("tls://")
     if is_secret and not has_keys:
         raise BareEarthError(f"{what}: TLS needs a certificate, a key and an authority. {where}")

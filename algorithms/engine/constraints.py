@@ -226,7 +226,8 @@ class _Shapes:
             yield np.concatenate((line[~unknown], sides))
         if lost:
             self._progress.warning(
-                f"{lost:,} breaklines have no z, and no ground within {_NEAR:g} m: left out."
+                f"Breaklines left out: {lost:,}. They have no z, and no ground point within"
+                f" {_NEAR:g} m."
             )
 
     def water(self) -> Iterator[tuple[np.ndarray, np.ndarray]]:
@@ -256,8 +257,8 @@ class _Shapes:
             yield vertices[: len(border)], vertices[len(border) :]
         if dry:
             self._progress.warning(
-                f"{dry:,} waters have no ground within {_NEAR:g} m of their border: they are not"
-                " flattened, and nothing in them is ground."
+                f"Polygons of water that are not flattened: {dry:,}. They have no ground point"
+                f" within {_NEAR:g} m of their border. The terrain uses no ground points in them."
             )
 
 

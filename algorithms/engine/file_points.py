@@ -109,7 +109,7 @@ class FilePoints:
         if not fits_in_memory(las.count, resources):
             progress.info(
                 f"The {las.count:,} points do not fit into the memory that may be used: they are"
-                " read twice, and wait in a temporary file in the folder of the output meanwhile."
+                " read twice, and wait in a temporary file in the output folder."
             )
             return cls(las, resources, target)
         length = las.record_length

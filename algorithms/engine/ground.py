@@ -74,7 +74,10 @@ def label_ground(
     """
     method = method_of(parameters)
     if store.has_known and not method.takes_known_ground:
-        progress.info(f"{method.label} does not start from known ground: it is only kept.")
+        progress.info(
+            f"{method.label} does not start from known ground; it only keeps these"
+            " points as ground."
+        )
     job_of = _job_maker(store, blocks, _Filter(method, parameters, special))
     notes = {}
     for number, result in over_blocks(store, blocks, job_of, resources, progress):

@@ -39,8 +39,8 @@ class HeightOutput(ParameterSet):
             "dimension": f"Extra dimension {HEIGHT_DIMENSION}",
             "z": "Z, in place of the elevation",
         },
-        help="An extra dimension keeps all else as it is. In place of the elevation the heights"
-        " show in programs that know no extra dimensions, and the terrain is flat.",
+        help="An extra dimension leaves everything else as it is. If the height replaces z,"
+        " programs that cannot show extra dimensions show it too, but the terrain is flat.",
     )
 
 

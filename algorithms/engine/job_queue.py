@@ -17,8 +17,8 @@ _POLL = 0.1
 # What a block does with a point takes so many times as long as reading and writing it.
 _BLOCK_WEIGHT = 2.0
 _DIED = (
-    "The process that worked on it ended unexpectedly, perhaps for want of memory. Allow fewer"
-    " threads, or less memory."
+    "The process that worked on it ended unexpectedly, perhaps because memory was short. Allow"
+    " fewer threads, or less memory."
 )
 
 
@@ -185,7 +185,7 @@ class JobQueue:
     def _tell(self) -> None:
         """Tell each message once, and how many others differ in names and numbers only."""
         for (kind, _), texts in self._heard.items():
-            more = f" (And {len(texts) - 1:,} times the like.)" if len(texts) > 1 else ""
+            more = f" (And {len(texts) - 1:,} more like this.)" if len(texts) > 1 else ""
             getattr(self._progress, kind)(texts[0] + more)
 
 

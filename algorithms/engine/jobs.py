@@ -92,7 +92,8 @@ class BlockJob:
                 cloud = read_window(source, window, part, trust_header=True)
             except BareEarthError as error:
                 progress.warning(
-                    f"What lies beside {source.name} is made without its points. {error}"
+                    f"{source.name} is left out: the results beside it are made without its"
+                    f" points. {error}"
                 )
                 continue
             if cloud.count:
@@ -258,7 +259,7 @@ class KeptValues:
             if left is None:
                 raise BareEarthError(
                     f"The header of {self._path} states a smaller extent than its points have."
-                    " Write the file anew with a program that corrects it."
+                    " Write the file again with a program that corrects the header."
                 )
             if len(left) < len(here):
                 raise self._changed()

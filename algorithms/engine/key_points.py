@@ -39,17 +39,17 @@ class KeyPointMark(ParameterSet):
             "class": "A class of their own",
             "flag": "The key-point flag of LAS; the class stays",
         },
-        help="Up to LAS 1.3, and for most programs, key points are a class. LAS 1.4 has a flag for"
-        " them, so that they stay ground.",
+        help="Up to LAS 1.3, and in most programs, key points have a class. LAS 1.4 has a flag for"
+        " them, so that they keep the class of the ground.",
     )
     key_class: int = parameter(
         8,
         label="Class of key points",
         minimum=0,
         maximum=255,
-        help="The class that key points get. Points that have it already are taken as ground, and"
-        " get the first of the ground classes again if they are not needed. Point formats 0 to 5"
-        " hold classes up to 31.",
+        help="The class that key points get. Points that already have it count as ground; those"
+        " that are not needed get the first of the ground classes. Point formats 0 to 5 hold"
+        " classes up to 31.",
     )
 
     @property

@@ -65,7 +65,7 @@ class SurveySummary:
     @property
     def text(self) -> str:
         """The counts in words."""
-        kept = f" ({self.kept_count:,} of them before)" if self.kept_count else ""
+        kept = f" ({self.kept_count:,} of them in an earlier run)" if self.kept_count else ""
         text = f"{self.done_count:,} of {self.tile_count:,} files are done{kept}"
         if not self.ground_count:
             return f"{text}: {self.point_count:,} points"
@@ -109,7 +109,8 @@ def classify_files(
     rasters = request.raster_step if request.rasters.wanted else None
     if request.output.ground_only and rasters is not None and not rasters.covers_ground:
         raise BareEarthError(
-            "Of ground points alone only rasters of the terrain can be made. Write all points."
+            "The surface model, the canopy height and the confidence need all points. Write all"
+            " points, not only the ground."
         )
     return write_files(sources, folder, steps, request, progress, workers, vpc, rasters)
 
@@ -199,10 +200,12 @@ def write_files(
         raise BareEarthError(
             f"None of the {len(reasons):,} files could be done."
             if reasons
-            else "None of the files has points in the area that are to be written."
+            else "None of the files has points to write in the area."
         )
     if empty_count:
-        progress.info(f"{empty_count:,} files are not written: they have nothing in the area.")
+        progress.info(
+            f"{empty_count:,} files are not written: they have no points to write in the area."
+        )
     for each in waiting:
         shutil.rmtree(each, ignore_errors=True)
     write_vpc(vpc, [folder / each.name for each in run.done], progress.part(0.98, 1.0))
@@ -279,7 +282,7 @@ def _check_survey(
         if each.resolve() in here.parents:
             raise BareEarthError(
                 f"The output {folder} is in the folder {each}, which is searched for inputs with"
-                " all folders in it. Choose another output."
+                " all its subfolders. Choose another output."
             )
     if vpc.suffix.lower() != VPC_SUFFIX:
         raise BareEarthError(f"Cannot write {vpc}: name it {VPC_SUFFIX}.")

@@ -29,7 +29,8 @@ class Resources(ParameterSet):
         maximum=1024,
         empty="all processors",
         advanced=True,
-        help="How many threads compute at the same time. The result does not depend on it.",
+        help="How many threads compute at the same time. The result does not depend on it. Empty:"
+        " as many as there are processors.",
     )
     memory: float | None = parameter(
         None,
@@ -40,9 +41,9 @@ class Resources(ParameterSet):
         maximum=100_000.0,
         empty="half of what is free",
         advanced=True,
-        help="About how much a run may take. A file that needs more is read twice, with its points"
-        " in a temporary file in the folder of the output meanwhile; of many files, fewer blocks"
-        " are in work at the same time. The result does not depend on it.",
+        help="About how much memory a run may use. A file that needs more is read twice, and its"
+        " points wait in a temporary file in the output folder. With many files, fewer are worked"
+        " on at the same time. The result does not depend on it. Empty: half of the free memory.",
     )
 
     @property

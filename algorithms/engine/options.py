@@ -29,8 +29,8 @@ class TileMethod(ParameterSet):
             "town": "Town",
             "city": "City, large halls",
         },
-        help="The values of the method, by terrain. Values of one's own can be given on the command"
-        " line.",
+        help="The values of the method for a kind of terrain. For other values, use the command"
+        " line or the algorithm of the method.",
     )
 
     @property
@@ -45,8 +45,8 @@ class TileInput(ParameterSet):
 
     recursive: bool = parameter(
         False,
-        label="Take the files in folders of folders",
-        help="Searches a folder with all folders in it, instead of alone.",
+        label="Include subfolders",
+        help="Searches each folder with all its subfolders.",
     )
 
 
@@ -61,13 +61,13 @@ class TileOutput(ParameterSet):
             "same": "As the input",
             "las": "LAS",
             "laz": "LAZ",
-            "copc.laz": "COPC, which QGIS shows without an index of its own",
+            "copc.laz": "COPC, which QGIS shows at once",
         },
-        help="The names of the files stay, but for what a format needs.",
+        help="Files keep their names; only the ending follows the format.",
     )
     resume: bool = parameter(
         False,
-        label="Go on where a run before ended",
-        help="Tiles that are done stay, if they were made from the same files with the same"
-        " parameters. All others are classified anew.",
+        label="Continue an earlier run",
+        help="Keeps the tiles that an earlier run finished, if they were made from the same files"
+        " with the same parameters. All other tiles are classified again.",
     )

@@ -25,20 +25,21 @@ class Output(ParameterSet):
     ground_only: bool = parameter(
         False,
         label="Write ground points only",
-        help="Leaves all points out of the output that are not of the class of the ground. The log"
-        " says how many.",
+        help="Writes only the points that have the class of the ground. The log says how many"
+        " points are left out.",
     )
     area_only: bool = parameter(
         False,
         label="Write points of the area only",
         advanced=True,
-        help="Leaves all points out of the output that lie outside of the extent and the boundary,"
-        " and out of the rasters. Files of a survey that have none in the area are not written.",
+        help="Writes only the points inside the extent and the boundary, also to the rasters."
+        " Files without such points are not written. If this is off, all files are written with"
+        " all their points, and points outside keep their class.",
     )
     height_above_ground: bool = parameter(
         False,
         label="Add the height above ground",
-        help=f"Adds the extra dimension {HEIGHT_DIMENSION}: how high each point stands above the"
+        help=f"Adds the extra dimension {HEIGHT_DIMENSION}, the height of each point above the"
         " ground, in the vertical unit of the CRS.",
     )
 
@@ -96,9 +97,8 @@ class Output(ParameterSet):
             progress.info(f"{count:,} points outside of the area are left out of the output.")
         if self.needs_ground and not (ground if kept is None else ground & kept).any():
             raise BareEarthError(
-                f"{cloud.path} has no ground points, so that there is nothing to write of the"
-                " ground alone, and no height above it. Check the parameters and the selection of"
-                " points."
+                f"{cloud.path} has no ground points, so there are no ground points to write, and"
+                " no heights above ground. Check the parameters and the selection of points."
             )
         if heights is not None:
             extra = height_dimension(cloud, heights)

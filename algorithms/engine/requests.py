@@ -103,8 +103,8 @@ class ClassifyRequest(Request):
         self.output.check_area(self.area is not None)
         if self.constraints.any and not self.rasters.wanted:
             raise BareEarthError(
-                "Breaklines, water and places without ground shape rasters: name one to make, such"
-                " as the terrain model."
+                "Breaklines, water, rivers and places without ground only change rasters. Choose a"
+                " raster to make, such as the terrain model."
             )
 
     @property

@@ -137,7 +137,7 @@ def terrain(
     """
     paths = _paths(sources)
     if not request.rasters.wanted:
-        raise BareEarthError("Name at least one raster to make.")
+        raise BareEarthError("Choose at least one raster to make.")
     if not request.ground.ground_classes:
         raise BareEarthError("Choose at least one ground class.")
     request.rasters.check(tuple(paths))

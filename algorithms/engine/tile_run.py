@@ -172,8 +172,8 @@ class TileRun:
             progress.info(f"{len(kept):,} files are done already.")
         if changed:
             progress.info(
-                f"{changed:,} files that were done are made anew: parameters, inputs or the"
-                " version are others than before."
+                f"{changed:,} finished files are made again, because parameters, inputs or the"
+                " version have changed."
             )
         return kept
 

@@ -146,13 +146,13 @@ def _notes(settings: Sequence[Setting], context: float, reach: float) -> list[st
     """Return what must be known to judge the pictures."""
     notes = [
         f"{context:g} m round the window were read as well, to judge the points in it.",
-        "All that is not named is at its default, and the classes that the points have now say"
-        " which take part, as in a run on all points.",
+        "All other parameters have their defaults. As in a run on all points, the present classes"
+        " of the points decide which of them take part.",
     ]
     if context < reach:
         notes[0] += (
-            f" The settings look up to {reach:g} m far: near the edges of the window, beside large"
-            " buildings above all, a run on all points may give other classes. More context makes"
-            " this sure."
+            f" The settings look up to {reach:g} m far. So a run on all points may give other"
+            " classes near the edges of the window, mostly beside large buildings. Give more"
+            " context to be sure."
         )
     return notes

@@ -68,7 +68,7 @@ class TrialOptions(ParameterSet):
         kind="choices",
         label="Settings",
         choices={name: setting.label for name, setting in SETTINGS.items()},
-        help="Methods with their presets. The others are compared with the first.",
+        help="Methods, each with a preset. All others are compared with the first one.",
     )
     context: float | None = parameter(
         None,
@@ -79,9 +79,10 @@ class TrialOptions(ParameterSet):
         maximum=1000.0,
         advanced=True,
         empty=f"as far as the methods look, at most {USUAL_CONTEXT:g} m",
-        help="Points so far round the window are read to judge those in it, but not shown. More is"
-        " slower, and closer to what the whole file gives near the edges of the window and beside"
-        f" large buildings. Empty: as far as the methods look, at most {USUAL_CONTEXT:g} m.",
+        help="Points up to this distance outside the window are read too, but not shown. A larger"
+        " value is slower, and gives classes closer to those of the whole file near the edges of"
+        " the window and beside large buildings. Empty: as far as the methods look, at most"
+        f" {USUAL_CONTEXT:g} m.",
     )
     profile: tuple[float, ...] | None = parameter(
         None,
@@ -89,9 +90,8 @@ class TrialOptions(ParameterSet):
         label="Line of the profile",
         advanced=True,
         empty="across the window where the terrains differ most",
-        help="X and Y of its two ends, in the CRS of the points: X1 Y1 X2 Y2. Empty: straight"
-        " across the window, from west to east or from south to north, where the terrains differ"
-        " most.",
+        help="X and Y of both ends, in the CRS of the points: X1 Y1 X2 Y2. Empty: straight across"
+        " the window where the terrains differ most, from west to east or from south to north.",
     )
 
     def __post_init__(self) -> None:

@@ -47,8 +47,8 @@ class ModelKeyPoints(ParameterSet):
         unit="m",
         minimum=0.0,
         maximum=100.0,
-        help="How far a ground point may lie above the TIN of the key points. About the accuracy of"
-        " the heights, or half the interval of the contour lines to be made.",
+        help="How far a ground point may lie above the TIN of the key points. Choose about the"
+        " accuracy of the heights, or half the contour interval that you want.",
     )
     tolerance_below: float = parameter(
         0.15,
@@ -64,8 +64,8 @@ class ModelKeyPoints(ParameterSet):
         unit="m",
         minimum=0.1,
         maximum=10000.0,
-        help="Every cell of this size that has ground points keeps at least one, its lowest,"
-        " however flat the ground is.",
+        help="In each cell of this size that has ground points, at least the lowest one is a key"
+        " point, however flat the ground is.",
     )
 
 

@@ -77,8 +77,8 @@ def _command_of_the_build(packages: list[str]) -> str:
     if sys.platform == "win32":
         command = f"osgeo4w-setup -q -k -P {debs.replace(' ', ',')}"
         return (
-            f"Open the OSGeo4W Shell from the Windows start menu, type '{command}' and start QGIS"
-            " anew."
+            f"Open the OSGeo4W Shell from the Windows start menu, type '{command}' and restart"
+            " QGIS."
         )
     if sys.platform == "darwin":
         program = Path(sys.executable).parent
@@ -92,7 +92,7 @@ def _command_of_the_build(packages: list[str]) -> str:
         managers = ("apt-get", "dnf", "zypper")
         found = next((each for each in managers if shutil.which(each)), "apt-get")
         command = f"sudo {found} install {debs}"
-    return f"In a terminal, type '{command}' and start QGIS anew."
+    return f"In a terminal, type '{command}' and restart QGIS."
 
 
 def _inside_qgis() -> bool:

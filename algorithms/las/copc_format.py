@@ -196,8 +196,8 @@ def _wkt(layout: LasFile, progress: Progress) -> Vlr | None:
     if text is None:
         if layout.vlr(*GEOKEY_RECORDS) is not None:
             progress.warning(
-                "The CRS of the input is not known as well-known text, as COPC wants it: it stays"
-                " in GeoTIFF keys, which not every program will read."
+                "COPC needs the CRS as well-known text, which is not known for this input. The CRS"
+                " stays in GeoTIFF keys, which not every program will read."
             )
         return None
     if len(text.encode()) >= LARGEST_VLR:
@@ -226,4 +226,6 @@ def tell_of_format(layout: LasFile, point_format: int, progress: Progress) -> No
             f"Point format {layout.point_format} becomes {point_format}, as COPC wants it."
         )
     if len(layout.header) > fields.HEADER_SIZES[layout.minor_version]:
-        progress.warning("COPC cannot hold the bytes that were added to the header: left out.")
+        progress.warning(
+            "COPC cannot hold the bytes that were added to the header: they are left out."
+        )

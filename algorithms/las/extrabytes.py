@@ -170,8 +170,8 @@ def _descriptors(layout: LasFile) -> list[bytes]:
     descriptors = [data[at : at + _DESCRIPTOR] for at in range(0, whole, _DESCRIPTOR)]
     if sum(map(_size, descriptors)) > layout.extra_bytes:
         raise BareEarthError(
-            f"{layout.path} describes more extra bytes than its points have, so that no dimension"
-            " can be added. Mend its record on the extra bytes first."
+            f"{layout.path} describes more extra bytes than its points have, so no dimension can"
+            " be added. Repair its record on the extra bytes first."
         )
     return descriptors
 

@@ -151,7 +151,8 @@ def _check_compressed(layout: LasFile) -> None:
     """
     if layout.laszip is None:
         raise BareEarthError(
-            f"{layout.path} has compressed points but no word on how. Copy or download it again."
+            f"{layout.path} has compressed points but does not say how they are compressed. Copy"
+            " or download it again."
         )
     compression = Compression.of(layout.laszip)
     if compression is None or compression.record_length != layout.record_length:
@@ -159,7 +160,7 @@ def _check_compressed(layout: LasFile) -> None:
     if not compression.is_known:
         raise BareEarthError(
             f"{layout.path} is compressed in a way that cannot be read here (LASzip compressor"
-            f" {compression.kind}). Write it anew with LASzip."
+            f" {compression.kind}). Write it again with LASzip."
         )
     is_layered = layout.point_format >= FIRST_EXTENDED_FORMAT
     if (compression.layers > 0) != is_layered or not compression.is_of(layout.point_format):

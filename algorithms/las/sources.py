@@ -38,7 +38,7 @@ def open_source(path: Path) -> BinaryIO:
         if stat.S_ISDIR(kind):
             raise BareEarthError(f"{path} is a folder. Give a file.")
         if not stat.S_ISREG(kind):  # to open a pipe would wait for somebody to write to it
-            raise BareEarthError(f"{path} is no file, but a pipe or a device. Give a file.")
+            raise BareEarthError(f"{path} is a pipe or a device, not a file. Give a file.")
         return open(path, "rb")
     except FileNotFoundError:
         raise BareEarthError(f"{path} does not exist. Check the path.") from None

@@ -203,8 +203,8 @@ def _replace_classes(
 def _tell_of_index(layout: LasFile, progress: Progress) -> None:
     if layout.is_copc:
         progress.info(
-            "The points stay in the order of the COPC file, but its index is left out: choose an"
-            " output named .copc.laz to have one."
+            "The points stay in the order of the COPC file, but its index is left out. To keep the"
+            " index, name the output .copc.laz."
         )
 
 

@@ -21,7 +21,7 @@ class AssessmentOptions(ParameterSet):
         label="Ground classes of the reference",
         minimum=0,
         maximum=255,
-        help="Classes of the reference that are ground; add 9 where water counts as ground.",
+        help="Classes of the reference that are ground. Add 9 if water counts as ground.",
     )
     ignored_classes: tuple[int, ...] | None = parameter(
         None,
@@ -29,7 +29,8 @@ class AssessmentOptions(ParameterSet):
         label="Ignored classes of the reference",
         minimum=0,
         maximum=255,
-        help="Points of these classes of the reference are left out, noise (7, 18) for example.",
+        help="Points of these classes of the reference are not counted, for example noise (7, 18)."
+        " Empty: all points are counted.",
     )
     map_cell_size: float = parameter(
         1.0,
@@ -38,8 +39,7 @@ class AssessmentOptions(ParameterSet):
         minimum=0.01,
         maximum=1000.0,
         advanced=True,
-        help="Side of a cell of the raster that tells the share of wrong points. The map in the"
-        " report chooses its own.",
+        help="Side of a cell of the error map. The map in the report has its own cell size.",
     )
 
 

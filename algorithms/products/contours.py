@@ -41,8 +41,8 @@ class Contours(ParameterSet):
         maximum=10_000.0,
         advanced=True,
         empty="automatic",
-        help="The height between contour lines, in the vertical unit of the CRS. Empty: what gives"
-        f" about {_LINES} of them.",
+        help="The height between contour lines, in the vertical unit of the CRS. Empty: a value"
+        f" that gives about {_LINES} lines.",
     )
 
     def interval(self, low: float, high: float) -> float:

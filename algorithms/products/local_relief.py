@@ -36,8 +36,8 @@ class LocalRelief(ParameterSet):
         minimum=0.1,
         maximum=1000.0,
         advanced=True,
-        help="How far the surroundings reach that a place is compared with. About as wide as the"
-        " features to be seen; larger landforms vanish.",
+        help="Each place is compared with its surroundings up to this distance. Choose about the"
+        " width of the features that you want to see; larger landforms disappear.",
     )
 
 

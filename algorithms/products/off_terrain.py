@@ -39,8 +39,8 @@ class OffTerrain(ParameterSet):
         unit="m",
         minimum=0.1,
         maximum=1000.0,
-        help="Shorter side of the largest building. Larger costs time, and steep hilltops that are"
-        " then taken for objects.",
+        help="Shorter side of the largest building. A larger value takes longer, and may remove"
+        " steep hilltops as objects.",
     )
     slope_threshold: float = parameter(
         15.0,
@@ -48,8 +48,8 @@ class OffTerrain(ParameterSet):
         unit="deg",
         minimum=0.1,
         maximum=88.0,
-        help="Objects have edges steeper than this all round, measured above the terrain that the"
-        " maximum object size gives; what rises more gently somewhere is a hill.",
+        help="Objects have edges steeper than this on all sides. What rises more gently on some"
+        " side is a hill. The slopes of the terrain below do not count.",
     )
     band: int = parameter(
         1,

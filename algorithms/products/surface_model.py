@@ -17,8 +17,8 @@ class SurfaceModel(ParameterSet):
         "first",
         label="Returns of the surface model",
         choices={"first": "First and single returns", "all": "All returns"},
-        help="The laser meets the top first. Take all returns where the return numbers of the file"
-        " are wrong.",
+        help="First returns hit the tops of trees and buildings. Take all returns if the return"
+        " numbers of the file are wrong.",
     )
     max_edge: float | None = parameter(
         None,
@@ -27,9 +27,9 @@ class SurfaceModel(ParameterSet):
         unit="m",
         minimum=0.1,
         maximum=100_000.0,
-        help="Gaps between points are interpolated by triangles; those with a longer edge have no"
-        " data instead, as water should. Empty: all gaps are interpolated, as far as the convex"
-        " hull of the points.",
+        help="Gaps between points are filled by triangles. A triangle with a longer edge than this"
+        " has no data, for example over water. Empty: all gaps are filled, out to the convex hull"
+        " of the points.",
     )
 
 

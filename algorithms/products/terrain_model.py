@@ -17,8 +17,8 @@ class TerrainModel(ParameterSet):
         unit="m",
         minimum=0.01,
         maximum=1000.0,
-        help="Side of a cell of the terrain model and of its hillshade. About the distance between "
-        "ground points is sensible; smaller cells only make the file larger.",
+        help="Side of a cell of the terrain model and of its hillshade. Choose about the distance"
+        " between ground points; smaller cells only make the file larger.",
     )
     hillshade_light: str = parameter(
         "one",
@@ -28,7 +28,7 @@ class TerrainModel(ParameterSet):
             "multidirectional": "Four lights, from southwest to north",
         },
         advanced=True,
-        help="One light shows best what lies across it, and leaves slopes that turn away in the"
+        help="One light shows best the landforms that lie across it, but slopes that face away are"
         " dark. Four lights show landforms of any direction.",
     )
     hillshade_azimuth: float = parameter(
@@ -38,7 +38,8 @@ class TerrainModel(ParameterSet):
         minimum=0.0,
         maximum=360.0,
         advanced=True,
-        help="Where one light comes from, clockwise from north; four have their own directions.",
+        help="Direction from which the light comes, clockwise from north. Four lights have their"
+        " own directions.",
     )
     hillshade_altitude: float = parameter(
         45.0,
@@ -47,7 +48,7 @@ class TerrainModel(ParameterSet):
         minimum=0.0,
         maximum=90.0,
         advanced=True,
-        help="How high the light stands above the horizon.",
+        help="Angle of the light above the horizon.",
     )
 
 

@@ -190,7 +190,7 @@ def read_raster(source: str | Path, band: int = 1, progress: Progress = SILENT) 
     content = read(str(source), band)
     values, valid = content.values, content.valid
     if values.dtype.kind not in "iuf":
-        raise BareEarthError(f"Cannot read {source}: its cells are no heights, but {values.dtype}.")
+        raise BareEarthError(f"Cannot read {source}: its cells hold {values.dtype}, not heights.")
     heights = values.astype(np.float32)
     if (content.scale, content.offset) != (1.0, 0.0):
         heights = (values * content.scale + content.offset).astype(np.float32)
@@ -223,7 +223,8 @@ def _frame_of(source: str | Path, content: _Content, progress: Progress) -> Fram
     horizontal = facts.horizontal_unit if facts is not None else None
     if horizontal is None:
         progress.warning(
-            f"{source} does not say its CRS, or not its unit: its coordinates are taken as metres."
+            f"{source} does not say its CRS, or the unit of it: its coordinates are taken as"
+            " metres."
         )
         horizontal = 1.0
     vertical = _UNITS.get(content.unit.strip().lower())
@@ -233,7 +234,7 @@ def _frame_of(source: str | Path, content: _Content, progress: Progress) -> Fram
         vertical = horizontal
         if not math.isclose(horizontal, 1.0):
             progress.info(
-                "The raster does not state the unit of its heights: taken as that of x and y,"
+                "The raster does not state the unit of its heights: that of x and y is used,"
                 f" {unit_name(horizontal)}."
             )
     return Frame((0.0, 0.0), horizontal, vertical, content.wkt or None)
@@ -255,7 +256,7 @@ def _check_local(source: str) -> None:
         is_remote = is_description and _REMOTE.search(text) is not None
     if is_remote:
         raise BareEarthError(
-            f"{source} is not on this computer, or names what is not. Download it first."
+            f"{source} is not on this computer, or refers to files that are not. Download it first."
         )
     if not path.exists():
         raise BareEarthError(f"Cannot read {source}: it does not exist. Check the path.")
@@ -268,7 +269,7 @@ def _read_with_gdal(source: str, band: int) -> _Content:
         dataset = gdal.Open(source, gdal.GA_ReadOnly)
         errors.check(source)
         if dataset is None:
-            raise BareEarthError(f"Cannot read {source}: it is no raster that GDAL knows.")
+            raise BareEarthError(f"Cannot read {source}: it is not a raster that GDAL can read.")
         _check_size(source, band, dataset.RasterCount, (dataset.RasterYSize, dataset.RasterXSize))
         layer = dataset.GetRasterBand(band)
         values = layer.ReadAsArray()

@@ -205,7 +205,9 @@ def _expand(source: Path, recursive: bool, progress: Progress) -> Iterator[Path]
     elif suffix in _LISTS:
         for path in _listed(source):
             if path.suffix.lower() in _LISTS:
-                raise BareEarthError(f"{source} lists another list, {path}. Name the files in it.")
+                raise BareEarthError(
+                    f"{source} lists another list, {path}. List its files instead."
+                )
             yield from _expand(path, recursive, progress)
     elif is_cloud(source):
         yield source
@@ -293,8 +295,8 @@ def _common_crs(tiles: list[Tile], progress: Progress) -> Crs:
         )
     if unstated:
         progress.warning(
-            f"{_names(unstated)} {'do' if len(unstated) > 1 else 'does'} not say the CRS: taken as"
-            f" that of the others, {crs.name}."
+            f"{_names(unstated)} {'do' if len(unstated) > 1 else 'does'} not say the CRS: that of"
+            f" the others is used, {crs.name}."
         )
     return crs
 
@@ -348,8 +350,8 @@ def _tell_of_twins(tiles: list[Tile], progress: Progress) -> None:
         twin = seen.setdefault(key, tile)
         if twin is not tile:
             progress.warning(
-                f"{twin.path.name} and {tile.path.name} have the same extent and number of points:"
-                " if these are the same points, take one of them out."
+                f"{twin.path.name} and {tile.path.name} have the same extent and number of points."
+                " If these are the same points, remove one of the files."
             )
 
 

@@ -40,8 +40,8 @@ class GroundClasses(ParameterSet):
         label="Ground classes",
         minimum=0,
         maximum=255,
-        help="Classes of the points that are ground. Add 8 where model key points have that class,"
-        " and 9 where water counts as ground. Withheld points are left out.",
+        help="Classes of the points that are ground. Add 8 if model key points have that class,"
+        " and 9 if water counts as ground. Withheld points are not used.",
     )
 
     def of(self, part: PointCloud, tally: GroundTally, also: tuple[int, ...] = ()) -> np.ndarray:
@@ -91,6 +91,6 @@ class GroundClasses(ParameterSet):
             )
         present = ", ".join(str(each) for each in np.flatnonzero(tally.classes))
         raise BareEarthError(
-            f"{path} has no ground points: none is of class {wanted}, there are the"
-            f" classes {present}. Classify its ground first, or choose other ground classes."
+            f"{path} has no ground points: none is of class {wanted}, all are of the classes"
+            f" {present}. Classify its ground first, or choose other ground classes."
         )

@@ -110,6 +110,6 @@ class PointChooser:
         """Tell that no point gets its class by hand, if there are polygons that say one."""
         if self.corrections.polygons:
             progress.warning(
-                "No point gets its class by the polygons of the corrections. Give them in the CRS"
-                " of the points."
+                "No point gets its class from the polygons of the corrections. Give them in the"
+                " CRS of the points."
             )

@@ -45,12 +45,12 @@ class Selection(ParameterSet):
     from_classes: tuple[int, ...] | None = parameter(
         None,
         kind="integers",
-        label="Classes to classify anew",
+        label="Classes to classify",
         minimum=0,
         maximum=255,
         empty="all but noise",
-        help="Only points of these classes take part and may change their class; every class but"
-        " low and high noise (7 and 18) when none is given.",
+        help="Only points of these classes take part and may change their class. Empty: all"
+        " classes but low and high noise (7 and 18).",
     )
     seed_classes: tuple[int, ...] | None = parameter(
         None,
@@ -59,9 +59,9 @@ class Selection(ParameterSet):
         minimum=0,
         maximum=255,
         empty="none",
-        help="Points of these classes are ground for certain, whatever their return: they are not"
-        " judged, and the TIN densification starts from them. They get the class of the ground,"
-        " too, unless theirs is not among those to classify anew.",
+        help="Points of these classes are certain ground, whatever their return: the filter does"
+        " not judge them, and TIN densification starts from them. They get the class of the"
+        " ground, unless their class is not among the classes to classify. Empty: none.",
     )
     to_class: int = parameter(
         GROUND,
@@ -78,25 +78,25 @@ class Selection(ParameterSet):
             "last": "Last and single returns (return number = number of returns)",
             "all": "All returns",
         },
-        help="The laser reaches the ground last. Take all returns where the return numbers of the"
-        " file are wrong.",
+        help="Last returns reach the ground. Take all returns if the return numbers of the file"
+        " are wrong.",
     )
     others: str = parameter(
         "keep",
         label="Class of other points",
         choices={
-            "keep": "Keep, but old ground that is not confirmed becomes 1",
+            "keep": "Keep; old ground that is not ground now becomes 1",
             "unclassified": "Set to 1 (unclassified)",
         },
-        help="What becomes of points that are not ground. Points that were never classified (0)"
-        " become 1 in either case; noise, withheld points and other classes than those to classify"
-        " anew stay as they are.",
+        help="The class of points that are not ground. Points that were never classified (0)"
+        " become 1 in both cases. Noise, withheld points, and classes that are not classified stay"
+        " as they are.",
     )
     low_noise_class: bool = parameter(
         False,
         label="Put low outliers into class 7",
-        help="Points that took part and lie far below the ground that was found (multipath, faults"
-        " of the sensor) become low noise, class 7, instead of what becomes of other points.",
+        help="Points that took part and lie far below the ground (multipath, faults of the sensor)"
+        " become low noise, class 7. Otherwise they are treated as other points.",
     )
     low_noise_depth: float = parameter(
         1.0,
@@ -105,21 +105,22 @@ class Selection(ParameterSet):
         minimum=0.05,
         maximum=1000.0,
         advanced=True,
-        help="How far below the ground a point must lie to become low noise, in level terrain; on"
-        " slopes the rise of the ground over 1 m is added. Only where low outliers are put into"
-        " class 7.",
+        help="A point becomes low noise if it lies farther below the ground than this. On slopes,"
+        " the rise of the ground over 1 m is added. Used only if low outliers are put into class"
+        " 7.",
     )
     bridges: str = parameter(
         "automatic",
         label="Bridges",
         choices={
-            "automatic": "Not ground, but with a classic preset",
+            "automatic": "Not ground, except with a classic preset",
             "find": "Not ground",
-            "keep": "Ground, if the method takes them for it",
+            "keep": "As the filter classifies them",
         },
-        help="What becomes of the decks of bridges. They are found by cross-sections that fall to"
-        " lower ground on both sides; ramps, dams and embankments stay ground. A classic preset"
-        " (Whitebox, LiDAR360's, the paper's) does just what the original does.",
+        help="The class of bridge decks. They are found by cross-sections that fall to lower"
+        " ground on both sides; ramps, dams and embankments stay ground. A classic preset"
+        " (Whitebox, LiDAR360's, the paper's) works as the original does, and does not look for"
+        " bridges.",
     )
     bridge_class: int | None = parameter(
         None,
@@ -129,15 +130,15 @@ class Selection(ParameterSet):
         maximum=255,
         advanced=True,
         empty="as other points",
-        help="The class that decks of bridges get; 17 in the LAS specification, which point formats"
-        " 0 to 5 hold as well. Only where bridges are not ground.",
+        help="The class of bridge decks that are not ground. In the LAS specification it is 17,"
+        " and every point format can hold it. Empty: the class of other points.",
     )
     remember_classes: bool = parameter(
         False,
         label="Remember the classes",
-        help=f"Adds the extra dimension {REMEMBERED}, the class that this run gives. A later run on"
-        " the file sees by it which classes were changed by hand since, and keeps them, whatever"
-        " its settings; it remembers the classes again.",
+        help=f"Adds the extra dimension {REMEMBERED} with the class that this run gives to each"
+        " point. A later run on the output finds the classes that were changed by hand since, and"
+        " keeps them, whatever its settings. It then remembers the classes again.",
     )
 
     @property
@@ -236,7 +237,9 @@ class Selection(ParameterSet):
             else:
                 progress.warning(f"There are no points of known ground (class {classes}).")
         if tally.by_hand:
-            progress.info(f"{tally.by_hand:,} points have a class by hand, and keep it.")
+            progress.info(
+                f"{tally.by_hand:,} points have a class that was set by hand, and keep it."
+            )
         progress.info(f"{tally.selected:,} of {tally.points:,} points take part.")
 
     def known_ground(

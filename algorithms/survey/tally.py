@@ -86,8 +86,8 @@ class Tally:
             return f"All points of {place} are withheld. Clear that flag first."
         present = ", ".join(map(str, np.flatnonzero(self.classes_within)))
         return (
-            f"No point of {place} is left to classify: it has the classes {present}. Choose among"
-            " them the classes to classify anew."
+            f"No point of {place} can be classified: it has only the classes {present}. Choose the"
+            " classes to classify among them."
         )
 
 

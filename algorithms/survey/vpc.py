@@ -101,7 +101,7 @@ def read_vpc(path: Path) -> list[Path]:
     ) as error:  # fmt: skip
         raise _not_one(path, "one of its features names no file") from error
     if not files:
-        raise BareEarthError(f"{path} lists no files. Build it anew.")
+        raise BareEarthError(f"{path} lists no files. Build it again.")
     return files
 
 
@@ -178,7 +178,7 @@ def _path_of(href: str, folder: Path) -> Path:
         return Path(url2pathname(host + parts.path))
     if _REMOTE.match(href):
         raise BareEarthError(
-            f"{href} is not on this computer. Download it, and build the virtual point cloud anew."
+            f"{href} is not on this computer. Download it, and build the virtual point cloud again."
         )
     path = folder / href
     # Some programs write a path as it is, and some as the path of a URL.
@@ -228,7 +228,7 @@ def no_extent(layout: LasFile) -> BareEarthError:
     """Return the error for a header that leaves open where the points lie."""
     return BareEarthError(
         f"The header of {layout.path} does not state the extent of its points. Write the file"
-        " anew with a program that corrects it."
+        " again with a program that corrects the header."
     )
 
 

@@ -74,7 +74,7 @@ def read_window(
         try:
             return _cloud(layout, _in_nodes(layout, area, progress), progress)
         except OctreeError as error:
-            progress.warning(f"{error} All of the file is read instead, which takes longer.")
+            progress.warning(f"{error} The whole file is read instead, which takes longer.")
     if trust_header and not _may_touch(layout, area):
         return _cloud(layout, iter(()), progress)
     return _cloud(layout, _in_chunks(layout, area, progress), progress)
@@ -100,7 +100,8 @@ def _in_chunks(layout: LasFile, area: Area, progress: Progress) -> Iterator[Colu
     if is_outside:
         progress.warning(
             f"The header of {layout.path.name} states a smaller extent than its points have: other"
-            " programs may miss some. Write the file anew with one that corrects it."
+            " programs may miss some. Write the file again with a program that corrects the"
+            " header."
         )
 
 

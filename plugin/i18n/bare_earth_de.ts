@@ -4,6 +4,10 @@
 <context>
     <name>BareEarth</name>
     <message>
+        <source>.las, .laz and .copc.laz files, virtual point clouds (.vpc), or text files (.txt) with one path in each line. May stay empty if a folder is given.</source>
+        <translation>Dateien .las, .laz und .copc.laz, virtuelle Punktwolken (.vpc) oder Textdateien (.txt) mit einem Pfad je Zeile. Darf leer sein, wenn ein Ordner angegeben ist.</translation>
+    </message>
+    <message>
         <source>0 to 1</source>
         <translation>0 bis 1</translation>
     </message>
@@ -12,19 +16,23 @@
         <translation>1 bis 255</translation>
     </message>
     <message>
-        <source>&lt;b&gt;Values of the presets&lt;/b&gt;, where they differ and a field is left empty</source>
-        <translation>&lt;b&gt;Werte der Voreinstellungen&lt;/b&gt;, wo sie sich unterscheiden und ein Feld leer bleibt</translation>
+        <source>&lt;b&gt;Values of the presets&lt;/b&gt; for fields that are left empty</source>
+        <translation>&lt;b&gt;Werte der Voreinstellungen&lt;/b&gt; für Felder, die leer bleiben</translation>
     </message>
     <message>
         <source>A class of their own</source>
         <translation>Eine eigene Klasse</translation>
     </message>
     <message>
-        <source>A list of the classified files, which QGIS shows as one layer from 3.32 on. Without a name it goes into their folder.</source>
-        <translation>Ein Verzeichnis der klassifizierten Dateien, das QGIS ab 3.32 als einen Layer zeigt. Ohne Namen kommt es in deren Ordner.</translation>
+        <source>A list of the classified files, which QGIS 3.32 and newer shows as one layer. Without a name it is classified.vpc in their folder.</source>
+        <translation>Ein Verzeichnis der klassifizierten Dateien, das QGIS 3.32 und neuer als einen Layer zeigt. Ohne Namen heißt es classified.vpc und kommt in deren Ordner.</translation>
     </message>
     <message>
-        <source>A point cloud layer, a .las, .laz or .copc.laz file, a virtual point cloud (.vpc), or a text file (.txt) with a path a line. May be empty if a folder is given.</source>
+        <source>A point becomes low noise if it lies farther below the ground than this. On slopes, the rise of the ground over 1 m is added. Used only if low outliers are put into class 7.</source>
+        <translation>Ein Punkt wird tiefes Rauschen, wenn er weiter als dies unter dem Boden liegt. Am Hang kommt der Anstieg des Bodens auf 1 m hinzu. Gilt nur, wenn tiefe Ausreißer in Klasse 7 kommen.</translation>
+    </message>
+    <message>
+        <source>A point cloud layer, a .las, .laz or .copc.laz file, a virtual point cloud (.vpc), or a text file (.txt) with one path in each line. May stay empty if a folder is given.</source>
         <translation>Ein Punktwolken-Layer, eine Datei .las, .laz oder .copc.laz, eine virtuelle Punktwolke (.vpc) oder eine Textdatei (.txt) mit einem Pfad je Zeile. Darf leer sein, wenn ein Ordner angegeben ist.</translation>
     </message>
     <message>
@@ -36,15 +44,19 @@
         <translation>Ein Punktwolken-Layer oder eine Datei .las, .laz oder .copc.laz; auch eine virtuelle Punktwolke (.vpc) oder ein Ordner.</translation>
     </message>
     <message>
-        <source>A point is not ground if it stands above a neighbour at a steeper slope than this; in the automatic preset, steeper by this than the terrain round it. Empty: 15 deg, or 45 deg in the preset Whitebox.</source>
-        <translation>Ein Punkt ist kein Boden, wenn er mit einer größeren Neigung als dieser über einem Nachbarn liegt; in der automatischen Voreinstellung um so viel steiler als das Gelände ringsum. Leer: 15 Grad, in der Voreinstellung Whitebox 45 Grad.</translation>
+        <source>A point is not ground if it stands above a neighbour at a steeper slope than this. In all presets but Whitebox, the slope of the terrain around the point is added to it. Empty: from the preset, 15 deg in most, 45 deg in Whitebox.</source>
+        <translation>Ein Punkt ist kein Boden, wenn er mit einer größeren Neigung als dieser über einem Nachbarn liegt. In allen Voreinstellungen außer Whitebox kommt die Neigung des Geländes um den Punkt hinzu. Leer: aus der Voreinstellung, meist 15 Grad, in Whitebox 45 Grad.</translation>
     </message>
     <message>
-        <source>A point this close to its triangle is a vertex whatever its angle: near a corner the angle of mere noise is large.</source>
-        <translation>Ein Punkt so nahe an seinem Dreieck wird ein Eckpunkt, gleich unter welchem Winkel: Nahe einer Ecke ist schon der Winkel des bloßen Rauschens groß.</translation>
+        <source>A point is not ground only if it stands at least this high above a neighbour. Empty: from the preset, 0.5 m in most, 1 m in Whitebox.</source>
+        <translation>Ein Punkt ist nur dann kein Boden, wenn er mindestens so hoch über einem Nachbarn liegt. Leer: aus der Voreinstellung, meist 0,5 m, in Whitebox 1 m.</translation>
     </message>
     <message>
-        <source>A point with fewer neighbours within the search radius is compared with this many nearest ones. For the preset Whitebox only.</source>
+        <source>A point that is closer to its triangle than this joins the TIN whatever its angle. Near a corner, noise alone makes a large angle.</source>
+        <translation>Ein Punkt, der näher an seinem Dreieck liegt als dies, kommt unter jedem Winkel zum TIN hinzu. Nahe einer Ecke ergibt schon das Rauschen einen großen Winkel.</translation>
+    </message>
+    <message>
+        <source>A point with fewer neighbours within the search radius is compared with this many nearest points. Only for the preset Whitebox.</source>
         <translation>Ein Punkt, der im Suchradius weniger Nachbarn hat, wird mit so vielen nächsten verglichen. Nur für die Voreinstellung Whitebox.</translation>
     </message>
     <message>
@@ -64,28 +76,40 @@
         <translation>Eine Webseite, die sich aus der Ergebnisanzeige öffnen lässt.</translation>
     </message>
     <message>
-        <source>About how much a run may take. A file that needs more is read twice, with its points in a temporary file in the folder of the output meanwhile; of many files, fewer blocks are in work at the same time. The result does not depend on it.</source>
-        <translation>Wie viel Speicher ein Lauf etwa belegen darf. Eine Datei, die mehr braucht, wird zweimal gelesen; ihre Punkte liegen inzwischen in einer temporären Datei im Ausgabeordner. Bei vielen Dateien sind weniger Blöcke gleichzeitig in Arbeit. Das Ergebnis hängt nicht davon ab.</translation>
+        <source>About how much memory a run may use. A file that needs more is read twice, and its points wait in a temporary file in the output folder. With many files, fewer are worked on at the same time. The result does not depend on it. Empty: half of the free memory.</source>
+        <translation>Wie viel Arbeitsspeicher ein Lauf etwa belegen darf. Eine Datei, die mehr braucht, wird zweimal gelesen, und ihre Punkte warten in einer temporären Datei im Ausgabeordner. Bei vielen Dateien sind weniger gleichzeitig in Arbeit. Das Ergebnis hängt nicht davon ab. Leer: die Hälfte des freien Arbeitsspeichers.</translation>
     </message>
     <message>
         <source>Add the height above ground</source>
         <translation>Höhe über Grund hinzufügen</translation>
     </message>
     <message>
-        <source>Adds the extra dimension BareEarthClass, the class that this run gives. A later run on the file sees by it which classes were changed by hand since, and keeps them, whatever its settings; it remembers the classes again.</source>
-        <translation>Fügt die Zusatzdimension BareEarthClass hinzu, die Klasse, die dieser Lauf vergibt. Ein späterer Lauf mit der Datei sieht daran, welche Klassen seither von Hand geändert wurden, und behält sie, gleich welche Einstellungen er hat; er merkt sich die Klassen wieder.</translation>
+        <source>Added to both ground tolerances on a slope of 45 degrees. On gentler slopes less is added, in proportion.</source>
+        <translation>Kommt auf einem Hang von 45 Grad zu beiden Bodentoleranzen hinzu, auf sanfteren Hängen im Verhältnis weniger.</translation>
     </message>
     <message>
-        <source>Adds the extra dimension HeightAboveGround: how high each point stands above the ground, in the vertical unit of the CRS.</source>
-        <translation>Fügt die Zusatzdimension HeightAboveGround hinzu: wie hoch jeder Punkt über dem Boden liegt, in der Höheneinheit des KBS.</translation>
+        <source>Added to the ground tolerance on a slope of 45 degrees, if points are a metre apart. Less is added, in proportion, on gentler slopes and if points are closer.</source>
+        <translation>Kommt auf einem Hang von 45 Grad zur Bodentoleranz hinzu, wenn Punkte einen Meter auseinander liegen. Auf sanfteren Hängen, und wenn Punkte näher beieinander liegen, im Verhältnis weniger.</translation>
+    </message>
+    <message>
+        <source>Adds the extra dimension BareEarthClass with the class that this run gives to each point. A later run on the output finds the classes that were changed by hand since, and keeps them, whatever its settings. It then remembers the classes again.</source>
+        <translation>Fügt die Zusatzdimension BareEarthClass mit der Klasse hinzu, die dieser Lauf jedem Punkt gibt. Ein späterer Lauf mit der Ausgabe findet die Klassen, die seither von Hand geändert wurden, und behält sie, gleich welche Einstellungen er hat. Danach merkt er sich die Klassen wieder.</translation>
+    </message>
+    <message>
+        <source>Adds the extra dimension HeightAboveGround, the height of each point above the ground, in the vertical unit of the CRS.</source>
+        <translation>Fügt die Zusatzdimension HeightAboveGround hinzu, die Höhe jedes Punkts über dem Boden, in der Höheneinheit des KBS.</translation>
+    </message>
+    <message>
+        <source>Adds the height above ground to every point of a classified point cloud: its height above the triangulation (TIN) of the ground points or, outside of it, above the nearest ground point. Heights are in the vertical unit of the CRS. They become an extra dimension, HeightAboveGround, or replace z; nothing else in the file changes.</source>
+        <translation>Gibt jedem Punkt einer klassifizierten Punktwolke seine Höhe über dem Boden: über der Dreiecksvermaschung (TIN) der Bodenpunkte oder, außerhalb davon, über dem nächsten Bodenpunkt. Höhen stehen in der Höheneinheit des KBS. Sie werden eine Zusatzdimension, HeightAboveGround, oder treten an die Stelle von z; sonst ändert sich nichts in der Datei.</translation>
     </message>
     <message>
         <source>Adds the height of every point above the ground points of a point cloud.</source>
         <translation>Fügt jedem Punkt einer Punktwolke seine Höhe über den Bodenpunkten hinzu.</translation>
     </message>
     <message>
-        <source>All .las, .laz and .copc.laz files in it are taken, too. Many files are one survey, without seams.</source>
-        <translation>Alle Dateien .las, .laz und .copc.laz darin werden auch genommen. Viele Dateien sind eine Befliegung, ohne Nähte.</translation>
+        <source>All .las, .laz and .copc.laz files in this folder are used, too. All files together are one survey, without seams.</source>
+        <translation>Alle Dateien .las, .laz und .copc.laz in diesem Ordner werden auch genommen. Alle Dateien zusammen sind eine Befliegung, ohne Nähte.</translation>
     </message>
     <message>
         <source>All files</source>
@@ -100,8 +124,16 @@
         <translation>Alle Echos</translation>
     </message>
     <message>
-        <source>An extra dimension keeps all else as it is. In place of the elevation the heights show in programs that know no extra dimensions, and the terrain is flat.</source>
-        <translation>Eine Zusatzdimension lässt alles andere, wie es ist. An Stelle der Höhe sind die Werte auch in Programmen zu sehen, die keine Zusatzdimensionen kennen, und das Gelände ist eben.</translation>
+        <source>An extra dimension leaves everything else as it is. If the height replaces z, programs that cannot show extra dimensions show it too, but the terrain is flat.</source>
+        <translation>Eine Zusatzdimension lässt alles andere, wie es ist. Tritt die Höhe über dem Boden an die Stelle von z, zeigen sie auch Programme, die keine Zusatzdimensionen kennen, aber das Gelände ist eben.</translation>
+    </message>
+    <message>
+        <source>Angle of the light above the horizon.</source>
+        <translation>Winkel des Lichts über dem Horizont.</translation>
+    </message>
+    <message>
+        <source>As the filter classifies them</source>
+        <translation>Wie der Filter sie klassifiziert</translation>
     </message>
     <message>
         <source>As the input</source>
@@ -118,10 +150,6 @@
     <message>
         <source>Automatic (many scales, follows the terrain)</source>
         <translation>Automatisch (viele Maßstäbe, folgt dem Gelände)</translation>
-    </message>
-    <message>
-        <source>Automatic finds buildings as well as shrubs; the kinds of terrain do so with other values for what is left empty. Whitebox is the classic filter with the values of WhiteboxTools: its radius of 2 m cannot see a building.</source>
-        <translation>Automatisch findet Gebäude ebenso wie Sträucher; die Geländearten tun das auch, mit anderen Werten für leere Felder. Whitebox ist der klassische Filter mit den Werten der WhiteboxTools: Mit seinem Radius von 2 m erkennt er kein Gebäude.</translation>
     </message>
     <message>
         <source>Band</source>
@@ -148,20 +176,20 @@
         <translation>Helligkeit</translation>
     </message>
     <message>
-        <source>COPC, which QGIS shows without an index of its own</source>
-        <translation>COPC, das QGIS ohne eigenen Index zeigt</translation>
+        <source>COPC, which QGIS shows at once</source>
+        <translation>COPC, das QGIS sofort zeigt</translation>
     </message>
     <message>
         <source>Cancelled.</source>
         <translation>Abgebrochen.</translation>
     </message>
     <message>
-        <source>Cancelled; nothing was written.</source>
-        <translation>Abgebrochen; es wurde nichts geschrieben.</translation>
+        <source>Cancelled. The finished tiles stay, and a later run can continue with them.</source>
+        <translation>Abgebrochen. Die fertigen Kacheln bleiben, und ein späterer Lauf kann mit ihnen weitermachen.</translation>
     </message>
     <message>
-        <source>Cancelled; the tiles that are finished stay, and a later run can go on with them.</source>
-        <translation>Abgebrochen; die fertigen Kacheln bleiben, und ein späterer Lauf kann mit ihnen weitermachen.</translation>
+        <source>Cancelled; nothing was written.</source>
+        <translation>Abgebrochen; es wurde nichts geschrieben.</translation>
     </message>
     <message>
         <source>Canopy height (CHM)</source>
@@ -208,12 +236,6 @@
         <translation>Wählen Sie Punktwolken oder einen Ordner mit Punktwolken.</translation>
     </message>
     <message>
-        <source>Chooses, of the ground points of a classified point cloud, the few that a terrain model needs: no other ground point lies farther above or below their triangulation (TIN) than the tolerances. They get a class of their own, or the key-point flag; nothing else in the file changes.
-Lengths are metres, whatever the unit of the CRS.</source>
-        <translation>Wählt aus den Bodenpunkten einer klassifizierten Punktwolke die wenigen, die ein Geländemodell braucht: Kein anderer Bodenpunkt liegt weiter über oder unter ihrer Dreiecksvermaschung (TIN), als die Toleranzen erlauben. Sie bekommen eine eigene Klasse oder das Kennzeichen der Schlüsselpunkte; sonst ändert sich nichts in der Datei.
-Längen sind Meter, gleich welche Einheit das KBS hat.</translation>
-    </message>
-    <message>
         <source>Chosen automatically: {text}</source>
         <translation>Automatisch gewählt: {text}</translation>
     </message>
@@ -254,16 +276,16 @@ Längen sind Meter, gleich welche Einheit das KBS hat.</translation>
         <translation>Klassen bekannten Bodens</translation>
     </message>
     <message>
-        <source>Classes of the points that are ground. Add 8 where model key points have that class, and 9 where water counts as ground. Withheld points are left out.</source>
-        <translation>Klassen der Punkte, die Boden sind. Fügen Sie 8 hinzu, wo Schlüsselpunkte diese Klasse haben, und 9, wo Wasser als Boden gilt. Zurückgehaltene Punkte (withheld) bleiben weg.</translation>
+        <source>Classes of the points that are ground. Add 8 if model key points have that class, and 9 if water counts as ground. Withheld points are not used.</source>
+        <translation>Klassen der Punkte, die Boden sind. Fügen Sie 8 hinzu, wenn Schlüsselpunkte diese Klasse haben, und 9, wenn Wasser als Boden gilt. Zurückgehaltene Punkte (withheld) werden nicht benutzt.</translation>
     </message>
     <message>
-        <source>Classes of the reference that are ground; add 9 where water counts as ground.</source>
-        <translation>Klassen der Referenz, die Boden sind; fügen Sie 9 hinzu, wo Wasser als Boden gilt.</translation>
+        <source>Classes of the reference that are ground. Add 9 if water counts as ground.</source>
+        <translation>Klassen der Referenz, die Boden sind. Fügen Sie 9 hinzu, wenn Wasser als Boden gilt.</translation>
     </message>
     <message>
-        <source>Classes to classify anew</source>
-        <translation>Neu zu klassifizierende Klassen</translation>
+        <source>Classes to classify</source>
+        <translation>Zu klassifizierende Klassen</translation>
     </message>
     <message>
         <source>Classified point cloud</source>
@@ -274,12 +296,12 @@ Längen sind Meter, gleich welche Einheit das KBS hat.</translation>
         <translation>Klassifizierte Kacheln</translation>
     </message>
     <message>
-        <source>Classifies the ground points of many files, each as if all were one, and writes each anew under its name. A virtual point cloud (.vpc) lists the results.</source>
-        <translation>Klassifiziert die Bodenpunkte vieler Dateien, jede so, als wären alle eine einzige, und schreibt jede unter ihrem Namen neu. Eine virtuelle Punktwolke (.vpc) verzeichnet die Ergebnisse.</translation>
+        <source>Classifies the ground points of many files as if they were one file, and writes each file under its name into the output folder. A virtual point cloud (.vpc) lists the results.</source>
+        <translation>Klassifiziert die Bodenpunkte vieler Dateien, als wären alle eine einzige, und schreibt jede Datei unter ihrem Namen in den Ausgabeordner. Eine virtuelle Punktwolke (.vpc) verzeichnet die Ergebnisse.</translation>
     </message>
     <message>
-        <source>Classifies the points in a window with each of the settings, without writing any point cloud, and makes a web page, opened from the Results Viewer: the terrain of each, a profile, the share of ground, where they differ, and how to run each on all points. Of COPC only the window is read, which takes seconds; a LAS or LAZ file is read as a whole.</source>
-        <translation>Klassifiziert die Punkte eines Fensters mit jeder der Einstellungen, ohne eine Punktwolke zu schreiben, und macht eine Webseite, die sich aus der Ergebnisanzeige öffnen lässt: das Gelände zu jeder Einstellung, ein Profil, der Anteil des Bodens, wo sie sich unterscheiden, und wie man jede auf alle Punkte anwendet. Von COPC wird nur das Fenster gelesen, in Sekunden; eine LAS- oder LAZ-Datei wird ganz gelesen.</translation>
+        <source>Classifies the points in a window with each of the settings, and makes a web page, which opens from the Results Viewer. It shows the terrain of each setting, a profile, the share of ground, where the settings differ, and how to run each of them on all points. No point cloud is written. Of a COPC file only the window is read, which takes seconds; a LAS or LAZ file is read as a whole.</source>
+        <translation>Klassifiziert die Punkte eines Fensters mit jeder der Einstellungen und macht eine Webseite, die sich aus der Ergebnisanzeige öffnen lässt. Sie zeigt das Gelände zu jeder Einstellung, ein Profil, den Anteil des Bodens, wo sich die Einstellungen unterscheiden, und wie man jede von ihnen auf alle Punkte anwendet. Es wird keine Punktwolke geschrieben. Von einer COPC-Datei wird nur das Fenster gelesen, in Sekunden; eine LAS- oder LAZ-Datei wird ganz gelesen.</translation>
     </message>
     <message>
         <source>Classify ground (TIN densification)</source>
@@ -302,10 +324,6 @@ Längen sind Meter, gleich welche Einheit das KBS hat.</translation>
         <translation>Modell-Schlüsselpunkte klassifizieren</translation>
     </message>
     <message>
-        <source>Compare heights above a surface that follows the terrain (white top-hat) instead of heights, so that sloping ground is not lost.</source>
-        <translation>Statt der Höhen werden Höhen über einer Fläche verglichen, die dem Gelände folgt (weißer Top-Hat), damit Boden am Hang nicht verloren geht.</translation>
-    </message>
-    <message>
         <source>Compare settings on a window</source>
         <translation>Einstellungen in einem Fenster vergleichen</translation>
     </message>
@@ -314,16 +332,20 @@ Längen sind Meter, gleich welche Einheit das KBS hat.</translation>
         <translation>Vergleicht eine klassifizierte Punktwolke mit einer Referenz: Fehler 1. und 2. Art, Kappa.</translation>
     </message>
     <message>
-        <source>Compares the ground of a classified point cloud with a reference that holds the same points. Type I error: the share of the reference's ground that was rejected; type II: of all other points, the share that was accepted. The report is a web page with a map.</source>
-        <translation>Vergleicht den Boden einer klassifizierten Punktwolke mit einer Referenz, die dieselben Punkte enthält. Fehler 1. Art: der Anteil des Bodens der Referenz, der verworfen wurde; 2. Art: der Anteil aller anderen Punkte, der angenommen wurde. Der Bericht ist eine Webseite mit einer Karte.</translation>
+        <source>Compares heights above a surface that follows the terrain (white top-hat), not elevations, so that ground on slopes is not lost.</source>
+        <translation>Vergleicht Höhen über einer Fläche, die dem Gelände folgt (weißer Top-Hat), nicht die Höhen selbst, damit Boden am Hang nicht verloren geht.</translation>
+    </message>
+    <message>
+        <source>Compares the ground of a classified point cloud with a reference that holds the same points. Type I error: the share of the reference's ground that was rejected. Type II error: the share of all other points that was accepted as ground. The report is a web page with a map.</source>
+        <translation>Vergleicht den Boden einer klassifizierten Punktwolke mit einer Referenz, die dieselben Punkte enthält. Fehler 1. Art: der Anteil des Bodens der Referenz, der verworfen wurde. Fehler 2. Art: der Anteil aller anderen Punkte, der als Boden angenommen wurde. Der Bericht ist eine Webseite mit einer Karte.</translation>
     </message>
     <message>
         <source>Comparison of settings</source>
         <translation>Vergleich von Einstellungen</translation>
     </message>
     <message>
-        <source>Compressed point clouds (.laz, .copc.laz) need the package lazrs, which few builds of QGIS have. Here you get it from the Python Package Index (0.6 MB), or, without the internet, from a wheel file of lazrs for {}. It goes into your profile; QGIS itself is left as it is.</source>
-        <translation>Komprimierte Punktwolken (.laz, .copc.laz) brauchen das Paket lazrs, das kaum ein QGIS mitbringt. Hier bekommen Sie es aus dem Python Package Index (0,6 MB) oder, ohne Internet, aus einer Wheel-Datei von lazrs für {}. Es kommt in Ihr Profil; QGIS selbst bleibt, wie es ist.</translation>
+        <source>Compressed point clouds (.laz, .copc.laz) need the Python package lazrs, which few builds of QGIS have. Here you can get it from the Python Package Index (0.6 MB) or, without internet, from a wheel file of lazrs for {}. It is stored in your profile; QGIS itself does not change.</source>
+        <translation>Komprimierte Punktwolken (.laz, .copc.laz) brauchen das Python-Paket lazrs, das kaum ein QGIS mitbringt. Hier bekommen Sie es aus dem Python Package Index (0,6 MB) oder, ohne Internet, aus einer Wheel-Datei von lazrs für {}. Es wird in Ihrem Profil gespeichert; QGIS selbst ändert sich nicht.</translation>
     </message>
     <message>
         <source>Confidence</source>
@@ -336,6 +358,10 @@ Längen sind Meter, gleich welche Einheit das KBS hat.</translation>
     <message>
         <source>Context round the window</source>
         <translation>Umgebung des Fensters</translation>
+    </message>
+    <message>
+        <source>Continue an earlier run</source>
+        <translation>Einen früheren Lauf fortsetzen</translation>
     </message>
     <message>
         <source>Contour interval</source>
@@ -358,12 +384,16 @@ Längen sind Meter, gleich welche Einheit das KBS hat.</translation>
         <translation>War {name} gemeint?</translation>
     </message>
     <message>
-        <source>Difference in height of neighbouring lines, in the unit of the heights.</source>
-        <translation>Höhenunterschied benachbarter Linien, in der Einheit der Höhen.</translation>
+        <source>Direction from which the light comes, clockwise from north. Four lights have their own directions.</source>
+        <translation>Richtung, aus der das Licht kommt, von Norden aus im Uhrzeigersinn. Vier Lichter haben ihre eigenen Richtungen.</translation>
     </message>
     <message>
         <source>Done; no restart is needed.</source>
         <translation>Fertig; ein Neustart ist nicht nötig.</translation>
+    </message>
+    <message>
+        <source>Each place is compared with its surroundings up to this distance. Choose about the width of the features that you want to see; larger landforms disappear.</source>
+        <translation>Jede Stelle wird mit ihrer Umgebung bis zu dieser Entfernung verglichen. Wählen Sie etwa die Breite der Formen, die Sie sehen wollen; größere verschwinden.</translation>
     </message>
     <message>
         <source>Each {:g}</source>
@@ -378,10 +408,6 @@ Längen sind Meter, gleich welche Einheit das KBS hat.</translation>
         <translation>Fehlerkarte</translation>
     </message>
     <message>
-        <source>Every cell of this size that has ground points keeps at least one, its lowest, however flat the ground is.</source>
-        <translation>Jede Zelle dieser Größe, die Bodenpunkte hat, behält mindestens einen, den tiefsten, wie eben der Boden auch ist.</translation>
-    </message>
-    <message>
         <source>Extent</source>
         <translation>Ausdehnung</translation>
     </message>
@@ -390,16 +416,22 @@ Längen sind Meter, gleich welche Einheit das KBS hat.</translation>
         <translation>Zusatzdimension HeightAboveGround</translation>
     </message>
     <message>
-        <source>Files .las, .laz and .copc.laz, virtual point clouds (.vpc), or text files (.txt) with a path a line. May be empty if a folder is given.</source>
-        <translation>Dateien .las, .laz und .copc.laz, virtuelle Punktwolken (.vpc) oder Textdateien (.txt) mit einem Pfad je Zeile. Darf leer sein, wenn ein Ordner angegeben ist.</translation>
+        <source>Files keep their names; only the ending follows the format.</source>
+        <translation>Die Dateien behalten ihre Namen; nur die Endung richtet sich nach dem Format.</translation>
     </message>
     <message>
         <source>Final height</source>
         <translation>Höhe im letzten Durchgang</translation>
     </message>
     <message>
-        <source>Finds the few ground points whose triangulation is as good as that of all of them.</source>
-        <translation>Findet die wenigen Bodenpunkte, deren Dreiecksvermaschung so gut ist wie die von allen.</translation>
+        <source>Finds the few ground points of a classified point cloud that a terrain model needs. Of all other ground points, none lies farther above or below the triangulation (TIN) of these key points than the tolerances. Key points get a class of their own, or the key-point flag; nothing else in the file changes.
+Lengths are metres, whatever the unit of the CRS.</source>
+        <translation>Findet die wenigen Bodenpunkte einer klassifizierten Punktwolke, die ein Geländemodell braucht. Von allen anderen Bodenpunkten liegt keiner weiter über oder unter der Dreiecksvermaschung (TIN) dieser Schlüsselpunkte, als die Toleranzen erlauben. Schlüsselpunkte bekommen eine eigene Klasse oder das Kennzeichen der Schlüsselpunkte; sonst ändert sich nichts in der Datei.
+Längen sind Meter, gleich welche Einheit das KBS hat.</translation>
+    </message>
+    <message>
+        <source>Finds the few ground points that make as good a terrain model as all of them.</source>
+        <translation>Findet die wenigen Bodenpunkte, die ein ebenso gutes Geländemodell ergeben wie alle zusammen.</translation>
     </message>
     <message>
         <source>Finds the ground by two methods, and says where they differ.</source>
@@ -414,41 +446,41 @@ Längen sind Meter, gleich welche Einheit das KBS hat.</translation>
         <translation>Findet den Boden einer rohen Lidar-Punktwolke (TIN-Verdichtung), macht daraus Geländemodell und Schummerung und aus dem Geländemodell Höhenlinien (GDAL).</translation>
     </message>
     <message>
-        <source>Finds the ground of a raw lidar point cloud and makes maps of it, of which any may be left out. Local relief shows small features. Lengths are metres.</source>
-        <translation>Findet den Boden einer rohen Lidar-Punktwolke und macht Karten davon, von denen jede entfallen kann. Das lokale Relief zeigt kleine Formen. Längen sind Meter.</translation>
+        <source>Finds the ground of a raw lidar point cloud and makes maps of it. Each output is optional. Local relief shows small features. Lengths are metres.</source>
+        <translation>Findet den Boden einer rohen Lidar-Punktwolke und macht Karten davon. Jede Ausgabe ist optional. Das lokale Relief zeigt kleine Formen. Längen sind Meter.</translation>
     </message>
     <message>
-        <source>Finds the ground of a raw lidar point cloud by TIN densification and by the slope filter, and compares the two: a hillshade of each, and a report in which TIN densification stands as the reference. Where both agree, most can be trusted; where they differ, look.</source>
-        <translation>Findet den Boden einer rohen Lidar-Punktwolke durch TIN-Verdichtung und durch den Neigungsfilter und vergleicht beide: je eine Schummerung und ein Bericht, in dem die TIN-Verdichtung als Referenz gilt. Wo beide übereinstimmen, ist das meiste verlässlich; wo sie sich unterscheiden, sehen Sie hin.</translation>
+        <source>Finds the ground of a raw lidar point cloud by TIN densification and by the slope filter, and compares the two: a hillshade of each, and a report with TIN densification as the reference. Where both agree, the result is more certain; check the places where they differ.</source>
+        <translation>Findet den Boden einer rohen Lidar-Punktwolke durch TIN-Verdichtung und durch den Neigungsfilter und vergleicht beide: je eine Schummerung und ein Bericht mit der TIN-Verdichtung als Referenz. Wo beide übereinstimmen, ist das Ergebnis sicherer; prüfen Sie die Stellen, an denen sie sich unterscheiden.</translation>
     </message>
     <message>
         <source>Finds the ground points of a lidar point cloud by rules on the lowest points of cells.</source>
         <translation>Findet die Bodenpunkte einer Lidar-Punktwolke durch Regeln über die tiefsten Punkte von Zellen.</translation>
     </message>
     <message>
-        <source>Finds the ground points of a lidar point cloud by the slopes between neighbours.</source>
-        <translation>Findet die Bodenpunkte einer Lidar-Punktwolke an den Neigungen zwischen Nachbarn.</translation>
+        <source>Finds the ground points of a lidar point cloud by the slopes between neighbouring points.</source>
+        <translation>Findet die Bodenpunkte einer Lidar-Punktwolke an den Neigungen zwischen benachbarten Punkten.</translation>
     </message>
     <message>
         <source>Finds the ground points of a lidar point cloud, and makes a terrain model of them.</source>
         <translation>Findet die Bodenpunkte einer Lidar-Punktwolke und macht aus ihnen ein Geländemodell.</translation>
     </message>
     <message>
-        <source>Finds the ground points of airborne or drone lidar by progressive TIN densification, and writes the point cloud anew with their class; nothing else in it changes. It starts from a sparse triangulation of points that are surely ground and adds, round by round, the points that lie close to it.
+        <source>Finds the ground points of airborne or drone lidar by progressive TIN densification, and writes a point cloud with the new classes; nothing else in it changes. The filter starts from a sparse triangulation (TIN) of points that are surely ground. Round by round it adds points that lie close to the TIN.
 Lengths are metres and angles degrees, whatever the unit of the CRS. The terrain model and its hillshade are GeoTIFFs.</source>
-        <translation>Findet die Bodenpunkte von Lidar aus Flugzeug oder Drohne durch progressive TIN-Verdichtung und schreibt die Punktwolke mit deren Klasse neu; sonst ändert sich nichts in ihr. Das Verfahren beginnt mit einer weitmaschigen Dreiecksvermaschung aus Punkten, die sicher Boden sind, und fügt Runde um Runde die Punkte hinzu, die nahe an ihr liegen.
+        <translation>Findet die Bodenpunkte von Lidar aus Flugzeug oder Drohne durch progressive TIN-Verdichtung und schreibt eine Punktwolke mit den neuen Klassen; sonst ändert sich nichts in ihr. Der Filter beginnt mit einer weitmaschigen Dreiecksvermaschung (TIN) aus Punkten, die sicher Boden sind. Runde um Runde fügt er Punkte hinzu, die nahe am TIN liegen.
 Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Geländemodell und seine Schummerung sind GeoTIFFs.</translation>
     </message>
     <message>
-        <source>Finds the ground points of airborne or drone lidar by slopes, and writes the point cloud anew with their class; nothing else in it changes. A point that stands above a neighbour by more than the terrain can is not ground. The preset Automatic compares on many scales and follows the terrain; the preset Whitebox repeats WhiteboxTools' LidarGroundPointFilter.
+        <source>Finds the ground points of airborne or drone lidar by slopes, and writes a point cloud with the new classes; nothing else in it changes. A point is not ground if it stands higher above a neighbour than terrain can. The preset Automatic compares points on many scales and follows the terrain; the preset Whitebox repeats WhiteboxTools' LidarGroundPointFilter.
 Lengths are metres and angles degrees, whatever the unit of the CRS. The terrain model and its hillshade are GeoTIFFs.</source>
-        <translation>Findet die Bodenpunkte von Lidar aus Flugzeug oder Drohne an Neigungen und schreibt die Punktwolke mit deren Klasse neu; sonst ändert sich nichts in ihr. Ein Punkt, der höher über einem Nachbarn liegt, als es das Gelände kann, ist kein Boden. Die Voreinstellung Automatisch vergleicht in vielen Maßstäben und folgt dem Gelände; die Voreinstellung Whitebox wiederholt LidarGroundPointFilter der WhiteboxTools.
+        <translation>Findet die Bodenpunkte von Lidar aus Flugzeug oder Drohne an Neigungen und schreibt eine Punktwolke mit den neuen Klassen; sonst ändert sich nichts in ihr. Ein Punkt ist kein Boden, wenn er höher über einem Nachbarn liegt, als es Gelände kann. Die Voreinstellung Automatisch vergleicht Punkte in vielen Maßstäben und folgt dem Gelände; die Voreinstellung Whitebox wiederholt LidarGroundPointFilter der WhiteboxTools.
 Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Geländemodell und seine Schummerung sind GeoTIFFs.</translation>
     </message>
     <message>
-        <source>Finds the ground points of airborne or drone lidar on a grid of lowest points, and writes the point cloud anew with their class; nothing else in it changes. Steps between neighbouring cells are the rims of objects; what such rims enclose is removed, the tall objects first. It needs heights only, no returns, and is fast.
+        <source>Finds the ground points of airborne or drone lidar on a grid of lowest points, and writes a point cloud with the new classes; nothing else in it changes. Steps between neighbouring cells are the rims of objects. What such rims enclose is removed, tall objects first. The method is fast, and needs only heights, no return numbers.
 Lengths are metres and angles degrees, whatever the unit of the CRS. The terrain model and its hillshade are GeoTIFFs.</source>
-        <translation>Findet die Bodenpunkte von Lidar aus Flugzeug oder Drohne auf einem Raster tiefster Punkte und schreibt die Punktwolke mit deren Klasse neu; sonst ändert sich nichts in ihr. Stufen zwischen benachbarten Zellen sind die Ränder von Objekten; was solche Ränder umschließen, wird entfernt, die hohen Objekte zuerst. Das Verfahren braucht nur Höhen, keine Echos, und ist schnell.
+        <translation>Findet die Bodenpunkte von Lidar aus Flugzeug oder Drohne auf einem Raster tiefster Punkte und schreibt eine Punktwolke mit den neuen Klassen; sonst ändert sich nichts in ihr. Stufen zwischen benachbarten Zellen sind die Ränder von Objekten. Was solche Ränder umschließen, wird entfernt, hohe Objekte zuerst. Das Verfahren ist schnell und braucht nur Höhen, keine Echos.
 Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Geländemodell und seine Schummerung sind GeoTIFFs.</translation>
     </message>
     <message>
@@ -458,6 +490,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>First and single returns</source>
         <translation>Erste und einzige Echos</translation>
+    </message>
+    <message>
+        <source>First returns hit the tops of trees and buildings. Take all returns if the return numbers of the file are wrong.</source>
+        <translation>Erste Echos treffen die Oberseite von Bäumen und Gebäuden. Nehmen Sie alle Echos, wenn die Nummern der Echos in der Datei falsch sind.</translation>
     </message>
     <message>
         <source>Flat land, fields</source>
@@ -496,16 +532,12 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>GB</translation>
     </message>
     <message>
-        <source>Gaps between points are interpolated by triangles; those with a longer edge have no data instead, as water should. Empty: all gaps are interpolated, as far as the convex hull of the points.</source>
-        <translation>Lücken zwischen Punkten werden durch Dreiecke interpoliert; wo deren Kante länger ist, gibt es keine Werte, wie es über Wasser sein soll. Leer: Alle Lücken werden interpoliert, bis zur konvexen Hülle der Punkte.</translation>
+        <source>Gaps between points are filled by triangles. A triangle with a longer edge than this has no data, for example over water. Empty: all gaps are filled, out to the convex hull of the points.</source>
+        <translation>Lücken zwischen Punkten werden mit Dreiecken gefüllt. Ein Dreieck mit einer längeren Kante als dieser hat keine Werte, zum Beispiel über Wasser. Leer: Alle Lücken werden gefüllt, bis zur konvexen Hülle der Punkte.</translation>
     </message>
     <message>
         <source>Get lazrs</source>
         <translation>lazrs holen</translation>
-    </message>
-    <message>
-        <source>Go on where a run before ended</source>
-        <translation>Weitermachen, wo ein früherer Lauf endete</translation>
     </message>
     <message>
         <source>Grid minimum</source>
@@ -576,10 +608,6 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Bodentoleranz am Hang</translation>
     </message>
     <message>
-        <source>Ground, if the method takes them for it</source>
-        <translation>Boden, wenn das Verfahren sie dafür hält</translation>
-    </message>
-    <message>
         <source>HTML files (*.html)</source>
         <translation>HTML-Dateien (*.html)</translation>
     </message>
@@ -636,36 +664,40 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Hügelland, Wald</translation>
     </message>
     <message>
-        <source>How far a ground point may lie above the TIN of the key points. About the accuracy of the heights, or half the interval of the contour lines to be made.</source>
-        <translation>Wie weit ein Bodenpunkt über dem TIN der Schlüsselpunkte liegen darf. Etwa die Genauigkeit der Höhen oder die halbe Äquidistanz der gewünschten Höhenlinien.</translation>
+        <source>How far a ground point may lie above the TIN of the key points. Choose about the accuracy of the heights, or half the contour interval that you want.</source>
+        <translation>Wie weit ein Bodenpunkt über dem TIN der Schlüsselpunkte liegen darf. Wählen Sie etwa die Genauigkeit der Höhen oder die halbe Äquidistanz der gewünschten Höhenlinien.</translation>
     </message>
     <message>
         <source>How far a ground point may lie below the TIN of the key points.</source>
         <translation>Wie weit ein Bodenpunkt unter dem TIN der Schlüsselpunkte liegen darf.</translation>
     </message>
     <message>
-        <source>How far a point is compared with its neighbours, the largest distance in the automatic preset: at least half the shorter side of the largest building. Empty: 18 m (more if points are sparse), or 2 m in the preset Whitebox.</source>
-        <translation>Wie weit ein Punkt mit seinen Nachbarn verglichen wird, in der automatischen Voreinstellung die größte Entfernung: mindestens die halbe kürzere Seite des größten Gebäudes. Leer: 18 m (mehr bei geringer Punktdichte), in der Voreinstellung Whitebox 2 m.</translation>
-    </message>
-    <message>
-        <source>How far below the ground a point must lie to become low noise, in level terrain; on slopes the rise of the ground over 1 m is added. Only where low outliers are put into class 7.</source>
-        <translation>Wie weit ein Punkt unter dem Boden liegen muss, um tiefes Rauschen zu werden, in ebenem Gelände; am Hang kommt der Anstieg des Bodens auf 1 m hinzu. Nur wenn tiefe Ausreißer in Klasse 7 kommen.</translation>
-    </message>
-    <message>
-        <source>How far the surroundings reach that a place is compared with. About as wide as the features to be seen; larger landforms vanish.</source>
-        <translation>Wie weit die Umgebung reicht, mit der eine Stelle verglichen wird. Etwa so breit wie die Formen, die man sehen will; größere verschwinden.</translation>
-    </message>
-    <message>
-        <source>How high the light stands above the horizon.</source>
-        <translation>Wie hoch das Licht über dem Horizont steht.</translation>
-    </message>
-    <message>
-        <source>How many threads compute at the same time. The result does not depend on it.</source>
-        <translation>Wie viele Threads gleichzeitig rechnen. Das Ergebnis hängt nicht davon ab.</translation>
+        <source>How many threads compute at the same time. The result does not depend on it. Empty: as many as there are processors.</source>
+        <translation>Wie viele Threads gleichzeitig rechnen. Das Ergebnis hängt nicht davon ab. Leer: so viele, wie es Prozessoren gibt.</translation>
     </message>
     <message>
         <source>Ignored classes of the reference</source>
         <translation>Nicht beachtete Klassen der Referenz</translation>
+    </message>
+    <message>
+        <source>In each cell of this size that has ground points, at least the lowest one is a key point, however flat the ground is.</source>
+        <translation>In jeder Zelle dieser Größe, die Bodenpunkte hat, ist mindestens der tiefste ein Schlüsselpunkt, wie eben der Boden auch ist.</translation>
+    </message>
+    <message>
+        <source>In level terrain, points down to this depth below the final surface are ground. The surface goes through the lowest points, but is smoother than they are.</source>
+        <translation>In ebenem Gelände sind Punkte bis zu dieser Tiefe unter der endgültigen Fläche Boden. Die Fläche geht durch die tiefsten Punkte, ist aber glatter als sie.</translation>
+    </message>
+    <message>
+        <source>In level terrain, points up to this height above the final surface are ground. A larger value takes in grass and low bushes.</source>
+        <translation>In ebenem Gelände sind Punkte bis zu dieser Höhe über der endgültigen Fläche Boden. Ein größerer Wert nimmt Gras und niedrige Büsche mit auf.</translation>
+    </message>
+    <message>
+        <source>In level terrain, points up to this height above the surface of the ground are ground. Empty: from the preset.</source>
+        <translation>In ebenem Gelände sind Punkte bis zu dieser Höhe über der Bodenfläche Boden. Leer: aus der Voreinstellung.</translation>
+    </message>
+    <message>
+        <source>In level terrain, points up to this height above the surface through the ground are ground. Not used with the preset Whitebox.</source>
+        <translation>In ebenem Gelände sind Punkte bis zu dieser Höhe über der Fläche durch den Boden Boden. Nicht für die Voreinstellung Whitebox.</translation>
     </message>
     <message>
         <source>In the command line some layers are missing: save each in the CRS of the points as GeoJSON, and add {}.</source>
@@ -680,12 +712,12 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>In der Befehlszeile fehlen die Korrekturen: Speichern Sie sie im KBS der Punkte als corrections.geojson, ihre Klasse als Attribut „{}“, und fügen Sie --corrections corrections.geojson hinzu.</translation>
     </message>
     <message>
-        <source>In the last pass whatever stands this far above the ground beside it is removed: bushes, cars, walls. Larger spares rough ground. Empty: from the preset.</source>
-        <translation>Im letzten Durchgang wird entfernt, was so hoch über dem Boden daneben steht: Büsche, Autos, Mauern. Ein größerer Wert schont rauen Boden. Leer: aus der Voreinstellung.</translation>
+        <source>In triangles whose longest edge is shorter than this, the iteration angle is reduced in proportion. So the TIN does not climb low vegetation step by step. Empty: the angle is never reduced.</source>
+        <translation>In Dreiecken, deren längste Kante kürzer ist als dies, wird der Iterationswinkel im Verhältnis kleiner. So erklimmt das TIN niedrigen Bewuchs nicht Schritt für Schritt. Leer: Der Winkel wird nie kleiner.</translation>
     </message>
     <message>
-        <source>In triangles whose longest edge is shorter the iteration angle is reduced in proportion, so that low vegetation is not climbed step by step. Empty: never.</source>
-        <translation>In Dreiecken, deren längste Kante kürzer ist, wird der Iterationswinkel im Verhältnis kleiner, damit niedriger Bewuchs nicht Schritt für Schritt erklommen wird. Leer: nie.</translation>
+        <source>Include subfolders</source>
+        <translation>Unterordner einbeziehen</translation>
     </message>
     <message>
         <source>Iteration angle</source>
@@ -696,16 +728,16 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Iterationsabstand</translation>
     </message>
     <message>
-        <source>Its class 2 counts as ground, all others do not.</source>
-        <translation>Ihre Klasse 2 gilt als Boden, alle anderen nicht.</translation>
-    </message>
-    <message>
         <source>Kappa [%]</source>
         <translation>Kappa [%]</translation>
     </message>
     <message>
-        <source>Keep, but old ground that is not confirmed becomes 1</source>
-        <translation>Behalten, aber früherer Boden, der sich nicht bestätigt, wird 1</translation>
+        <source>Keep; old ground that is not ground now becomes 1</source>
+        <translation>Behalten; früherer Boden, der jetzt kein Boden ist, wird 1</translation>
+    </message>
+    <message>
+        <source>Keeps the tiles that an earlier run finished, if they were made from the same files with the same parameters. All other tiles are classified again.</source>
+        <translation>Behält die Kacheln, die ein früherer Lauf fertiggestellt hat, wenn sie aus denselben Dateien mit denselben Parametern entstanden. Alle anderen Kacheln werden neu klassifiziert.</translation>
     </message>
     <message>
         <source>Key points</source>
@@ -740,8 +772,8 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>LAZ-Unterstützung…</translation>
     </message>
     <message>
-        <source>Largest angle between a triangle and the line from one of its corners to a new point. Larger follows rugged ground better, smaller keeps low objects out: 4 in flat, 10 and more in steep terrain. Empty: from the preset.</source>
-        <translation>Größter Winkel zwischen einem Dreieck und der Linie von einer seiner Ecken zu einem neuen Punkt. Ein größerer folgt rauem Gelände besser, ein kleinerer hält niedrige Objekte fern: 4 in flachem, 10 und mehr in steilem Gelände. Leer: aus der Voreinstellung.</translation>
+        <source>Largest angle between a triangle and the line from one of its corners to a new point. A larger angle follows rugged ground better, a smaller one keeps low objects out: 4 deg in flat terrain, 10 deg and more in steep terrain. Empty: from the preset.</source>
+        <translation>Größter Winkel zwischen einem Dreieck und der Linie von einer seiner Ecken zu einem neuen Punkt. Ein größerer Winkel folgt rauem Gelände besser, ein kleinerer hält niedrige Objekte fern: 4 Grad in flachem, 10 Grad und mehr in steilem Gelände. Leer: aus der Voreinstellung.</translation>
     </message>
     <message>
         <source>Largest distance of a new point from its triangle. Empty: from the preset.</source>
@@ -752,12 +784,8 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Letzte und einzige Echos (Nummer des Echos = Anzahl der Echos)</translation>
     </message>
     <message>
-        <source>Leaves all points out of the output that are not of the class of the ground. The log says how many.</source>
-        <translation>Lässt in der Ausgabe alle Punkte weg, die nicht die Klasse des Bodens haben. Das Protokoll sagt, wie viele es sind.</translation>
-    </message>
-    <message>
-        <source>Leaves all points out of the output that lie outside of the extent and the boundary, and out of the rasters. Files of a survey that have none in the area are not written.</source>
-        <translation>Lässt alle Punkte außerhalb von Ausdehnung und Begrenzung weg, in der Ausgabe und in den Rastern. Dateien einer Befliegung, die im Gebiet keine haben, werden nicht geschrieben.</translation>
+        <source>Last returns reach the ground. Take all returns if the return numbers of the file are wrong.</source>
+        <translation>Letzte Echos erreichen den Boden. Nehmen Sie alle Echos, wenn die Nummern der Echos in der Datei falsch sind.</translation>
     </message>
     <message>
         <source>LiDAR360's values</source>
@@ -772,16 +800,16 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Linie des Profils</translation>
     </message>
     <message>
-        <source>Lines along which the water in such polygons falls, drawn in either direction.</source>
-        <translation>Linien, entlang derer das Wasser in solchen Polygonen fällt, in beliebiger Richtung gezeichnet.</translation>
+        <source>Lines along which the level of the water polygons falls. They may be drawn in either direction.</source>
+        <translation>Linien, entlang derer der Wasserspiegel der Wasserpolygone fällt. Sie dürfen in beliebiger Richtung gezeichnet sein.</translation>
     </message>
     <message>
         <source>Lines of equal height of the terrain model, with the field ELEV.</source>
         <translation>Linien gleicher Höhe des Geländemodells, mit dem Feld ELEV.</translation>
     </message>
     <message>
-        <source>Lines that no triangle of the terrain crosses: edges of walls, dykes and terraces. A line with z has that height; without z, each side of it has the height of the nearest ground point there.</source>
-        <translation>Linien, über die kein Dreieck des Geländes hinweggeht: Kanten von Mauern, Deichen und Terrassen. Eine Linie mit z hat diese Höhe; ohne z hat jede ihrer Seiten dort die Höhe des nächsten Bodenpunkts.</translation>
+        <source>Lines that no triangle of the terrain crosses: edges of walls, dykes and terraces. A line with z has this height. Without z, each side of the line has the height of the nearest ground point on that side.</source>
+        <translation>Linien, über die kein Dreieck des Geländes hinweggeht: Kanten von Mauern, Deichen und Terrassen. Eine Linie mit z hat diese Höhe. Ohne z hat jede Seite der Linie die Höhe des nächsten Bodenpunkts auf dieser Seite.</translation>
     </message>
     <message>
         <source>Local relief</source>
@@ -796,9 +824,9 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Macht aus einer rohen Punktwolke eine Karte des Geländes: Klassen, Modelle, Höhenlinien.</translation>
     </message>
     <message>
-        <source>Makes a terrain model of a surface model where there is no point cloud. What stands above the terrain round it with steep edges on all sides, and is not larger than the largest object, is removed, and the gaps are filled smoothly. Hills and slopes stay.
+        <source>Makes a terrain model from a surface model, if there is no point cloud. Removes what stands above the terrain around it, has steep edges on all sides and is not wider than the maximum object size. Fills the gaps smoothly. Hills and slopes stay.
 The output has the same grid, CRS and unit. Lengths are metres, whatever the unit of the CRS.</source>
-        <translation>Macht aus einem Oberflächenmodell ein Geländemodell, wo es keine Punktwolke gibt. Was mit allseits steilen Kanten über dem Gelände ringsum steht und nicht größer ist als das größte Objekt, wird entfernt, und die Lücken werden glatt gefüllt. Hügel und Hänge bleiben.
+        <translation>Macht aus einem Oberflächenmodell ein Geländemodell, wenn es keine Punktwolke gibt. Entfernt, was über dem Gelände ringsum steht, auf allen Seiten steile Kanten hat und nicht breiter ist als die größte Objektbreite. Füllt die Lücken glatt. Hügel und Hänge bleiben.
 Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, gleich welche Einheit das KBS hat.</translation>
     </message>
     <message>
@@ -838,8 +866,8 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Verfahren</translation>
     </message>
     <message>
-        <source>Methods with their presets. The others are compared with the first.</source>
-        <translation>Verfahren mit ihren Voreinstellungen. Die anderen werden mit der ersten verglichen.</translation>
+        <source>Methods, each with a preset. All others are compared with the first one.</source>
+        <translation>Verfahren, jedes mit einer Voreinstellung. Alle anderen werden mit dem ersten verglichen.</translation>
     </message>
     <message>
         <source>Minimum number of neighbours</source>
@@ -878,56 +906,52 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Kein Boden</translation>
     </message>
     <message>
-        <source>Not ground, but with a classic preset</source>
+        <source>Not ground, except with a classic preset</source>
         <translation>Kein Boden, außer mit einer klassischen Voreinstellung</translation>
     </message>
     <message>
-        <source>Not there yet: .laz and .copc.laz files cannot be read or written.</source>
-        <translation>Noch nicht da: Dateien .laz und .copc.laz lassen sich weder lesen noch schreiben.</translation>
+        <source>Not installed yet: .laz and .copc.laz files cannot be read or written.</source>
+        <translation>Noch nicht installiert: Dateien .laz und .copc.laz lassen sich weder lesen noch schreiben.</translation>
     </message>
     <message>
         <source>Number of the raster's band that holds the heights.</source>
         <translation>Nummer des Kanals, der die Höhen enthält.</translation>
     </message>
     <message>
-        <source>Objects have edges steeper than this all round, measured above the terrain that the maximum object size gives; what rises more gently somewhere is a hill.</source>
-        <translation>Objekte haben ringsum Kanten, die steiler sind als dies, gemessen über dem Gelände, das sich aus der größten Objektbreite ergibt; was irgendwo sanfter ansteigt, ist ein Hügel.</translation>
-    </message>
-    <message>
-        <source>Of the ground, keep only the points that a terrain model needs: those whose TIN lies within the two tolerances below of every other ground point.</source>
-        <translation>Vom Boden bleiben nur die Punkte, die ein Geländemodell braucht: jene, deren TIN innerhalb der beiden folgenden Toleranzen an jedem anderen Bodenpunkt liegt.</translation>
+        <source>Objects have edges steeper than this on all sides. What rises more gently on some side is a hill. The slopes of the terrain below do not count.</source>
+        <translation>Objekte haben auf allen Seiten Kanten, die steiler sind als dies. Was auf einer Seite sanfter ansteigt, ist ein Hügel. Die Hänge des Geländes darunter zählen nicht.</translation>
     </message>
     <message>
         <source>One light</source>
         <translation>Ein Licht</translation>
     </message>
     <message>
-        <source>One light shows best what lies across it, and leaves slopes that turn away in the dark. Four lights show landforms of any direction.</source>
-        <translation>Ein Licht zeigt am besten, was quer zu ihm liegt, und lässt abgewandte Hänge im Dunkeln. Vier Lichter zeigen Geländeformen jeder Richtung.</translation>
+        <source>One light shows best the landforms that lie across it, but slopes that face away are dark. Four lights show landforms of any direction.</source>
+        <translation>Ein Licht zeigt am besten die Geländeformen, die quer zu ihm liegen, aber abgewandte Hänge sind dunkel. Vier Lichter zeigen Geländeformen jeder Richtung.</translation>
     </message>
     <message>
-        <source>One pass for each, from the largest: of two neighbouring cells that differ by more, the higher is the rim of an object. Empty: from the preset.</source>
-        <translation>Ein Durchgang für jede, von der größten an: Von zwei benachbarten Zellen, die sich um mehr unterscheiden, ist die höhere der Rand eines Objekts. Leer: aus der Voreinstellung.</translation>
+        <source>One pass for each threshold, the largest first. If two neighbouring cells differ by more than the threshold, the higher one is the rim of an object. Empty: from the preset.</source>
+        <translation>Ein Durchgang für jede Schwelle, von der größten an. Wenn sich zwei benachbarte Zellen um mehr als die Schwelle unterscheiden, ist die höhere der Rand eines Objekts. Leer: aus der Voreinstellung.</translation>
     </message>
     <message>
         <source>Only key points</source>
         <translation>Nur Schlüsselpunkte</translation>
     </message>
     <message>
-        <source>Only points in these polygons are classified, of an extent too if there is one. The others keep their class, but those near them help to judge. Empty: all points.</source>
-        <translation>Nur Punkte in diesen Polygonen werden klassifiziert, und in der Ausdehnung, wenn es eine gibt. Die anderen behalten ihre Klasse, doch die in der Nähe helfen beim Urteil. Leer: alle Punkte.</translation>
+        <source>Only points in these polygons are classified; with an extent, only points in both. Points outside keep their class, but those nearby help to judge. Empty: all points.</source>
+        <translation>Nur Punkte in diesen Polygonen werden klassifiziert; gibt es eine Ausdehnung, nur Punkte in beiden. Punkte außerhalb behalten ihre Klasse, doch die in der Nähe helfen beim Urteil. Leer: alle Punkte.</translation>
     </message>
     <message>
-        <source>Only points in this rectangle are classified. The others keep their class, but those near it help to judge. Empty: all points.</source>
-        <translation>Nur Punkte in diesem Rechteck werden klassifiziert. Die anderen behalten ihre Klasse, doch die in der Nähe helfen beim Urteil. Leer: alle Punkte.</translation>
+        <source>Only points in this rectangle are classified. Points outside keep their class, but those nearby help to judge. Empty: all points.</source>
+        <translation>Nur Punkte in diesem Rechteck werden klassifiziert. Punkte außerhalb behalten ihre Klasse, doch die in der Nähe helfen beim Urteil. Leer: alle Punkte.</translation>
     </message>
     <message>
-        <source>Only points of these classes take part and may change their class; every class but low and high noise (7 and 18) when none is given.</source>
-        <translation>Nur Punkte dieser Klassen nehmen teil und können ihre Klasse ändern; ohne Angabe alle Klassen außer tiefem und hohem Rauschen (7 und 18).</translation>
+        <source>Only points of these classes take part and may change their class. Empty: all classes but low and high noise (7 and 18).</source>
+        <translation>Nur Punkte dieser Klassen nehmen teil und können ihre Klasse ändern. Leer: alle Klassen außer tiefem und hohem Rauschen (7 und 18).</translation>
     </message>
     <message>
-        <source>Only points that stand above a neighbour by at least this much are not ground. Empty: 0.5 m, or 1 m in the preset Whitebox.</source>
-        <translation>Nur Punkte, die mindestens so hoch über einem Nachbarn liegen, sind kein Boden. Leer: 0,5 m, in der Voreinstellung Whitebox 1 m.</translation>
+        <source>Only the points that a terrain model needs become ground. Of all other ground points, none lies farther from the TIN of these key points than the two tolerances below.</source>
+        <translation>Nur die Punkte, die ein Geländemodell braucht, werden Boden. Von allen anderen Bodenpunkten liegt keiner weiter vom TIN dieser Schlüsselpunkte entfernt, als die beiden folgenden Toleranzen erlauben.</translation>
     </message>
     <message>
         <source>Point cloud</source>
@@ -954,60 +978,48 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Punkte</translation>
     </message>
     <message>
+        <source>Points are compared with their neighbours up to this distance. Choose at least half the shorter side of the largest building. Empty: from the preset, 18 m in the automatic one (more if points are sparse), 2 m in Whitebox.</source>
+        <translation>Punkte werden mit ihren Nachbarn bis zu dieser Entfernung verglichen. Wählen Sie mindestens die halbe kürzere Seite des größten Gebäudes. Leer: aus der Voreinstellung, in der automatischen 18 m (mehr bei geringer Punktdichte), in Whitebox 2 m.</translation>
+    </message>
+    <message>
         <source>Points in the area</source>
         <translation>Punkte im Gebiet</translation>
-    </message>
-    <message>
-        <source>Points no deeper below the final surface are ground, in level terrain: it lies through the lowest points, and is smooth where they are not.</source>
-        <translation>Punkte, die nicht tiefer unter der endgültigen Fläche liegen, sind Boden, in ebenem Gelände: Sie geht durch die tiefsten Punkte und ist glatt, wo diese es nicht sind.</translation>
-    </message>
-    <message>
-        <source>Points no higher above the final surface are ground, in level terrain. More takes in grass and low bushes.</source>
-        <translation>Punkte, die nicht höher über der endgültigen Fläche liegen, sind Boden, in ebenem Gelände. Mehr nimmt Gras und niedrige Büsche mit auf.</translation>
-    </message>
-    <message>
-        <source>Points no higher above the ground's surface are ground, in level terrain. Empty: from the preset.</source>
-        <translation>Punkte, die nicht höher über der Bodenfläche liegen, sind Boden, in ebenem Gelände. Leer: aus der Voreinstellung.</translation>
-    </message>
-    <message>
-        <source>Points no higher above the surface through the ground are ground, in level terrain. Not for the preset Whitebox.</source>
-        <translation>Punkte, die nicht höher über der Fläche durch den Boden liegen, sind Boden, in ebenem Gelände. Nicht für die Voreinstellung Whitebox.</translation>
     </message>
     <message>
         <source>Points of the surface</source>
         <translation>Punkte der Oberfläche</translation>
     </message>
     <message>
-        <source>Points of these classes are ground for certain, whatever their return: they are not judged, and the TIN densification starts from them. They get the class of the ground, too, unless theirs is not among those to classify anew.</source>
-        <translation>Punkte dieser Klassen sind sicher Boden, gleich welches Echo: Sie werden nicht beurteilt, und die TIN-Verdichtung beginnt mit ihnen. Auch sie bekommen die Klasse des Bodens, außer wenn ihre nicht zu den neu zu klassifizierenden gehört.</translation>
+        <source>Points of these classes are certain ground, whatever their return: the filter does not judge them, and TIN densification starts from them. They get the class of the ground, unless their class is not among the classes to classify. Empty: none.</source>
+        <translation>Punkte dieser Klassen sind sicher Boden, gleich welches Echo: Der Filter beurteilt sie nicht, und die TIN-Verdichtung beginnt mit ihnen. Sie bekommen die Klasse des Bodens, außer wenn ihre Klasse nicht zu den zu klassifizierenden gehört. Leer: keine.</translation>
     </message>
     <message>
-        <source>Points of these classes of the reference are left out, noise (7, 18) for example.</source>
-        <translation>Punkte dieser Klassen der Referenz bleiben weg, zum Beispiel Rauschen (7, 18).</translation>
-    </message>
-    <message>
-        <source>Points so far round the window are read to judge those in it, but not shown. More is slower, and closer to what the whole file gives near the edges of the window and beside large buildings. Empty: as far as the methods look, at most 50 m.</source>
-        <translation>Punkte so weit um das Fenster werden gelesen, um die im Fenster zu beurteilen, aber nicht gezeigt. Mehr ist langsamer, und näher an dem, was die ganze Datei nahe dem Rand des Fensters und neben großen Gebäuden ergibt. Leer: so weit die Verfahren schauen, höchstens 50 m.</translation>
+        <source>Points of these classes of the reference are not counted, for example noise (7, 18). Empty: all points are counted.</source>
+        <translation>Punkte dieser Klassen der Referenz werden nicht gezählt, zum Beispiel Rauschen (7, 18). Leer: Alle Punkte zählen.</translation>
     </message>
     <message>
         <source>Points that took part</source>
         <translation>Punkte, die teilnahmen</translation>
     </message>
     <message>
-        <source>Points that took part and lie far below the ground that was found (multipath, faults of the sensor) become low noise, class 7, instead of what becomes of other points.</source>
-        <translation>Punkte, die teilnahmen und weit unter dem gefundenen Boden liegen (Mehrwegeausbreitung, Fehler des Sensors), werden tiefes Rauschen, Klasse 7, statt dessen, was aus den übrigen Punkten wird.</translation>
+        <source>Points that took part and lie far below the ground (multipath, faults of the sensor) become low noise, class 7. Otherwise they are treated as other points.</source>
+        <translation>Punkte, die teilnahmen und weit unter dem Boden liegen (Mehrwegeausbreitung, Fehler des Sensors), werden tiefes Rauschen, Klasse 7. Sonst werden sie wie die übrigen Punkte behandelt.</translation>
     </message>
     <message>
-        <source>Polygons in which no point is ground, such as bridges and roofs.</source>
-        <translation>Polygone, in denen kein Punkt Boden ist, etwa Brücken und Dächer.</translation>
+        <source>Points up to this distance outside the window are read too, but not shown. A larger value is slower, and gives classes closer to those of the whole file near the edges of the window and beside large buildings. Empty: as far as the methods look, at most 50 m.</source>
+        <translation>Punkte bis zu dieser Entfernung außerhalb des Fensters werden auch gelesen, aber nicht gezeigt. Ein größerer Wert ist langsamer und gibt nahe dem Rand des Fensters und neben großen Gebäuden Klassen, die näher an denen der ganzen Datei sind. Leer: so weit die Verfahren schauen, höchstens 50 m.</translation>
     </message>
     <message>
-        <source>Polygons in which the class is known: it holds whatever the filter makes of the points. Where it is that of the ground, points of the wanted returns are ground; else all points get it, and the filter does not see them. Where polygons overlap, the last one counts.</source>
-        <translation>Polygone, in denen die Klasse bekannt ist: Sie gilt, was auch immer der Filter aus den Punkten macht. Wo es die des Bodens ist, sind Punkte der gewünschten Echos Boden; sonst bekommen sie alle Punkte, und der Filter sieht diese nicht. Wo sich Polygone überlappen, zählt das letzte.</translation>
+        <source>Polygons in which the terrain uses no ground points, such as bridges and roofs. The classes of the points do not change.</source>
+        <translation>Polygone, in denen das Gelände keine Bodenpunkte benutzt, etwa Brücken und Dächer. Die Klassen der Punkte ändern sich nicht.</translation>
     </message>
     <message>
-        <source>Polygons of water: flattened to one level, that of the ground along their border.</source>
-        <translation>Polygone von Gewässern: auf eine Höhe eingeebnet, die des Bodens an ihrem Rand.</translation>
+        <source>Polygons in which you know the class. It replaces the result of the filter. If it is the class of the ground, points of the chosen returns are ground. Any other class is given to all points, and the filter does not use them. Where polygons overlap, the last one counts.</source>
+        <translation>Polygone, in denen Sie die Klasse kennen. Sie tritt an die Stelle des Ergebnisses des Filters. Ist es die Klasse des Bodens, sind Punkte der gewählten Echos Boden. Jede andere Klasse bekommen alle Punkte, und der Filter benutzt diese nicht. Wo sich Polygone überlappen, zählt das letzte.</translation>
+    </message>
+    <message>
+        <source>Polygons of water. Each is flattened to one level, that of the ground along its border.</source>
+        <translation>Polygone von Gewässern. Jedes wird auf eine Höhe eingeebnet, die des Bodens an seinem Rand.</translation>
     </message>
     <message>
         <source>Preset</source>
@@ -1030,8 +1042,8 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Radius des lokalen Reliefs</translation>
     </message>
     <message>
-        <source>Ready. Compressed point clouds (.laz) need one package more, once.</source>
-        <translation>Bereit. Komprimierte Punktwolken (.laz) brauchen noch ein Paket, einmalig.</translation>
+        <source>Ready. Compressed point clouds (.laz) need one more package, which is installed only once.</source>
+        <translation>Bereit. Komprimierte Punktwolken (.laz) brauchen noch ein Paket, das nur einmal installiert wird.</translation>
     </message>
     <message>
         <source>Ready. The package lazrs is in {}</source>
@@ -1066,8 +1078,12 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Entfernt.</translation>
     </message>
     <message>
-        <source>Removed; the files that are in use go when QGIS starts next.</source>
-        <translation>Entfernt; Dateien, die in Benutzung sind, verschwinden beim nächsten Start von QGIS.</translation>
+        <source>Removed. Files that are in use are removed when QGIS starts next.</source>
+        <translation>Entfernt. Dateien, die in Benutzung sind, werden beim nächsten Start von QGIS entfernt.</translation>
+    </message>
+    <message>
+        <source>Removes buildings, trees and other steep-sided objects from an elevation raster.</source>
+        <translation>Entfernt Gebäude, Bäume und andere Objekte mit steilen Seiten aus einem Höhenraster.</translation>
     </message>
     <message>
         <source>Report</source>
@@ -1090,60 +1106,68 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Suchradius</translation>
     </message>
     <message>
-        <source>Searches a folder with all folders in it, instead of alone.</source>
-        <translation>Durchsucht einen Ordner samt allen Ordnern darin, statt nur ihn selbst.</translation>
+        <source>Searches each folder with all its subfolders.</source>
+        <translation>Durchsucht jeden Ordner samt allen Unterordnern.</translation>
     </message>
     <message>
         <source>Set to 1 (unclassified)</source>
         <translation>Auf 1 setzen (nicht klassifiziert)</translation>
     </message>
     <message>
-        <source>Settings</source>
-        <translation>Einstellungen</translation>
+        <source>Sets the fields that are left empty, to values that suit most land (automatic) or a kind of terrain. The log says which values were used.</source>
+        <translation>Bestimmt die Werte der leeren Felder: passend zu den meisten Landschaften (automatisch) oder zu einer Geländeart. Das Protokoll sagt, welche Werte benutzt wurden.</translation>
     </message>
     <message>
-        <source>Share of the ground's rise from point to point, over a metre at most, that is added to the ground tolerance; in the paper's preset, of its rise over one cell. Empty: from the preset.</source>
-        <translation>Anteil des Anstiegs des Bodens von Punkt zu Punkt, über höchstens einen Meter, der zur Bodentoleranz hinzukommt; in der Voreinstellung der Veröffentlichung von seinem Anstieg über eine Zelle. Leer: aus der Voreinstellung.</translation>
+        <source>Sets the fields that are left empty. Automatic and the kinds of terrain remove buildings as well as shrubs. Whitebox is the classic filter with the values of WhiteboxTools: within its radius of 2 m it cannot find a building.</source>
+        <translation>Bestimmt die Werte der leeren Felder. Automatisch und die Geländearten entfernen Gebäude ebenso wie Sträucher. Whitebox ist der klassische Filter mit den Werten der WhiteboxTools: In seinem Radius von 2 m erkennt er kein Gebäude.</translation>
+    </message>
+    <message>
+        <source>Sets the fields that are left empty: from the points (automatic), or to values that suit a kind of terrain. The log says which values were used.</source>
+        <translation>Bestimmt die Werte der leeren Felder: aus den Punkten (automatisch) oder passend zu einer Geländeart. Das Protokoll sagt, welche Werte benutzt wurden.</translation>
+    </message>
+    <message>
+        <source>Settings</source>
+        <translation>Einstellungen</translation>
     </message>
     <message>
         <source>Share of wrong points</source>
         <translation>Anteil falscher Punkte</translation>
     </message>
     <message>
-        <source>Shorter side of the largest building or other object. Whatever is narrower and stands out from its surroundings gives no seed of the ground. Too large costs time and sharp hilltops. Empty: from the preset.</source>
-        <translation>Kürzere Seite des größten Gebäudes oder sonstigen Objekts. Was schmaler ist und aus seiner Umgebung herausragt, liefert keinen Startpunkt des Bodens. Zu groß kostet Zeit und spitze Kuppen. Leer: aus der Voreinstellung.</translation>
+        <source>Shorter side of the largest building or other object. Nothing that is narrower and stands out from its surroundings can be a seed of the ground. A value that is too large takes longer and loses sharp hilltops. Empty: from the preset.</source>
+        <translation>Kürzere Seite des größten Gebäudes oder sonstigen Objekts. Nichts, was schmaler ist und aus seiner Umgebung herausragt, kann ein Startpunkt des Bodens sein. Ein zu großer Wert dauert länger und verliert spitze Kuppen. Leer: aus der Voreinstellung.</translation>
     </message>
     <message>
-        <source>Shorter side of the largest building, which is found by the drop all round it even if it is wider than two search radii. Empty: 100 m, or two search radii where that is given. Not for the preset Whitebox.</source>
-        <translation>Kürzere Seite des größten Gebäudes; es wird am Abfall ringsum erkannt, auch wenn es breiter ist als zwei Suchradien. Leer: 100 m, oder zwei Suchradien, wo einer angegeben ist. Nicht für die Voreinstellung Whitebox.</translation>
+        <source>Shorter side of the largest building. A larger value takes longer, and may remove steep hilltops as objects.</source>
+        <translation>Kürzere Seite des größten Gebäudes. Ein größerer Wert dauert länger und kann steile Kuppen als Objekte entfernen.</translation>
     </message>
     <message>
-        <source>Shorter side of the largest building. Larger costs time, and steep hilltops that are then taken for objects.</source>
-        <translation>Kürzere Seite des größten Gebäudes. Größer kostet Zeit, und steile Kuppen, die dann für Objekte gehalten werden.</translation>
-    </message>
-    <message>
-        <source>Shorter side of the largest building. What is wider is terrain. Empty: from the preset.</source>
+        <source>Shorter side of the largest building. Anything wider is terrain. Empty: from the preset.</source>
         <translation>Kürzere Seite des größten Gebäudes. Was breiter ist, ist Gelände. Leer: aus der Voreinstellung.</translation>
     </message>
     <message>
-        <source>Side of a cell of the raster that tells the share of wrong points. The map in the report chooses its own.</source>
-        <translation>Seite einer Zelle des Rasters, das den Anteil falscher Punkte angibt. Die Karte im Bericht wählt ihre selbst.</translation>
+        <source>Shorter side of the largest building. Buildings wider than two search radii are found by the drop on all their sides. Empty: from the preset, or two search radii if the search radius is given. Not used with the preset Whitebox.</source>
+        <translation>Kürzere Seite des größten Gebäudes. Gebäude, die breiter sind als zwei Suchradien, werden am Abfall auf allen Seiten erkannt. Leer: aus der Voreinstellung, oder zwei Suchradien, wenn der Suchradius angegeben ist. Nicht für die Voreinstellung Whitebox.</translation>
     </message>
     <message>
-        <source>Side of a cell of the terrain model and of its hillshade. About the distance between ground points is sensible; smaller cells only make the file larger.</source>
-        <translation>Seite einer Zelle des Geländemodells und seiner Schummerung. Sinnvoll ist etwa der Abstand der Bodenpunkte; kleinere Zellen machen nur die Datei größer.</translation>
+        <source>Side of a cell of the error map. The map in the report has its own cell size.</source>
+        <translation>Seite einer Zelle der Fehlerkarte. Die Karte im Bericht hat ihre eigene Zellgröße.</translation>
     </message>
     <message>
-        <source>Side of the cells of the rasters, about the distance between ground points.</source>
-        <translation>Seite der Zellen der Raster, etwa der Abstand der Bodenpunkte.</translation>
+        <source>Side of a cell of the rasters. Choose about the distance between ground points.</source>
+        <translation>Seite einer Zelle der Raster. Wählen Sie etwa den Abstand der Bodenpunkte.</translation>
     </message>
     <message>
-        <source>Side of the cells whose lowest points are compared in the automatic preset. Empty: the usual distance between points, at least 1 m.</source>
-        <translation>Seite der Zellen, deren tiefste Punkte in der automatischen Voreinstellung verglichen werden. Leer: der übliche Abstand der Punkte, mindestens 1 m.</translation>
+        <source>Side of a cell of the terrain model and of its hillshade. Choose about the distance between ground points; smaller cells only make the file larger.</source>
+        <translation>Seite einer Zelle des Geländemodells und seiner Schummerung. Wählen Sie etwa den Abstand der Bodenpunkte; kleinere Zellen machen nur die Datei größer.</translation>
     </message>
     <message>
-        <source>Side of the square cells whose lowest points are compared. Smaller ones follow finer terrain, if they hold a point, and hold more rims of low plants. Empty: from the preset; where such a cell would hold less than a point, more.</source>
-        <translation>Seite der quadratischen Zellen, deren tiefste Punkte verglichen werden. Kleinere folgen feinerem Gelände, wenn sie einen Punkt enthalten, und enthalten mehr Ränder niedriger Pflanzen. Leer: aus der Voreinstellung; mehr, wo eine solche Zelle weniger als einen Punkt enthielte.</translation>
+        <source>Side of the cells whose lowest points are compared. Not used with the preset Whitebox. Empty: the usual distance between points, at least 1 m.</source>
+        <translation>Seite der Zellen, deren tiefste Punkte verglichen werden. Nicht für die Voreinstellung Whitebox. Leer: der übliche Abstand der Punkte, mindestens 1 m.</translation>
+    </message>
+    <message>
+        <source>Side of the square cells whose lowest points are compared. Smaller cells follow finer terrain if they hold at least one point, but have more rims at low plants. Empty: from the preset, or larger if points are too sparse for it.</source>
+        <translation>Seite der quadratischen Zellen, deren tiefste Punkte verglichen werden. Kleinere Zellen folgen feinerem Gelände, wenn sie mindestens einen Punkt enthalten, haben aber mehr Ränder an niedrigen Pflanzen. Leer: aus der Voreinstellung, oder größer, wenn die Punkte dafür zu dünn liegen.</translation>
     </message>
     <message>
         <source>Slope filter</source>
@@ -1190,8 +1214,8 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Steiles oder raues Gelände</translation>
     </message>
     <message>
-        <source>Steepest slope of the ground. On steeper triangles a point is judged by its mirror image beyond the nearest vertex.</source>
-        <translation>Größte Neigung des Bodens. Auf steileren Dreiecken wird ein Punkt nach seinem Spiegelbild jenseits des nächsten Eckpunkts beurteilt.</translation>
+        <source>Steepest slope of the ground. In steeper triangles, the mirror image of a point beyond the nearest vertex is judged in its place.</source>
+        <translation>Größte Neigung des Bodens. In steileren Dreiecken wird an Stelle eines Punkts sein Spiegelbild jenseits des nächsten Eckpunkts beurteilt.</translation>
     </message>
     <message>
         <source>Stop triangulation when edges are shorter than</source>
@@ -1238,14 +1262,6 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>TIN-Verdichtung, Stadt</translation>
     </message>
     <message>
-        <source>Take the files in folders of folders</source>
-        <translation>Dateien auch in Unterordnern nehmen</translation>
-    </message>
-    <message>
-        <source>Takes buildings, trees and other steep-sided objects out of an elevation raster.</source>
-        <translation>Entfernt Gebäude, Bäume und andere Objekte mit steilen Seiten aus einem Höhenraster.</translation>
-    </message>
-    <message>
         <source>Terrain model (DTM)</source>
         <translation>Geländemodell (DGM)</translation>
     </message>
@@ -1254,24 +1270,32 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Gelände-, Oberflächen- und Kronenhöhenmodelle</translation>
     </message>
     <message>
-        <source>The attribute of these polygons that says their class: 2 is ground, 1 nothing else.</source>
-        <translation>Das Attribut dieser Polygone, das ihre Klasse angibt: 2 ist Boden, 1 keines von allem.</translation>
+        <source>The attribute of these polygons that holds their class: 2 for ground, 1 for unclassified.</source>
+        <translation>Das Attribut dieser Polygone, das ihre Klasse enthält: 2 für Boden, 1 für nicht klassifiziert.</translation>
     </message>
     <message>
         <source>The boundary holds no polygon. Choose one that does.</source>
         <translation>Die Begrenzung enthält kein Polygon. Wählen Sie eine, die eines enthält.</translation>
     </message>
     <message>
-        <source>The class that decks of bridges get; 17 in the LAS specification, which point formats 0 to 5 hold as well. Only where bridges are not ground.</source>
-        <translation>Die Klasse, die Fahrbahnen von Brücken bekommen; in der LAS-Spezifikation 17, das auch die Punktformate 0 bis 5 fassen. Nur wo Brücken kein Boden sind.</translation>
+        <source>The class of bridge decks that are not ground. In the LAS specification it is 17, and every point format can hold it. Empty: the class of other points.</source>
+        <translation>Die Klasse von Fahrbahnen von Brücken, die kein Boden sind. In der LAS-Spezifikation ist es 17, und jedes Punktformat kann sie fassen. Leer: die Klasse der übrigen Punkte.</translation>
+    </message>
+    <message>
+        <source>The class of bridge decks. They are found by cross-sections that fall to lower ground on both sides; ramps, dams and embankments stay ground. A classic preset (Whitebox, LiDAR360's, the paper's) works as the original does, and does not look for bridges.</source>
+        <translation>Die Klasse der Fahrbahnen von Brücken. Sie werden an Querschnitten erkannt, die auf beiden Seiten zu tieferem Boden abfallen; Rampen, Dämme und Böschungen bleiben Boden. Eine klassische Voreinstellung (Whitebox, LiDAR360, Veröffentlichung) arbeitet wie das Original und sucht keine Brücken.</translation>
+    </message>
+    <message>
+        <source>The class of points that are not ground. Points that were never classified (0) become 1 in both cases. Noise, withheld points, and classes that are not classified stay as they are.</source>
+        <translation>Die Klasse der Punkte, die kein Boden sind. Nie klassifizierte Punkte (0) werden in beiden Fällen 1. Rauschen, zurückgehaltene Punkte (withheld) und Klassen, die nicht klassifiziert werden, bleiben, wie sie sind.</translation>
     </message>
     <message>
         <source>The class that ground points get; 2 is ground in the LAS specification. Point formats 0 to 5 hold classes up to 31.</source>
         <translation>Die Klasse, die Bodenpunkte bekommen; in der LAS-Spezifikation ist Boden 2. Die Punktformate 0 bis 5 fassen Klassen bis 31.</translation>
     </message>
     <message>
-        <source>The class that key points get. Points that have it already are taken as ground, and get the first of the ground classes again if they are not needed. Point formats 0 to 5 hold classes up to 31.</source>
-        <translation>Die Klasse, die Schlüsselpunkte bekommen. Punkte, die sie schon haben, gelten als Boden und bekommen wieder die erste der Bodenklassen, wenn sie nicht gebraucht werden. Die Punktformate 0 bis 5 fassen Klassen bis 31.</translation>
+        <source>The class that key points get. Points that already have it count as ground; those that are not needed get the first of the ground classes. Point formats 0 to 5 hold classes up to 31.</source>
+        <translation>Die Klasse, die Schlüsselpunkte bekommen. Punkte, die sie schon haben, gelten als Boden; die nicht gebrauchten bekommen die erste der Bodenklassen. Die Punktformate 0 bis 5 fassen Klassen bis 31.</translation>
     </message>
     <message>
         <source>The corrections have no attribute {}. Choose the one to use.</source>
@@ -1282,12 +1306,20 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Das Höhenraster ist keine Datei. Exportieren Sie es zuerst als GeoTIFF.</translation>
     </message>
     <message>
+        <source>The folder for the classified files. Each keeps its name.</source>
+        <translation>Der Ordner für die klassifizierten Dateien. Jede behält ihren Namen.</translation>
+    </message>
+    <message>
         <source>The ground filter. TIN densification is the most accurate.</source>
         <translation>Der Bodenfilter. TIN-Verdichtung ist am genauesten.</translation>
     </message>
     <message>
-        <source>The height between contour lines, in the vertical unit of the CRS. Empty: what gives about 20 of them.</source>
-        <translation>Der Höhenabstand der Höhenlinien, in der Höheneinheit des KBS. Leer: was etwa 20 davon ergibt.</translation>
+        <source>The height between contour lines, in the unit of the heights.</source>
+        <translation>Der Höhenabstand der Höhenlinien, in der Einheit der Höhen.</translation>
+    </message>
+    <message>
+        <source>The height between contour lines, in the vertical unit of the CRS. Empty: a value that gives about 20 lines.</source>
+        <translation>Der Höhenabstand der Höhenlinien, in der Höheneinheit des KBS. Leer: ein Wert, der etwa 20 Linien ergibt.</translation>
     </message>
     <message>
         <source>The highest point of each cell, noise left out.</source>
@@ -1298,12 +1330,12 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Das Kennzeichen der Schlüsselpunkte in LAS; die Klasse bleibt</translation>
     </message>
     <message>
-        <source>The laser meets the top first. Take all returns where the return numbers of the file are wrong.</source>
-        <translation>Der Laser trifft zuerst, was oben ist. Nehmen Sie alle Echos, wo die Nummern der Echos in der Datei falsch sind.</translation>
+        <source>The kind of land. automatic: judged by the points.</source>
+        <translation>Die Art des Landes. automatic: nach den Punkten beurteilt.</translation>
     </message>
     <message>
-        <source>The laser reaches the ground last. Take all returns where the return numbers of the file are wrong.</source>
-        <translation>Der Laser erreicht den Boden zuletzt. Nehmen Sie alle Echos, wo die Nummern der Echos in der Datei falsch sind.</translation>
+        <source>The last pass removes whatever stands this far above the ground beside it: bushes, cars, walls. A larger value keeps more of rough ground. Empty: from the preset.</source>
+        <translation>Im letzten Durchgang wird entfernt, was so hoch über dem Boden daneben steht: Büsche, Autos, Mauern. Ein größerer Wert schont rauen Boden. Leer: aus der Voreinstellung.</translation>
     </message>
     <message>
         <source>The layer "{}" cannot be read.</source>
@@ -1314,20 +1346,12 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Der Filter des Layers wird nicht angewendet: Alle Punkte werden gelesen.</translation>
     </message>
     <message>
-        <source>The lazrs that was got cannot be loaded by this QGIS: {}.</source>
-        <translation>Das geholte lazrs lässt sich in diesem QGIS nicht laden: {}.</translation>
-    </message>
-    <message>
-        <source>The lazrs that was removed is still in use: start QGIS anew and try again.</source>
-        <translation>Das entfernte lazrs ist noch in Benutzung: Starten Sie QGIS neu, und versuchen Sie es noch einmal.</translation>
-    </message>
-    <message>
-        <source>The names of the files stay, but for what a format needs.</source>
-        <translation>Die Namen der Dateien bleiben, soweit ein Format keine anderen braucht.</translation>
-    </message>
-    <message>
         <source>The paper's values</source>
         <translation>Werte der Veröffentlichung</translation>
+    </message>
+    <message>
+        <source>The point cloud to check. Its class 2 counts as ground, all other classes do not.</source>
+        <translation>Die Punktwolke, die geprüft wird. Ihre Klasse 2 gilt als Boden, alle anderen Klassen nicht.</translation>
     </message>
     <message>
         <source>The probability, 0 to 1, that the terrain model is right: low under dense trees, across gaps and at breaks.</source>
@@ -1336,6 +1360,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>The rasters have {:,} x {:,} cells.</source>
         <translation>Die Raster haben {:,} x {:,} Zellen.</translation>
+    </message>
+    <message>
+        <source>The removed lazrs is still in use: restart QGIS and try again.</source>
+        <translation>Das entfernte lazrs ist noch in Benutzung: Starten Sie QGIS neu, und versuchen Sie es noch einmal.</translation>
     </message>
     <message>
         <source>The same points with their heights above ground.</source>
@@ -1350,8 +1378,8 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Dieselben Punkte mit ihren wahren Klassen, in beliebiger Reihenfolge.</translation>
     </message>
     <message>
-        <source>The same points, the key points among them marked.</source>
-        <translation>Dieselben Punkte, die Schlüsselpunkte darunter gekennzeichnet.</translation>
+        <source>The same points, with the key points marked.</source>
+        <translation>Dieselben Punkte, mit gekennzeichneten Schlüsselpunkten.</translation>
     </message>
     <message>
         <source>The same raster, with the terrain in place of the objects.</source>
@@ -1366,19 +1394,19 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Der Anteil falscher Punkte in jeder Zelle eines Rasters, 0 bis 1.</translation>
     </message>
     <message>
-        <source>The terrain model less a smoothed one: mounds, ditches and old paths stand out.</source>
-        <translation>Das Geländemodell abzüglich eines geglätteten: Hügel, Gräben und alte Wege treten hervor.</translation>
+        <source>The terrain model minus a smoothed one. Mounds, ditches and old paths stand out.</source>
+        <translation>Das Geländemodell abzüglich eines geglätteten. Hügel, Gräben und alte Wege treten hervor.</translation>
     </message>
     <message>
         <source>The terrain model, lit by one light or by four.</source>
         <translation>Das Geländemodell, von einem Licht oder von vieren beleuchtet.</translation>
     </message>
     <message>
-        <source>The values of the method, by terrain. Values of one's own can be given on the command line.</source>
-        <translation>Die Werte des Verfahrens, nach Gelände. Eigene Werte lassen sich auf der Befehlszeile angeben.</translation>
+        <source>The values of the method for a kind of terrain. For other values, use the command line or the algorithm of the method.</source>
+        <translation>Die Werte des Verfahrens für eine Geländeart. Andere Werte nehmen die Befehlszeile und der Algorithmus des Verfahrens.</translation>
     </message>
     <message>
-        <source>The window that is classified, such as the map's extent; at most 1,000 m wide, and quick up to about 250 x 250 m. It is transformed to the CRS of the points.</source>
+        <source>The window to classify, such as the map's extent: at most 1,000 m wide, and quick up to about 250 x 250 m. It is transformed to the CRS of the points.</source>
         <translation>Das Fenster, das klassifiziert wird, etwa die Kartenausdehnung; höchstens 1.000 m breit, und schnell bis etwa 250 x 250 m. Es wird in das KBS der Punkte transformiert.</translation>
     </message>
     <message>
@@ -1394,6 +1422,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Dieses Python hat weder pip noch ensurepip: Installieren Sie pip dafür (in Debian und Ubuntu python3-pip), oder wählen Sie eine Wheel-Datei.</translation>
     </message>
     <message>
+        <source>This QGIS cannot load the installed lazrs: {}.</source>
+        <translation>Dieses QGIS kann das installierte lazrs nicht laden: {}.</translation>
+    </message>
+    <message>
         <source>This QGIS cannot show such a file as a layer. It is at {}.</source>
         <translation>Dieses QGIS kann eine solche Datei nicht als Layer zeigen. Sie liegt unter {}.</translation>
     </message>
@@ -1402,12 +1434,16 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Dieses QGIS kann eine solche Datei nicht als Layer zeigen. Sie wird unter {} liegen.</translation>
     </message>
     <message>
-        <source>This QGIS has no scipy. On Windows, install python3-scipy with the OSGeo4W setup; elsewhere, the scipy of the system or of a newer QGIS.</source>
-        <translation>Dieses QGIS hat kein scipy. Installieren Sie unter Windows python3-scipy mit dem Setup von OSGeo4W, sonst das scipy des Systems oder eines neueren QGIS.</translation>
+        <source>This QGIS has no scipy. On Windows, install python3-scipy with the OSGeo4W setup. Elsewhere, install the scipy of the system, or a newer QGIS.</source>
+        <translation>Dieses QGIS hat kein scipy. Installieren Sie unter Windows python3-scipy mit dem Setup von OSGeo4W. Sonst installieren Sie das scipy des Systems oder ein neueres QGIS.</translation>
     </message>
     <message>
         <source>This QGIS has no {}.</source>
         <translation>Diesem QGIS fehlt: {}.</translation>
+    </message>
+    <message>
+        <source>This share of the rise of the ground from point to point, over at most a metre, is added to the ground tolerance. In the paper's preset it is a share of the rise over one cell. Empty: from the preset.</source>
+        <translation>Dieser Anteil des Anstiegs des Bodens von Punkt zu Punkt, über höchstens einen Meter, kommt zur Bodentoleranz hinzu. In der Voreinstellung der Veröffentlichung ist es ein Anteil des Anstiegs über eine Zelle. Leer: aus der Voreinstellung.</translation>
     </message>
     <message>
         <source>Threads</source>
@@ -1420,10 +1456,6 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Tiles kept</source>
         <translation>Behaltene Kacheln</translation>
-    </message>
-    <message>
-        <source>Tiles that are done stay, if they were made from the same files with the same parameters. All others are classified anew.</source>
-        <translation>Fertige Kacheln bleiben, wenn sie aus denselben Dateien mit denselben Parametern entstanden. Alle anderen werden neu klassifiziert.</translation>
     </message>
     <message>
         <source>Time: {seconds:.1f} s</source>
@@ -1446,8 +1478,8 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Stadt</translation>
     </message>
     <message>
-        <source>Triangles whose longest edge is shorter take no further point. Empty: never.</source>
-        <translation>Dreiecke, deren längste Kante kürzer ist, nehmen keinen weiteren Punkt auf. Leer: nie.</translation>
+        <source>Triangles whose longest edge is shorter than this take no more points. Empty: all triangles can take points.</source>
+        <translation>Dreiecke, deren längste Kante kürzer ist als dies, nehmen keine weiteren Punkte auf. Leer: Alle Dreiecke können Punkte aufnehmen.</translation>
     </message>
     <message>
         <source>Tries methods and presets on a part of a point cloud, and shows them side by side.</source>
@@ -1462,8 +1494,8 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Fehler 2. Art [%]</translation>
     </message>
     <message>
-        <source>Up to LAS 1.3, and for most programs, key points are a class. LAS 1.4 has a flag for them, so that they stay ground.</source>
-        <translation>Bis LAS 1.3, und für die meisten Programme, sind Schlüsselpunkte eine Klasse. LAS 1.4 hat ein Kennzeichen für sie, so dass sie Boden bleiben.</translation>
+        <source>Up to LAS 1.3, and in most programs, key points have a class. LAS 1.4 has a flag for them, so that they keep the class of the ground.</source>
+        <translation>Bis LAS 1.3, und in den meisten Programmen, haben Schlüsselpunkte eine Klasse. LAS 1.4 hat ein Kennzeichen für sie, so dass sie die Klasse des Bodens behalten.</translation>
     </message>
     <message>
         <source>Virtual point cloud</source>
@@ -1474,48 +1506,12 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Gewässer</translation>
     </message>
     <message>
-        <source>What a slope of 45 degrees adds to both ground tolerances, less in proportion on gentler slopes.</source>
-        <translation>Was eine Neigung von 45 Grad zu beiden Bodentoleranzen hinzufügt, bei sanfteren Neigungen im Verhältnis weniger.</translation>
-    </message>
-    <message>
-        <source>What a slope of 45 degrees adds to the ground tolerance where points are a metre apart. Less in proportion on gentler slopes, and where points are closer.</source>
-        <translation>Was eine Neigung von 45 Grad zur Bodentoleranz hinzufügt, wo Punkte einen Meter auseinander liegen. Im Verhältnis weniger bei sanfteren Neigungen, und wo Punkte näher beieinander liegen.</translation>
-    </message>
-    <message>
-        <source>What becomes of points that are not ground. Points that were never classified (0) become 1 in either case; noise, withheld points and other classes than those to classify anew stay as they are.</source>
-        <translation>Was aus Punkten wird, die kein Boden sind. Nie klassifizierte Punkte (0) werden in jedem Fall 1; Rauschen, zurückgehaltene Punkte (withheld) und andere als die neu zu klassifizierenden Klassen bleiben, wie sie sind.</translation>
-    </message>
-    <message>
-        <source>What becomes of the decks of bridges. They are found by cross-sections that fall to lower ground on both sides; ramps, dams and embankments stay ground. A classic preset (Whitebox, LiDAR360's, the paper's) does just what the original does.</source>
-        <translation>Was aus den Fahrbahnen von Brücken wird. Sie werden an Querschnitten erkannt, die auf beiden Seiten zu tieferem Boden abfallen; Rampen, Dämme und Böschungen bleiben Boden. Eine klassische Voreinstellung (Whitebox, LiDAR360, Veröffentlichung) tut genau, was das Original tut.</translation>
-    </message>
-    <message>
-        <source>What the land is like. automatic: judged by the points.</source>
-        <translation>Wie das Land ist. automatic: nach den Punkten beurteilt.</translation>
-    </message>
-    <message>
         <source>Wheel file of lazrs</source>
         <translation>Wheel-Datei von lazrs</translation>
     </message>
     <message>
         <source>Wheel files (*.whl)</source>
         <translation>Wheel-Dateien (*.whl)</translation>
-    </message>
-    <message>
-        <source>Where one light comes from, clockwise from north; four have their own directions.</source>
-        <translation>Woher ein Licht kommt, von Norden aus im Uhrzeigersinn; vier haben ihre eigenen Richtungen.</translation>
-    </message>
-    <message>
-        <source>Where the classified files go, each under its name.</source>
-        <translation>Wohin die klassifizierten Dateien kommen, jede unter ihrem Namen.</translation>
-    </message>
-    <message>
-        <source>Where the values come from that are left empty: from the points (automatic), or from what suits a kind of terrain. The log says which values were used.</source>
-        <translation>Woher die Werte leerer Felder kommen: aus den Punkten (automatisch) oder aus dem, was zu einer Geländeart passt. Das Protokoll sagt, welche Werte benutzt wurden.</translation>
-    </message>
-    <message>
-        <source>Where the values come from that are left empty: what suits most land (automatic) or a kind of terrain. The log says which values were used.</source>
-        <translation>Woher die Werte leerer Felder kommen: was zu den meisten Landschaften passt (automatisch) oder zu einer Geländeart. Das Protokoll sagt, welche Werte benutzt wurden.</translation>
     </message>
     <message>
         <source>Where they differ</source>
@@ -1550,12 +1546,16 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Höhen schreiben als</translation>
     </message>
     <message>
-        <source>Writes a classified point cloud anew with the height of every point above the ground, that is above the triangulation (TIN) of the ground points, or beyond it above the nearest of them. Heights are in the vertical unit of the CRS. They become an extra dimension, HeightAboveGround, or take the place of z; nothing else in the file changes.</source>
-        <translation>Schreibt eine klassifizierte Punktwolke neu, mit der Höhe jedes Punkts über dem Boden, das heißt über der Dreiecksvermaschung (TIN) der Bodenpunkte oder, jenseits davon, über dem nächsten von ihnen. Höhen stehen in der Höheneinheit des KBS. Sie werden eine Zusatzdimension, HeightAboveGround, oder treten an die Stelle von z; sonst ändert sich nichts in der Datei.</translation>
+        <source>Writes only the points inside the extent and the boundary, also to the rasters. Files without such points are not written. If this is off, all files are written with all their points, and points outside keep their class.</source>
+        <translation>Schreibt nur die Punkte innerhalb von Ausdehnung und Begrenzung, auch in die Raster. Dateien ohne solche Punkte werden nicht geschrieben. Ist dies aus, werden alle Dateien mit allen ihren Punkten geschrieben, und Punkte außerhalb behalten ihre Klasse.</translation>
     </message>
     <message>
-        <source>X and Y of its two ends, in the CRS of the points: X1 Y1 X2 Y2. Empty: straight across the window, from west to east or from south to north, where the terrains differ most.</source>
-        <translation>X und Y der beiden Enden, im KBS der Punkte: X1 Y1 X2 Y2. Leer: gerade durch das Fenster, von West nach Ost oder von Süd nach Nord, wo sich die Gelände am meisten unterscheiden.</translation>
+        <source>Writes only the points that have the class of the ground. The log says how many points are left out.</source>
+        <translation>Schreibt nur die Punkte, die die Klasse des Bodens haben. Das Protokoll sagt, wie viele Punkte wegbleiben.</translation>
+    </message>
+    <message>
+        <source>X and Y of both ends, in the CRS of the points: X1 Y1 X2 Y2. Empty: straight across the window where the terrains differ most, from west to east or from south to north.</source>
+        <translation>X und Y der beiden Enden, im KBS der Punkte: X1 Y1 X2 Y2. Leer: gerade durch das Fenster, wo sich die Gelände am meisten unterscheiden, von West nach Ost oder von Süd nach Nord.</translation>
     </message>
     <message>
         <source>Z, in place of the elevation</source>
@@ -1658,8 +1658,8 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>pip kann nicht über den SOCKS-Proxy der QGIS-Einstellungen arbeiten: Wählen Sie eine Wheel-Datei.</translation>
     </message>
     <message>
-        <source>pip failed without a word</source>
-        <translation>pip scheiterte ohne ein Wort</translation>
+        <source>pip gave no reason</source>
+        <translation>pip nannte keinen Grund</translation>
     </message>
     <message>
         <source>points</source>
@@ -1706,10 +1706,6 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>der Datenträger ist voll.</translation>
     </message>
     <message>
-        <source>the folder of the profile may not be written to.</source>
-        <translation>in den Ordner des Profils darf nicht geschrieben werden.</translation>
-    </message>
-    <message>
         <source>the package index has none for {}.</source>
         <translation>das Paketverzeichnis hat keines für {}.</translation>
     </message>
@@ -1734,6 +1730,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>ohne Objekte</translation>
     </message>
     <message>
+        <source>you have no permission to write into the folder of the profile.</source>
+        <translation>Sie dürfen nicht in den Ordner des Profils schreiben.</translation>
+    </message>
+    <message>
         <source>{file} could not be unzipped: {error}.</source>
         <translation>{file} ließ sich nicht entpacken: {error}.</translation>
     </message>
@@ -1742,8 +1742,8 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>{file} enthält {held}; gebraucht wird ein Wheel von {package}.</translation>
     </message>
     <message>
-        <source>{file} holds {member}, which has no place in a wheel of {package}. Get it anew.</source>
-        <translation>{file} enthält {member}, das in einem Wheel von {package} nichts zu suchen hat. Holen Sie es neu.</translation>
+        <source>{file} holds {member}, which does not belong in a wheel of {package}. Download it again.</source>
+        <translation>{file} enthält {member}, das nicht in ein Wheel von {package} gehört. Laden Sie es erneut herunter.</translation>
     </message>
     <message>
         <source>{file} is for another Python or system ({tag}); this QGIS needs one for {needed}.</source>
@@ -1786,12 +1786,8 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>{}-Dateien (*.{})</translation>
     </message>
     <message>
-        <source>{} is damaged: a file differs from its list. Get it anew.</source>
-        <translation>{} ist beschädigt: Eine Datei weicht von ihrem Verzeichnis ab. Holen Sie es neu.</translation>
-    </message>
-    <message>
-        <source>{} is not a file of this computer. Download it as .las or .laz first.</source>
-        <translation>{} ist keine Datei auf diesem Rechner. Laden Sie sie zuerst als .las oder .laz herunter.</translation>
+        <source>{} is damaged: a file differs from its list. Download it again.</source>
+        <translation>{} ist beschädigt: Eine Datei weicht von ihrem Verzeichnis ab. Laden Sie es erneut herunter.</translation>
     </message>
     <message>
         <source>{} is not a folder. Check the path.</source>
@@ -1802,12 +1798,16 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>{} ist keine Punktwolke. Wählen Sie einen Punktwolken-Layer oder eine Datei .las oder .laz.</translation>
     </message>
     <message>
-        <source>{} is not a wheel, or damaged. Get it anew.</source>
-        <translation>{} ist kein Wheel oder beschädigt. Holen Sie es neu.</translation>
+        <source>{} is not a wheel, or is damaged. Download it again.</source>
+        <translation>{} ist kein Wheel oder beschädigt. Laden Sie es erneut herunter.</translation>
     </message>
     <message>
         <source>{} is not a wheel: choose a file with the ending .whl.</source>
         <translation>{} ist kein Wheel: Wählen Sie eine Datei mit der Endung .whl.</translation>
+    </message>
+    <message>
+        <source>{} is not on this computer. Download it as .las or .laz first.</source>
+        <translation>{} ist keine Datei auf diesem Rechner. Laden Sie sie zuerst als .las oder .laz herunter.</translation>
     </message>
     <message>
         <source>{} must be installed first.</source>

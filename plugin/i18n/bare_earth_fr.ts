@@ -4,6 +4,10 @@
 <context>
     <name>BareEarth</name>
     <message>
+        <source>.las, .laz and .copc.laz files, virtual point clouds (.vpc), or text files (.txt) with one path in each line. May stay empty if a folder is given.</source>
+        <translation>Fichiers .las, .laz et .copc.laz, nuages de points virtuels (.vpc), ou fichiers texte (.txt) avec un chemin par ligne. Peut rester vide si un dossier est donné.</translation>
+    </message>
+    <message>
         <source>0 to 1</source>
         <translation>0 à 1</translation>
     </message>
@@ -12,19 +16,23 @@
         <translation>1 à 255</translation>
     </message>
     <message>
-        <source>&lt;b&gt;Values of the presets&lt;/b&gt;, where they differ and a field is left empty</source>
-        <translation>&lt;b&gt;Valeurs des préréglages&lt;/b&gt;, là où elles diffèrent et où un champ reste vide</translation>
+        <source>&lt;b&gt;Values of the presets&lt;/b&gt; for fields that are left empty</source>
+        <translation>&lt;b&gt;Valeurs des préréglages&lt;/b&gt; pour les champs laissés vides</translation>
     </message>
     <message>
         <source>A class of their own</source>
         <translation>Une classe à part</translation>
     </message>
     <message>
-        <source>A list of the classified files, which QGIS shows as one layer from 3.32 on. Without a name it goes into their folder.</source>
-        <translation>Une liste des fichiers classés, que QGIS affiche comme une seule couche à partir de la 3.32. Sans nom, elle va dans leur dossier.</translation>
+        <source>A list of the classified files, which QGIS 3.32 and newer shows as one layer. Without a name it is classified.vpc in their folder.</source>
+        <translation>Une liste des fichiers classés, que QGIS 3.32 et plus récent affiche comme une seule couche. Sans nom, c'est classified.vpc dans leur dossier.</translation>
     </message>
     <message>
-        <source>A point cloud layer, a .las, .laz or .copc.laz file, a virtual point cloud (.vpc), or a text file (.txt) with a path a line. May be empty if a folder is given.</source>
+        <source>A point becomes low noise if it lies farther below the ground than this. On slopes, the rise of the ground over 1 m is added. Used only if low outliers are put into class 7.</source>
+        <translation>Un point devient du bruit bas s'il se trouve plus loin que ceci sous le sol. En pente s'ajoute la montée du sol sur 1 m. Ne sert que si les points aberrants bas vont dans la classe 7.</translation>
+    </message>
+    <message>
+        <source>A point cloud layer, a .las, .laz or .copc.laz file, a virtual point cloud (.vpc), or a text file (.txt) with one path in each line. May stay empty if a folder is given.</source>
         <translation>Une couche de nuage de points, un fichier .las, .laz ou .copc.laz, un nuage de points virtuel (.vpc), ou un fichier texte (.txt) avec un chemin par ligne. Peut rester vide si un dossier est donné.</translation>
     </message>
     <message>
@@ -36,15 +44,19 @@
         <translation>Une couche de nuage de points, ou un fichier .las, .laz ou .copc.laz ; aussi un nuage de points virtuel (.vpc) ou un dossier.</translation>
     </message>
     <message>
-        <source>A point is not ground if it stands above a neighbour at a steeper slope than this; in the automatic preset, steeper by this than the terrain round it. Empty: 15 deg, or 45 deg in the preset Whitebox.</source>
-        <translation>Un point n'est pas du sol s'il se trouve au-dessus d'un voisin avec une pente plus forte que celle-ci ; dans le préréglage automatique, plus forte d'autant que celle du terrain alentour. Vide : 15 degrés, ou 45 degrés dans le préréglage Whitebox.</translation>
+        <source>A point is not ground if it stands above a neighbour at a steeper slope than this. In all presets but Whitebox, the slope of the terrain around the point is added to it. Empty: from the preset, 15 deg in most, 45 deg in Whitebox.</source>
+        <translation>Un point n'est pas du sol s'il se trouve au-dessus d'un voisin avec une pente plus forte que celle-ci. Dans tous les préréglages sauf Whitebox, la pente du terrain autour du point s'y ajoute. Vide : d'après le préréglage, 15 degrés dans la plupart, 45 degrés dans Whitebox.</translation>
     </message>
     <message>
-        <source>A point this close to its triangle is a vertex whatever its angle: near a corner the angle of mere noise is large.</source>
-        <translation>Un point aussi proche de son triangle devient un sommet quel que soit son angle : près d'un sommet, l'angle du simple bruit est déjà grand.</translation>
+        <source>A point is not ground only if it stands at least this high above a neighbour. Empty: from the preset, 0.5 m in most, 1 m in Whitebox.</source>
+        <translation>Un point n'est écarté du sol que s'il dépasse un voisin d'au moins cette hauteur. Vide : d'après le préréglage, 0,5 m dans la plupart, 1 m dans Whitebox.</translation>
     </message>
     <message>
-        <source>A point with fewer neighbours within the search radius is compared with this many nearest ones. For the preset Whitebox only.</source>
+        <source>A point that is closer to its triangle than this joins the TIN whatever its angle. Near a corner, noise alone makes a large angle.</source>
+        <translation>Un point plus proche de son triangle que ceci entre dans le TIN quel que soit son angle. Près d'un sommet, le bruit seul donne déjà un grand angle.</translation>
+    </message>
+    <message>
+        <source>A point with fewer neighbours within the search radius is compared with this many nearest points. Only for the preset Whitebox.</source>
         <translation>Un point qui a moins de voisins dans le rayon de recherche est comparé à ce nombre de points les plus proches. Pour le préréglage Whitebox seulement.</translation>
     </message>
     <message>
@@ -64,28 +76,40 @@
         <translation>Une page web, qui s'ouvre depuis le visualiseur de résultats.</translation>
     </message>
     <message>
-        <source>About how much a run may take. A file that needs more is read twice, with its points in a temporary file in the folder of the output meanwhile; of many files, fewer blocks are in work at the same time. The result does not depend on it.</source>
-        <translation>La mémoire qu'un traitement peut prendre, environ. Un fichier qui en demande plus est lu deux fois, ses points étant entre-temps dans un fichier temporaire du dossier de sortie ; avec de nombreux fichiers, moins de blocs sont traités en même temps. Le résultat n'en dépend pas.</translation>
+        <source>About how much memory a run may use. A file that needs more is read twice, and its points wait in a temporary file in the output folder. With many files, fewer are worked on at the same time. The result does not depend on it. Empty: half of the free memory.</source>
+        <translation>La mémoire qu'un traitement peut prendre, environ. Un fichier qui en demande plus est lu deux fois, et ses points attendent dans un fichier temporaire du dossier de sortie. Avec de nombreux fichiers, moins de fichiers sont traités en même temps. Le résultat n'en dépend pas. Vide : la moitié de la mémoire libre.</translation>
     </message>
     <message>
         <source>Add the height above ground</source>
         <translation>Ajouter la hauteur au-dessus du sol</translation>
     </message>
     <message>
-        <source>Adds the extra dimension BareEarthClass, the class that this run gives. A later run on the file sees by it which classes were changed by hand since, and keeps them, whatever its settings; it remembers the classes again.</source>
-        <translation>Ajoute la dimension supplémentaire BareEarthClass, la classe que donne ce traitement. Un traitement ultérieur du fichier y voit quelles classes ont été changées à la main depuis, et les garde, quels que soient ses réglages ; il mémorise à nouveau les classes.</translation>
+        <source>Added to both ground tolerances on a slope of 45 degrees. On gentler slopes less is added, in proportion.</source>
+        <translation>S'ajoute aux deux tolérances du sol sur une pente de 45 degrés. Sur des pentes plus douces, moins est ajouté, en proportion.</translation>
     </message>
     <message>
-        <source>Adds the extra dimension HeightAboveGround: how high each point stands above the ground, in the vertical unit of the CRS.</source>
-        <translation>Ajoute la dimension supplémentaire HeightAboveGround : la hauteur de chaque point au-dessus du sol, dans l'unité verticale du SCR.</translation>
+        <source>Added to the ground tolerance on a slope of 45 degrees, if points are a metre apart. Less is added, in proportion, on gentler slopes and if points are closer.</source>
+        <translation>S'ajoute à la tolérance du sol sur une pente de 45 degrés, si les points sont distants d'un mètre. Moins est ajouté, en proportion, sur des pentes plus douces et si les points sont plus serrés.</translation>
+    </message>
+    <message>
+        <source>Adds the extra dimension BareEarthClass with the class that this run gives to each point. A later run on the output finds the classes that were changed by hand since, and keeps them, whatever its settings. It then remembers the classes again.</source>
+        <translation>Ajoute la dimension supplémentaire BareEarthClass avec la classe que ce traitement donne à chaque point. Un traitement ultérieur de la sortie trouve les classes qui ont été changées à la main depuis, et les garde, quels que soient ses réglages. Il mémorise ensuite à nouveau les classes.</translation>
+    </message>
+    <message>
+        <source>Adds the extra dimension HeightAboveGround, the height of each point above the ground, in the vertical unit of the CRS.</source>
+        <translation>Ajoute la dimension supplémentaire HeightAboveGround, la hauteur de chaque point au-dessus du sol, dans l'unité verticale du SCR.</translation>
+    </message>
+    <message>
+        <source>Adds the height above ground to every point of a classified point cloud: its height above the triangulation (TIN) of the ground points or, outside of it, above the nearest ground point. Heights are in the vertical unit of the CRS. They become an extra dimension, HeightAboveGround, or replace z; nothing else in the file changes.</source>
+        <translation>Ajoute à chaque point d'un nuage de points classé sa hauteur au-dessus du sol : au-dessus de la triangulation (TIN) des points sol ou, en dehors, au-dessus du point sol le plus proche. Les hauteurs sont dans l'unité verticale du SCR. Elles deviennent une dimension supplémentaire, HeightAboveGround, ou remplacent z ; rien d'autre ne change dans le fichier.</translation>
     </message>
     <message>
         <source>Adds the height of every point above the ground points of a point cloud.</source>
         <translation>Ajoute la hauteur de chaque point au-dessus des points sol d'un nuage de points.</translation>
     </message>
     <message>
-        <source>All .las, .laz and .copc.laz files in it are taken, too. Many files are one survey, without seams.</source>
-        <translation>Tous les fichiers .las, .laz et .copc.laz qu'il contient sont pris aussi. De nombreux fichiers forment un seul levé, sans raccords visibles.</translation>
+        <source>All .las, .laz and .copc.laz files in this folder are used, too. All files together are one survey, without seams.</source>
+        <translation>Tous les fichiers .las, .laz et .copc.laz de ce dossier sont pris aussi. Tous les fichiers ensemble forment un seul levé, sans raccords visibles.</translation>
     </message>
     <message>
         <source>All files</source>
@@ -100,8 +124,16 @@
         <translation>Tous les retours</translation>
     </message>
     <message>
-        <source>An extra dimension keeps all else as it is. In place of the elevation the heights show in programs that know no extra dimensions, and the terrain is flat.</source>
-        <translation>Une dimension supplémentaire laisse tout le reste en l'état. À la place de l'altitude, les hauteurs se voient dans les logiciels qui ne connaissent pas les dimensions supplémentaires, et le terrain est plat.</translation>
+        <source>An extra dimension leaves everything else as it is. If the height replaces z, programs that cannot show extra dimensions show it too, but the terrain is flat.</source>
+        <translation>Une dimension supplémentaire laisse tout le reste en l'état. Si la hauteur remplace z, les logiciels qui ne connaissent pas les dimensions supplémentaires la montrent aussi, mais le terrain est plat.</translation>
+    </message>
+    <message>
+        <source>Angle of the light above the horizon.</source>
+        <translation>Angle de la lumière au-dessus de l'horizon.</translation>
+    </message>
+    <message>
+        <source>As the filter classifies them</source>
+        <translation>Comme le filtre les classe</translation>
     </message>
     <message>
         <source>As the input</source>
@@ -118,10 +150,6 @@
     <message>
         <source>Automatic (many scales, follows the terrain)</source>
         <translation>Automatique (plusieurs échelles, suit le terrain)</translation>
-    </message>
-    <message>
-        <source>Automatic finds buildings as well as shrubs; the kinds of terrain do so with other values for what is left empty. Whitebox is the classic filter with the values of WhiteboxTools: its radius of 2 m cannot see a building.</source>
-        <translation>Automatique trouve les bâtiments comme les buissons ; les types de terrain aussi, avec d'autres valeurs pour les champs vides. Whitebox est le filtre classique avec les valeurs de WhiteboxTools : son rayon de 2 m ne peut pas voir un bâtiment.</translation>
     </message>
     <message>
         <source>Band</source>
@@ -148,20 +176,20 @@
         <translation>Luminosité</translation>
     </message>
     <message>
-        <source>COPC, which QGIS shows without an index of its own</source>
-        <translation>COPC, que QGIS affiche sans index à part</translation>
+        <source>COPC, which QGIS shows at once</source>
+        <translation>COPC, que QGIS affiche aussitôt</translation>
     </message>
     <message>
         <source>Cancelled.</source>
         <translation>Annulé.</translation>
     </message>
     <message>
-        <source>Cancelled; nothing was written.</source>
-        <translation>Annulé ; rien n'a été écrit.</translation>
+        <source>Cancelled. The finished tiles stay, and a later run can continue with them.</source>
+        <translation>Annulé. Les dalles terminées restent, et un traitement ultérieur peut continuer avec elles.</translation>
     </message>
     <message>
-        <source>Cancelled; the tiles that are finished stay, and a later run can go on with them.</source>
-        <translation>Annulé ; les dalles terminées restent, et un traitement ultérieur peut continuer avec elles.</translation>
+        <source>Cancelled; nothing was written.</source>
+        <translation>Annulé ; rien n'a été écrit.</translation>
     </message>
     <message>
         <source>Canopy height (CHM)</source>
@@ -208,12 +236,6 @@
         <translation>Choisissez des nuages de points, ou un dossier de nuages de points.</translation>
     </message>
     <message>
-        <source>Chooses, of the ground points of a classified point cloud, the few that a terrain model needs: no other ground point lies farther above or below their triangulation (TIN) than the tolerances. They get a class of their own, or the key-point flag; nothing else in the file changes.
-Lengths are metres, whatever the unit of the CRS.</source>
-        <translation>Choisit, parmi les points sol d'un nuage de points classé, les quelques points dont un modèle de terrain a besoin : aucun autre point sol n'est plus haut ou plus bas par rapport à leur triangulation (TIN) que les tolérances. Ils reçoivent une classe à part, ou l'indicateur de point clé ; rien d'autre ne change dans le fichier.
-Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
-    </message>
-    <message>
         <source>Chosen automatically: {text}</source>
         <translation>Choisi automatiquement : {text}</translation>
     </message>
@@ -254,16 +276,16 @@ Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
         <translation>Classes de sol connu</translation>
     </message>
     <message>
-        <source>Classes of the points that are ground. Add 8 where model key points have that class, and 9 where water counts as ground. Withheld points are left out.</source>
-        <translation>Classes des points qui sont du sol. Ajoutez 8 si les points clés du modèle ont cette classe, et 9 si l'eau compte comme sol. Les points retenus (withheld) sont laissés de côté.</translation>
+        <source>Classes of the points that are ground. Add 8 if model key points have that class, and 9 if water counts as ground. Withheld points are not used.</source>
+        <translation>Classes des points qui sont du sol. Ajoutez 8 si les points clés du modèle ont cette classe, et 9 si l'eau compte comme sol. Les points retenus (withheld) ne sont pas utilisés.</translation>
     </message>
     <message>
-        <source>Classes of the reference that are ground; add 9 where water counts as ground.</source>
-        <translation>Classes de la référence qui sont du sol ; ajoutez 9 si l'eau compte comme sol.</translation>
+        <source>Classes of the reference that are ground. Add 9 if water counts as ground.</source>
+        <translation>Classes de la référence qui sont du sol. Ajoutez 9 si l'eau compte comme sol.</translation>
     </message>
     <message>
-        <source>Classes to classify anew</source>
-        <translation>Classes à reclasser</translation>
+        <source>Classes to classify</source>
+        <translation>Classes à classer</translation>
     </message>
     <message>
         <source>Classified point cloud</source>
@@ -274,12 +296,12 @@ Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
         <translation>Dalles classées</translation>
     </message>
     <message>
-        <source>Classifies the ground points of many files, each as if all were one, and writes each anew under its name. A virtual point cloud (.vpc) lists the results.</source>
-        <translation>Classe les points sol de nombreux fichiers, chacun comme si tous n'en formaient qu'un, et réécrit chacun sous son nom. Un nuage de points virtuel (.vpc) énumère les résultats.</translation>
+        <source>Classifies the ground points of many files as if they were one file, and writes each file under its name into the output folder. A virtual point cloud (.vpc) lists the results.</source>
+        <translation>Classe les points sol de nombreux fichiers comme s'ils n'en formaient qu'un, et écrit chaque fichier sous son nom dans le dossier de sortie. Un nuage de points virtuel (.vpc) énumère les résultats.</translation>
     </message>
     <message>
-        <source>Classifies the points in a window with each of the settings, without writing any point cloud, and makes a web page, opened from the Results Viewer: the terrain of each, a profile, the share of ground, where they differ, and how to run each on all points. Of COPC only the window is read, which takes seconds; a LAS or LAZ file is read as a whole.</source>
-        <translation>Classe les points d'une fenêtre avec chacun des réglages, sans écrire de nuage de points, et produit une page web, qui s'ouvre depuis le visualiseur de résultats : le terrain de chacun, un profil, la part du sol, les endroits où ils diffèrent, et comment appliquer chacun à tous les points. D'un COPC, seule la fenêtre est lue, en quelques secondes ; un fichier LAS ou LAZ est lu en entier.</translation>
+        <source>Classifies the points in a window with each of the settings, and makes a web page, which opens from the Results Viewer. It shows the terrain of each setting, a profile, the share of ground, where the settings differ, and how to run each of them on all points. No point cloud is written. Of a COPC file only the window is read, which takes seconds; a LAS or LAZ file is read as a whole.</source>
+        <translation>Classe les points d'une fenêtre avec chacun des réglages, et produit une page web, qui s'ouvre depuis le visualiseur de résultats. Elle montre le terrain de chaque réglage, un profil, la part du sol, les endroits où les réglages diffèrent, et comment appliquer chacun d'eux à tous les points. Aucun nuage de points n'est écrit. D'un fichier COPC, seule la fenêtre est lue, en quelques secondes ; un fichier LAS ou LAZ est lu en entier.</translation>
     </message>
     <message>
         <source>Classify ground (TIN densification)</source>
@@ -302,10 +324,6 @@ Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
         <translation>Classer les points clés du modèle</translation>
     </message>
     <message>
-        <source>Compare heights above a surface that follows the terrain (white top-hat) instead of heights, so that sloping ground is not lost.</source>
-        <translation>Compare les hauteurs au-dessus d'une surface qui suit le terrain (chapeau haut-de-forme blanc) au lieu des altitudes, pour ne pas perdre le sol en pente.</translation>
-    </message>
-    <message>
         <source>Compare settings on a window</source>
         <translation>Comparer des réglages dans une fenêtre</translation>
     </message>
@@ -314,16 +332,20 @@ Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
         <translation>Compare un nuage de points classé avec une référence : erreurs de type I et II, kappa.</translation>
     </message>
     <message>
-        <source>Compares the ground of a classified point cloud with a reference that holds the same points. Type I error: the share of the reference's ground that was rejected; type II: of all other points, the share that was accepted. The report is a web page with a map.</source>
-        <translation>Compare le sol d'un nuage de points classé avec une référence qui contient les mêmes points. Erreur de type I : la part du sol de la référence qui a été rejetée ; de type II : la part de tous les autres points qui a été acceptée. Le rapport est une page web avec une carte.</translation>
+        <source>Compares heights above a surface that follows the terrain (white top-hat), not elevations, so that ground on slopes is not lost.</source>
+        <translation>Compare les hauteurs au-dessus d'une surface qui suit le terrain (chapeau haut-de-forme blanc), et non les altitudes, pour ne pas perdre le sol en pente.</translation>
+    </message>
+    <message>
+        <source>Compares the ground of a classified point cloud with a reference that holds the same points. Type I error: the share of the reference's ground that was rejected. Type II error: the share of all other points that was accepted as ground. The report is a web page with a map.</source>
+        <translation>Compare le sol d'un nuage de points classé avec une référence qui contient les mêmes points. Erreur de type I : la part du sol de la référence qui a été rejetée. Erreur de type II : la part de tous les autres points qui a été acceptée comme sol. Le rapport est une page web avec une carte.</translation>
     </message>
     <message>
         <source>Comparison of settings</source>
         <translation>Comparaison de réglages</translation>
     </message>
     <message>
-        <source>Compressed point clouds (.laz, .copc.laz) need the package lazrs, which few builds of QGIS have. Here you get it from the Python Package Index (0.6 MB), or, without the internet, from a wheel file of lazrs for {}. It goes into your profile; QGIS itself is left as it is.</source>
-        <translation>Les nuages de points compressés (.laz, .copc.laz) demandent le paquet lazrs, que peu de versions de QGIS contiennent. Vous l'obtenez ici depuis le Python Package Index (0,6 Mo) ou, sans internet, depuis un fichier wheel de lazrs pour {}. Il va dans votre profil ; QGIS lui-même reste tel quel.</translation>
+        <source>Compressed point clouds (.laz, .copc.laz) need the Python package lazrs, which few builds of QGIS have. Here you can get it from the Python Package Index (0.6 MB) or, without internet, from a wheel file of lazrs for {}. It is stored in your profile; QGIS itself does not change.</source>
+        <translation>Les nuages de points compressés (.laz, .copc.laz) demandent le paquet Python lazrs, que peu de versions de QGIS contiennent. Vous pouvez l'obtenir ici depuis le Python Package Index (0,6 Mo) ou, sans internet, depuis un fichier wheel de lazrs pour {}. Il est enregistré dans votre profil ; QGIS lui-même ne change pas.</translation>
     </message>
     <message>
         <source>Confidence</source>
@@ -336,6 +358,10 @@ Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
     <message>
         <source>Context round the window</source>
         <translation>Contexte autour de la fenêtre</translation>
+    </message>
+    <message>
+        <source>Continue an earlier run</source>
+        <translation>Continuer un traitement précédent</translation>
     </message>
     <message>
         <source>Contour interval</source>
@@ -358,12 +384,16 @@ Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
         <translation>Vouliez-vous dire {name} ?</translation>
     </message>
     <message>
-        <source>Difference in height of neighbouring lines, in the unit of the heights.</source>
-        <translation>Différence d'altitude entre courbes voisines, dans l'unité des altitudes.</translation>
+        <source>Direction from which the light comes, clockwise from north. Four lights have their own directions.</source>
+        <translation>Direction d'où vient la lumière, dans le sens horaire depuis le nord. Quatre lumières ont leurs propres directions.</translation>
     </message>
     <message>
         <source>Done; no restart is needed.</source>
         <translation>Terminé ; il n'est pas nécessaire de redémarrer.</translation>
+    </message>
+    <message>
+        <source>Each place is compared with its surroundings up to this distance. Choose about the width of the features that you want to see; larger landforms disappear.</source>
+        <translation>Chaque lieu est comparé à son voisinage jusqu'à cette distance. Choisissez environ la largeur des formes que vous voulez voir ; les formes plus grandes disparaissent.</translation>
     </message>
     <message>
         <source>Each {:g}</source>
@@ -378,10 +408,6 @@ Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
         <translation>Carte des erreurs</translation>
     </message>
     <message>
-        <source>Every cell of this size that has ground points keeps at least one, its lowest, however flat the ground is.</source>
-        <translation>Chaque cellule de cette taille qui a des points sol en garde au moins un, le plus bas, aussi plat que soit le sol.</translation>
-    </message>
-    <message>
         <source>Extent</source>
         <translation>Emprise</translation>
     </message>
@@ -390,16 +416,22 @@ Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
         <translation>Dimension supplémentaire HeightAboveGround</translation>
     </message>
     <message>
-        <source>Files .las, .laz and .copc.laz, virtual point clouds (.vpc), or text files (.txt) with a path a line. May be empty if a folder is given.</source>
-        <translation>Fichiers .las, .laz et .copc.laz, nuages de points virtuels (.vpc), ou fichiers texte (.txt) avec un chemin par ligne. Peut rester vide si un dossier est donné.</translation>
+        <source>Files keep their names; only the ending follows the format.</source>
+        <translation>Les fichiers gardent leurs noms ; seule l'extension suit le format.</translation>
     </message>
     <message>
         <source>Final height</source>
         <translation>Hauteur finale</translation>
     </message>
     <message>
-        <source>Finds the few ground points whose triangulation is as good as that of all of them.</source>
-        <translation>Trouve les quelques points sol dont la triangulation vaut celle de tous les points sol.</translation>
+        <source>Finds the few ground points of a classified point cloud that a terrain model needs. Of all other ground points, none lies farther above or below the triangulation (TIN) of these key points than the tolerances. Key points get a class of their own, or the key-point flag; nothing else in the file changes.
+Lengths are metres, whatever the unit of the CRS.</source>
+        <translation>Trouve les quelques points sol d'un nuage de points classé dont un modèle de terrain a besoin. Parmi tous les autres points sol, aucun n'est plus haut ou plus bas par rapport à la triangulation (TIN) de ces points clés que les tolérances. Les points clés reçoivent une classe à part, ou l'indicateur de point clé ; rien d'autre ne change dans le fichier.
+Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
+    </message>
+    <message>
+        <source>Finds the few ground points that make as good a terrain model as all of them.</source>
+        <translation>Trouve les quelques points sol qui donnent un aussi bon modèle de terrain que tous ensemble.</translation>
     </message>
     <message>
         <source>Finds the ground by two methods, and says where they differ.</source>
@@ -414,41 +446,41 @@ Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
         <translation>Trouve le sol d'un nuage de points lidar brut (densification de TIN), en fait un modèle de terrain et un ombrage, et des courbes de niveau du modèle de terrain (GDAL).</translation>
     </message>
     <message>
-        <source>Finds the ground of a raw lidar point cloud and makes maps of it, of which any may be left out. Local relief shows small features. Lengths are metres.</source>
-        <translation>Trouve le sol d'un nuage de points lidar brut et en produit des cartes, dont chacune peut être omise. Le relief local montre les petites formes. Les longueurs sont en mètres.</translation>
+        <source>Finds the ground of a raw lidar point cloud and makes maps of it. Each output is optional. Local relief shows small features. Lengths are metres.</source>
+        <translation>Trouve le sol d'un nuage de points lidar brut et en produit des cartes. Chaque sortie est facultative. Le relief local montre les petites formes. Les longueurs sont en mètres.</translation>
     </message>
     <message>
-        <source>Finds the ground of a raw lidar point cloud by TIN densification and by the slope filter, and compares the two: a hillshade of each, and a report in which TIN densification stands as the reference. Where both agree, most can be trusted; where they differ, look.</source>
-        <translation>Trouve le sol d'un nuage de points lidar brut par densification de TIN et par le filtre de pente, et compare les deux : un ombrage de chacun, et un rapport où la densification de TIN tient lieu de référence. Là où les deux concordent, on peut se fier à presque tout ; là où elles diffèrent, regardez.</translation>
+        <source>Finds the ground of a raw lidar point cloud by TIN densification and by the slope filter, and compares the two: a hillshade of each, and a report with TIN densification as the reference. Where both agree, the result is more certain; check the places where they differ.</source>
+        <translation>Trouve le sol d'un nuage de points lidar brut par densification de TIN et par le filtre de pente, et compare les deux : un ombrage de chacun, et un rapport avec la densification de TIN comme référence. Là où les deux concordent, le résultat est plus sûr ; vérifiez les endroits où elles diffèrent.</translation>
     </message>
     <message>
         <source>Finds the ground points of a lidar point cloud by rules on the lowest points of cells.</source>
         <translation>Trouve les points sol d'un nuage de points lidar par des règles sur les points les plus bas de cellules.</translation>
     </message>
     <message>
-        <source>Finds the ground points of a lidar point cloud by the slopes between neighbours.</source>
-        <translation>Trouve les points sol d'un nuage de points lidar par les pentes entre voisins.</translation>
+        <source>Finds the ground points of a lidar point cloud by the slopes between neighbouring points.</source>
+        <translation>Trouve les points sol d'un nuage de points lidar par les pentes entre points voisins.</translation>
     </message>
     <message>
         <source>Finds the ground points of a lidar point cloud, and makes a terrain model of them.</source>
         <translation>Trouve les points sol d'un nuage de points lidar, et en fait un modèle de terrain.</translation>
     </message>
     <message>
-        <source>Finds the ground points of airborne or drone lidar by progressive TIN densification, and writes the point cloud anew with their class; nothing else in it changes. It starts from a sparse triangulation of points that are surely ground and adds, round by round, the points that lie close to it.
+        <source>Finds the ground points of airborne or drone lidar by progressive TIN densification, and writes a point cloud with the new classes; nothing else in it changes. The filter starts from a sparse triangulation (TIN) of points that are surely ground. Round by round it adds points that lie close to the TIN.
 Lengths are metres and angles degrees, whatever the unit of the CRS. The terrain model and its hillshade are GeoTIFFs.</source>
-        <translation>Trouve les points sol d'un lidar aéroporté ou de drone par densification progressive de TIN, et réécrit le nuage de points avec leur classe ; rien d'autre n'y change. La méthode part d'une triangulation lâche de points qui sont sûrement du sol et ajoute, tour après tour, les points qui en sont proches.
+        <translation>Trouve les points sol d'un lidar aéroporté ou de drone par densification progressive de TIN, et écrit un nuage de points avec les nouvelles classes ; rien d'autre n'y change. Le filtre part d'une triangulation lâche (TIN) de points qui sont sûrement du sol. Tour après tour, il ajoute des points proches du TIN.
 Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité du SCR. Le modèle de terrain et son ombrage sont des GeoTIFF.</translation>
     </message>
     <message>
-        <source>Finds the ground points of airborne or drone lidar by slopes, and writes the point cloud anew with their class; nothing else in it changes. A point that stands above a neighbour by more than the terrain can is not ground. The preset Automatic compares on many scales and follows the terrain; the preset Whitebox repeats WhiteboxTools' LidarGroundPointFilter.
+        <source>Finds the ground points of airborne or drone lidar by slopes, and writes a point cloud with the new classes; nothing else in it changes. A point is not ground if it stands higher above a neighbour than terrain can. The preset Automatic compares points on many scales and follows the terrain; the preset Whitebox repeats WhiteboxTools' LidarGroundPointFilter.
 Lengths are metres and angles degrees, whatever the unit of the CRS. The terrain model and its hillshade are GeoTIFFs.</source>
-        <translation>Trouve les points sol d'un lidar aéroporté ou de drone par les pentes, et réécrit le nuage de points avec leur classe ; rien d'autre n'y change. Un point qui dépasse un voisin plus que le terrain ne le peut n'est pas du sol. Le préréglage Automatique compare à plusieurs échelles et suit le terrain ; le préréglage Whitebox reproduit LidarGroundPointFilter de WhiteboxTools.
+        <translation>Trouve les points sol d'un lidar aéroporté ou de drone par les pentes, et écrit un nuage de points avec les nouvelles classes ; rien d'autre n'y change. Un point n'est pas du sol s'il dépasse un voisin plus qu'un terrain ne le peut. Le préréglage Automatique compare les points à plusieurs échelles et suit le terrain ; le préréglage Whitebox reproduit LidarGroundPointFilter de WhiteboxTools.
 Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité du SCR. Le modèle de terrain et son ombrage sont des GeoTIFF.</translation>
     </message>
     <message>
-        <source>Finds the ground points of airborne or drone lidar on a grid of lowest points, and writes the point cloud anew with their class; nothing else in it changes. Steps between neighbouring cells are the rims of objects; what such rims enclose is removed, the tall objects first. It needs heights only, no returns, and is fast.
+        <source>Finds the ground points of airborne or drone lidar on a grid of lowest points, and writes a point cloud with the new classes; nothing else in it changes. Steps between neighbouring cells are the rims of objects. What such rims enclose is removed, tall objects first. The method is fast, and needs only heights, no return numbers.
 Lengths are metres and angles degrees, whatever the unit of the CRS. The terrain model and its hillshade are GeoTIFFs.</source>
-        <translation>Trouve les points sol d'un lidar aéroporté ou de drone sur une grille de points les plus bas, et réécrit le nuage de points avec leur classe ; rien d'autre n'y change. Les marches entre cellules voisines sont les bords d'objets ; ce que ces bords entourent est enlevé, les objets hauts en premier. La méthode ne demande que des altitudes, pas de retours, et elle est rapide.
+        <translation>Trouve les points sol d'un lidar aéroporté ou de drone sur une grille de points les plus bas, et écrit un nuage de points avec les nouvelles classes ; rien d'autre n'y change. Les marches entre cellules voisines sont les bords d'objets. Ce que ces bords entourent est enlevé, les objets hauts en premier. La méthode est rapide et ne demande que des altitudes, pas de numéros de retour.
 Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité du SCR. Le modèle de terrain et son ombrage sont des GeoTIFF.</translation>
     </message>
     <message>
@@ -458,6 +490,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>First and single returns</source>
         <translation>Premiers retours et retours uniques</translation>
+    </message>
+    <message>
+        <source>First returns hit the tops of trees and buildings. Take all returns if the return numbers of the file are wrong.</source>
+        <translation>Les premiers retours touchent le haut des arbres et des bâtiments. Prenez tous les retours si les numéros de retour du fichier sont faux.</translation>
     </message>
     <message>
         <source>Flat land, fields</source>
@@ -496,16 +532,12 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Go</translation>
     </message>
     <message>
-        <source>Gaps between points are interpolated by triangles; those with a longer edge have no data instead, as water should. Empty: all gaps are interpolated, as far as the convex hull of the points.</source>
-        <translation>Les vides entre les points sont interpolés par des triangles ; ceux dont un côté est plus long restent sans donnée, comme il convient à l'eau. Vide : tous les vides sont interpolés, jusqu'à l'enveloppe convexe des points.</translation>
+        <source>Gaps between points are filled by triangles. A triangle with a longer edge than this has no data, for example over water. Empty: all gaps are filled, out to the convex hull of the points.</source>
+        <translation>Les vides entre les points sont comblés par des triangles. Un triangle dont un côté est plus long que ceci reste sans donnée, par exemple sur l'eau. Vide : tous les vides sont comblés, jusqu'à l'enveloppe convexe des points.</translation>
     </message>
     <message>
         <source>Get lazrs</source>
         <translation>Obtenir lazrs</translation>
-    </message>
-    <message>
-        <source>Go on where a run before ended</source>
-        <translation>Reprendre là où un traitement s'est arrêté</translation>
     </message>
     <message>
         <source>Grid minimum</source>
@@ -576,10 +608,6 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Tolérance du sol en pente</translation>
     </message>
     <message>
-        <source>Ground, if the method takes them for it</source>
-        <translation>Sol, si la méthode les prend pour tel</translation>
-    </message>
-    <message>
         <source>HTML files (*.html)</source>
         <translation>Fichiers HTML (*.html)</translation>
     </message>
@@ -636,36 +664,40 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Terrain vallonné, forêt</translation>
     </message>
     <message>
-        <source>How far a ground point may lie above the TIN of the key points. About the accuracy of the heights, or half the interval of the contour lines to be made.</source>
-        <translation>La hauteur maximale d'un point sol au-dessus du TIN des points clés. Environ la précision des altitudes, ou la moitié de l'équidistance des courbes de niveau à tracer.</translation>
+        <source>How far a ground point may lie above the TIN of the key points. Choose about the accuracy of the heights, or half the contour interval that you want.</source>
+        <translation>La hauteur maximale d'un point sol au-dessus du TIN des points clés. Choisissez environ la précision des altitudes, ou la moitié de l'équidistance voulue des courbes de niveau.</translation>
     </message>
     <message>
         <source>How far a ground point may lie below the TIN of the key points.</source>
         <translation>La profondeur maximale d'un point sol sous le TIN des points clés.</translation>
     </message>
     <message>
-        <source>How far a point is compared with its neighbours, the largest distance in the automatic preset: at least half the shorter side of the largest building. Empty: 18 m (more if points are sparse), or 2 m in the preset Whitebox.</source>
-        <translation>Jusqu'où un point est comparé à ses voisins, la plus grande distance dans le préréglage automatique : au moins la moitié du petit côté du plus grand bâtiment. Vide : 18 m (plus si la densité de points est faible), ou 2 m dans le préréglage Whitebox.</translation>
-    </message>
-    <message>
-        <source>How far below the ground a point must lie to become low noise, in level terrain; on slopes the rise of the ground over 1 m is added. Only where low outliers are put into class 7.</source>
-        <translation>La profondeur sous le sol à partir de laquelle un point devient du bruit bas, en terrain plat ; en pente s'ajoute la montée du sol sur 1 m. Seulement si les points aberrants bas vont dans la classe 7.</translation>
-    </message>
-    <message>
-        <source>How far the surroundings reach that a place is compared with. About as wide as the features to be seen; larger landforms vanish.</source>
-        <translation>Jusqu'où va le voisinage auquel un lieu est comparé. Environ la largeur des formes à voir ; les formes plus grandes disparaissent.</translation>
-    </message>
-    <message>
-        <source>How high the light stands above the horizon.</source>
-        <translation>La hauteur de la lumière au-dessus de l'horizon.</translation>
-    </message>
-    <message>
-        <source>How many threads compute at the same time. The result does not depend on it.</source>
-        <translation>Le nombre de fils d'exécution qui calculent en même temps. Le résultat n'en dépend pas.</translation>
+        <source>How many threads compute at the same time. The result does not depend on it. Empty: as many as there are processors.</source>
+        <translation>Le nombre de fils d'exécution qui calculent en même temps. Le résultat n'en dépend pas. Vide : autant qu'il y a de processeurs.</translation>
     </message>
     <message>
         <source>Ignored classes of the reference</source>
         <translation>Classes ignorées de la référence</translation>
+    </message>
+    <message>
+        <source>In each cell of this size that has ground points, at least the lowest one is a key point, however flat the ground is.</source>
+        <translation>Dans chaque cellule de cette taille qui a des points sol, au moins le plus bas est un point clé, aussi plat que soit le sol.</translation>
+    </message>
+    <message>
+        <source>In level terrain, points down to this depth below the final surface are ground. The surface goes through the lowest points, but is smoother than they are.</source>
+        <translation>En terrain plat, les points jusqu'à cette profondeur sous la surface finale sont du sol. La surface passe par les points les plus bas, mais elle est plus lisse qu'eux.</translation>
+    </message>
+    <message>
+        <source>In level terrain, points up to this height above the final surface are ground. A larger value takes in grass and low bushes.</source>
+        <translation>En terrain plat, les points jusqu'à cette hauteur au-dessus de la surface finale sont du sol. Une valeur plus grande prend aussi l'herbe et les buissons bas.</translation>
+    </message>
+    <message>
+        <source>In level terrain, points up to this height above the surface of the ground are ground. Empty: from the preset.</source>
+        <translation>En terrain plat, les points jusqu'à cette hauteur au-dessus de la surface du sol sont du sol. Vide : d'après le préréglage.</translation>
+    </message>
+    <message>
+        <source>In level terrain, points up to this height above the surface through the ground are ground. Not used with the preset Whitebox.</source>
+        <translation>En terrain plat, les points jusqu'à cette hauteur au-dessus de la surface passant par le sol sont du sol. Pas pour le préréglage Whitebox.</translation>
     </message>
     <message>
         <source>In the command line some layers are missing: save each in the CRS of the points as GeoJSON, and add {}.</source>
@@ -680,12 +712,12 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Dans la ligne de commande, les corrections manquent : enregistrez-les dans le SCR des points comme corrections.geojson, leur classe comme attribut « {} », et ajoutez --corrections corrections.geojson.</translation>
     </message>
     <message>
-        <source>In the last pass whatever stands this far above the ground beside it is removed: bushes, cars, walls. Larger spares rough ground. Empty: from the preset.</source>
-        <translation>Au dernier passage, tout ce qui dépasse d'autant le sol voisin est enlevé : buissons, voitures, murs. Une valeur plus grande épargne le sol rugueux. Vide : d'après le préréglage.</translation>
+        <source>In triangles whose longest edge is shorter than this, the iteration angle is reduced in proportion. So the TIN does not climb low vegetation step by step. Empty: the angle is never reduced.</source>
+        <translation>Dans les triangles dont le plus long côté est plus court que ceci, l'angle d'itération est réduit en proportion. Ainsi, le TIN ne gravit pas pas à pas la végétation basse. Vide : l'angle n'est jamais réduit.</translation>
     </message>
     <message>
-        <source>In triangles whose longest edge is shorter the iteration angle is reduced in proportion, so that low vegetation is not climbed step by step. Empty: never.</source>
-        <translation>Dans les triangles dont le plus long côté est plus court, l'angle d'itération est réduit en proportion, pour que la végétation basse ne soit pas gravie pas à pas. Vide : jamais.</translation>
+        <source>Include subfolders</source>
+        <translation>Inclure les sous-dossiers</translation>
     </message>
     <message>
         <source>Iteration angle</source>
@@ -696,16 +728,16 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Distance d'itération</translation>
     </message>
     <message>
-        <source>Its class 2 counts as ground, all others do not.</source>
-        <translation>Sa classe 2 compte comme sol, toutes les autres non.</translation>
-    </message>
-    <message>
         <source>Kappa [%]</source>
         <translation>Kappa [%]</translation>
     </message>
     <message>
-        <source>Keep, but old ground that is not confirmed becomes 1</source>
-        <translation>Garder, mais l'ancien sol qui n'est pas confirmé devient 1</translation>
+        <source>Keep; old ground that is not ground now becomes 1</source>
+        <translation>Garder ; l'ancien sol qui n'est plus du sol devient 1</translation>
+    </message>
+    <message>
+        <source>Keeps the tiles that an earlier run finished, if they were made from the same files with the same parameters. All other tiles are classified again.</source>
+        <translation>Garde les dalles terminées par un traitement précédent, si elles viennent des mêmes fichiers avec les mêmes paramètres. Toutes les autres dalles sont reclassées.</translation>
     </message>
     <message>
         <source>Key points</source>
@@ -740,8 +772,8 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Prise en charge LAZ…</translation>
     </message>
     <message>
-        <source>Largest angle between a triangle and the line from one of its corners to a new point. Larger follows rugged ground better, smaller keeps low objects out: 4 in flat, 10 and more in steep terrain. Empty: from the preset.</source>
-        <translation>Le plus grand angle entre un triangle et la ligne d'un de ses sommets à un nouveau point. Plus grand, il suit mieux un terrain accidenté ; plus petit, il écarte les objets bas : 4 en terrain plat, 10 et plus en terrain raide. Vide : d'après le préréglage.</translation>
+        <source>Largest angle between a triangle and the line from one of its corners to a new point. A larger angle follows rugged ground better, a smaller one keeps low objects out: 4 deg in flat terrain, 10 deg and more in steep terrain. Empty: from the preset.</source>
+        <translation>Le plus grand angle entre un triangle et la ligne d'un de ses sommets à un nouveau point. Un angle plus grand suit mieux un terrain accidenté, un plus petit écarte les objets bas : 4 degrés en terrain plat, 10 degrés et plus en terrain raide. Vide : d'après le préréglage.</translation>
     </message>
     <message>
         <source>Largest distance of a new point from its triangle. Empty: from the preset.</source>
@@ -752,12 +784,8 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Derniers retours et retours uniques (numéro du retour = nombre de retours)</translation>
     </message>
     <message>
-        <source>Leaves all points out of the output that are not of the class of the ground. The log says how many.</source>
-        <translation>Laisse hors de la sortie tous les points qui n'ont pas la classe du sol. Le journal dit combien.</translation>
-    </message>
-    <message>
-        <source>Leaves all points out of the output that lie outside of the extent and the boundary, and out of the rasters. Files of a survey that have none in the area are not written.</source>
-        <translation>Laisse hors de la sortie et des rasters tous les points en dehors de l'emprise et de la limite. Les fichiers d'un levé qui n'en ont aucun dans la zone ne sont pas écrits.</translation>
+        <source>Last returns reach the ground. Take all returns if the return numbers of the file are wrong.</source>
+        <translation>Les derniers retours atteignent le sol. Prenez tous les retours si les numéros de retour du fichier sont faux.</translation>
     </message>
     <message>
         <source>LiDAR360's values</source>
@@ -772,16 +800,16 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Ligne du profil</translation>
     </message>
     <message>
-        <source>Lines along which the water in such polygons falls, drawn in either direction.</source>
-        <translation>Lignes le long desquelles l'eau descend dans ces polygones, dessinées dans un sens ou dans l'autre.</translation>
+        <source>Lines along which the level of the water polygons falls. They may be drawn in either direction.</source>
+        <translation>Lignes le long desquelles descend le niveau des polygones d'eau. Elles peuvent être dessinées dans un sens ou dans l'autre.</translation>
     </message>
     <message>
         <source>Lines of equal height of the terrain model, with the field ELEV.</source>
         <translation>Lignes d'égale altitude du modèle de terrain, avec le champ ELEV.</translation>
     </message>
     <message>
-        <source>Lines that no triangle of the terrain crosses: edges of walls, dykes and terraces. A line with z has that height; without z, each side of it has the height of the nearest ground point there.</source>
-        <translation>Lignes qu'aucun triangle du terrain ne traverse : bords de murs, de digues et de terrasses. Une ligne avec z a cette altitude ; sans z, chacun de ses côtés a l'altitude du point sol le plus proche à cet endroit.</translation>
+        <source>Lines that no triangle of the terrain crosses: edges of walls, dykes and terraces. A line with z has this height. Without z, each side of the line has the height of the nearest ground point on that side.</source>
+        <translation>Lignes qu'aucun triangle du terrain ne traverse : bords de murs, de digues et de terrasses. Une ligne avec z a cette altitude. Sans z, chaque côté de la ligne a l'altitude du point sol le plus proche de ce côté.</translation>
     </message>
     <message>
         <source>Local relief</source>
@@ -796,9 +824,9 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Produit une carte du terrain à partir d'un nuage de points brut : classes, modèles, courbes de niveau.</translation>
     </message>
     <message>
-        <source>Makes a terrain model of a surface model where there is no point cloud. What stands above the terrain round it with steep edges on all sides, and is not larger than the largest object, is removed, and the gaps are filled smoothly. Hills and slopes stay.
+        <source>Makes a terrain model from a surface model, if there is no point cloud. Removes what stands above the terrain around it, has steep edges on all sides and is not wider than the maximum object size. Fills the gaps smoothly. Hills and slopes stay.
 The output has the same grid, CRS and unit. Lengths are metres, whatever the unit of the CRS.</source>
-        <translation>Fait d'un modèle numérique de surface un modèle de terrain là où il n'y a pas de nuage de points. Ce qui dépasse le terrain alentour avec des bords raides de tous côtés, sans être plus grand que le plus grand objet, est enlevé, et les vides sont comblés en douceur. Les collines et les versants restent.
+        <translation>Fait d'un modèle numérique de surface un modèle de terrain, s'il n'y a pas de nuage de points. Enlève ce qui dépasse le terrain alentour, a des bords raides de tous côtés et n'est pas plus large que la taille maximale des objets. Comble les vides en douceur. Les collines et les versants restent.
 La sortie a la même grille, le même SCR et la même unité. Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
     </message>
     <message>
@@ -838,8 +866,8 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Méthode</translation>
     </message>
     <message>
-        <source>Methods with their presets. The others are compared with the first.</source>
-        <translation>Méthodes avec leurs préréglages. Les autres sont comparés au premier.</translation>
+        <source>Methods, each with a preset. All others are compared with the first one.</source>
+        <translation>Méthodes, chacune avec un préréglage. Toutes les autres sont comparées à la première.</translation>
     </message>
     <message>
         <source>Minimum number of neighbours</source>
@@ -878,56 +906,52 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Pas du sol</translation>
     </message>
     <message>
-        <source>Not ground, but with a classic preset</source>
+        <source>Not ground, except with a classic preset</source>
         <translation>Pas du sol, sauf avec un préréglage classique</translation>
     </message>
     <message>
-        <source>Not there yet: .laz and .copc.laz files cannot be read or written.</source>
-        <translation>Pas encore là : les fichiers .laz et .copc.laz ne peuvent être ni lus ni écrits.</translation>
+        <source>Not installed yet: .laz and .copc.laz files cannot be read or written.</source>
+        <translation>Pas encore installé : les fichiers .laz et .copc.laz ne peuvent être ni lus ni écrits.</translation>
     </message>
     <message>
         <source>Number of the raster's band that holds the heights.</source>
         <translation>Numéro de la bande du raster qui contient les altitudes.</translation>
     </message>
     <message>
-        <source>Objects have edges steeper than this all round, measured above the terrain that the maximum object size gives; what rises more gently somewhere is a hill.</source>
-        <translation>Les objets ont des bords plus raides que ceci de tous côtés, mesurés au-dessus du terrain que donne la taille maximale des objets ; ce qui monte plus doucement quelque part est une colline.</translation>
-    </message>
-    <message>
-        <source>Of the ground, keep only the points that a terrain model needs: those whose TIN lies within the two tolerances below of every other ground point.</source>
-        <translation>Ne garder du sol que les points dont un modèle de terrain a besoin : ceux dont le TIN reste dans les deux tolérances ci-dessous autour de chaque autre point sol.</translation>
+        <source>Objects have edges steeper than this on all sides. What rises more gently on some side is a hill. The slopes of the terrain below do not count.</source>
+        <translation>Les objets ont de tous côtés des bords plus raides que ceci. Ce qui monte plus doucement d'un côté est une colline. Les pentes du terrain en dessous ne comptent pas.</translation>
     </message>
     <message>
         <source>One light</source>
         <translation>Une lumière</translation>
     </message>
     <message>
-        <source>One light shows best what lies across it, and leaves slopes that turn away in the dark. Four lights show landforms of any direction.</source>
-        <translation>Une seule lumière montre le mieux ce qui lui est perpendiculaire et laisse dans l'ombre les versants qui s'en détournent. Quatre lumières montrent les formes du terrain de toute direction.</translation>
+        <source>One light shows best the landforms that lie across it, but slopes that face away are dark. Four lights show landforms of any direction.</source>
+        <translation>Une seule lumière montre le mieux les formes du terrain qui lui sont perpendiculaires, mais les versants qui s'en détournent sont sombres. Quatre lumières montrent les formes du terrain de toute direction.</translation>
     </message>
     <message>
-        <source>One pass for each, from the largest: of two neighbouring cells that differ by more, the higher is the rim of an object. Empty: from the preset.</source>
-        <translation>Un passage pour chacun, en partant du plus grand : de deux cellules voisines qui diffèrent davantage, la plus haute est le bord d'un objet. Vide : d'après le préréglage.</translation>
+        <source>One pass for each threshold, the largest first. If two neighbouring cells differ by more than the threshold, the higher one is the rim of an object. Empty: from the preset.</source>
+        <translation>Un passage pour chaque seuil, en partant du plus grand. Si deux cellules voisines diffèrent de plus que le seuil, la plus haute est le bord d'un objet. Vide : d'après le préréglage.</translation>
     </message>
     <message>
         <source>Only key points</source>
         <translation>Points clés seulement</translation>
     </message>
     <message>
-        <source>Only points in these polygons are classified, of an extent too if there is one. The others keep their class, but those near them help to judge. Empty: all points.</source>
-        <translation>Seuls les points dans ces polygones sont classés, et dans l'emprise s'il y en a une. Les autres gardent leur classe, mais ceux qui sont proches aident à juger. Vide : tous les points.</translation>
+        <source>Only points in these polygons are classified; with an extent, only points in both. Points outside keep their class, but those nearby help to judge. Empty: all points.</source>
+        <translation>Seuls les points dans ces polygones sont classés ; avec une emprise, seuls les points dans les deux. Les points à l'extérieur gardent leur classe, mais ceux qui sont proches aident à juger. Vide : tous les points.</translation>
     </message>
     <message>
-        <source>Only points in this rectangle are classified. The others keep their class, but those near it help to judge. Empty: all points.</source>
-        <translation>Seuls les points dans ce rectangle sont classés. Les autres gardent leur classe, mais ceux qui sont proches aident à juger. Vide : tous les points.</translation>
+        <source>Only points in this rectangle are classified. Points outside keep their class, but those nearby help to judge. Empty: all points.</source>
+        <translation>Seuls les points dans ce rectangle sont classés. Les points à l'extérieur gardent leur classe, mais ceux qui sont proches aident à juger. Vide : tous les points.</translation>
     </message>
     <message>
-        <source>Only points of these classes take part and may change their class; every class but low and high noise (7 and 18) when none is given.</source>
-        <translation>Seuls les points de ces classes participent et peuvent changer de classe ; sans indication, toutes les classes sauf le bruit bas et haut (7 et 18).</translation>
+        <source>Only points of these classes take part and may change their class. Empty: all classes but low and high noise (7 and 18).</source>
+        <translation>Seuls les points de ces classes participent et peuvent changer de classe. Vide : toutes les classes sauf le bruit bas et haut (7 et 18).</translation>
     </message>
     <message>
-        <source>Only points that stand above a neighbour by at least this much are not ground. Empty: 0.5 m, or 1 m in the preset Whitebox.</source>
-        <translation>Seuls les points qui dépassent un voisin d'au moins cette hauteur ne sont pas du sol. Vide : 0,5 m, ou 1 m dans le préréglage Whitebox.</translation>
+        <source>Only the points that a terrain model needs become ground. Of all other ground points, none lies farther from the TIN of these key points than the two tolerances below.</source>
+        <translation>Seuls les points dont un modèle de terrain a besoin deviennent du sol. Parmi tous les autres points sol, aucun n'est plus loin du TIN de ces points clés que les deux tolérances ci-dessous.</translation>
     </message>
     <message>
         <source>Point cloud</source>
@@ -954,60 +978,48 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Points</translation>
     </message>
     <message>
+        <source>Points are compared with their neighbours up to this distance. Choose at least half the shorter side of the largest building. Empty: from the preset, 18 m in the automatic one (more if points are sparse), 2 m in Whitebox.</source>
+        <translation>Les points sont comparés à leurs voisins jusqu'à cette distance. Choisissez au moins la moitié du petit côté du plus grand bâtiment. Vide : d'après le préréglage, 18 m dans l'automatique (plus si la densité de points est faible), 2 m dans Whitebox.</translation>
+    </message>
+    <message>
         <source>Points in the area</source>
         <translation>Points dans la zone</translation>
-    </message>
-    <message>
-        <source>Points no deeper below the final surface are ground, in level terrain: it lies through the lowest points, and is smooth where they are not.</source>
-        <translation>Les points qui ne sont pas plus bas sous la surface finale sont du sol, en terrain plat : elle passe par les points les plus bas, et elle est lisse là où ils ne le sont pas.</translation>
-    </message>
-    <message>
-        <source>Points no higher above the final surface are ground, in level terrain. More takes in grass and low bushes.</source>
-        <translation>Les points qui ne sont pas plus hauts au-dessus de la surface finale sont du sol, en terrain plat. Une valeur plus grande prend aussi l'herbe et les buissons bas.</translation>
-    </message>
-    <message>
-        <source>Points no higher above the ground's surface are ground, in level terrain. Empty: from the preset.</source>
-        <translation>Les points qui ne sont pas plus hauts au-dessus de la surface du sol sont du sol, en terrain plat. Vide : d'après le préréglage.</translation>
-    </message>
-    <message>
-        <source>Points no higher above the surface through the ground are ground, in level terrain. Not for the preset Whitebox.</source>
-        <translation>Les points qui ne sont pas plus hauts au-dessus de la surface passant par le sol sont du sol, en terrain plat. Pas pour le préréglage Whitebox.</translation>
     </message>
     <message>
         <source>Points of the surface</source>
         <translation>Points de la surface</translation>
     </message>
     <message>
-        <source>Points of these classes are ground for certain, whatever their return: they are not judged, and the TIN densification starts from them. They get the class of the ground, too, unless theirs is not among those to classify anew.</source>
-        <translation>Les points de ces classes sont du sol à coup sûr, quel que soit leur retour : ils ne sont pas jugés, et la densification de TIN part d'eux. Ils reçoivent aussi la classe du sol, sauf si la leur n'est pas parmi celles à reclasser.</translation>
+        <source>Points of these classes are certain ground, whatever their return: the filter does not judge them, and TIN densification starts from them. They get the class of the ground, unless their class is not among the classes to classify. Empty: none.</source>
+        <translation>Les points de ces classes sont du sol à coup sûr, quel que soit leur retour : le filtre ne les juge pas, et la densification de TIN part d'eux. Ils reçoivent la classe du sol, sauf si leur classe n'est pas parmi celles à classer. Vide : aucune.</translation>
     </message>
     <message>
-        <source>Points of these classes of the reference are left out, noise (7, 18) for example.</source>
-        <translation>Les points de ces classes de la référence sont laissés de côté, par exemple le bruit (7, 18).</translation>
-    </message>
-    <message>
-        <source>Points so far round the window are read to judge those in it, but not shown. More is slower, and closer to what the whole file gives near the edges of the window and beside large buildings. Empty: as far as the methods look, at most 50 m.</source>
-        <translation>Les points jusqu'à cette distance de la fenêtre sont lus pour juger ceux qu'elle contient, mais pas montrés. Plus grande, elle est plus lente, et plus proche de ce que le fichier entier donne près des bords de la fenêtre et à côté de grands bâtiments. Vide : aussi loin que les méthodes regardent, au plus 50 m.</translation>
+        <source>Points of these classes of the reference are not counted, for example noise (7, 18). Empty: all points are counted.</source>
+        <translation>Les points de ces classes de la référence ne sont pas comptés, par exemple le bruit (7, 18). Vide : tous les points sont comptés.</translation>
     </message>
     <message>
         <source>Points that took part</source>
         <translation>Points qui ont participé</translation>
     </message>
     <message>
-        <source>Points that took part and lie far below the ground that was found (multipath, faults of the sensor) become low noise, class 7, instead of what becomes of other points.</source>
-        <translation>Les points qui ont participé et se trouvent bien au-dessous du sol trouvé (trajets multiples, défauts du capteur) deviennent du bruit bas, classe 7, au lieu de ce que deviennent les autres points.</translation>
+        <source>Points that took part and lie far below the ground (multipath, faults of the sensor) become low noise, class 7. Otherwise they are treated as other points.</source>
+        <translation>Les points qui ont participé et se trouvent bien au-dessous du sol (trajets multiples, défauts du capteur) deviennent du bruit bas, classe 7. Sinon, ils sont traités comme les autres points.</translation>
     </message>
     <message>
-        <source>Polygons in which no point is ground, such as bridges and roofs.</source>
-        <translation>Polygones où aucun point n'est du sol, comme les ponts et les toits.</translation>
+        <source>Points up to this distance outside the window are read too, but not shown. A larger value is slower, and gives classes closer to those of the whole file near the edges of the window and beside large buildings. Empty: as far as the methods look, at most 50 m.</source>
+        <translation>Les points jusqu'à cette distance hors de la fenêtre sont lus aussi, mais pas montrés. Une valeur plus grande est plus lente, et donne près des bords de la fenêtre et à côté de grands bâtiments des classes plus proches de celles du fichier entier. Vide : aussi loin que les méthodes regardent, au plus 50 m.</translation>
     </message>
     <message>
-        <source>Polygons in which the class is known: it holds whatever the filter makes of the points. Where it is that of the ground, points of the wanted returns are ground; else all points get it, and the filter does not see them. Where polygons overlap, the last one counts.</source>
-        <translation>Polygones où la classe est connue : elle vaut quoi que le filtre fasse des points. Si c'est celle du sol, les points des retours voulus sont du sol ; sinon, tous les points la reçoivent, et le filtre ne les voit pas. Là où des polygones se recouvrent, le dernier compte.</translation>
+        <source>Polygons in which the terrain uses no ground points, such as bridges and roofs. The classes of the points do not change.</source>
+        <translation>Polygones où le terrain n'utilise aucun point sol, comme les ponts et les toits. Les classes des points ne changent pas.</translation>
     </message>
     <message>
-        <source>Polygons of water: flattened to one level, that of the ground along their border.</source>
-        <translation>Polygones d'eau : aplanis à un seul niveau, celui du sol le long de leur bord.</translation>
+        <source>Polygons in which you know the class. It replaces the result of the filter. If it is the class of the ground, points of the chosen returns are ground. Any other class is given to all points, and the filter does not use them. Where polygons overlap, the last one counts.</source>
+        <translation>Polygones dont vous connaissez la classe. Elle remplace le résultat du filtre. Si c'est la classe du sol, les points des retours choisis sont du sol. Toute autre classe est donnée à tous les points, et le filtre ne les utilise pas. Là où des polygones se recouvrent, le dernier compte.</translation>
+    </message>
+    <message>
+        <source>Polygons of water. Each is flattened to one level, that of the ground along its border.</source>
+        <translation>Polygones d'eau. Chacun est aplani à un seul niveau, celui du sol le long de son bord.</translation>
     </message>
     <message>
         <source>Preset</source>
@@ -1030,8 +1042,8 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Rayon du relief local</translation>
     </message>
     <message>
-        <source>Ready. Compressed point clouds (.laz) need one package more, once.</source>
-        <translation>Prêt. Les nuages de points compressés (.laz) demandent un paquet de plus, une seule fois.</translation>
+        <source>Ready. Compressed point clouds (.laz) need one more package, which is installed only once.</source>
+        <translation>Prêt. Les nuages de points compressés (.laz) demandent un paquet de plus, qui n'est installé qu'une seule fois.</translation>
     </message>
     <message>
         <source>Ready. The package lazrs is in {}</source>
@@ -1066,8 +1078,12 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Supprimé.</translation>
     </message>
     <message>
-        <source>Removed; the files that are in use go when QGIS starts next.</source>
-        <translation>Supprimé ; les fichiers en cours d'utilisation disparaîtront au prochain démarrage de QGIS.</translation>
+        <source>Removed. Files that are in use are removed when QGIS starts next.</source>
+        <translation>Supprimé. Les fichiers en cours d'utilisation seront supprimés au prochain démarrage de QGIS.</translation>
+    </message>
+    <message>
+        <source>Removes buildings, trees and other steep-sided objects from an elevation raster.</source>
+        <translation>Enlève d'un raster d'altitudes les bâtiments, les arbres et les autres objets aux flancs raides.</translation>
     </message>
     <message>
         <source>Report</source>
@@ -1090,60 +1106,68 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Rayon de recherche</translation>
     </message>
     <message>
-        <source>Searches a folder with all folders in it, instead of alone.</source>
-        <translation>Cherche dans un dossier et dans tous ceux qu'il contient, au lieu de lui seul.</translation>
+        <source>Searches each folder with all its subfolders.</source>
+        <translation>Cherche dans chaque dossier et tous ses sous-dossiers.</translation>
     </message>
     <message>
         <source>Set to 1 (unclassified)</source>
         <translation>Mettre à 1 (non classé)</translation>
     </message>
     <message>
-        <source>Settings</source>
-        <translation>Réglages</translation>
+        <source>Sets the fields that are left empty, to values that suit most land (automatic) or a kind of terrain. The log says which values were used.</source>
+        <translation>Fixe les valeurs des champs vides : ce qui convient à la plupart des terrains (automatique) ou à un type de terrain. Le journal dit quelles valeurs ont servi.</translation>
     </message>
     <message>
-        <source>Share of the ground's rise from point to point, over a metre at most, that is added to the ground tolerance; in the paper's preset, of its rise over one cell. Empty: from the preset.</source>
-        <translation>Part de la montée du sol d'un point à l'autre, sur un mètre au plus, qui s'ajoute à la tolérance du sol ; dans le préréglage de l'article, de sa montée sur une cellule. Vide : d'après le préréglage.</translation>
+        <source>Sets the fields that are left empty. Automatic and the kinds of terrain remove buildings as well as shrubs. Whitebox is the classic filter with the values of WhiteboxTools: within its radius of 2 m it cannot find a building.</source>
+        <translation>Fixe les valeurs des champs vides. Automatique et les types de terrain enlèvent les bâtiments comme les buissons. Whitebox est le filtre classique avec les valeurs de WhiteboxTools : dans son rayon de 2 m, il ne peut pas trouver de bâtiment.</translation>
+    </message>
+    <message>
+        <source>Sets the fields that are left empty: from the points (automatic), or to values that suit a kind of terrain. The log says which values were used.</source>
+        <translation>Fixe les valeurs des champs vides : d'après les points (automatique), ou selon un type de terrain. Le journal dit quelles valeurs ont servi.</translation>
+    </message>
+    <message>
+        <source>Settings</source>
+        <translation>Réglages</translation>
     </message>
     <message>
         <source>Share of wrong points</source>
         <translation>Part des points erronés</translation>
     </message>
     <message>
-        <source>Shorter side of the largest building or other object. Whatever is narrower and stands out from its surroundings gives no seed of the ground. Too large costs time and sharp hilltops. Empty: from the preset.</source>
-        <translation>Petit côté du plus grand bâtiment ou autre objet. Ce qui est plus étroit et ressort de son entourage ne donne pas de point de départ du sol. Trop grand, il coûte du temps et des sommets pointus. Vide : d'après le préréglage.</translation>
+        <source>Shorter side of the largest building or other object. Nothing that is narrower and stands out from its surroundings can be a seed of the ground. A value that is too large takes longer and loses sharp hilltops. Empty: from the preset.</source>
+        <translation>Petit côté du plus grand bâtiment ou autre objet. Rien de plus étroit qui ressort de son entourage ne peut être un point de départ du sol. Une valeur trop grande prend plus de temps et perd des sommets pointus. Vide : d'après le préréglage.</translation>
     </message>
     <message>
-        <source>Shorter side of the largest building, which is found by the drop all round it even if it is wider than two search radii. Empty: 100 m, or two search radii where that is given. Not for the preset Whitebox.</source>
-        <translation>Petit côté du plus grand bâtiment, que l'on trouve à la chute tout autour même s'il est plus large que deux rayons de recherche. Vide : 100 m, ou deux rayons de recherche si celui-ci est donné. Pas pour le préréglage Whitebox.</translation>
+        <source>Shorter side of the largest building. A larger value takes longer, and may remove steep hilltops as objects.</source>
+        <translation>Petit côté du plus grand bâtiment. Une valeur plus grande prend plus de temps, et peut enlever des sommets raides comme objets.</translation>
     </message>
     <message>
-        <source>Shorter side of the largest building. Larger costs time, and steep hilltops that are then taken for objects.</source>
-        <translation>Petit côté du plus grand bâtiment. Plus grand, il coûte du temps, et des sommets raides qui sont alors pris pour des objets.</translation>
-    </message>
-    <message>
-        <source>Shorter side of the largest building. What is wider is terrain. Empty: from the preset.</source>
+        <source>Shorter side of the largest building. Anything wider is terrain. Empty: from the preset.</source>
         <translation>Petit côté du plus grand bâtiment. Ce qui est plus large est du terrain. Vide : d'après le préréglage.</translation>
     </message>
     <message>
-        <source>Side of a cell of the raster that tells the share of wrong points. The map in the report chooses its own.</source>
-        <translation>Côté d'une cellule du raster qui donne la part de points faux. La carte du rapport choisit le sien.</translation>
+        <source>Shorter side of the largest building. Buildings wider than two search radii are found by the drop on all their sides. Empty: from the preset, or two search radii if the search radius is given. Not used with the preset Whitebox.</source>
+        <translation>Petit côté du plus grand bâtiment. Les bâtiments plus larges que deux rayons de recherche sont trouvés à la chute de tous leurs côtés. Vide : d'après le préréglage, ou deux rayons de recherche si celui-ci est donné. Pas pour le préréglage Whitebox.</translation>
     </message>
     <message>
-        <source>Side of a cell of the terrain model and of its hillshade. About the distance between ground points is sensible; smaller cells only make the file larger.</source>
-        <translation>Côté d'une cellule du modèle de terrain et de son ombrage. Il est raisonnable de prendre environ la distance entre points sol ; des cellules plus petites ne font qu'agrandir le fichier.</translation>
+        <source>Side of a cell of the error map. The map in the report has its own cell size.</source>
+        <translation>Côté d'une cellule de la carte des erreurs. La carte du rapport a sa propre taille de cellule.</translation>
     </message>
     <message>
-        <source>Side of the cells of the rasters, about the distance between ground points.</source>
-        <translation>Côté des cellules des rasters, environ la distance entre points sol.</translation>
+        <source>Side of a cell of the rasters. Choose about the distance between ground points.</source>
+        <translation>Côté d'une cellule des rasters. Choisissez environ la distance entre points sol.</translation>
     </message>
     <message>
-        <source>Side of the cells whose lowest points are compared in the automatic preset. Empty: the usual distance between points, at least 1 m.</source>
-        <translation>Côté des cellules dont les points les plus bas sont comparés dans le préréglage automatique. Vide : la distance habituelle entre les points, au moins 1 m.</translation>
+        <source>Side of a cell of the terrain model and of its hillshade. Choose about the distance between ground points; smaller cells only make the file larger.</source>
+        <translation>Côté d'une cellule du modèle de terrain et de son ombrage. Choisissez environ la distance entre points sol ; des cellules plus petites ne font qu'agrandir le fichier.</translation>
     </message>
     <message>
-        <source>Side of the square cells whose lowest points are compared. Smaller ones follow finer terrain, if they hold a point, and hold more rims of low plants. Empty: from the preset; where such a cell would hold less than a point, more.</source>
-        <translation>Côté des cellules carrées dont les points les plus bas sont comparés. Plus petites, elles suivent un terrain plus fin, si elles contiennent un point, et contiennent plus de bords de plantes basses. Vide : d'après le préréglage ; plus, si une telle cellule contenait moins d'un point.</translation>
+        <source>Side of the cells whose lowest points are compared. Not used with the preset Whitebox. Empty: the usual distance between points, at least 1 m.</source>
+        <translation>Côté des cellules dont les points les plus bas sont comparés. Pas pour le préréglage Whitebox. Vide : la distance habituelle entre les points, au moins 1 m.</translation>
+    </message>
+    <message>
+        <source>Side of the square cells whose lowest points are compared. Smaller cells follow finer terrain if they hold at least one point, but have more rims at low plants. Empty: from the preset, or larger if points are too sparse for it.</source>
+        <translation>Côté des cellules carrées dont les points les plus bas sont comparés. Des cellules plus petites suivent un terrain plus fin si elles contiennent au moins un point, mais ont plus de bords aux plantes basses. Vide : d'après le préréglage, ou plus grandes si les points sont trop épars pour cela.</translation>
     </message>
     <message>
         <source>Slope filter</source>
@@ -1190,8 +1214,8 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Terrain raide ou accidenté</translation>
     </message>
     <message>
-        <source>Steepest slope of the ground. On steeper triangles a point is judged by its mirror image beyond the nearest vertex.</source>
-        <translation>La plus forte pente du sol. Sur des triangles plus raides, un point est jugé d'après son image miroir au-delà du sommet le plus proche.</translation>
+        <source>Steepest slope of the ground. In steeper triangles, the mirror image of a point beyond the nearest vertex is judged in its place.</source>
+        <translation>La plus forte pente du sol. Dans des triangles plus raides, c'est l'image miroir d'un point, au-delà du sommet le plus proche, qui est jugée à sa place.</translation>
     </message>
     <message>
         <source>Stop triangulation when edges are shorter than</source>
@@ -1238,14 +1262,6 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Densification de TIN, Ville</translation>
     </message>
     <message>
-        <source>Take the files in folders of folders</source>
-        <translation>Prendre les fichiers des sous-dossiers</translation>
-    </message>
-    <message>
-        <source>Takes buildings, trees and other steep-sided objects out of an elevation raster.</source>
-        <translation>Enlève d'un raster d'altitudes les bâtiments, les arbres et les autres objets aux flancs raides.</translation>
-    </message>
-    <message>
         <source>Terrain model (DTM)</source>
         <translation>Modèle numérique de terrain (MNT)</translation>
     </message>
@@ -1254,24 +1270,32 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Modèles de terrain, de surface et de hauteur de canopée</translation>
     </message>
     <message>
-        <source>The attribute of these polygons that says their class: 2 is ground, 1 nothing else.</source>
-        <translation>L'attribut de ces polygones qui donne leur classe : 2 est le sol, 1 rien de plus.</translation>
+        <source>The attribute of these polygons that holds their class: 2 for ground, 1 for unclassified.</source>
+        <translation>L'attribut de ces polygones qui contient leur classe : 2 pour le sol, 1 pour non classé.</translation>
     </message>
     <message>
         <source>The boundary holds no polygon. Choose one that does.</source>
         <translation>La limite ne contient aucun polygone. Choisissez-en une qui en contient.</translation>
     </message>
     <message>
-        <source>The class that decks of bridges get; 17 in the LAS specification, which point formats 0 to 5 hold as well. Only where bridges are not ground.</source>
-        <translation>La classe que reçoivent les tabliers de ponts ; 17 dans la spécification LAS, que les formats de point 0 à 5 peuvent contenir aussi. Seulement si les ponts ne sont pas du sol.</translation>
+        <source>The class of bridge decks that are not ground. In the LAS specification it is 17, and every point format can hold it. Empty: the class of other points.</source>
+        <translation>La classe des tabliers de ponts qui ne sont pas du sol. Dans la spécification LAS, c'est 17, et tout format de point peut la contenir. Vide : la classe des autres points.</translation>
+    </message>
+    <message>
+        <source>The class of bridge decks. They are found by cross-sections that fall to lower ground on both sides; ramps, dams and embankments stay ground. A classic preset (Whitebox, LiDAR360's, the paper's) works as the original does, and does not look for bridges.</source>
+        <translation>La classe des tabliers de ponts. On les trouve par des profils en travers qui tombent vers un sol plus bas des deux côtés ; les rampes, les digues et les remblais restent du sol. Un préréglage classique (Whitebox, LiDAR360, l'article) travaille comme l'original, et ne cherche pas de ponts.</translation>
+    </message>
+    <message>
+        <source>The class of points that are not ground. Points that were never classified (0) become 1 in both cases. Noise, withheld points, and classes that are not classified stay as they are.</source>
+        <translation>La classe des points qui ne sont pas du sol. Les points jamais classés (0) deviennent 1 dans les deux cas. Le bruit, les points retenus (withheld) et les classes qui ne sont pas à classer restent tels quels.</translation>
     </message>
     <message>
         <source>The class that ground points get; 2 is ground in the LAS specification. Point formats 0 to 5 hold classes up to 31.</source>
         <translation>La classe que reçoivent les points sol ; 2 est le sol dans la spécification LAS. Les formats de point 0 à 5 contiennent des classes jusqu'à 31.</translation>
     </message>
     <message>
-        <source>The class that key points get. Points that have it already are taken as ground, and get the first of the ground classes again if they are not needed. Point formats 0 to 5 hold classes up to 31.</source>
-        <translation>La classe que reçoivent les points clés. Les points qui l'ont déjà comptent comme sol, et reprennent la première des classes de sol s'ils ne sont pas nécessaires. Les formats de point 0 à 5 contiennent des classes jusqu'à 31.</translation>
+        <source>The class that key points get. Points that already have it count as ground; those that are not needed get the first of the ground classes. Point formats 0 to 5 hold classes up to 31.</source>
+        <translation>La classe que reçoivent les points clés. Les points qui l'ont déjà comptent comme sol ; ceux qui ne sont pas nécessaires reçoivent la première des classes de sol. Les formats de point 0 à 5 contiennent des classes jusqu'à 31.</translation>
     </message>
     <message>
         <source>The corrections have no attribute {}. Choose the one to use.</source>
@@ -1282,12 +1306,20 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Le raster d'altitudes n'est pas un fichier. Exportez-le d'abord en GeoTIFF.</translation>
     </message>
     <message>
+        <source>The folder for the classified files. Each keeps its name.</source>
+        <translation>Le dossier des fichiers classés. Chacun garde son nom.</translation>
+    </message>
+    <message>
         <source>The ground filter. TIN densification is the most accurate.</source>
         <translation>Le filtre du sol. La densification de TIN est la plus précise.</translation>
     </message>
     <message>
-        <source>The height between contour lines, in the vertical unit of the CRS. Empty: what gives about 20 of them.</source>
-        <translation>La différence d'altitude entre les courbes de niveau, dans l'unité verticale du SCR. Vide : ce qui en donne environ 20.</translation>
+        <source>The height between contour lines, in the unit of the heights.</source>
+        <translation>La différence d'altitude entre les courbes de niveau, dans l'unité des altitudes.</translation>
+    </message>
+    <message>
+        <source>The height between contour lines, in the vertical unit of the CRS. Empty: a value that gives about 20 lines.</source>
+        <translation>La différence d'altitude entre les courbes de niveau, dans l'unité verticale du SCR. Vide : une valeur qui donne environ 20 courbes.</translation>
     </message>
     <message>
         <source>The highest point of each cell, noise left out.</source>
@@ -1298,12 +1330,12 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>L'indicateur de point clé de LAS ; la classe reste</translation>
     </message>
     <message>
-        <source>The laser meets the top first. Take all returns where the return numbers of the file are wrong.</source>
-        <translation>Le laser rencontre d'abord le haut. Prenez tous les retours si les numéros de retour du fichier sont faux.</translation>
+        <source>The kind of land. automatic: judged by the points.</source>
+        <translation>Le type de terrain. automatic : jugé d'après les points.</translation>
     </message>
     <message>
-        <source>The laser reaches the ground last. Take all returns where the return numbers of the file are wrong.</source>
-        <translation>Le laser atteint le sol en dernier. Prenez tous les retours si les numéros de retour du fichier sont faux.</translation>
+        <source>The last pass removes whatever stands this far above the ground beside it: bushes, cars, walls. A larger value keeps more of rough ground. Empty: from the preset.</source>
+        <translation>Le dernier passage enlève tout ce qui dépasse d'autant le sol voisin : buissons, voitures, murs. Une valeur plus grande épargne le sol rugueux. Vide : d'après le préréglage.</translation>
     </message>
     <message>
         <source>The layer "{}" cannot be read.</source>
@@ -1314,20 +1346,12 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Le filtre de la couche n'est pas appliqué : tous les points sont lus.</translation>
     </message>
     <message>
-        <source>The lazrs that was got cannot be loaded by this QGIS: {}.</source>
-        <translation>Le lazrs obtenu ne peut pas être chargé par ce QGIS : {}.</translation>
-    </message>
-    <message>
-        <source>The lazrs that was removed is still in use: start QGIS anew and try again.</source>
-        <translation>Le lazrs supprimé est encore utilisé : redémarrez QGIS et réessayez.</translation>
-    </message>
-    <message>
-        <source>The names of the files stay, but for what a format needs.</source>
-        <translation>Les noms des fichiers restent, sauf ce qu'exige un format.</translation>
-    </message>
-    <message>
         <source>The paper's values</source>
         <translation>Valeurs de l'article</translation>
+    </message>
+    <message>
+        <source>The point cloud to check. Its class 2 counts as ground, all other classes do not.</source>
+        <translation>Le nuage de points à vérifier. Sa classe 2 compte comme sol, toutes les autres classes non.</translation>
     </message>
     <message>
         <source>The probability, 0 to 1, that the terrain model is right: low under dense trees, across gaps and at breaks.</source>
@@ -1336,6 +1360,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>The rasters have {:,} x {:,} cells.</source>
         <translation>Les rasters ont {:,} x {:,} cellules.</translation>
+    </message>
+    <message>
+        <source>The removed lazrs is still in use: restart QGIS and try again.</source>
+        <translation>Le lazrs supprimé est encore utilisé : redémarrez QGIS et réessayez.</translation>
     </message>
     <message>
         <source>The same points with their heights above ground.</source>
@@ -1350,8 +1378,8 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Les mêmes points avec leurs vraies classes, dans un ordre quelconque.</translation>
     </message>
     <message>
-        <source>The same points, the key points among them marked.</source>
-        <translation>Les mêmes points, les points clés marqués parmi eux.</translation>
+        <source>The same points, with the key points marked.</source>
+        <translation>Les mêmes points, avec les points clés marqués.</translation>
     </message>
     <message>
         <source>The same raster, with the terrain in place of the objects.</source>
@@ -1366,19 +1394,19 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>La part de points faux dans chaque cellule d'un raster, de 0 à 1.</translation>
     </message>
     <message>
-        <source>The terrain model less a smoothed one: mounds, ditches and old paths stand out.</source>
-        <translation>Le modèle de terrain moins un modèle lissé : les buttes, les fossés et les anciens chemins ressortent.</translation>
+        <source>The terrain model minus a smoothed one. Mounds, ditches and old paths stand out.</source>
+        <translation>Le modèle de terrain moins un modèle lissé. Les buttes, les fossés et les anciens chemins ressortent.</translation>
     </message>
     <message>
         <source>The terrain model, lit by one light or by four.</source>
         <translation>Le modèle de terrain, éclairé par une lumière ou par quatre.</translation>
     </message>
     <message>
-        <source>The values of the method, by terrain. Values of one's own can be given on the command line.</source>
-        <translation>Les valeurs de la méthode, selon le terrain. On peut donner ses propres valeurs dans la ligne de commande.</translation>
+        <source>The values of the method for a kind of terrain. For other values, use the command line or the algorithm of the method.</source>
+        <translation>Les valeurs de la méthode pour un type de terrain. Pour d'autres valeurs, utilisez la ligne de commande ou l'algorithme de la méthode.</translation>
     </message>
     <message>
-        <source>The window that is classified, such as the map's extent; at most 1,000 m wide, and quick up to about 250 x 250 m. It is transformed to the CRS of the points.</source>
+        <source>The window to classify, such as the map's extent: at most 1,000 m wide, and quick up to about 250 x 250 m. It is transformed to the CRS of the points.</source>
         <translation>La fenêtre à classer, par exemple l'emprise de la carte ; au plus 1 000 m de large, et rapide jusqu'à environ 250 x 250 m. Elle est transformée dans le SCR des points.</translation>
     </message>
     <message>
@@ -1394,6 +1422,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Ce Python n'a ni pip ni ensurepip : installez pip pour lui (python3-pip dans Debian et Ubuntu), ou choisissez un fichier wheel.</translation>
     </message>
     <message>
+        <source>This QGIS cannot load the installed lazrs: {}.</source>
+        <translation>Ce QGIS ne peut pas charger le lazrs installé : {}.</translation>
+    </message>
+    <message>
         <source>This QGIS cannot show such a file as a layer. It is at {}.</source>
         <translation>Ce QGIS ne peut pas afficher un tel fichier comme couche. Il se trouve ici : {}.</translation>
     </message>
@@ -1402,12 +1434,16 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Ce QGIS ne peut pas afficher un tel fichier comme couche. Il se trouvera ici : {}.</translation>
     </message>
     <message>
-        <source>This QGIS has no scipy. On Windows, install python3-scipy with the OSGeo4W setup; elsewhere, the scipy of the system or of a newer QGIS.</source>
-        <translation>Ce QGIS n'a pas scipy. Sous Windows, installez python3-scipy avec l'installateur OSGeo4W ; ailleurs, le scipy du système ou d'un QGIS plus récent.</translation>
+        <source>This QGIS has no scipy. On Windows, install python3-scipy with the OSGeo4W setup. Elsewhere, install the scipy of the system, or a newer QGIS.</source>
+        <translation>Ce QGIS n'a pas scipy. Sous Windows, installez python3-scipy avec l'installateur OSGeo4W. Ailleurs, installez le scipy du système, ou un QGIS plus récent.</translation>
     </message>
     <message>
         <source>This QGIS has no {}.</source>
         <translation>Il manque à ce QGIS : {}.</translation>
+    </message>
+    <message>
+        <source>This share of the rise of the ground from point to point, over at most a metre, is added to the ground tolerance. In the paper's preset it is a share of the rise over one cell. Empty: from the preset.</source>
+        <translation>Cette part de la montée du sol d'un point à l'autre, sur un mètre au plus, s'ajoute à la tolérance du sol. Dans le préréglage de l'article, c'est une part de la montée sur une cellule. Vide : d'après le préréglage.</translation>
     </message>
     <message>
         <source>Threads</source>
@@ -1420,10 +1456,6 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Tiles kept</source>
         <translation>Dalles gardées</translation>
-    </message>
-    <message>
-        <source>Tiles that are done stay, if they were made from the same files with the same parameters. All others are classified anew.</source>
-        <translation>Les dalles terminées restent, si elles viennent des mêmes fichiers avec les mêmes paramètres. Toutes les autres sont reclassées.</translation>
     </message>
     <message>
         <source>Time: {seconds:.1f} s</source>
@@ -1446,8 +1478,8 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Ville</translation>
     </message>
     <message>
-        <source>Triangles whose longest edge is shorter take no further point. Empty: never.</source>
-        <translation>Les triangles dont le plus long côté est plus court ne prennent plus de point. Vide : jamais.</translation>
+        <source>Triangles whose longest edge is shorter than this take no more points. Empty: all triangles can take points.</source>
+        <translation>Les triangles dont le plus long côté est plus court que ceci ne prennent plus de points. Vide : tous les triangles peuvent prendre des points.</translation>
     </message>
     <message>
         <source>Tries methods and presets on a part of a point cloud, and shows them side by side.</source>
@@ -1462,8 +1494,8 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Erreur de type II [%]</translation>
     </message>
     <message>
-        <source>Up to LAS 1.3, and for most programs, key points are a class. LAS 1.4 has a flag for them, so that they stay ground.</source>
-        <translation>Jusqu'à LAS 1.3, et pour la plupart des logiciels, les points clés sont une classe. LAS 1.4 a un indicateur pour eux, de sorte qu'ils restent du sol.</translation>
+        <source>Up to LAS 1.3, and in most programs, key points have a class. LAS 1.4 has a flag for them, so that they keep the class of the ground.</source>
+        <translation>Jusqu'à LAS 1.3, et dans la plupart des logiciels, les points clés ont une classe. LAS 1.4 a un indicateur pour eux, de sorte qu'ils gardent la classe du sol.</translation>
     </message>
     <message>
         <source>Virtual point cloud</source>
@@ -1474,48 +1506,12 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Eau</translation>
     </message>
     <message>
-        <source>What a slope of 45 degrees adds to both ground tolerances, less in proportion on gentler slopes.</source>
-        <translation>Ce qu'une pente de 45 degrés ajoute aux deux tolérances du sol, moins en proportion sur des pentes plus douces.</translation>
-    </message>
-    <message>
-        <source>What a slope of 45 degrees adds to the ground tolerance where points are a metre apart. Less in proportion on gentler slopes, and where points are closer.</source>
-        <translation>Ce qu'une pente de 45 degrés ajoute à la tolérance du sol là où les points sont distants d'un mètre. Moins en proportion sur des pentes plus douces, et là où les points sont plus serrés.</translation>
-    </message>
-    <message>
-        <source>What becomes of points that are not ground. Points that were never classified (0) become 1 in either case; noise, withheld points and other classes than those to classify anew stay as they are.</source>
-        <translation>Ce que deviennent les points qui ne sont pas du sol. Les points jamais classés (0) deviennent 1 dans tous les cas ; le bruit, les points retenus (withheld) et les classes autres que celles à reclasser restent tels quels.</translation>
-    </message>
-    <message>
-        <source>What becomes of the decks of bridges. They are found by cross-sections that fall to lower ground on both sides; ramps, dams and embankments stay ground. A classic preset (Whitebox, LiDAR360's, the paper's) does just what the original does.</source>
-        <translation>Ce que deviennent les tabliers de ponts. On les trouve par des profils en travers qui tombent vers un sol plus bas des deux côtés ; les rampes, les digues et les remblais restent du sol. Un préréglage classique (Whitebox, LiDAR360, l'article) fait exactement ce que fait l'original.</translation>
-    </message>
-    <message>
-        <source>What the land is like. automatic: judged by the points.</source>
-        <translation>Comment est le terrain. automatic : jugé d'après les points.</translation>
-    </message>
-    <message>
         <source>Wheel file of lazrs</source>
         <translation>Fichier wheel de lazrs</translation>
     </message>
     <message>
         <source>Wheel files (*.whl)</source>
         <translation>Fichiers wheel (*.whl)</translation>
-    </message>
-    <message>
-        <source>Where one light comes from, clockwise from north; four have their own directions.</source>
-        <translation>D'où vient une lumière seule, dans le sens horaire depuis le nord ; les quatre ont leurs propres directions.</translation>
-    </message>
-    <message>
-        <source>Where the classified files go, each under its name.</source>
-        <translation>Où vont les fichiers classés, chacun sous son nom.</translation>
-    </message>
-    <message>
-        <source>Where the values come from that are left empty: from the points (automatic), or from what suits a kind of terrain. The log says which values were used.</source>
-        <translation>D'où viennent les valeurs des champs vides : des points (automatique), ou de ce qui convient à un type de terrain. Le journal dit quelles valeurs ont servi.</translation>
-    </message>
-    <message>
-        <source>Where the values come from that are left empty: what suits most land (automatic) or a kind of terrain. The log says which values were used.</source>
-        <translation>D'où viennent les valeurs des champs vides : de ce qui convient à la plupart des terrains (automatique) ou à un type de terrain. Le journal dit quelles valeurs ont servi.</translation>
     </message>
     <message>
         <source>Where they differ</source>
@@ -1550,12 +1546,16 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Écrire les hauteurs comme</translation>
     </message>
     <message>
-        <source>Writes a classified point cloud anew with the height of every point above the ground, that is above the triangulation (TIN) of the ground points, or beyond it above the nearest of them. Heights are in the vertical unit of the CRS. They become an extra dimension, HeightAboveGround, or take the place of z; nothing else in the file changes.</source>
-        <translation>Réécrit un nuage de points classé avec la hauteur de chaque point au-dessus du sol, c'est-à-dire au-dessus de la triangulation (TIN) des points sol ou, au-delà, au-dessus du plus proche d'entre eux. Les hauteurs sont dans l'unité verticale du SCR. Elles deviennent une dimension supplémentaire, HeightAboveGround, ou prennent la place de z ; rien d'autre ne change dans le fichier.</translation>
+        <source>Writes only the points inside the extent and the boundary, also to the rasters. Files without such points are not written. If this is off, all files are written with all their points, and points outside keep their class.</source>
+        <translation>N'écrit que les points à l'intérieur de l'emprise et de la limite, aussi dans les rasters. Les fichiers sans de tels points ne sont pas écrits. Sans cette option, tous les fichiers sont écrits avec tous leurs points, et les points à l'extérieur gardent leur classe.</translation>
     </message>
     <message>
-        <source>X and Y of its two ends, in the CRS of the points: X1 Y1 X2 Y2. Empty: straight across the window, from west to east or from south to north, where the terrains differ most.</source>
-        <translation>X et Y de ses deux bouts, dans le SCR des points : X1 Y1 X2 Y2. Vide : droit à travers la fenêtre, d'ouest en est ou du sud au nord, là où les terrains diffèrent le plus.</translation>
+        <source>Writes only the points that have the class of the ground. The log says how many points are left out.</source>
+        <translation>N'écrit que les points qui ont la classe du sol. Le journal dit combien de points sont laissés de côté.</translation>
+    </message>
+    <message>
+        <source>X and Y of both ends, in the CRS of the points: X1 Y1 X2 Y2. Empty: straight across the window where the terrains differ most, from west to east or from south to north.</source>
+        <translation>X et Y des deux bouts, dans le SCR des points : X1 Y1 X2 Y2. Vide : droit à travers la fenêtre là où les terrains diffèrent le plus, d'ouest en est ou du sud au nord.</translation>
     </message>
     <message>
         <source>Z, in place of the elevation</source>
@@ -1658,8 +1658,8 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>pip ne peut pas passer par le proxy SOCKS des préférences de QGIS : choisissez un fichier wheel.</translation>
     </message>
     <message>
-        <source>pip failed without a word</source>
-        <translation>pip a échoué sans un mot</translation>
+        <source>pip gave no reason</source>
+        <translation>pip n'a donné aucune raison</translation>
     </message>
     <message>
         <source>points</source>
@@ -1706,10 +1706,6 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>le disque est plein.</translation>
     </message>
     <message>
-        <source>the folder of the profile may not be written to.</source>
-        <translation>l'écriture dans le dossier du profil n'est pas permise.</translation>
-    </message>
-    <message>
         <source>the package index has none for {}.</source>
         <translation>l'index des paquets n'en a aucun pour {}.</translation>
     </message>
@@ -1734,6 +1730,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>sans objets</translation>
     </message>
     <message>
+        <source>you have no permission to write into the folder of the profile.</source>
+        <translation>vous n'avez pas la permission d'écrire dans le dossier du profil.</translation>
+    </message>
+    <message>
         <source>{file} could not be unzipped: {error}.</source>
         <translation>{file} n'a pas pu être décompressé : {error}.</translation>
     </message>
@@ -1742,7 +1742,7 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>{file} contient {held} ; il faut un wheel de {package}.</translation>
     </message>
     <message>
-        <source>{file} holds {member}, which has no place in a wheel of {package}. Get it anew.</source>
+        <source>{file} holds {member}, which does not belong in a wheel of {package}. Download it again.</source>
         <translation>{file} contient {member}, qui n'a pas sa place dans un wheel de {package}. Téléchargez-le à nouveau.</translation>
     </message>
     <message>
@@ -1786,12 +1786,8 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Fichiers {} (*.{})</translation>
     </message>
     <message>
-        <source>{} is damaged: a file differs from its list. Get it anew.</source>
+        <source>{} is damaged: a file differs from its list. Download it again.</source>
         <translation>{} est endommagé : un fichier diffère de sa liste. Téléchargez-le à nouveau.</translation>
-    </message>
-    <message>
-        <source>{} is not a file of this computer. Download it as .las or .laz first.</source>
-        <translation>{} n'est pas un fichier de cet ordinateur. Téléchargez-le d'abord en .las ou .laz.</translation>
     </message>
     <message>
         <source>{} is not a folder. Check the path.</source>
@@ -1802,12 +1798,16 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>{} n'est pas un nuage de points. Choisissez une couche de nuage de points, ou un fichier .las ou .laz.</translation>
     </message>
     <message>
-        <source>{} is not a wheel, or damaged. Get it anew.</source>
+        <source>{} is not a wheel, or is damaged. Download it again.</source>
         <translation>{} n'est pas un wheel, ou il est endommagé. Téléchargez-le à nouveau.</translation>
     </message>
     <message>
         <source>{} is not a wheel: choose a file with the ending .whl.</source>
         <translation>{} n'est pas un wheel : choisissez un fichier qui se termine par .whl.</translation>
+    </message>
+    <message>
+        <source>{} is not on this computer. Download it as .las or .laz first.</source>
+        <translation>{} n'est pas sur cet ordinateur. Téléchargez-le d'abord en .las ou .laz.</translation>
     </message>
     <message>
         <source>{} must be installed first.</source>

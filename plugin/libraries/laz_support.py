@@ -44,7 +44,7 @@ class LazSupport:
     def state(self) -> str:
         """What there is now, in a sentence."""
         if not self.is_there:
-            return tr("Not there yet: .laz and .copc.laz files cannot be read or written.")
+            return tr("Not installed yet: .laz and .copc.laz files cannot be read or written.")
         if self.is_ours:
             return tr("Ready. The package lazrs is in {}").format(self.folder)
         return tr("Ready. This QGIS has the package lazrs.")
@@ -88,7 +88,7 @@ class LazSupport:
         """Take lazrs out of the profile; return what there is to say about it."""
         if folders.delete(self.folder):
             return tr("Removed.")
-        return tr("Removed; the files that are in use go when QGIS starts next.")
+        return tr("Removed. Files that are in use are removed when QGIS starts next.")
 
     def _fill(self, put: Callable[[Path, Path], None]) -> None:
         """Let `put` fill a new folder, put it in the place of the present one, and try it."""
@@ -100,10 +100,7 @@ class LazSupport:
                 put(new, scratch)
                 if not folders.replace(self.folder, new):
                     raise BareEarthError(
-                        tr(
-                            "The lazrs that was removed is still in use: start QGIS anew and try"
-                            " again."
-                        )
+                        tr("The removed lazrs is still in use: restart QGIS and try again.")
                     )
         except OSError as error:
             raise BareEarthError(tr("lazrs could not be stored: {}.").format(error)) from error
@@ -113,5 +110,5 @@ class LazSupport:
         except Exception as error:
             folders.delete(self.folder)
             raise BareEarthError(
-                tr("The lazrs that was got cannot be loaded by this QGIS: {}.").format(error)
+                tr("This QGIS cannot load the installed lazrs: {}.").format(error)
             ) from error

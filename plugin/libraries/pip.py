@@ -51,7 +51,7 @@ _REASONS = {
     "Retrying (": _UNREACHED,
     "timed out": _UNREACHED,
     "No space left": mark("the disk is full."),
-    "Permission denied": mark("the folder of the profile may not be written to."),
+    "Permission denied": mark("you have no permission to write into the folder of the profile."),
 }
 
 
@@ -162,4 +162,4 @@ def _reason(output: str, build: Build) -> str:
         return tr("the package index has none for {}.").format(build.wheels)
     lines = [line.strip() for line in output.splitlines() if line.strip()]
     errors = [line for line in lines if line.startswith("ERROR")]
-    return (errors or lines or [tr("pip failed without a word")])[-1].rstrip(".") + "."
+    return (errors or lines or [tr("pip gave no reason")])[-1].rstrip(".") + "."

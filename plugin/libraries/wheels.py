@@ -59,7 +59,7 @@ def unpack(wheel: Path, folder: Path, package: str, build: Build) -> None:
                 target.write_bytes(content)
     except _UNREADABLE as error:
         raise BareEarthError(
-            tr("{} is not a wheel, or damaged. Get it anew.").format(wheel.name)
+            tr("{} is not a wheel, or is damaged. Download it again.").format(wheel.name)
         ) from error
     except OSError as error:
         raise BareEarthError(
@@ -109,8 +109,8 @@ def _check_places(
         if odd or parts[0] not in folders or stat.S_ISLNK(member.external_attr >> 16):
             raise BareEarthError(
                 tr(
-                    "{file} holds {member}, which has no place in a wheel of {package}. Get it"
-                    " anew."
+                    "{file} holds {member}, which does not belong in a wheel of {package}."
+                    " Download it again."
                 ).format(file=wheel.name, member=member.filename, package=folders[0])
             )
     if sum(member.file_size for member in members) > _MOST_BYTES:
@@ -130,5 +130,5 @@ def _check_content(content: bytes, expected: str | None, wheel: Path) -> None:
     digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
     if expected != f"sha256={digest}":
         raise BareEarthError(
-            tr("{} is damaged: a file differs from its list. Get it anew.").format(wheel.name)
+            tr("{} is damaged: a file differs from its list. Download it again.").format(wheel.name)
         )

@@ -25,13 +25,13 @@ from .inputs import CloudCrs, features_of, is_empty, polygons_of
 _AREA_FIELDS = {
     "EXTENT": (
         "Extent",
-        "Only points in this rectangle are classified. The others keep their class, but those near"
-        " it help to judge. Empty: all points.",
+        "Only points in this rectangle are classified. Points outside keep their class, but those"
+        " nearby help to judge. Empty: all points.",
     ),
     "BOUNDARY": (
         "Boundary",
-        "Only points in these polygons are classified, of an extent too if there is one. The others"
-        " keep their class, but those near them help to judge. Empty: all points.",
+        "Only points in these polygons are classified; with an extent, only points in both. Points"
+        " outside keep their class, but those nearby help to judge. Empty: all points.",
     ),
 }
 

@@ -13,7 +13,10 @@ from .base import BareEarthAlgorithm, command_line
 from .inputs import PointCloudInput, name_of, source_path
 
 _INPUTS = {
-    "CLASSIFIED": ("Classified point cloud", "Its class 2 counts as ground, all others do not."),
+    "CLASSIFIED": (
+        "Classified point cloud",
+        "The point cloud to check. Its class 2 counts as ground, all other classes do not.",
+    ),
     "REFERENCE": ("Reference", "The same points with their true classes, in any order."),
 }
 _NUMBERS = {
@@ -30,8 +33,9 @@ class AssessAlgorithm(BareEarthAlgorithm):
     summary = "Compares a classified point cloud with a reference: type I and II error, kappa."
     about = (
         "Compares the ground of a classified point cloud with a reference that holds the same"
-        " points. Type I error: the share of the reference's ground that was rejected; type II: of"
-        " all other points, the share that was accepted. The report is a web page with a map."
+        " points. Type I error: the share of the reference's ground that was rejected. Type II"
+        " error: the share of all other points that was accepted as ground. The report is a web"
+        " page with a map."
     )
 
     def parameter_sets(self):

@@ -201,8 +201,8 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         """Return whether the needed packages are there, and if not how to get them."""
         if missing_packages(["scipy"]):
             return False, tr(
-                "This QGIS has no scipy. On Windows, install python3-scipy with the OSGeo4W setup;"
-                " elsewhere, the scipy of the system or of a newer QGIS."
+                "This QGIS has no scipy. On Windows, install python3-scipy with the OSGeo4W setup."
+                " Elsewhere, install the scipy of the system, or a newer QGIS."
             )
         missing = missing_packages(["laspy"])
         # lazrs is needed for .laz only; who reads or writes one is told then.

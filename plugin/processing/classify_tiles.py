@@ -30,8 +30,8 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
     cancelled = TILES_STAY
     summary = "Finds the ground points of the many files of a survey, without seams between them."
     about = (
-        "Classifies the ground points of many files, each as if all were one, and writes each anew"
-        " under its name. A virtual point cloud (.vpc) lists the results."
+        "Classifies the ground points of many files as if they were one file, and writes each file"
+        " under its name into the output folder. A virtual point cloud (.vpc) lists the results."
     )
     shown = "method", "preset"
 

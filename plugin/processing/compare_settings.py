@@ -15,8 +15,8 @@ from .base import BareEarthAlgorithm, command_line
 from .inputs import ANY_CLOUD_HELP, CloudCrs, PointCloudInput, name_of, source_path
 
 _EXTENT_HELP = (
-    "The window that is classified, such as the map's extent; at most 1,000 m wide, and quick up to"
-    " about 250 x 250 m. It is transformed to the CRS of the points."
+    "The window to classify, such as the map's extent: at most 1,000 m wide, and quick up to about"
+    " 250 x 250 m. It is transformed to the CRS of the points."
 )
 
 
@@ -27,11 +27,11 @@ class CompareSettingsAlgorithm(BareEarthAlgorithm):
     title = "Compare settings on a window"
     summary = "Tries methods and presets on a part of a point cloud, and shows them side by side."
     about = (
-        "Classifies the points in a window with each of the settings, without writing any point"
-        " cloud, and makes a web page, opened from the Results Viewer: the terrain of each, a"
-        " profile, the share of ground, where they differ, and how to run each on all points. Of"
-        " COPC only the window is read, which takes seconds; a LAS or LAZ file is read as a"
-        " whole."
+        "Classifies the points in a window with each of the settings, and makes a web page, which"
+        " opens from the Results Viewer. It shows the terrain of each setting, a profile, the"
+        " share of ground, where the settings differ, and how to run each of them on all points."
+        " No point cloud is written. Of a COPC file only the window is read, which takes seconds;"
+        " a LAS or LAZ file is read as a whole."
     )
 
     def parameter_sets(self):

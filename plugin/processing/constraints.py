@@ -25,23 +25,25 @@ _FIELDS = {
         "Breaklines",
         compat.LINES,
         "Lines that no triangle of the terrain crosses: edges of walls, dykes and terraces. A line"
-        " with z has that height; without z, each side of it has the height of the nearest ground"
-        " point there.",
+        " with z has this height. Without z, each side of the line has the height of the nearest"
+        " ground point on that side.",
     ),
     "WATER": (
         "Water",
         compat.POLYGONS,
-        "Polygons of water: flattened to one level, that of the ground along their border.",
+        "Polygons of water. Each is flattened to one level, that of the ground along its border.",
     ),
     "RIVERS": (
         "Rivers",
         compat.LINES,
-        "Lines along which the water in such polygons falls, drawn in either direction.",
+        "Lines along which the level of the water polygons falls. They may be drawn in either"
+        " direction.",
     ),
     "NO_GROUND": (
         "No ground here",
         compat.POLYGONS,
-        "Polygons in which no point is ground, such as bridges and roofs.",
+        "Polygons in which the terrain uses no ground points, such as bridges and roofs. The"
+        " classes of the points do not change.",
     ),
 }
 

@@ -23,13 +23,14 @@ _LAYER, _FIELD = "CORRECTIONS", "CORRECTIONS_FIELD"
 _TEXTS = {
     _LAYER: (
         "Corrections",
-        "Polygons in which the class is known: it holds whatever the filter makes of the points."
-        " Where it is that of the ground, points of the wanted returns are ground; else all points"
-        " get it, and the filter does not see them. Where polygons overlap, the last one counts.",
+        "Polygons in which you know the class. It replaces the result of the filter. If it is the"
+        " class of the ground, points of the chosen returns are ground. Any other class is given"
+        " to all points, and the filter does not use them. Where polygons overlap, the last one"
+        " counts.",
     ),
     _FIELD: (
         "Class of the corrections",
-        "The attribute of these polygons that says their class: 2 is ground, 1 nothing else.",
+        "The attribute of these polygons that holds their class: 2 for ground, 1 for unclassified.",
     ),
 }
 

@@ -21,11 +21,10 @@ class HeightAboveGroundAlgorithm(ProductAlgorithm):
     title = "Height above ground"
     summary = "Adds the height of every point above the ground points of a point cloud."
     about = (
-        "Writes a classified point cloud anew with the height of every point above the ground, that"
-        " is above the triangulation (TIN) of the ground points, or beyond it above the nearest of"
-        " them."
-        " Heights are in the vertical unit of the CRS. They become an extra dimension,"
-        " HeightAboveGround, or take the place of z; nothing else in the file changes."
+        "Adds the height above ground to every point of a classified point cloud: its height above"
+        " the triangulation (TIN) of the ground points or, outside of it, above the nearest ground"
+        " point. Heights are in the vertical unit of the CRS. They become an extra dimension,"
+        " HeightAboveGround, or replace z; nothing else in the file changes."
     )
     page = "height-above-ground"
     cloud_label = "Point cloud with heights"

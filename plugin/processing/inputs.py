@@ -37,16 +37,16 @@ from ..i18n import tr
 _WIDGET = f"{__package__}.widgets.PointCloudWidget"
 # Of the fields of `add_survey` and `add_clouds`.
 _FILES_HELP = (
-    "Files .las, .laz and .copc.laz, virtual point clouds (.vpc), or text files (.txt) with a path"
-    " a line. May be empty if a folder is given."
+    ".las, .laz and .copc.laz files, virtual point clouds (.vpc), or text files (.txt) with one"
+    " path in each line. May stay empty if a folder is given."
 )
 _FOLDER_HELP = (
-    "All .las, .laz and .copc.laz files in it are taken, too. Many files are one survey, without"
-    " seams."
+    "All .las, .laz and .copc.laz files in this folder are used, too. All files together are one"
+    " survey, without seams."
 )
 _SURVEY_HELP = (
     "A point cloud layer, a .las, .laz or .copc.laz file, a virtual point cloud (.vpc), or a text"
-    " file (.txt) with a path a line. May be empty if a folder is given."
+    " file (.txt) with one path in each line. May stay empty if a folder is given."
 )
 # Of others.
 CLOUD_HELP = "A point cloud layer, or a .las, .laz or .copc.laz file."
@@ -295,7 +295,7 @@ def _path_of(layer: QgsMapLayer) -> Path:
     path = parts.get("path") or layer.source()
     if "://" in path:
         raise BareEarthError(
-            tr("{} is not a file of this computer. Download it as .las or .laz first.").format(
+            tr("{} is not on this computer. Download it as .las or .laz first.").format(
                 layer.name()
             )
         )

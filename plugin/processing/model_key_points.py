@@ -19,16 +19,17 @@ class ModelKeyPointsAlgorithm(ProductAlgorithm):
 
     identifier = "modelkeypoints"
     title = "Classify model key points"
-    summary = "Finds the few ground points whose triangulation is as good as that of all of them."
+    summary = "Finds the few ground points that make as good a terrain model as all of them."
     about = (
-        "Chooses, of the ground points of a classified point cloud, the few that a terrain model"
-        " needs: no other ground point lies farther above or below their triangulation (TIN) than"
-        " the tolerances. They get a class of their own, or the key-point flag; nothing else in the"
-        " file changes.\nLengths are metres, whatever the unit of the CRS."
+        "Finds the few ground points of a classified point cloud that a terrain model needs. Of"
+        " all other ground points, none lies farther above or below the triangulation (TIN) of"
+        " these key points than the tolerances. Key points get a class of their own, or the"
+        " key-point flag; nothing else in the file changes.\n"
+        "Lengths are metres, whatever the unit of the CRS."
     )
     page = "model-key-points"
     cloud_label = "Point cloud with key points"
-    cloud_help = "The same points, the key points among them marked."
+    cloud_help = "The same points, with the key points marked."
     numbers = (
         ("POINT_COUNT", "Points"),
         ("GROUND_COUNT", "Ground points"),

@@ -23,16 +23,14 @@ from .. import compat
 from ..i18n import mark, tr
 
 NOTHING_STAYS = mark("Cancelled; nothing was written.")
-TILES_STAY = mark(
-    "Cancelled; the tiles that are finished stay, and a later run can go on with them."
-)
+TILES_STAY = mark("Cancelled. The finished tiles stay, and a later run can continue with them.")
 _MODELS = {name.upper(): each for name, each in MODELS.items()}
 # Label and help of each raster that can be made, by the name of its field.
 RASTERS = {
     **{name: (each.label, each.help) for name, each in _MODELS.items()},
     "RELIEF": (
         "Local relief",
-        "The terrain model less a smoothed one: mounds, ditches and old paths stand out.",
+        "The terrain model minus a smoothed one. Mounds, ditches and old paths stand out.",
     ),
 }
 
@@ -74,12 +72,12 @@ def add_tiles(algorithm: QgsProcessingAlgorithm) -> None:
     filters = tr("{} files (*.{})").format("VPC", "vpc")
     algorithm.addParameter(
         QgsProcessingParameterFolderDestination("OUTPUT_FOLDER", folder),
-        "Where the classified files go, each under its name.",
+        "The folder for the classified files. Each keeps its name.",
     )
     algorithm.addParameter(
         QgsProcessingParameterFileDestination("OUTPUT_VPC", vpc, filters, None, True, False),
-        "A list of the classified files, which QGIS shows as one layer from 3.32 on. Without a name"
-        " it goes into their folder.",
+        "A list of the classified files, which QGIS 3.32 and newer shows as one layer. Without a"
+        " name it is classified.vpc in their folder.",
     )
 
 

@@ -28,8 +28,8 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
     title, section, run_name = "Point cloud to terrain", "All in one", mark("terrain")
     summary = "Makes a map of the terrain of a raw point cloud: classes, models, contours."
     about = (
-        "Finds the ground of a raw lidar point cloud and makes maps of it, of which any may be"
-        " left out. Local relief shows small features. Lengths are metres."
+        "Finds the ground of a raw lidar point cloud and makes maps of it. Each output is"
+        " optional. Local relief shows small features. Lengths are metres."
     )
     shown = "method", "preset", "dtm_cell_size"
 

@@ -18,7 +18,7 @@ def presets_of(sets: Sequence[type[ParameterSet]]) -> str:
     """Return what the presets among some parameters stand for, in HTML; empty if there are none."""
     methods = [each for each in METHODS.values() if each.parameters in sets or TileMethod in sets]
     tables = "".join(f"{tr(each.label)}:{_table(each)}" for each in methods if each.presets)
-    words = tr("<b>Values of the presets</b>, where they differ and a field is left empty")
+    words = tr("<b>Values of the presets</b> for fields that are left empty")
     return f"{words}<br/>{tables}" if tables else ""
 
 

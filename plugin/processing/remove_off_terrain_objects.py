@@ -23,12 +23,13 @@ class RemoveOffTerrainObjectsAlgorithm(BareEarthAlgorithm):
     identifier = "removeoffterrainobjects"
     title = "Remove off-terrain objects"
     section = "Products"
-    summary = "Takes buildings, trees and other steep-sided objects out of an elevation raster."
+    summary = "Removes buildings, trees and other steep-sided objects from an elevation raster."
     about = (
-        "Makes a terrain model of a surface model where there is no point cloud. What stands above"
-        " the terrain round it with steep edges on all sides, and is not larger than the largest"
-        " object, is removed, and the gaps are filled smoothly. Hills and slopes stay.\nThe output"
-        " has the same grid, CRS and unit. Lengths are metres, whatever the unit of the CRS."
+        "Makes a terrain model from a surface model, if there is no point cloud. Removes what"
+        " stands above the terrain around it, has steep edges on all sides and is not wider than"
+        " the maximum object size. Fills the gaps smoothly. Hills and slopes stay.\n"
+        "The output has the same grid, CRS and unit. Lengths are metres, whatever the unit of the"
+        " CRS."
     )
     page = "remove-off-terrain-objects"
 

@@ -88,7 +88,7 @@ def test_of_many_files_those_outside_are_not_written(inputs, tmp_path, las):
     assert (summary.done_count, summary.tile_count) == (4, 4) and not summary.failures
     assert summary.point_count == in_area(laspy.read(inputs / "all.laz")).sum()
     assert summary.ground_count == (laspy.read(one).classification == 2).sum()
-    assert "2 files are not written: they have nothing in the area." in heard.infos
+    assert "2 files are not written: they have no points to write in the area." in heard.infos
 
 
 def test_a_file_within_the_bounds_but_without_a_point_is_not_written(inputs, tmp_path):
@@ -160,7 +160,7 @@ def test_an_area_that_meets_no_point_is_told(inputs, tmp_path, las):
     # Between the files' points, though within their bounds.
     x, y, _ = strip(12_000, 300.0, 150.0)[0] / 100
     gap = Area((EAST + x + 0.002, NORTH + y + 0.002, EAST + x + 0.008, NORTH + y + 0.008))
-    with pytest.raises(BareEarthError, match="None of the files has points in the area"):
+    with pytest.raises(BareEarthError, match="None of the files has points to write"):
         classify([inputs / "in"], tmp_path / "many", replace(ONLY, area=gap))
     heard = las.Heard()
     classify([inputs / "in"], tmp_path / "all", replace(ALL, area=gap), heard)

@@ -116,7 +116,7 @@ def test_compressed_points_without_the_record_that_says_how(las):
     path = las.make("in.laz")
     data = path.read_bytes().replace(b"laszip encoded", b"something else")
     path.write_bytes(data)
-    refused(path, "no word on how")
+    refused(path, "does not say how")
 
 
 def test_a_file_that_must_not_be_read(las, monkeypatch):

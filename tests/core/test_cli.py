@@ -117,7 +117,7 @@ def test_a_terminal_gets_a_bar_and_messages(file, out, capsys, monkeypatch):
         (["classify", "{in}", "out.txt"], "out.txt"),
         (["classify", "{in}", "o.las", "--dtm", "a.tif", "--hillshade", "a.tif"], "same file"),
         (["classify", "{in}", "nowhere/out.las"], "does not exist"),
-        (["classify", "{in}", "out.las", "--from-classes", "6"], "has the classes 1."),
+        (["classify", "{in}", "out.las", "--from-classes", "6"], "has only the classes 1."),
         (["classify", "{in}", "out.las", "--extent", "0", "0", "9", "9"], "lies in the area"),
         (["classify", "{in}", "out.las", "--boundary", "missing.wkt"], "missing.wkt"),
         (["classify", "{in}", "out.las", "--boundary", "{in}"], "GeoJSON"),
@@ -244,19 +244,19 @@ def test_the_help_names_each_option_with_its_default(method, capsys, monkeypatch
             assert " ".join(each.help.split()) in text
 
 
-def test_an_empty_parameter_is_not_used_or_automatic_as_its_help_says(capsys):
+def test_an_empty_parameter_is_automatic_as_its_help_says(capsys):
     for method in METHODS.values():
         for each in method.parameters.declarations():
             if each.default is None:
-                never = "Empty: never" in each.help
-                assert each.empty == ("not used" if never else "automatic"), each.name
+                assert each.empty == "automatic", each.name
     assert (
         "Empty: the usual distance between points, at least 1 m. (default: automatic)"
         in help_of(capsys, "--method", "slope")
     )
     text = help_of(capsys)
     assert "(default: all but noise)" in text and "(default: none)" in text
-    assert "(default: 1.0 m)" in text
+    assert "(default: 1.0 m)" in text and "(default: off)" in text
+    assert "give the word none" in text
 
 
 # What reaches the classifier
@@ -303,6 +303,8 @@ def test_a_parameter_can_be_left_empty(word, monkeypatch):
     calls = heard_by_classify(monkeypatch)
     assert run("classify", "in.las", "out.las", "--stop-edge", word) == 0
     assert calls[0].parameters.stop_edge is None
+    assert run("classify", "in.las", "out.las", "--from-classes", word) == 0
+    assert calls[1].selection.from_classes is None
 
 
 def test_rasters_and_area_reach_the_classifier(monkeypatch, tmp_path):

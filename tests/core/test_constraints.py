@@ -205,7 +205,7 @@ def test_a_run_that_classifies_makes_the_terrain_of_what_it_writes(tmp_path, how
 
 def test_a_run_without_rasters_takes_no_lines(tmp_path):
     line = (_line((0.0, 80.0, 1.0), (SIZE, 80.0, 1.0)),)
-    with pytest.raises(BareEarthError, match="name one to make"):
+    with pytest.raises(BareEarthError, match="Choose a raster to make"):
         ClassifyRequest(constraints=Constraints(breaklines=line))
 
 
@@ -244,8 +244,8 @@ def test_lines_far_from_any_ground_are_told(wall, tmp_path, las):
         constraints=Constraints(breaklines=(line,), water=(_square(800.0, 800.0, 850.0, 850.0),)),
     )
     terrain(source, request, heard)
-    assert any("1 breaklines have no z" in each for each in heard.warnings)
-    assert any("1 waters have no ground" in each for each in heard.warnings)
+    assert any("Breaklines left out: 1." in each for each in heard.warnings)
+    assert any("water that are not flattened: 1." in each for each in heard.warnings)
 
 
 @pytest.mark.parametrize(

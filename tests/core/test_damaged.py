@@ -491,5 +491,5 @@ def test_a_pipe_is_not_waited_for(tmp_path, name):
     os.mkfifo(path)
     readers = {".vpc": read_vpc, ".txt": lambda each: open_collection([each])}
     readers[".geojson"] = read_boundary
-    with pytest.raises(BareEarthError, match="is no file, but a pipe"):
+    with pytest.raises(BareEarthError, match="is a pipe or a device"):
         readers.get(path.suffix, read_cloud)(path)

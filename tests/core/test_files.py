@@ -239,7 +239,7 @@ def test_names_as_long_as_can_be_are_written_and_longer_ones_refused_at_once(tmp
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with names here")
 def test_a_pipe_is_no_output(tmp_path):
     os.mkfifo(tmp_path / "a.las")
-    with pytest.raises(BareEarthError, match="it is no file"):
+    with pytest.raises(BareEarthError, match="a pipe, not a file"):
         check_output(tmp_path / "a.las")
 
 

@@ -124,7 +124,7 @@ def test_cells_given_by_hand_or_by_the_paper_stay_and_a_warning_tells_of_gaps(pa
     assert parameters.resolve(points).cell_size == 0.5
     classify(points, parameters, log)
     assert len(log.warnings) == 1 and "too few for cells of 0.5 m" in log.warnings[0]
-    assert "Give 1 m" in log.warnings[0]
+    assert "Give a cell size of 1 m" in log.warnings[0]
 
 
 def test_the_log_says_which_values_the_preset_chose_and_they_give_the_same_again():

@@ -210,7 +210,7 @@ BAD = {
     "text": (lambda path: path.write_text("not a raster"), "Cannot read"),
     "missing": (lambda path: None, "does not exist"),
     "no data": (lambda path: write(path, np.full((9, 9), np.nan)), "no height in band 1"),
-    "complex": (lambda path: write(path, terrain(), dtype="complex64"), "no heights"),
+    "complex": (lambda path: write(path, terrain(), dtype="complex64"), "not heights"),
 }
 
 

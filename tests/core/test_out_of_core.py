@@ -223,7 +223,7 @@ def test_a_full_disk_is_told_in_a_sentence(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("selection", "area", "word"),
     [
-        (Selection(from_classes=(64,)), None, r"it has the classes 1, 2, 5, 7, 9\. Choose among"),
+        (Selection(from_classes=(64,)), None, r"only the classes 1, 2, 5, 7, 9\. Choose the"),
         (Selection(to_class=256 - 1), Area((0.0, 0.0, 1.0, 1.0)), "the points have x 500000 to"),
     ],
 )

@@ -88,8 +88,8 @@ def test_no_warning_of_return_numbers_where_all_returns_are_wanted(las):
 @pytest.mark.parametrize(
     ("selection", "cloud", "text"),
     [
-        (Selection(), cloud_of([7, 18]), r"classes 7, 18\. Choose among them"),
-        (Selection(from_classes=(2,)), cloud_of([1, 5]), r"has the classes 1, 5"),
+        (Selection(), cloud_of([7, 18]), r"classes 7, 18\. Choose the classes"),
+        (Selection(from_classes=(2,)), cloud_of([1, 5]), r"has only the classes 1, 5"),
         (Selection(), cloud_of([1, 1], withheld=[1, 1]), "withheld. Clear that flag"),
         (Selection(), cloud_of([1], number=[1], total=[2]), "Choose all returns instead"),
         (Selection(), cloud_of([1], crs=Crs(is_geographic=True)), "not in a projected CRS"),
@@ -153,7 +153,7 @@ def test_only_points_within_take_part(las):
 @pytest.mark.parametrize(
     ("selection", "cloud", "text"),
     [
-        (Selection(), cloud_of([1, 7, 18]), r"in the area is left .* has the classes 7, 18\."),
+        (Selection(), cloud_of([1, 7, 18]), r"in the area can be classified.* the classes 7, 18\."),
         (Selection(), cloud_of([1, 1, 1], withheld=[0, 1, 1]), "in the area are withheld"),
         (Selection(), cloud_of([1] * 3, [1] * 3, [1, 2, 2]), "in the area is a last or single"),
     ],
@@ -178,7 +178,7 @@ def test_known_ground_takes_part_whatever_its_return_and_class_but_not_withheld(
 
 
 def test_known_ground_alone_is_nothing_to_classify():
-    with pytest.raises(BareEarthError, match="left to classify"):
+    with pytest.raises(BareEarthError, match="can be classified"):
         selected_by(Selection(from_classes=(1,), seed_classes=(2,)), cloud_of([2, 2]), SILENT)
 
 

@@ -168,7 +168,7 @@ def test_messages_that_differ_in_names_and_numbers_only_are_told_once(tmp_path, 
     (told,) = (each for each in heard.warnings if "return number" in each)
     assert told == (
         "0.laz: 3 points have no return number: they are taken as single returns."
-        " (And 3 times the like.)"
+        " (And 3 more like this.)"
     )
 
 
@@ -294,7 +294,7 @@ def test_other_parameters_or_inputs_make_tiles_anew_where_they_matter(six, out, 
     survey = dict(output=RESUME, blocks=Blocks(40.0, 5.0))
     other, heard = dataclasses.replace(FAST, height_threshold=0.4), las.Heard()
     assert classify_tiles([six], out, other, progress=heard, **survey).kept_count == 0
-    assert any("6 files that were done are made anew" in each for each in heard.infos)
+    assert any("6 finished files are made again" in each for each in heard.infos)
     assert classify_tiles([six], out, other, **survey).kept_count == 6
     selection = Selection(others="unclassified")
     assert classify_tiles([six], out, other, selection, **survey).kept_count == 0
@@ -367,7 +367,7 @@ def test_a_killed_run_goes_on_and_gives_the_same_bytes(number, many, out):
     done = changed_times(out)
     assert 1 <= len(done) < 16
     if number == signal.SIGTERM:
-        assert run.returncode == 1 and "Go on with --resume" in said
+        assert run.returncode == 1 and "Continue with --resume" in said
         assert not [path for path in out.rglob("*") if ".part." in path.name]
     for path in finished(out):
         laspy.read(path)
@@ -394,7 +394,7 @@ def test_broken_tiles_are_told_at_the_end_and_the_others_done(
     assert [Path(path).name for path in summary.failures] == ["1.laz", "9.laz"]
     assert summary.done_count == 5 and summary.tile_count == 7
     assert set(bytes_of(out)) == {"0.laz", "2.laz", "3.laz", "4.laz", "5.laz"}
-    assert any("beside 1.laz is made without its points" in each for each in heard.warnings)
+    assert any("1.laz is left out: the results beside it" in each for each in heard.warnings)
     assert len(read_vpc(out / "classified.vpc")) == 5
     assert main(["classify-tiles", str(six), str(out), "--method", "slope", "--json"]) == 1
     said = capsys.readouterr()
@@ -412,7 +412,7 @@ def test_tiles_without_ground_or_points_to_classify_are_told(six, out):
     write(six / "noise.laz", high, classes=7)
     summary = classify_tiles([six], out, FAST)
     (reason,) = summary.failures.values()
-    assert "No point of" in reason and "left to classify" in reason
+    assert "No point of" in reason and "can be classified" in reason
     assert summary.done_count == 6
 
 

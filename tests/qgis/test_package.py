@@ -313,7 +313,7 @@ def test_a_wheel_for_another_python_is_refused(qgis, tmp_path):
         """,
         wheel=wheel,
     )
-    assert answer["result"] == "lazrs.whl is not a wheel, or damaged. Get it anew."
+    assert answer["result"] == "lazrs.whl is not a wheel, or is damaged. Download it again."
 
 
 def test_pip_gets_it_or_the_reason_is_told(qgis, tmp_path):

@@ -5,12 +5,12 @@ from .filter import CLASSIC, PRESETS, GridMinimum, classify, largest_object, rea
 
 _SUMMARY = "Finds the ground points of a lidar point cloud by rules on the lowest points of cells."
 _ABOUT = (
-    "Finds the ground points of airborne or drone lidar on a grid of lowest points, and writes"
-    " the point cloud anew with their class; nothing else in it changes. Steps between"
-    " neighbouring cells are the rims of objects; what such rims enclose is removed, the tall"
-    " objects first. It needs heights only, no returns, and is fast.\nLengths are metres and"
-    " angles degrees, whatever the unit of the CRS. The terrain model and its hillshade are"
-    " GeoTIFFs."
+    "Finds the ground points of airborne or drone lidar on a grid of lowest points, and writes a"
+    " point cloud with the new classes; nothing else in it changes. Steps between neighbouring"
+    " cells are the rims of objects. What such rims enclose is removed, tall objects first. The"
+    " method is fast, and needs only heights, no return numbers.\n"
+    "Lengths are metres and angles degrees, whatever the unit of the CRS. The terrain model and"
+    " its hillshade are GeoTIFFs."
 )
 METHOD = Method(
     "grid-minimum",

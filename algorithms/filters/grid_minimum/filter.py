@@ -111,7 +111,7 @@ class GridMinimum(ParameterSet):
         "automatic",
         label="Preset",
         choices={name: preset.label for name, preset in PRESETS.items()},
-        help="Where the values come from that are left empty: what suits most land (automatic) or a"
+        help="Sets the fields that are left empty, to values that suit most land (automatic) or a"
         " kind of terrain. The log says which values were used.",
     )
     cell_size: float | None = parameter(
@@ -122,9 +122,9 @@ class GridMinimum(ParameterSet):
         maximum=100.0,
         kind="number",
         empty="automatic",
-        help="Side of the square cells whose lowest points are compared. Smaller ones follow finer"
-        " terrain, if they hold a point, and hold more rims of low plants. Empty: from the preset;"
-        " where such a cell would hold less than a point, more.",
+        help="Side of the square cells whose lowest points are compared. Smaller cells follow"
+        " finer terrain if they hold at least one point, but have more rims at low plants. Empty:"
+        " from the preset, or larger if points are too sparse for it.",
     )
     height_thresholds: tuple[float, ...] | None = parameter(
         None,
@@ -134,8 +134,8 @@ class GridMinimum(ParameterSet):
         maximum=1000.0,
         kind="numbers",
         empty="automatic",
-        help="One pass for each, from the largest: of two neighbouring cells that differ by more,"
-        " the higher is the rim of an object. Empty: from the preset.",
+        help="One pass for each threshold, the largest first. If two neighbouring cells differ by"
+        " more than the threshold, the higher one is the rim of an object. Empty: from the preset.",
     )
     final_height: float | None = parameter(
         None,
@@ -145,8 +145,8 @@ class GridMinimum(ParameterSet):
         maximum=100.0,
         kind="number",
         empty="automatic",
-        help="In the last pass whatever stands this far above the ground beside it is removed:"
-        " bushes, cars, walls. Larger spares rough ground. Empty: from the preset.",
+        help="The last pass removes whatever stands this far above the ground beside it: bushes,"
+        " cars, walls. A larger value keeps more of rough ground. Empty: from the preset.",
     )
     max_object_size: float | None = parameter(
         None,
@@ -156,7 +156,7 @@ class GridMinimum(ParameterSet):
         maximum=1000.0,
         kind="number",
         empty="automatic",
-        help="Shorter side of the largest building. What is wider is terrain. Empty: from the"
+        help="Shorter side of the largest building. Anything wider is terrain. Empty: from the"
         " preset.",
     )
     ground_tolerance: float | None = parameter(
@@ -168,8 +168,8 @@ class GridMinimum(ParameterSet):
         kind="number",
         empty="automatic",
         advanced=True,
-        help="Points no higher above the ground's surface are ground, in level terrain. Empty: from"
-        " the preset.",
+        help="In level terrain, points up to this height above the surface of the ground are"
+        " ground. Empty: from the preset.",
     )
     slope_tolerance: float | None = parameter(
         None,
@@ -179,9 +179,9 @@ class GridMinimum(ParameterSet):
         kind="number",
         empty="automatic",
         advanced=True,
-        help="Share of the ground's rise from point to point, over a metre at most, that is added"
-        " to the ground tolerance; in the paper's preset, of its rise over one cell. Empty: from"
-        " the preset.",
+        help="This share of the rise of the ground from point to point, over at most a metre, is"
+        " added to the ground tolerance. In the paper's preset it is a share of the rise over one"
+        " cell. Empty: from the preset.",
     )
 
     def __post_init__(self) -> None:
@@ -366,7 +366,7 @@ def _tell_of_gaps(density: float, parameters: GridMinimum, progress: Progress) -
     if multiple > 1:
         progress.warning(
             f"{density:.2g} points/m2 are too few for cells of {size:g} m: the rims of objects"
-            f" have gaps. Give {multiple * size:g} m, or leave the cell size to another preset."
+            f" have gaps. Give a cell size of {multiple * size:g} m, or choose another preset."
         )
 
 

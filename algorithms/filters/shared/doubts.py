@@ -38,9 +38,10 @@ def tell_of_extent(points: Points, largest: float, name: str, progress: Progress
     """
     if min(np.ptp(points.x), np.ptp(points.y)) < largest:
         progress.warning(
-            f"In one direction the points reach less than {largest:g} m, the width of the largest"
-            " object to be expected: one at their border, or all over them, may be taken for"
-            f" ground. Add the points round them, or say how wide the largest is ({name})."
+            f"In one direction the points reach less than {largest:g} m, the expected width of the"
+            " largest object. An object at their border, or one that covers all of them, may be"
+            " taken for ground. Add the points around them, or give the width of the largest"
+            f" object ({name})."
         )
 
 
@@ -60,8 +61,8 @@ def tell_of_little_ground(points: Points, ground: np.ndarray, progress: Progress
     if np.count_nonzero(cells.holding(ground)) < _LEAST_GROUND * np.count_nonzero(cells.occupied):
         progress.warning(
             f"Hardly any ground was found: fewer than {100 * _LEAST_GROUND:g} % of the square"
-            " metres with points have some. The terrain between is guessed. Check the"
-            " selection of points (returns, classes) and look at the result; in steep land try the"
+            " metres with points have ground points. The terrain between them is a guess. Check"
+            " the selection of points (returns, classes) and the result. In steep land, try the"
             " preset for it."
         )
 

@@ -4,12 +4,12 @@ from ..method import Method, Toolbox
 from .filter import CLASSIC, MANY_SCALES, SlopeFilter, classify, largest_object, reach
 
 _ABOUT = (
-    "Finds the ground points of airborne or drone lidar by slopes, and writes the point cloud"
-    " anew with their class; nothing else in it changes. A point that stands above a neighbour"
-    " by more than the terrain can is not ground. The preset Automatic compares on many scales"
-    " and follows the terrain; the preset Whitebox repeats WhiteboxTools'"
-    " LidarGroundPointFilter.\nLengths are metres and angles degrees, whatever the unit of the"
-    " CRS. The terrain model and its hillshade are GeoTIFFs."
+    "Finds the ground points of airborne or drone lidar by slopes, and writes a point cloud with"
+    " the new classes; nothing else in it changes. A point is not ground if it stands higher above"
+    " a neighbour than terrain can. The preset Automatic compares points on many scales and"
+    " follows the terrain; the preset Whitebox repeats WhiteboxTools' LidarGroundPointFilter.\n"
+    "Lengths are metres and angles degrees, whatever the unit of the CRS. The terrain model and"
+    " its hillshade are GeoTIFFs."
 )
 METHOD = Method(
     "slope",
@@ -24,7 +24,7 @@ METHOD = Method(
     Toolbox(
         "slopefilter",
         "Classify ground (slope filter)",
-        "Finds the ground points of a lidar point cloud by the slopes between neighbours.",
+        "Finds the ground points of a lidar point cloud by the slopes between neighbouring points.",
         _ABOUT,
         "slope-filter",
         ("slope,vosselman,whitebox,top-hat",),

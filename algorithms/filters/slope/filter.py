@@ -102,9 +102,9 @@ class SlopeFilter(ParameterSet):
             "city": "City, large halls",
             CLASSIC: "Whitebox (one scale, 2 m, 45 deg, 1 m)",
         },
-        help="Automatic finds buildings as well as shrubs; the kinds of terrain do so with other"
-        " values for what is left empty. Whitebox is the classic filter with the"
-        " values of WhiteboxTools: its radius of 2 m cannot see a building.",
+        help="Sets the fields that are left empty. Automatic and the kinds of terrain remove"
+        " buildings as well as shrubs. Whitebox is the classic filter with the values of"
+        " WhiteboxTools: within its radius of 2 m it cannot find a building.",
     )
     search_radius: float | None = parameter(
         None,
@@ -114,9 +114,9 @@ class SlopeFilter(ParameterSet):
         maximum=500.0,
         kind="number",
         empty="automatic",
-        help="How far a point is compared with its neighbours, the largest distance in the"
-        " automatic preset: at least half the shorter side of the largest building. Empty: 18 m"
-        " (more if points are sparse), or 2 m in the preset Whitebox.",
+        help="Points are compared with their neighbours up to this distance. Choose at least half"
+        " the shorter side of the largest building. Empty: from the preset, 18 m in the automatic"
+        " one (more if points are sparse), 2 m in Whitebox.",
     )
     min_neighbours: int = parameter(
         0,
@@ -125,7 +125,7 @@ class SlopeFilter(ParameterSet):
         minimum=0,
         maximum=10_000,
         help="A point with fewer neighbours within the search radius is compared with this many"
-        " nearest ones. For the preset Whitebox only.",
+        " nearest points. Only for the preset Whitebox.",
     )
     slope_threshold: float | None = parameter(
         None,
@@ -135,9 +135,9 @@ class SlopeFilter(ParameterSet):
         maximum=88.0,
         kind="number",
         empty="automatic",
-        help="A point is not ground if it stands above a neighbour at a steeper slope than this;"
-        " in the automatic preset, steeper by this than the terrain round it. Empty: 15 deg, or"
-        " 45 deg in the preset Whitebox.",
+        help="A point is not ground if it stands above a neighbour at a steeper slope than this."
+        " In all presets but Whitebox, the slope of the terrain around the point is added to it."
+        " Empty: from the preset, 15 deg in most, 45 deg in Whitebox.",
     )
     height_threshold: float | None = parameter(
         None,
@@ -147,14 +147,14 @@ class SlopeFilter(ParameterSet):
         maximum=100.0,
         kind="number",
         empty="automatic",
-        help="Only points that stand above a neighbour by at least this much are not ground."
-        " Empty: 0.5 m, or 1 m in the preset Whitebox.",
+        help="A point is not ground only if it stands at least this high above a neighbour. Empty:"
+        " from the preset, 0.5 m in most, 1 m in Whitebox.",
     )
     slope_norm: bool = parameter(
         True,
         label="Slope normalisation",
-        help="Compare heights above a surface that follows the terrain (white top-hat) instead of"
-        " heights, so that sloping ground is not lost.",
+        help="Compares heights above a surface that follows the terrain (white top-hat), not"
+        " elevations, so that ground on slopes is not lost.",
     )
     cell_size: float | None = parameter(
         None,
@@ -165,8 +165,8 @@ class SlopeFilter(ParameterSet):
         kind="number",
         empty="automatic",
         advanced=True,
-        help="Side of the cells whose lowest points are compared in the automatic preset. Empty:"
-        " the usual distance between points, at least 1 m.",
+        help="Side of the cells whose lowest points are compared. Not used with the preset"
+        " Whitebox. Empty: the usual distance between points, at least 1 m.",
     )
     max_building_size: float | None = parameter(
         None,
@@ -176,9 +176,9 @@ class SlopeFilter(ParameterSet):
         maximum=500.0,
         kind="number",
         empty="automatic",
-        help="Shorter side of the largest building, which is found by the drop all round it even"
-        " if it is wider than two search radii. Empty: 100 m, or two search radii where that is"
-        " given. Not for the preset Whitebox.",
+        help="Shorter side of the largest building. Buildings wider than two search radii are"
+        " found by the drop on all their sides. Empty: from the preset, or two search radii if the"
+        " search radius is given. Not used with the preset Whitebox.",
     )
     ground_tolerance: float = parameter(
         0.18,
@@ -187,8 +187,8 @@ class SlopeFilter(ParameterSet):
         minimum=0.0,
         maximum=10.0,
         advanced=True,
-        help="Points no higher above the surface through the ground are ground, in level terrain."
-        " Not for the preset Whitebox.",
+        help="In level terrain, points up to this height above the surface through the ground are"
+        " ground. Not used with the preset Whitebox.",
     )
     slope_tolerance: float = parameter(
         1.4,
@@ -197,8 +197,8 @@ class SlopeFilter(ParameterSet):
         minimum=0.0,
         maximum=10.0,
         advanced=True,
-        help="What a slope of 45 degrees adds to the ground tolerance where points are a metre"
-        " apart. Less in proportion on gentler slopes, and where points are closer.",
+        help="Added to the ground tolerance on a slope of 45 degrees, if points are a metre apart."
+        " Less is added, in proportion, on gentler slopes and if points are closer.",
     )
 
     def resolve(self, points: Points) -> SlopeFilter:

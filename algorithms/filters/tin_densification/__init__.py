@@ -5,10 +5,11 @@ from .filter import CLASSIC, PRESETS, TinDensification, classify, largest_object
 
 _ABOUT = (
     "Finds the ground points of airborne or drone lidar by progressive TIN densification, and"
-    " writes the point cloud anew with their class; nothing else in it changes. It starts from"
-    " a sparse triangulation of points that are surely ground and adds, round by round, the"
-    " points that lie close to it.\nLengths are metres and angles degrees, whatever the unit of"
-    " the CRS. The terrain model and its hillshade are GeoTIFFs."
+    " writes a point cloud with the new classes; nothing else in it changes. The filter starts"
+    " from a sparse triangulation (TIN) of points that are surely ground. Round by round it adds"
+    " points that lie close to the TIN.\n"
+    "Lengths are metres and angles degrees, whatever the unit of the CRS. The terrain model and"
+    " its hillshade are GeoTIFFs."
 )
 METHOD = Method(
     "tin-densification",

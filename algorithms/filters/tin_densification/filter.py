@@ -83,8 +83,8 @@ class TinDensification(ParameterSet):
         "automatic",
         label="Preset",
         choices={name: preset.label for name, preset in PRESETS.items()},
-        help="Where the values come from that are left empty: from the points (automatic), or from"
-        " what suits a kind of terrain. The log says which values were used.",
+        help="Sets the fields that are left empty: from the points (automatic), or to values that"
+        " suit a kind of terrain. The log says which values were used.",
     )
     max_building_size: float | None = parameter(
         None,
@@ -94,9 +94,9 @@ class TinDensification(ParameterSet):
         maximum=500.0,
         kind="number",
         empty="automatic",
-        help="Shorter side of the largest building or other object. Whatever is narrower and stands"
-        " out from its surroundings gives no seed of the ground. Too large costs time and sharp"
-        " hilltops. Empty: from the preset.",
+        help="Shorter side of the largest building or other object. Nothing that is narrower and"
+        " stands out from its surroundings can be a seed of the ground. A value that is too large"
+        " takes longer and loses sharp hilltops. Empty: from the preset.",
     )
     max_terrain_angle: float = parameter(
         88.0,
@@ -104,8 +104,8 @@ class TinDensification(ParameterSet):
         unit="deg",
         minimum=1.0,
         maximum=89.9,
-        help="Steepest slope of the ground. On steeper triangles a point is judged by its mirror"
-        " image beyond the nearest vertex.",
+        help="Steepest slope of the ground. In steeper triangles, the mirror image of a point"
+        " beyond the nearest vertex is judged in its place.",
     )
     iteration_angle: float | None = parameter(
         None,
@@ -116,8 +116,8 @@ class TinDensification(ParameterSet):
         kind="number",
         empty="automatic",
         help="Largest angle between a triangle and the line from one of its corners to a new"
-        " point. Larger follows rugged ground better, smaller keeps low objects out: 4 in flat,"
-        " 10 and more in steep terrain. Empty: from the preset.",
+        " point. A larger angle follows rugged ground better, a smaller one keeps low objects out:"
+        " 4 deg in flat terrain, 10 deg and more in steep terrain. Empty: from the preset.",
     )
     iteration_distance: float | None = parameter(
         None,
@@ -136,8 +136,9 @@ class TinDensification(ParameterSet):
         minimum=0.0,
         maximum=100.0,
         advanced=True,
-        help="In triangles whose longest edge is shorter the iteration angle is reduced in"
-        " proportion, so that low vegetation is not climbed step by step. Empty: never.",
+        help="In triangles whose longest edge is shorter than this, the iteration angle is reduced"
+        " in proportion. So the TIN does not climb low vegetation step by step. Empty: the angle"
+        " is never reduced.",
         kind="number",
         optional=True,
     )
@@ -148,7 +149,8 @@ class TinDensification(ParameterSet):
         minimum=0.0,
         maximum=100.0,
         advanced=True,
-        help="Triangles whose longest edge is shorter take no further point. Empty: never.",
+        help="Triangles whose longest edge is shorter than this take no more points. Empty: all"
+        " triangles can take points.",
         kind="number",
         optional=True,
     )
@@ -159,8 +161,8 @@ class TinDensification(ParameterSet):
         minimum=0.0,
         maximum=5.0,
         advanced=True,
-        help="A point this close to its triangle is a vertex whatever its angle: near a corner the"
-        " angle of mere noise is large.",
+        help="A point that is closer to its triangle than this joins the TIN whatever its angle."
+        " Near a corner, noise alone makes a large angle.",
     )
     ground_tolerance: float = parameter(
         0.18,
@@ -169,8 +171,8 @@ class TinDensification(ParameterSet):
         minimum=0.0,
         maximum=10.0,
         advanced=True,
-        help="Points no higher above the final surface are ground, in level terrain. More takes in"
-        " grass and low bushes.",
+        help="In level terrain, points up to this height above the final surface are ground. A"
+        " larger value takes in grass and low bushes.",
     )
     ground_tolerance_below: float = parameter(
         0.6,
@@ -179,8 +181,8 @@ class TinDensification(ParameterSet):
         minimum=0.0,
         maximum=10.0,
         advanced=True,
-        help="Points no deeper below the final surface are ground, in level terrain: it lies"
-        " through the lowest points, and is smooth where they are not.",
+        help="In level terrain, points down to this depth below the final surface are ground. The"
+        " surface goes through the lowest points, but is smoother than they are.",
     )
     slope_tolerance: float = parameter(
         1.4,
@@ -189,15 +191,16 @@ class TinDensification(ParameterSet):
         minimum=0.0,
         maximum=10.0,
         advanced=True,
-        help="What a slope of 45 degrees adds to both ground tolerances, less in proportion on"
-        " gentler slopes.",
+        help="Added to both ground tolerances on a slope of 45 degrees. On gentler slopes less is"
+        " added, in proportion.",
     )
     only_key_points: bool = parameter(
         False,
         label="Only key points",
         advanced=True,
-        help="Of the ground, keep only the points that a terrain model needs: those whose TIN lies"
-        " within the two tolerances below of every other ground point.",
+        help="Only the points that a terrain model needs become ground. Of all other ground"
+        " points, none lies farther from the TIN of these key points than the two tolerances"
+        " below.",
     )
     key_point_tolerance_above: float = parameter_of(
         ModelKeyPoints, "tolerance_above", label="Key points: tolerance above", advanced=True
