@@ -124,7 +124,7 @@ def test_a_cancel_keeps_what_is_finished(tiles, folder, context):
     log = Impatient()
     parameters = {"INPUT_FOLDER": str(folder), "OUTPUT_FOLDER": str(out), "THREADS": 1}
     results, _ = tiles.run(parameters, context, log)
-    assert not results and "the tiles that are finished stay" in log.text
+    assert not results and "The finished tiles stay" in log.text
     names = [path.name for path in out.iterdir() if path.suffix == ".laz"]
     assert 1 <= len(names) < 4 and not (out / "classified.vpc").exists()
     assert not [name for name in names if ".part." in name]

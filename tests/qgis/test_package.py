@@ -232,7 +232,7 @@ def test_the_window_speaks_the_language_of_qgis(qgis, clouds, tmp_path, locale, 
         algorithm=ALGORITHM,
     )
     assert (answer["title"], answer["menu"]) == (title, [menu])
-    assert not answer["state"].startswith("Not there")
+    assert not answer["state"].startswith("Not installed")
     # Ids and values are the same in every language.
     done = qgis.process(clouds[0].path, tmp_path / "out.las")
     assert done.returncode == 0 and ground_of(tmp_path / "out.las") > 0
@@ -295,7 +295,7 @@ def test_laz_support_is_removed_and_got_again(qgis, clouds, tmp_path):
         wheel=next(WHEELS.iterdir()), cloud=clouds[1].path, folder=tmp_path, algorithm=ALGORITHM,
     )  # fmt: skip
     assert qgis.profile / "bare_earth" in Path(answer["file"]).parents
-    assert answer["removed"][0] == "Removed." and answer["removed"][1].startswith("Not there")
+    assert answer["removed"][0] == "Removed." and answer["removed"][1].startswith("Not installed")
     assert SENTENCE in answer["without"]
     assert answer["again"] == ["", "Done; no restart is needed."]
     assert answer["with"]["GROUND_COUNT"] > 0
@@ -327,7 +327,7 @@ def test_pip_gets_it_or_the_reason_is_told(qgis, tmp_path):
     nothing = {"PIP_NO_INDEX": "1", "PIP_FIND_LINKS": str(tmp_path), "PIP_CONFIG_FILE": os.devnull}
     answer = qgis.window(steps, nothing)
     expected = "the package index has none for cp3" if has_pip else "neither pip nor ensurepip"
-    assert expected in answer["result"] and answer["state"].startswith("Not there")
+    assert expected in answer["result"] and answer["state"].startswith("Not installed")
     if has_pip:
         answer = qgis.window(steps, {**nothing, "PIP_FIND_LINKS": str(WHEELS)})
         assert answer["result"] == "Done; no restart is needed."
