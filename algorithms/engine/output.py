@@ -32,9 +32,9 @@ class Output(ParameterSet):
         False,
         label="Write points of the area only",
         advanced=True,
-        help="Writes only the points inside the extent and the boundary, also to the rasters."
-        " Files without such points are not written. If this is off, all files are written with"
-        " all their points, and points outside keep their class.",
+        help="Writes only the points inside the extent and the boundary, and makes the rasters"
+        " from them. Files without such points are not written. If this is off, all files are"
+        " written with all their points, and points outside keep their class.",
     )
     height_above_ground: bool = parameter(
         False,

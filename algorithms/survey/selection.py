@@ -96,7 +96,7 @@ class Selection(ParameterSet):
         False,
         label="Put low outliers into class 7",
         help="Points that took part and lie far below the ground (multipath, faults of the sensor)"
-        " become low noise, class 7. Otherwise they are treated as other points.",
+        " become low noise, class 7. If this is off, they are treated as other points.",
     )
     low_noise_depth: float = parameter(
         1.0,

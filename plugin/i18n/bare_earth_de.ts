@@ -1002,8 +1002,8 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Punkte, die teilnahmen</translation>
     </message>
     <message>
-        <source>Points that took part and lie far below the ground (multipath, faults of the sensor) become low noise, class 7. Otherwise they are treated as other points.</source>
-        <translation>Punkte, die teilnahmen und weit unter dem Boden liegen (Mehrwegeausbreitung, Fehler des Sensors), werden tiefes Rauschen, Klasse 7. Sonst werden sie wie die übrigen Punkte behandelt.</translation>
+        <source>Points that took part and lie far below the ground (multipath, faults of the sensor) become low noise, class 7. If this is off, they are treated as other points.</source>
+        <translation>Punkte, die teilnahmen und weit unter dem Boden liegen (Mehrwegeausbreitung, Fehler des Sensors), werden tiefes Rauschen, Klasse 7. Ist dies aus, werden sie wie die übrigen Punkte behandelt.</translation>
     </message>
     <message>
         <source>Points up to this distance outside the window are read too, but not shown. A larger value is slower, and gives classes closer to those of the whole file near the edges of the window and beside large buildings. Empty: as far as the methods look, at most 50 m.</source>
@@ -1546,8 +1546,8 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Höhen schreiben als</translation>
     </message>
     <message>
-        <source>Writes only the points inside the extent and the boundary, also to the rasters. Files without such points are not written. If this is off, all files are written with all their points, and points outside keep their class.</source>
-        <translation>Schreibt nur die Punkte innerhalb von Ausdehnung und Begrenzung, auch in die Raster. Dateien ohne solche Punkte werden nicht geschrieben. Ist dies aus, werden alle Dateien mit allen ihren Punkten geschrieben, und Punkte außerhalb behalten ihre Klasse.</translation>
+        <source>Writes only the points inside the extent and the boundary, and makes the rasters from them. Files without such points are not written. If this is off, all files are written with all their points, and points outside keep their class.</source>
+        <translation>Schreibt nur die Punkte innerhalb von Ausdehnung und Begrenzung und macht die Raster aus ihnen. Dateien ohne solche Punkte werden nicht geschrieben. Ist dies aus, werden alle Dateien mit allen ihren Punkten geschrieben, und Punkte außerhalb behalten ihre Klasse.</translation>
     </message>
     <message>
         <source>Writes only the points that have the class of the ground. The log says how many points are left out.</source>

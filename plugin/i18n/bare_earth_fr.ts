@@ -1002,8 +1002,8 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Points qui ont participé</translation>
     </message>
     <message>
-        <source>Points that took part and lie far below the ground (multipath, faults of the sensor) become low noise, class 7. Otherwise they are treated as other points.</source>
-        <translation>Les points qui ont participé et se trouvent bien au-dessous du sol (trajets multiples, défauts du capteur) deviennent du bruit bas, classe 7. Sinon, ils sont traités comme les autres points.</translation>
+        <source>Points that took part and lie far below the ground (multipath, faults of the sensor) become low noise, class 7. If this is off, they are treated as other points.</source>
+        <translation>Les points qui ont participé et se trouvent bien au-dessous du sol (trajets multiples, défauts du capteur) deviennent du bruit bas, classe 7. Sans cette option, ils sont traités comme les autres points.</translation>
     </message>
     <message>
         <source>Points up to this distance outside the window are read too, but not shown. A larger value is slower, and gives classes closer to those of the whole file near the edges of the window and beside large buildings. Empty: as far as the methods look, at most 50 m.</source>
@@ -1546,8 +1546,8 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Écrire les hauteurs comme</translation>
     </message>
     <message>
-        <source>Writes only the points inside the extent and the boundary, also to the rasters. Files without such points are not written. If this is off, all files are written with all their points, and points outside keep their class.</source>
-        <translation>N'écrit que les points à l'intérieur de l'emprise et de la limite, aussi dans les rasters. Les fichiers sans de tels points ne sont pas écrits. Sans cette option, tous les fichiers sont écrits avec tous leurs points, et les points à l'extérieur gardent leur classe.</translation>
+        <source>Writes only the points inside the extent and the boundary, and makes the rasters from them. Files without such points are not written. If this is off, all files are written with all their points, and points outside keep their class.</source>
+        <translation>N'écrit que les points à l'intérieur de l'emprise et de la limite, et en fait les rasters. Les fichiers sans de tels points ne sont pas écrits. Sans cette option, tous les fichiers sont écrits avec tous leurs points, et les points à l'extérieur gardent leur classe.</translation>
     </message>
     <message>
         <source>Writes only the points that have the class of the ground. The log says how many points are left out.</source>
