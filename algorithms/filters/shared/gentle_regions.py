@@ -12,7 +12,7 @@ import numpy as np
 
 from ...grids.trend import Trend
 from .allowance import Allowance
-from .landforms import ramps, rocks
+from .landforms import RaisedCells, landforms
 
 # How often regions join the ground that others have joined before.
 _JOINING_PASSES = 4
@@ -106,15 +106,14 @@ def gentle_regions(
     feet = np.concatenate([flat[0][flat[1] == -1] for flat, _, _ in borders])
     foot = np.bincount(feet, minlength=count) * size
     row, column = np.divmod(cells, raised.shape[1])
-    landforms = rocks(number, heights, above, area, allowance.rock_area)
-    landforms |= ramps(number, (size * row, size * column), above, area, foot, allowance.ramp_area)
+    up_cells = RaisedCells(number, size * row, size * column, heights, above)
+    special = landforms(up_cells, area, foot, allowance.rock_area, allowance.ramp_area)
     above = np.bincount(number, above, count) * size**2 / area
-    joined = _joined(borders, area, above, open_, landforms, allowance)
+    joined = _joined(borders, area, above, open_, special, allowance)
     result = np.zeros((2, up.size), dtype=bool)
-    for which, grid in zip((joined, landforms), result):
+    for which, grid in zip((joined, special), result):
         grid[cells] = which[number]
-    terrain, landforms = result.reshape(2, *raised.shape)
-    return terrain, landforms
+    return tuple(result.reshape(2, *raised.shape))
 
 
 def _numbered(up: np.ndarray, one: np.ndarray, other: np.ndarray) -> tuple[np.ndarray, int]:
