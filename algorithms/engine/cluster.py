@@ -206,7 +206,7 @@ class Cluster(Workers):
         elif now - self._seen > self._patience:  # one that died may be started again
             raise BareEarthError(
                 f"All workers of {self._address} are gone. Start some with 'dask worker"
-                f" {self._address}', and go on with --resume."
+                f" {self._address}', and continue with --resume."
             )
         self._looked = time.monotonic()
 

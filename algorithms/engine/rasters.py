@@ -170,7 +170,8 @@ class MakeRasters(Step):
             self.ground.check(tally, path)
             if tally.ground == tally.excluded:
                 raise BareEarthError(
-                    f"All ground points of {path} lie in water, or where there is to be no ground."
+                    f"All ground points of {path} lie in polygons of water or without ground."
+                    " Check the polygons."
                 )
         if self.request.needs_surface and not tally.top:
             raise BareEarthError(

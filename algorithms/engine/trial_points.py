@@ -179,7 +179,7 @@ def read_trial_points(
     clouds = _read(files, area.buffered_box(context / crs.horizontal_unit), progress)
     if not any(area.of(cloud).any() for cloud in clouds):
         raise BareEarthError(
-            f"No point lies in the window ({box_in_words(area.box)}): the points have"
+            f"No point lies in the window ({box_in_words(area.box)}): the points lie in"
             f" {box_in_words(extent)}. Give the window in the CRS of the points."
         )
     return TrialPoints(clouds, crs, area.box)

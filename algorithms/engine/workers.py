@@ -21,7 +21,7 @@ from .record import folders_of
 # Seconds that jobs get to stop by themselves when the user cancels.
 _PATIENCE = 0.7
 
-SCHEDULER_GONE = "The scheduler is gone. Start it again, and go on with --resume."
+SCHEDULER_GONE = "The scheduler is gone. Start it again, and continue with --resume."
 
 Job = Union[BlockJob, TileJob]
 

@@ -210,7 +210,7 @@ def _wkt(layout: LasFile, progress: Progress) -> Vlr | None:
         if vlr.key == WKT_RECORD and wkt_text(vlr.data) == text:
             return vlr
     if layout.vlr(*GEOKEY_RECORDS) is not None:
-        progress.info("The CRS, given as GeoTIFF keys, becomes well-known text, as COPC wants it.")
+        progress.info("The CRS, given as GeoTIFF keys, becomes well-known text, as COPC needs it.")
     return new_vlr(WKT_RECORD, text.encode() + b"\0", "OGC WKT Coordinate System")
 
 
@@ -223,7 +223,7 @@ def tell_of_format(layout: LasFile, point_format: int, progress: Progress) -> No
         )
     elif point_format != layout.point_format:
         progress.info(
-            f"Point format {layout.point_format} becomes {point_format}, as COPC wants it."
+            f"Point format {layout.point_format} becomes {point_format}, as COPC needs it."
         )
     if len(layout.header) > fields.HEADER_SIZES[layout.minor_version]:
         progress.warning(

@@ -97,7 +97,7 @@ def read_hierarchy(layout: LasFile) -> Hierarchy:
         raise _octree_error(layout, "its description is cut off")
     x, y, z, half, _, start, size = struct.unpack_from("<5d2Q", data)
     if not (np.isfinite([x, y, z, half]).all() and half > 0):
-        raise _octree_error(layout, "its cube is not one")
+        raise _octree_error(layout, "its cube has no valid centre or size")
     hierarchy = Hierarchy(layout, (x - half, y - half), 2 * half, (start, size))
     west, south, east, north = hierarchy.squares(np.zeros((1, 4), dtype=np.int32))[:, 0]
     minimum, maximum = layout.minimum, layout.maximum
@@ -233,7 +233,7 @@ def _read_page(layout: LasFile, file: BinaryIO, start: int, size: int) -> np.nda
     in_file = (entries["size"] > 0) & (entries["start"] < layout.size) & (end <= layout.size)
     makes_sense &= in_file | ~filled
     if not makes_sense.all():
-        raise _octree_error(layout, "one of its pages holds what cannot be")
+        raise _octree_error(layout, "one of its pages holds impossible values")
     return entries
 
 

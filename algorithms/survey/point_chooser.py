@@ -102,8 +102,8 @@ class PointChooser:
     def no_point_in_area(self, of: str, box: Box) -> BareEarthError:
         """Return the error for an area without points; those `of` some files have such bounds."""
         return BareEarthError(
-            f"No point of {of} lies in the area ({box_in_words(self.area.bounds)}): the points have"
-            f" {box_in_words(box)}. Give the area in the CRS of the points."
+            f"No point of {of} lies in the area ({box_in_words(self.area.bounds)}): the points lie"
+            f" in {box_in_words(box)}. Give the area in the CRS of the points."
         )
 
     def tell_of_corrections(self, progress: Progress) -> None:

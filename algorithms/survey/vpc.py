@@ -143,8 +143,7 @@ def write_vpc(path: Path, files: Iterable[Path], progress: Progress = SILENT) ->
     if unplaced:
         progress.warning(
             f"{path.name} does not state the CRS of {unplaced} of its {len(files)} files: it is not"
-            " known, or there is no GDAL or pyproj to find their places on the globe. Set the"
-            " CRS of the layer in QGIS."
+            " known, or neither GDAL nor pyproj is installed. Set the CRS of the layer in QGIS."
         )
     text = json.dumps(
         {"type": "FeatureCollection", "features": features}, indent=1, allow_nan=False

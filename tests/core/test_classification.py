@@ -143,7 +143,7 @@ def test_an_area_without_points_is_told_with_both_extents(scene):
         classify_cloud(cloud_of(scene[0]), SlopeFilter(), area=Area((9.0, 50.0, 9.1, 50.1)))
     text = str(caught.value)
     assert "\n" not in text and "in.las lies in the area (x 9 to 9.1, y 50 to 50.1)" in text
-    assert "the points have x 500000" in text and "CRS of the points" in text
+    assert "the points lie in x 500000" in text and "CRS of the points" in text
 
 
 def test_an_area_where_nothing_takes_part_is_told(scene):

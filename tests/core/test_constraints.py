@@ -145,7 +145,7 @@ def test_where_there_is_no_ground_the_terrain_is_that_round_about(tmp_path):
     found, *_ = _raster(source, tmp_path / "dtm.tif", no_ground=(polygon,))
     assert np.nanmax(np.abs(found - 5.0)) < 1e-3
     everywhere = _square(-1.0, -1.0, SIZE + 1, SIZE + 1)
-    with pytest.raises(BareEarthError, match="there is to be no ground"):
+    with pytest.raises(BareEarthError, match="polygons of water or without ground"):
         _raster(source, tmp_path / "none.tif", no_ground=(everywhere,))
 
 

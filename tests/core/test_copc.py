@@ -457,7 +457,7 @@ def test_waveforms_that_are_left_out_are_told(las, point_format):
 def test_a_changed_format_and_lost_header_bytes_are_told(las):
     source, heard = las.make(point_format=3, user_bytes=b"our own"), las.Heard()
     write_classified(source, las.folder / "out.copc.laz", classes_of(60), heard)
-    assert "Point format 3 becomes 7, as COPC wants it." in heard.infos
+    assert "Point format 3 becomes 7, as COPC needs it." in heard.infos
     assert any("added to the header" in text for text in heard.warnings)
 
 

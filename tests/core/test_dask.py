@@ -132,7 +132,7 @@ def test_a_scheduler_that_is_not_there_is_told(survey, tmp_path, monkeypatch, ca
     words = ["classify-tiles", survey[0], tmp_path / "out"]
     address = f"tcp://127.0.0.1:{free_port()}"
     assert main([*map(str, words), "--scheduler", address]) == 1
-    assert f"There is no Dask scheduler at {address}" in capsys.readouterr().err
+    assert f"No Dask scheduler answers at {address}" in capsys.readouterr().err
 
 
 KEYS = ("tls.ca-file", "tls.client.cert", "tls.client.key")
@@ -143,7 +143,7 @@ KEYS = ("tls.ca-file", "tls.client.cert", "tls.client.key")
     [
         ("tls", {}, "TLS needs a certificate, a key and an authority"),
         ("tcp", {"require-encryption": True}, "encryption is required"),
-        ("tls", dict.fromkeys(KEYS, "none"), "certificate or key do not do"),
+        ("tls", dict.fromkeys(KEYS, "none"), "the certificate or the key cannot be used"),
     ],
 )
 def test_an_address_that_the_keys_do_not_fit_is_refused(scheme, settings, told, survey, tmp_path):
@@ -310,8 +310,8 @@ def test_over_tls_the_bytes_are_the_same_and_without_keys_nobody_gets_in(
         for settings, at, told in (
             ({}, address, "TLS needs a certificate, a key and an authority"),
             (secret, plain, "encryption is required"),
-            ({**secret, key: str(tmp_path / "none")}, address, "certificate or key do not do"),
-            ({**secret, key: None}, address, "certificate or key do not do"),
+            ({**secret, key: str(tmp_path / "none")}, address, "the certificate or the key cannot be used"),
+            ({**secret, key: None}, address, "the certificate or the key cannot be used"),
         ):
             code, said = run(settings, at, tmp_path / "none")
             assert code == 1 and said.count("bare-earth: ") == 1 and told in said

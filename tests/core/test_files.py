@@ -174,7 +174,7 @@ def test_a_temporary_folder_goes_with_all_in_it_and_is_told_where_it_cannot_be(t
 RENAMES = {
     errno.ESTALE: "the network disk lost the file",
     errno.EBUSY: "another program uses it",
-    errno.EXDEV: "the folder lies across two disks",
+    errno.EXDEV: "the folder spans two disks",
     errno.EIO: os.strerror(errno.EIO),
 }
 

@@ -224,7 +224,7 @@ def test_a_full_disk_is_told_in_a_sentence(tmp_path, monkeypatch):
     ("selection", "area", "word"),
     [
         (Selection(from_classes=(64,)), None, r"only the classes 1, 2, 5, 7, 9\. Choose the"),
-        (Selection(to_class=256 - 1), Area((0.0, 0.0, 1.0, 1.0)), "the points have x 500000 to"),
+        (Selection(to_class=256 - 1), Area((0.0, 0.0, 1.0, 1.0)), "the points lie in x 500000 to"),
     ],
 )
 def test_the_same_errors_on_disk(selection, area, word, tmp_path):

@@ -187,7 +187,7 @@ def test_a_setting_without_ground_is_shown_as_such(source, tmp_path, monkeypatch
 @pytest.mark.parametrize(
     ("window", "says"),
     [
-        ((0, 0, 100, 100), "No point lies in the window .* the points have x 5"),
+        ((0, 0, 100, 100), "No point lies in the window .* the points lie in x 5"),
         ((4e5, 57e5, 5e5, 58e5), "100,000 m wide"),
         ((2, 0, 1, 1), "XMIN below XMAX"),
     ],
