@@ -18,6 +18,7 @@ from ...core.errors import BareEarthError
 from ...core.parameters import ParameterSet, parameter
 from ...core.points import Points
 from ...core.progress import SILENT, Progress
+from ...grids.cell_blocks import CellBlocks
 from ...grids.cells import Cells, usual_count
 from ...grids.gradient import steepness
 from ...grids.inpaint import inpaint
@@ -28,7 +29,6 @@ from ..shared.near_ground import Candidates, near_ground
 from ..shared.near_surface import near_surface
 from ..shared.objects import Objects, Relief, covered, raised_objects
 from ..shared.outliers import low_outliers, supported
-from .cell_blocks import CellBlocks
 
 # Points that a cell should hold on average: with fewer, gaps break the rims.
 _POINTS_PER_CELL = 1.0

@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...grids.cells import Cells
-from ...grids.trend import between_blocks
+from .cells import Cells
+from .trend import between_blocks
 
 
 class CellBlocks(NamedTuple):
