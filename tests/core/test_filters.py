@@ -34,14 +34,26 @@ def test_a_cancel_ends_the_classification(parameters):
         method_of(parameters).classify(village()[0], parameters, CancelAt(0.3))
 
 
-@pytest.mark.parametrize(("kind", "density"), [("hall_stepped", 0.25), ("hall_slope_10", 1.0)])
-def test_a_hall_goes_where_points_are_sparse(kind, density):
+@pytest.mark.parametrize(
+    ("kind", "seed", "density"),
+    [("hall_stepped", 4, 0.25), ("hall_slope_10", 4, 1.0), ("hall_slope_10", 502, 1.0)],
+)
+def test_a_hall_goes_where_points_are_sparse(kind, seed, density):
     # Points two metres apart leave every second cell of a metre empty: none of these is a way down.
-    scene = make(kind, seed=4, density=density)
+    # An opening leaves the uphill end of the last hall, and its rim has gaps.
+    scene = make(kind, seed=seed, density=density)
     for name, method in METHODS.items():
         found = method.classify(scene.points, method.parameters())
         assert found[scene.classes == 6].mean() < 0.05, name
         assert found[scene.ground].mean() > 0.98, name
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_raised_square_with_one_ramp_stays(method):
+    scene = make("plaza", seed=504)
+    found = METHODS[method].classify(scene.points, METHODS[method].parameters())
+    assert found[scene.ground].mean() > 0.98
+    assert found[~scene.ground].mean() < 0.05
 
 
 @pytest.mark.parametrize("method", METHODS)

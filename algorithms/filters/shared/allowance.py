@@ -47,6 +47,9 @@ class Allowance:
     border_height : float
         But not if it stands so many metres above the ground, on average: the border of the survey
         cuts buildings.
+    island_area : float
+        What is left within a region, level with it and no larger in square metres, is part of it:
+        an opening cuts off most of a wide roof on a slope, but not all.
     rock_area, ramp_area : float
         A region of so many square metres or more is terrain as well if it has the shape of a rock,
         or of a ramp.
@@ -66,15 +69,16 @@ class Allowance:
     per_slope: float = 0.2
     largest: float = 1.5
     gentle_step: float = 0.3
-    gentle_share: float = 0.35
+    gentle_share: float = 0.3
     gentle_area: float = 20.0
-    wide_share: float = 0.08
+    wide_share: float = 0.05
     wide_area: float = 3000.0
     usual_window: float = 24.0
     hall_height: float = 2.5
     hall_per_slope: float = 0.1
     border_area: float = 800.0
     border_height: float = 4.5
+    island_area: float = 200.0
     rock_area: float = 200.0
     ramp_area: float = 100.0
     rise_counts: bool = True
@@ -93,6 +97,7 @@ CLASSIC = Allowance(
     wide_share=0.5,
     usual_window=1e9,
     border_area=np.inf,
+    island_area=0.0,
     rock_area=np.inf,
     ramp_area=np.inf,
     rise_counts=False,

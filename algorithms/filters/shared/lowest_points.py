@@ -6,7 +6,9 @@ import numpy as np
 
 from ...core.points import Points
 from ...core.progress import Progress
+from ...grids.cell_blocks import CellBlocks
 from ...grids.cells import Cells, spacing
+from ...grids.inpaint import First
 from .objects import Objects, raised_objects
 from .outliers import lone_points, low_outliers
 
@@ -71,9 +73,29 @@ class LowestPoints:
         return cells, self._without_outliers(cells.minimum(self._points.z), cells)
 
     def objects(self, max_size: float, progress: Progress) -> Objects:
-        """Return which of `cells` belong to objects or plateaus, with drops all round."""
-        wide, heights = self._wide()
-        found = raised_objects(
-            heights, wide.size, _OBJECT_HEIGHTS, max_size, progress, wide.first, self._classic
+        """Return which of `cells` belong to objects or plateaus, with drops all round.
+
+        Plateaus are looked for on cells twice as wide as well. Narrow cells see no drop where the
+        rim of a roof has a gap, or where little of the drop lies between two of them.
+        """
+        cells, heights = self._wide()
+        found = self._raised(heights, cells.size, cells.first, max_size, progress.part(0.0, 0.7))
+        if not self._classic:
+            blocks = CellBlocks.over(cells, 2.0 * cells.size)
+            on_blocks = self._raised(
+                blocks.lowest(heights),
+                blocks.size,
+                blocks.first_block,
+                max_size,
+                progress.part(0.7, 1.0),
+            )
+            plateaus = blocks.repeated(on_blocks.raised | on_blocks.plateaus, heights.shape)
+            found = Objects(found.raised, (found.plateaus | plateaus) & ~found.raised)
+        return Objects(*(cells.resampled(each, self.cells) for each in found))
+
+    def _raised(
+        self, heights: np.ndarray, size: float, first: First, max_size: float, progress: Progress
+    ) -> Objects:
+        return raised_objects(
+            heights, size, _OBJECT_HEIGHTS, max_size, progress, first, self._classic
         )
-        return Objects(*(wide.resampled(each, self.cells) for each in found))
