@@ -27,6 +27,8 @@ _SIDE, _STEP, _REACHES = 2000.0, 100.0, 4.0
 # rounding never decides.
 _START = -1.00005
 _MOST_POINTS = 10_000_000
+# What the filters take.
+_COST = Cost()
 # Metres by which a border of a leaf may be wrong that is one of a block.
 _ROUNDING = 1e-5
 # Few enough that what is computed of them stays in the processor's cache.
@@ -248,10 +250,10 @@ class Blocks:
     buffer: float
     most_points: int = _MOST_POINTS
     start: float = 0.0
-    cost: Cost = Cost()
+    cost: Cost = _COST
 
     @classmethod
-    def of(cls, reach: float, cost: Cost = Cost()) -> Blocks:
+    def of(cls, reach: float, cost: Cost = _COST) -> Blocks:
         """Return the blocks for a step to which points within `reach` metres matter."""
         side = max(_SIDE, _STEP * math.ceil(_REACHES * reach / _STEP))
         return cls(side, reach, start=_START, cost=cost)

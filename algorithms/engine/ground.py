@@ -123,7 +123,7 @@ def over_blocks(
 
 
 def _at_once(number: int, largest: int, resources: Resources) -> int:
-    """Return how many blocks may be worked on at the same time; the largest takes `largest` bytes."""
+    """Return how many blocks may be in work at once; the largest takes `largest` bytes."""
     fitting = resources.bytes // max(largest, 1)
     return int(max(1, min(number, resources.thread_count, fitting)))
 

@@ -10,8 +10,8 @@ import numpy as np
 
 from ..core.points import Box, Points
 from ..core.progress import SILENT, Progress
-from ..filters.shared.confidence import confidence
 from ..core.threads import parts_of
+from ..filters.shared.confidence import confidence
 from ..grids.cell_window import CellWindow
 from ..grids.cells import are_inside, first_of_each
 from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
