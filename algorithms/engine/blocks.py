@@ -18,6 +18,7 @@ import numpy as np
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads, parts_of
+from .memory import Cost
 
 _SIDE, _STEP, _REACHES = 2000.0, 100.0, 4.0
 # Metres from the multiples of the side to the borders of the blocks. The tiles of a survey mostly
@@ -26,6 +27,8 @@ _SIDE, _STEP, _REACHES = 2000.0, 100.0, 4.0
 # rounding never decides.
 _START = -1.00005
 _MOST_POINTS = 10_000_000
+# What the filters take.
+_COST = Cost()
 # Metres by which a border of a leaf may be wrong that is one of a block.
 _ROUNDING = 1e-5
 # Few enough that what is computed of them stays in the processor's cache.
@@ -239,18 +242,34 @@ class Blocks:
         buffer.
     start : float
         As that of `Block`.
+    cost : Cost
+        Memory that it takes to work on one.
     """
 
     side: float
     buffer: float
     most_points: int = _MOST_POINTS
     start: float = 0.0
+    cost: Cost = _COST
 
     @classmethod
-    def of(cls, reach: float) -> Blocks:
-        """Return the blocks for a filter to which points within `reach` metres matter."""
+    def of(cls, reach: float, cost: Cost = _COST) -> Blocks:
+        """Return the blocks for a step to which points within `reach` metres matter."""
         side = max(_SIDE, _STEP * math.ceil(_REACHES * reach / _STEP))
-        return cls(side, reach, start=_START)
+        return cls(side, reach, start=_START, cost=cost)
+
+    def memory(self, count: float, area: float = math.inf) -> int:
+        """Return about how many bytes it takes to work on a block.
+
+        Parameters
+        ----------
+        count : float
+            Points that the step sees.
+        area : float
+            Square metres in which they lie; those of a whole block count at most.
+        """
+        most = (self.side + 2.0 * self.buffer) ** 2
+        return int(self.cost.a_point * count + self.cost.a_square_metre * min(area, most))
 
     def number(self, places: np.ndarray | float) -> np.ndarray:
         """Return the columns of blocks that hold some x, or the rows of some y, as floats."""

@@ -17,7 +17,7 @@ from ..core.points import Frame
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud, survey_frame
 from .blocks import BlockPoints, Box, Corner, Leaves, gathered
-from .leaf_index import LeafIndex, Sorted
+from .leaf_index import LeafIndex, Sorted, smallest_integers
 
 _RECORD = np.dtype([("x", "<i4"), ("y", "<i4"), ("z", "<i4"), ("flags", "u1")])
 _KNOWN, _WANTED = 1, 2
@@ -149,6 +149,7 @@ class DiskPoints:
     ) -> BlockPoints:
         """Return the points of some leaves, in the order of the file, or those of them in a box."""
         runs, frame = list(_joined(*self._runs.of(leaves))), self._frame.moved(corner)
+        kind = smallest_integers(self.count)
 
         def read(number: int) -> BlockPoints:
             start, end = runs[number]
@@ -156,10 +157,10 @@ class DiskPoints:
             columns = {name: records[name] for name in "xyz"}
             points = dataclasses.replace(self.cloud, **columns).points(slice(None), frame)
             flags = records["flags"]
-            positions = np.arange(start, end)
+            positions = np.arange(start, end, dtype=kind)
             return BlockPoints(points, flags & _KNOWN > 0, flags & _WANTED > 0, positions)
 
-        return gathered([end - start for start, end in runs], read, box, progress=progress)
+        return gathered([end - start for start, end in runs], read, box, kind, progress)
 
     def _read(self, start: int, end: int) -> np.ndarray:
         with self._lock:

@@ -18,11 +18,11 @@ from ..filters.shared.doubts import tell_of_extent, tell_of_little_ground
 from ..grids.cells import apart
 from ..survey.selection import Special
 from .blocks import BRIDGE, GROUND, LOW, Block, BlockPoints, Blocks, Store
-from .memory import Resources
+from .memory import Resources, give_back
 from .scheduling import run_jobs
 
-# Bytes that a filter takes for each point that it sees, and for each square metre of a window.
-_BYTES_A_POINT, _BYTES_A_SQUARE_METRE = 110, 100
+# Bytes of a block from which on it is worth while to give back what it took.
+_MUCH = 100_000_000
 # The steps of bridges and of low outliers take these shares of the time of a block.
 _BRIDGES_SHARE, _LOW_SHARE = 0.15, 0.1
 
@@ -109,27 +109,25 @@ def over_blocks(
     todo = [each for each in blocks.over(store) if is_wanted is None or is_wanted(each)]
     if not todo:
         return
-    counts = [_count(blocks, each, store) for each in todo]
-    at_once = _at_once(len(todo), max(counts), blocks, resources)
+    leaves = [store.leaves.within(blocks.window(each)) for each in todo]
+    counts = [int(store.leaves.counts[each].sum()) for each in leaves]
+    memory = [
+        blocks.memory(count, len(each) * store.leaves.side**2)
+        for count, each in zip(counts, leaves)
+    ]
+    at_once = _at_once(len(todo), max(memory), resources)
     workers = max(1, resources.thread_count // at_once)
     jobs = [job_of(each, len(todo) == 1) for each in todo]
-    yield from run_jobs(jobs, counts, at_once, workers, progress)
+    is_tight = sum(memory) > resources.bytes
+    for number, result in run_jobs(jobs, counts, at_once, workers, progress):
+        if is_tight and memory[number] > _MUCH:
+            give_back()
+        yield number, result
 
 
-def _count(blocks: Blocks, block: Block, store: Store) -> int:
-    """Return about how many points the filter sees for a block."""
-    return int(store.leaves.counts[store.leaves.within(blocks.window(block))].sum())
-
-
-def memory_of_block(count: int, blocks: Blocks) -> int:
-    """Return about how many bytes it takes to filter a block that sees `count` points."""
-    area = (blocks.side + 2.0 * blocks.buffer) ** 2
-    return int(_BYTES_A_POINT * count + _BYTES_A_SQUARE_METRE * area)
-
-
-def _at_once(number: int, largest: int, blocks: Blocks, resources: Resources) -> int:
-    """Return how many blocks may be filtered at the same time."""
-    fitting = resources.bytes // max(memory_of_block(largest, blocks), 1)
+def _at_once(number: int, largest: int, resources: Resources) -> int:
+    """Return how many blocks may be in work at once; the largest takes `largest` bytes."""
+    fitting = resources.bytes // max(largest, 1)
     return int(max(1, min(number, resources.thread_count, fitting)))
 
 

@@ -20,12 +20,13 @@ from ..survey.ground_classes import GroundClasses, GroundTally
 from ..survey.selection import ground_of
 from .blocks import Block, Blocks, Store
 from .ground import over_blocks
-from .memory import Resources
+from .memory import Cost, Resources
 from .output import HEIGHT_DIMENSION, height_edits
 from .steps import Marks, PointResult, PointStep, Room
 
-# Metres round a block in which ground points matter for its heights.
-_BLOCKS = Blocks.of(100.0)
+# Metres round a block in which ground points matter for its heights, and what that takes: most for
+# the search for the nearest vertex beyond the hull of dense ground.
+_BLOCKS = Blocks.of(100.0, Cost(150.0, 50.0))
 
 
 @dataclass(frozen=True)
@@ -184,18 +185,15 @@ class _Heights(NamedTuple):
 
 def _job_of(store: Store, block: Block, is_only: bool) -> Callable[[Progress], _Heights]:
     def job(progress: Progress) -> _Heights:
-        contents = _BLOCKS.contents(block, store, progress.part(0.0, 0.1))
-        wanted = contents.wanted.copy()
+        points, ground, wanted, positions = _BLOCKS.contents(block, store, progress.part(0.0, 0.1))
         if not is_only:
-            wanted &= block.holds(contents.points, _BLOCKS.corner(block))
-        positions = contents.positions[wanted]
-        if not contents.known.any():
+            wanted = wanted & block.holds(points, _BLOCKS.corner(block))
+        positions = positions[wanted]
+        if not ground.any():
             return _Heights(positions, np.full(len(positions), np.nan))
         if not len(positions):
             return _Heights(positions, np.zeros(0))
-        heights = height_above_ground(
-            contents.points, contents.known, progress.part(0.1, 1.0), wanted
-        )
+        heights = height_above_ground(points, ground, progress.part(0.1, 1.0), wanted)
         return _Heights(positions, heights[wanted])
 
     return job

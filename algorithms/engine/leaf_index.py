@@ -74,3 +74,8 @@ class LeafIndex:
         runs = np.concatenate([np.zeros(0, np.intp), *runs])
         runs = runs[np.argsort(self._starts[runs], kind="stable")]
         return self._starts[runs], self._counts[runs]
+
+
+def smallest_integers(count: int) -> type:
+    """Return the smallest integers that hold the place of each of so many points."""
+    return np.int32 if count < 1 << 31 else np.int64

@@ -6,6 +6,7 @@ import os
 import sys
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from ..core.parameters import ParameterSet, parameter
 from ..core.threads import available_cpus
@@ -59,6 +60,35 @@ class Resources(ParameterSet):
     def bytes(self) -> int:
         """Memory to use."""
         return int(free_memory() * _SHARE if self.memory is None else self.memory * GIGABYTE)
+
+
+class Cost(NamedTuple):
+    """Bytes of memory that a step takes; by default those that the filters take.
+
+    Attributes
+    ----------
+    a_point : float
+        For each point that it sees.
+    a_square_metre : float
+        For each square metre that it sees.
+    """
+
+    a_point: float = 110.0
+    a_square_metre: float = 100.0
+
+
+def give_back() -> None:
+    """Give the system the memory that was freed, where the C library keeps it.
+
+    That of Linux keeps up to 64 MB for each thread that ever freed as much.
+    """
+    if sys.platform != "linux":
+        return
+    import ctypes
+
+    trim = getattr(ctypes.CDLL(None), "malloc_trim", None)
+    if trim is not None:
+        trim(0)
 
 
 def free_memory() -> int:

@@ -11,7 +11,7 @@ from ..core.progress import SILENT, Progress
 from ..core.threads import over_parts, parts_of
 from ..las.cloud import PointCloud
 from .blocks import BlockPoints, Blocks, Box, Corner, Leaves, gathered
-from .leaf_index import LeafIndex, Sorted, code_of
+from .leaf_index import LeafIndex, Sorted, code_of, smallest_integers
 
 # Points that are looked at, sorted, and read together.
 _CHOSEN, _SORTED, _READ = 1 << 19, 1 << 16, 1 << 15
@@ -76,7 +76,7 @@ class MemoryPoints:
         self.has_known = any(part.known is not None for part in self._parts)
         counts = [part.cloud.count for part in self._parts]
         self._starts = np.concatenate(([0], np.cumsum(counts)))
-        self._kind = _smallest(self._starts[-1])
+        self._kind = smallest_integers(self._starts[-1])
         # Selected points of each file; their places in all of them together are those of the runs.
         self._orders = [_indices(part, progress.part(0.0, 0.3)) for part in self._parts]
         self._ends = np.cumsum([len(order) for order in self._orders])
@@ -191,7 +191,7 @@ def _as_needed(part: SurveyFile) -> SurveyFile:
 def _indices(part: SurveyFile, progress: Progress) -> np.ndarray:
     """Return the indices of the points of a part that are selected, in the smallest type."""
     count = np.count_nonzero(part.selected)
-    indices, end = np.empty(count, dtype=_smallest(part.cloud.count)), 0
+    indices, end = np.empty(count, dtype=smallest_integers(part.cloud.count)), 0
     for some in parts_of(part.cloud.count, _CHOSEN):
         found = np.flatnonzero(part.selected[some])
         indices[end : end + len(found)] = found
@@ -199,8 +199,3 @@ def _indices(part: SurveyFile, progress: Progress) -> np.ndarray:
         end += len(found)
         progress(some.stop / part.cloud.count)
     return indices
-
-
-def _smallest(count: int) -> type:
-    """Return the smallest integers that hold the index of each of so many points."""
-    return np.int32 if count < 1 << 31 else np.int64

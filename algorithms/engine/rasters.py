@@ -26,7 +26,7 @@ from ..survey.selection import NOISE
 from .blocks import Block, Blocks, Store
 from .constraints import NO_CONSTRAINTS, Constraints, FixedTerrain, fixed_terrain
 from .ground import over_blocks
-from .memory import Resources
+from .memory import Cost, Resources
 from .mosaic import Mosaic, Piece, gathered_strips
 from .raster_files import RASTERS, RasterFiles
 from .steps import Marks, Step
@@ -35,6 +35,8 @@ _MOST_CELLS = 4_000_000_000
 # A raster of more cells must have blocks with points over this share of it: else it is large
 # because of a few points with stray coordinates.
 _MANY_CELLS, _LEAST_COVERED = 10_000_000, 0.01
+# Bytes that a block takes for each point that it sees, and for each cell.
+_BYTES_A_POINT, _BYTES_A_CELL = 130.0, 120.0
 
 
 @dataclass(frozen=True)
@@ -139,7 +141,8 @@ class MakeRasters(Step):
     @property
     def blocks(self) -> Blocks:
         """The blocks in which the rasters are made."""
-        return Blocks.of(self.request.step.reach)
+        step = self.request.step
+        return Blocks.of(step.reach, Cost(_BYTES_A_POINT, _BYTES_A_CELL / step.cell**2))
 
     def tally(self) -> RasterTally:
         """Return what `marks` counts in."""

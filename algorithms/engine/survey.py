@@ -19,7 +19,6 @@ from ..las.cloud import PointCloud, survey_frame
 from ..las.reading import read_cloud
 from ..survey.collection import Collection, Tile
 from .blocks import Block, Blocks
-from .ground import memory_of_block
 
 # Metres by which boxes are read larger than needed: the points are chosen exactly thereafter.
 _MARGIN = 0.1
@@ -118,9 +117,8 @@ def places_of(survey: Survey, tile: Tile, progress: Progress = SILENT) -> list[B
 def memory_of(survey: Survey, collection: Collection, places: Sequence[BlockIndex]) -> int:
     """Return about how many bytes it takes to filter some blocks, one after the other."""
     count = points_in(collection, survey.window(places))
-    return int(_BYTES_HELD * count) + memory_of_block(
-        min(int(count), survey.blocks.most_points), survey.blocks
-    )
+    seen = min(count, survey.blocks.most_points)
+    return int(_BYTES_HELD * count) + survey.blocks.memory(seen)
 
 
 def points_in(collection: Collection, box: Box) -> float:

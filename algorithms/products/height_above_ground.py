@@ -51,12 +51,12 @@ def height_above_ground(
     apart = min(_SPACINGS * spacing(terrain, _LEAST / _SPACINGS), _MOST)
     progress(0.05)
     surface = DenseSurface(terrain, VERTICES_A_SIDE * apart, progress=progress.part(0.05, 0.2))
-    which = ~ground if wanted is None else ~ground & wanted
-    others = points.take(which)
-    below = surface.heights(others.x, others.y, progress=progress.part(0.2, 0.95))
+    which = np.flatnonzero(~ground if wanted is None else ~ground & wanted)
+    x, y = points.x[which], points.y[which]
+    below = surface.heights(x, y, progress=progress.part(0.2, 0.95))
     outside = np.flatnonzero(np.isnan(below))
     if len(outside):
-        below[outside] = surface.nearest(others.x[outside], others.y[outside])
-    heights[which] = others.z - below
+        below[outside] = surface.nearest(x[outside], y[outside])
+    heights[which] = points.z[which] - below
     progress(1.0)
     return heights

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..core.points import Box, Points
 from ..core.progress import SILENT, Progress
+from ..core.threads import parts_of
 from ..filters.shared.confidence import confidence
 from ..grids.cell_window import CellWindow
 from ..grids.cells import are_inside, first_of_each
@@ -22,6 +23,8 @@ from .terrain_edges import follow_edges
 _LONGEST_EDGE, _LONGEST_CELLS = 50.0, 20.0
 # Reach of a triangle in longest edges: the circle round it hardly ever reaches farther.
 _EDGES = 2.0
+# The least number of points that are looked at together.
+_POINTS_A_PART = 1 << 20
 
 
 class BlockRasters(NamedTuple):
@@ -178,15 +181,9 @@ def _surface(step: RasterStep, seen: Seen, progress: Progress) -> Made:
     if not points.count or not min(window.shape):
         return heights.astype(np.float32), _placed(points, corner, core)
     wide = window.wider(math.ceil(step.reach / cell))
-    row, column = wide.places(points.x, points.y, corner, cell)
-    inside = np.flatnonzero(are_inside(row, column, wide.shape))
-    progress(0.1)
-    index = row[inside] * wide.columns + column[inside]
-    keys = -points.z[inside], points.x[inside], points.y[inside]
-    progress(0.25)
-    top = inside[first_of_each(index, wide.rows * wide.columns, *keys)]
+    top, row, column = _highest(points, wide, corner, cell, progress.part(0.0, 0.35))
     every = np.full(wide.shape, np.nan)
-    every[row[top], column[top]] = points.z[top]
+    every[row, column] = points.z[top]
     margin = window.row - wide.row
     heights[:] = every[margin : margin + window.rows, margin : margin + window.columns]
     progress(0.4)
@@ -206,6 +203,33 @@ def _surface(step: RasterStep, seen: Seen, progress: Progress) -> Made:
     if step.max_edge is None:
         loose[top[surface.hull]] = True
     return heights.astype(np.float32), _placed(points, corner, loose & core)
+
+
+def _highest(
+    points: Points,
+    window: CellWindow,
+    corner: tuple[float, float],
+    cell: float,
+    progress: Progress,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the highest point of each cell that has any, and row and column of these cells.
+
+    The points are looked at some at a time: what is computed of them takes more than they do.
+    """
+    size, top = window.rows * window.columns, np.zeros(0, dtype=np.intp)
+
+    def places(which: np.ndarray | slice) -> tuple[np.ndarray, np.ndarray]:
+        return window.places(points.x[which], points.y[which], corner, cell)
+
+    for part in parts_of(points.count, max(size // 2, _POINTS_A_PART)):
+        inside = np.flatnonzero(are_inside(*places(part), window.shape)) + part.start
+        # The highest so far, and those of this part.
+        which = np.concatenate((top, inside))
+        row, column = places(which)
+        keys = -points.z[which], points.x[which], points.y[which]
+        top = which[first_of_each(row * window.columns + column, size, *keys)]
+        progress(part.stop / points.count)
+    return (top, *places(top))
 
 
 def _confidence(step: RasterStep, seen: Seen, progress: Progress) -> Made:

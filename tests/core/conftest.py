@@ -1,5 +1,6 @@
 """Point cloud files of every version and format, made byte by byte: no library has a say."""
 
+import gc
 import os
 import struct
 import sys
@@ -208,6 +209,11 @@ def pytest_runtest_setup(item):
     """Leave long tests out, and tell of it, unless `-m` asks for them."""
     if item.get_closest_marker("long") and "long" not in item.config.option.markexpr:
         pytest.skip("long: `make test-long` runs it")
+
+
+def pytest_collection_finish():
+    """Keep what all tests share from being looked through for garbage again and again."""
+    gc.freeze()
 
 
 @pytest.fixture

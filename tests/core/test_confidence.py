@@ -32,7 +32,7 @@ def mean_in(found, points, where):
 
 @pytest.fixture(scope="module")
 def scenes():
-    return [make(kind, seed=7, size=110.0) for kind in ("village", "open_forest")]
+    return [make(kind, seed=7, size=85.0) for kind in ("village", "open_forest")]
 
 
 @pytest.mark.parametrize("method", METHODS)

@@ -68,7 +68,7 @@ def test_scattered_points_of_images_take_no_ground_away(method):
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize(("kind", "density"), [("gorge", 10.0), ("quarry", 10.0)])
 def test_breaks_stay_where_points_are_dense(method, kind, density):
-    scene = make(kind, seed=5, density=density, size=90.0)
+    scene = make(kind, seed=5, density=density, size=70.0)
     found = METHODS[method].classify(scene.points, METHODS[method].parameters())
     assert found[scene.ground].mean() > 0.97
 

@@ -18,8 +18,8 @@ import numpy as np
 import pytest
 from conftest import make_records
 from runs import said
+from shipped import name_of, nodes
 from test_laz_support import PACKAGE, make_wheel
-from test_walls import _name, _nodes
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.las.opening import open_las
@@ -216,10 +216,10 @@ def test_the_server_would_hear_what_is_fetched(server):
 
 def calls():
     """Yield where something is called, its name with its modules, and the words given."""
-    for path, node in _nodes():
+    for path, node in nodes():
         if isinstance(node, ast.Call):
             words = {each.arg: each.value for each in node.keywords}
-            yield f"{_name(path)}:{node.lineno}", ast.unparse(node.func), words
+            yield f"{name_of(path)}:{node.lineno}", ast.unparse(node.func), words
 
 
 DANGEROUS = {
@@ -230,7 +230,7 @@ UNPICKLING = {"pickle", "marshal", "shelve", "dill", "cloudpickle", "joblib", "y
 
 
 def test_shipped_code_reads_no_pickle():
-    for path, node in _nodes():
+    for path, node in nodes():
         if isinstance(node, (ast.Import, ast.ImportFrom)):
             names = {each.name.split(".")[0] for each in node.names}
             module = (getattr(node, "module", None) or "").split(".")[0]

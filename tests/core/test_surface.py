@@ -9,7 +9,7 @@ from bare_earth.algorithms.grids.surface import Surface
 from bare_earth.algorithms.grids.tin import Tin
 
 
-def _scatter(count=6000, seed=1, size=100.0):
+def _scatter(count=3000, seed=1, size=100.0):
     random = np.random.default_rng(seed)
     x, y = random.uniform(0.0, size, (2, count))
     return Points(x, y, random.normal(0.0, 1.0, count))
@@ -34,7 +34,7 @@ CLOUDS = {
 
 @pytest.fixture
 def small_blocks(monkeypatch):
-    monkeypatch.setattr(module, "_VERTICES_A_BLOCK", 400)
+    monkeypatch.setattr(module, "_VERTICES_A_BLOCK", 300)
 
 
 @pytest.mark.parametrize("name", CLOUDS)
@@ -42,7 +42,7 @@ def small_blocks(monkeypatch):
 def test_blocks_give_the_heights_of_one_triangulation(small_blocks, name, max_edge):
     points = CLOUDS[name]
     random = np.random.default_rng(7)
-    x, y = random.uniform(-120.0, 120.0, 4000), random.uniform(-20.0, 220.0, 4000)
+    x, y = random.uniform(-120.0, 120.0, 2500), random.uniform(-20.0, 220.0, 2500)
     if max_edge is None:  # at a vertex, one triangle may be a gap and the next none
         x, y = np.append(x, points.x[::5]), np.append(y, points.y[::5])
     tin = Tin(*points)

@@ -14,7 +14,7 @@ from bare_earth.algorithms.engine import ground as ground_module
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.disk_points import DiskPoints
 from bare_earth.algorithms.engine.ground import blocks_of, label_ground
-from bare_earth.algorithms.engine.memory import Resources, free_memory
+from bare_earth.algorithms.engine.memory import Cost, Resources, free_memory
 from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
 from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.engine.scheduling import run_jobs
@@ -304,8 +304,8 @@ def test_blocks_that_are_alone_may_use_all_threads_and_many_one_each(monkeypatch
     assert [count for count, _ in seen] == [1] * 6
     # With memory for one block only there is one at a time, and it may use all threads.
     seen.clear()
-    monkeypatch.setattr(ground_module, "memory_of_block", lambda count, blocks: 1 << 60)
-    labels_of([cloud_of(*survey())], SlopeFilter(), Blocks(100.0, 20.0), 4)
+    large = Blocks(100.0, 20.0, cost=Cost(a_point=1e18))
+    labels_of([cloud_of(*survey())], SlopeFilter(), large, 4)
     assert [count for count, _ in seen] == [4] * 6 and len({ident for _, ident in seen}) == 1
 
 

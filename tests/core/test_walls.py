@@ -4,14 +4,10 @@ import ast
 import functools
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from shipped import ROOT, SHIPPED, name_of, nodes, tree_of
 
-ROOT = Path(__file__).parents[2]
-SHIPPED = sorted(
-    [ROOT / "__init__.py", *(ROOT / "algorithms").rglob("*.py"), *(ROOT / "plugin").rglob("*.py")]
-)
 # One file per algorithm, as the list of them says; the others are what they share.
 WRAPPERS = [
     ROOT / "plugin" / "processing" / f"{node.module}.py"
@@ -39,28 +35,12 @@ FLOORS = {
 }
 
 
-def _name(path):
-    return path.relative_to(ROOT).as_posix()
-
-
-@functools.cache
-def _tree(path):
-    return ast.parse(path.read_text(encoding="utf-8"))
-
-
-def _nodes():
-    """Yield each piece of shipped code, with its file."""
-    for path in SHIPPED:
-        for node in ast.walk(_tree(path)):
-            yield path, node
-
-
 @functools.cache
 def _imports(path):
     """Return the modules that a file imports anywhere; those of the package as ".algorithms..."."""
     package = path.relative_to(ROOT).parts[:-1]
     found = set()
-    for node in ast.walk(_tree(path)):
+    for node in ast.walk(tree_of(path)):
         if isinstance(node, ast.Import):
             found |= {each.name for each in node.names}
         elif isinstance(node, ast.ImportFrom):
@@ -131,7 +111,7 @@ def test_no_file_imports_itself_by_way_of_others():
     # What imports nothing that is left can be loaded; circles are what remains in the end.
     while free := {path for path, others in left.items() if not others & left.keys()}:
         left = {path: others for path, others in left.items() if path not in free}
-    assert not left, sorted(map(_name, left))
+    assert not left, sorted(map(name_of, left))
 
 
 def test_only_the_point_cloud_package_knows_the_file_format():
@@ -157,8 +137,8 @@ def test_results_are_deterministic():
 
 
 def test_shipped_code_holds_none_of_what_hides_or_varies():
-    for path, node in _nodes():
-        where = f"{_name(path)}:{getattr(node, 'lineno', 0)}"
+    for path, node in nodes():
+        where = f"{name_of(path)}:{getattr(node, 'lineno', 0)}"
         assert not isinstance(node, ast.Assert), f"{where}: python -O removes assert"
         if isinstance(node, ast.ExceptHandler):
             assert node.type is not None, f"{where}: a bare except hides everything"
@@ -168,7 +148,7 @@ def test_shipped_code_holds_none_of_what_hides_or_varies():
             assert "/tmp" not in node.value, f"{where}: not every system has it"
 
 
-@pytest.mark.parametrize("wrapper", WRAPPERS, ids=_name)
+@pytest.mark.parametrize("wrapper", WRAPPERS, ids=name_of)
 def test_a_processing_wrapper_is_thin(wrapper):
     assert len(wrapper.read_text(encoding="utf-8").splitlines()) < 80
 

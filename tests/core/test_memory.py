@@ -1,0 +1,61 @@
+"""A block takes no more memory than the engine reckons with, and what is freed goes back."""
+
+import sys
+import tracemalloc
+from pathlib import Path
+
+import numpy as np
+import pytest
+from surveys import cloud_of
+
+from bare_earth.algorithms.core.progress import SILENT
+from bare_earth.algorithms.engine.heights import MeasureHeights
+from bare_earth.algorithms.engine.memory import Resources, give_back
+from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
+from bare_earth.algorithms.engine.raster_files import RasterFiles
+from bare_earth.algorithms.engine.rasters import MakeRasters, RasterRequest
+from bare_earth.algorithms.las.cloud import survey_frame
+from bare_earth.algorithms.products.terrain_model import TerrainModel
+
+COUNT, SIDE = 300_000, 340.0
+MAPS = {name: Path(f"{name}.tif") for name in ("dtm", "dsm")}
+STEPS = {
+    "heights": MeasureHeights(),
+    "terrain": MakeRasters(RasterRequest(RasterFiles(dtm=MAPS["dtm"]), TerrainModel(1.0))),
+    "surface": MakeRasters(RasterRequest(RasterFiles(**MAPS), TerrainModel(1.0))),
+}
+
+
+@pytest.mark.parametrize("name", STEPS)
+def test_a_block_takes_about_as_much_as_is_reckoned(name):
+    random, step = np.random.default_rng(1), STEPS[name]
+    x, y = random.uniform(0.0, SIDE, (2, COUNT))
+    z = 100.0 + 8.0 * np.sin(x / 60.0) + random.uniform(0.0, 0.1, COUNT)
+    cloud = cloud_of(*(np.rint(each * 100) for each in (x, y, z)))
+    ground, every = random.random(COUNT) < 0.9, np.ones(COUNT, dtype=bool)
+    store = MemoryPoints(
+        [SurveyFile(cloud, every, ground, every)], survey_frame(cloud.crs), step.blocks
+    )
+    reckoned = step.blocks.memory(COUNT, (SIDE + 2.0 * step.blocks.buffer) ** 2)
+    tracemalloc.start()
+    try:
+        step.work(store, Resources(threads=1), SILENT)
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert 0.3 * reckoned < peak < reckoned
+
+
+def _resident():
+    return int(Path("/proc/self/statm").read_text().split()[1]) * 4096
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="glibc alone keeps what is freed")
+def test_what_is_freed_goes_back():
+    # Too small to be mapped one by one; the last one keeps the heap from shrinking by itself.
+    held = [np.ones(8_000) for _ in range(600)]
+    held = held[-1:]
+    before = _resident()
+    give_back()
+    assert before - _resident() > 20_000_000
+    assert len(held) == 1
