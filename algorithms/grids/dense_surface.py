@@ -32,6 +32,8 @@ _MARGIN = _WIDEST // 2 + 1
 # Cells of the lattice round queries that are left whose vertices are triangulated. The circle round
 # a triangle over a gap holds no vertex, and reaches hardly a cell into where each has one.
 _RIM = _WIDEST
+# Cells by which a vertex may seem to lie outside its tile, because of rounding.
+_A_LITTLE = 0.01
 
 
 class _Queries(NamedTuple):
@@ -173,14 +175,30 @@ class DenseSurface:
         return heights
 
     def nearest(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Return the height of the vertex nearest to each query."""
+        """Return the height of the vertex nearest to each query.
+
+        Only tiles are searched in which it may lie: none is farther than a corner of the hull.
+        """
         from scipy.spatial import cKDTree
 
-        which = self._vertices()
-        vertices = self._points.take(which)
-        # A balanced tree takes longer to build than it saves.
-        tree = cKDTree(np.column_stack(vertices[:2]), balanced_tree=False, compact_nodes=False)
-        return vertices.z[tree.query(np.column_stack((x, y)))[1]]
+        def tree(which: np.ndarray) -> cKDTree:
+            places = np.column_stack(self._points.take(which)[:2])
+            # A balanced tree takes longer to build than it saves.
+            return cKDTree(places, balanced_tree=False, compact_nodes=False)
+
+        thinned, queries = self._thinned, np.column_stack((x, y))
+        farthest = tree(self.hull).query(queries)[0] / thinned.side + _A_LITTLE
+        row, column = thinned.cells(y, 1), thinned.cells(x, 0)
+        near = [self.hull]
+        for place, tile in thinned.tiles.items():
+            beyond = (
+                np.maximum(np.abs(at - (number + 0.5) * TILE) - 0.5 * TILE, 0.0)
+                for at, number in zip((row, column), place)
+            )
+            if (np.hypot(*beyond) <= farthest).any():
+                near.append(tile.which)
+        which = np.concatenate(near)
+        return self._points.z[which[tree(which).query(queries)[1]]]
 
     @property
     def vertices(self) -> np.ndarray:

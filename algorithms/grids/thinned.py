@@ -78,10 +78,10 @@ class ThinnedPoints:
     ) -> None:
         self.points, self.side, self.anchor = points, side, anchor
         numbers, places = self._tile_of_each(progress.part(0.0, 0.3))
-        small = np.uint16 if len(places) <= _MOST_SMALL else np.int64
-        order = np.argsort(numbers.astype(small), kind="stable")
+        order = np.argsort(numbers, kind="stable")
         progress(0.4)
-        bounds = np.searchsorted(numbers[order], np.arange(len(places) + 1))
+        counts = np.bincount(numbers, minlength=len(places))
+        bounds = np.concatenate(([0], np.cumsum(counts))).tolist()
         progress(0.5)
         filled = [k for k in range(len(places)) if bounds[k + 1] > bounds[k]]
 
@@ -93,25 +93,33 @@ class ThinnedPoints:
 
     def _tile_of_each(self, progress: Progress) -> tuple[np.ndarray, list[tuple[int, int]]]:
         """Return the number of the tile of each point (n,), and row and column of each tile."""
-        places = np.empty((2, self.points.count), dtype=np.int32)
+        (first_row, last_row), (first_column, last_column) = (
+            [int(np.floor(self.cells(end, axis)) // TILE) for end in (each.min(), each.max())]
+            for axis, each in ((1, self.points.y), (0, self.points.x))
+        )
+        rows, columns = last_row - first_row + 1, last_column - first_column + 1
+        # Two bytes a point, that numpy sorts fastest.
+        kind = np.uint16 if rows * columns <= _MOST_SMALL else np.int64
+        numbers = np.empty(self.points.count, dtype=kind)
 
         def place(part: slice) -> None:
-            for axis, values in enumerate((self.points.y, self.points.x)):
-                places[axis, part] = np.floor(self.cells(values[part], 1 - axis)) // TILE
+            row, column = (
+                np.floor(self.cells(each[part], axis)).astype(np.int64) // TILE - first
+                for axis, each, first in (
+                    (1, self.points.y, first_row),
+                    (0, self.points.x, first_column),
+                )
+            )
+            numbers[part] = row * columns + column
 
         over_parts(place, self.points.count, _POINTS_A_PART, progress)
-        (first_row, first_column), (last_row, last_column) = places.min(axis=1), places.max(axis=1)
-        columns = int(last_column) - int(first_column) + 1
-        numbers = (places[0].astype(np.int64) - first_row) * columns + (places[1] - first_column)
-        if (int(last_row) - int(first_row) + 1) * columns <= _MOST_SMALL:
-            rows = range(int(first_row), int(last_row) + 1)
-            return numbers, list(
-                itertools.product(rows, range(int(first_column), int(last_column) + 1))
-            )
-        # Tiles far apart: only those that have points get a number.
-        found, numbers = np.unique(numbers, return_inverse=True)
-        rows, remainders = np.divmod(found, columns)
-        return numbers, list(zip((rows + first_row).tolist(), (remainders + first_column).tolist()))
+        if kind is np.int64:
+            # Of tiles far apart, only those that have points get a number.
+            found, numbers = np.unique(numbers, return_inverse=True)
+        else:
+            found = np.arange(rows * columns)
+        row, column = np.divmod(found, columns)
+        return numbers, list(zip((row + first_row).tolist(), (column + first_column).tolist()))
 
     def cells(self, values: np.ndarray, axis: int) -> np.ndarray:
         """Return x (`axis` 0) or y (1) in metres as cells from the anchor."""

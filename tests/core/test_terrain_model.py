@@ -39,3 +39,16 @@ def test_every_cell_in_the_hull_of_the_points_has_a_height_though_they_are_thinn
     x, y = np.meshgrid(grid.x, grid.y)
     inside = Tin(*points).locate(x.ravel(), y.ravel()) >= 0
     assert np.array_equal(np.isfinite(heights).ravel(), inside)
+
+
+@pytest.mark.parametrize(("count", "size"), [(5, 50.0), (20000, 900.0)])
+def test_the_nearest_vertex_is_found_from_outside_the_hull(count, size):
+    random = np.random.default_rng(1)
+    x, y = random.uniform(0.0, size, (2, count))
+    points = Points(x, y, random.random(count))
+    surface = DenseSurface(points, 1.0, (-3.0, -2.0))
+    angle, radius = random.uniform(0.0, 2.0 * np.pi, 200), size * random.uniform(0.7, 2.0, 200)
+    at_x, at_y = size / 2.0 + radius * np.cos(angle), size / 2.0 + radius * np.sin(angle)
+    some = points.take(surface.vertices)
+    distance = np.hypot(at_x[:, None] - some.x, at_y[:, None] - some.y)
+    assert np.array_equal(surface.nearest(at_x, at_y), some.z[distance.argmin(axis=1)])
