@@ -24,8 +24,7 @@ from .memory import Cost, Resources
 from .output import HEIGHT_DIMENSION, height_edits
 from .steps import Marks, PointResult, PointStep, Room
 
-# Metres round a block in which ground points matter for its heights, and what that takes: most for
-# the search for the nearest vertex beyond the hull of dense ground.
+# Metres round a block in which ground points matter for its heights, and what it takes.
 _BLOCKS = Blocks.of(100.0, Cost(150.0, 50.0))
 
 
