@@ -8,8 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core.points import Points
-from ...core.progress import SILENT
-from ...core.threads import in_threads, over_parts, parts_of
+from ...core.threads import in_threads, parts_of
 from ...grids.cells import Cells
 from ...grids.gradient import gradient, length, steepness
 from ...grids.inpaint import inpaint
@@ -110,7 +109,7 @@ def ground_limits(
     surface, slopes = _centred(points, vertices, cells)
     above = tolerance.above
     if spacing <= NOISE_SPACING:
-        level, noise = _middle(*_rises(points, cells, surface, slopes), surface.size)
+        level, noise = _middle(_rises(points, cells, surface, slopes), surface.size)
         surface = surface + level.reshape(surface.shape)
         least = _LEAST_ABOVE if spacing <= DENSE_SPACING else above
         above = max(least, _ABOVE + _ABOVE_FACTOR * noise)
@@ -174,36 +173,42 @@ def _from_middle(points: Points, cells: Cells, cell: np.ndarray) -> tuple[np.nda
 
 def _rises(
     points: Points, cells: Cells, surface: np.ndarray, slopes: tuple[np.ndarray, np.ndarray]
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return the cells of the points that may be noise of the ground, int32, and how far they rise.
+) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Return the cells of the points that may be noise of the ground, and how far they rise.
 
-    Rises above the surface are float32, multiples of a power of two: their sums are exact, in
-    whatever order they are taken.
+    For each part of the points there are cells, int32, and rises above the surface, float32. These
+    are multiples of a power of two: their sums are exact, in whatever order they are taken.
     """
     height, to_north, to_east = (each.ravel() for each in (surface, *slopes))
 
-    def find(part: slice) -> tuple[np.ndarray, np.ndarray]:
+    def near(part: slice) -> tuple[np.ndarray, np.ndarray]:
         cell = cells.index[part]
         north, east = _from_middle(points.take(part), cells, cell)
         rise = points.z[part] - height[cell]
         rise -= to_north[cell] * north
         rise -= to_east[cell] * east
-        near = np.flatnonzero(np.abs(rise) <= _FARTHEST)
-        rise = np.rint(rise[near] * _STEPS_A_METRE) / _STEPS_A_METRE
-        return cell[near], rise.astype(np.float32)
+        which = np.flatnonzero(np.abs(rise) <= _FARTHEST)
+        rise = np.rint(rise[which] * _STEPS_A_METRE) / _STEPS_A_METRE
+        return cell[which], rise.astype(np.float32)
 
-    found = in_threads(find, parts_of(points.count, _POINTS_A_PART))
-    cell, rise = (np.concatenate(each) for each in zip(*found))
-    return cell, rise
+    def joined(part: slice) -> tuple[np.ndarray, np.ndarray]:
+        pieces = [
+            near(slice(start, min(start + _POINTS_A_PART, part.stop)))
+            for start in range(part.start, part.stop, _POINTS_A_PART)
+        ]
+        cell, rise = (np.concatenate(each) for each in zip(*pieces))
+        return cell, rise
+
+    return in_threads(joined, parts_of(points.count, _POINTS_A_SUM))
 
 
-def _middle(cell: np.ndarray, rise: np.ndarray, cells: int) -> tuple[np.ndarray, float]:
+def _middle(rises: list[tuple[np.ndarray, np.ndarray]], cells: int) -> tuple[np.ndarray, float]:
     """Return the middle of the ground points of each cell, and their noise, both in metres.
 
     The lowest points give a first guess, as they lie below by a multiple of the noise that their
     number tells; then the points round the guess are averaged.
     """
-    count, total, square = _sums(cell, rise, np.zeros(cells, np.float32), _NOISE_WINDOW)
+    count, total, square = _sums(rises, np.zeros(cells, np.float32), _NOISE_WINDOW)
     enough = count >= _NOISE_POINTS
     if not enough.any():
         return np.zeros(cells), 0.0
@@ -212,19 +217,19 @@ def _middle(cell: np.ndarray, rise: np.ndarray, cells: int) -> tuple[np.ndarray,
     noise = float(np.percentile(spread[enough], _NOISE_PERCENTILE))
     level = _LOWEST_FACTOR * noise * np.sqrt(2.0 * np.log(number))
     for _ in range(_MEANS):
-        count, total = _sums(cell, rise, level, _NOISE_FACTOR * noise, powers=1)
+        count, total = _sums(rises, level, _NOISE_FACTOR * noise, powers=1)
         level = np.where(count >= _MEAN_POINTS, total / np.maximum(count, 1), level)
     return level, noise
 
 
 def _sums(
-    cell: np.ndarray, rise: np.ndarray, level: np.ndarray, most: float, powers: int = 2
+    rises: list[tuple[np.ndarray, np.ndarray]], level: np.ndarray, most: float, powers: int = 2
 ) -> np.ndarray:
     """Return how many rises of each cell lie near its level, their sum, and that of their squares.
 
     Parameters
     ----------
-    cell, rise : numpy.ndarray, shape (n,)
+    rises : list of tuple
         As `_rises` returns them.
     level : numpy.ndarray of float, shape (cells,)
         Metres.
@@ -239,8 +244,8 @@ def _sums(
     """
     sums, lock = np.zeros((powers + 1, level.size)), threading.Lock()
 
-    def add(part: slice) -> None:
-        at, value = cell[part], rise[part]
+    def add(part: tuple[np.ndarray, np.ndarray]) -> None:
+        at, value = part
         near = np.flatnonzero(np.abs(value - level.take(at)) <= most)
         if not len(near):
             return
@@ -253,5 +258,5 @@ def _sums(
         with lock:
             sums[:, first : first + len(found[0])] += found
 
-    over_parts(add, len(cell), _POINTS_A_SUM, SILENT)
+    in_threads(add, rises)
     return sums

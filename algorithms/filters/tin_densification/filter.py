@@ -283,6 +283,7 @@ def classify(
     progress(0.1)
     tell_of_outliers(len(survey.lowest), survey.heights, progress)
     ground, waiting = _seeds(points, grids, resolved, progress.part(0.1, 0.7))
+    del grids  # four bytes a point of the second one
     cells = survey.cells
     heights = cells.minimum(points.z, ground)
     if known_ground is not None and known_ground.any():
