@@ -73,7 +73,8 @@ def tin_densification_steps() -> None:
     parameters = tin_densification.TinDensification().resolve(points)
     survey = LowestPoints(points, 1.0)
     cells, apart = survey.cells, survey.spacing
-    found = seeds_of_two_grids(points, survey, parameters.max_building_size, SILENT)
+    grids = survey, LowestPoints(points, 1.0, shift=0.5)
+    found = seeds_of_two_grids(points.count, grids, parameters.max_building_size, SILENT)
     seeds, waiting = checked_seeds(points, *found, cells, apart)
     heights = with_lower(np.full(cells.shape, np.nan), cells, points, seeds)
     rules = tin_densification.densification_rules(parameters)
