@@ -201,6 +201,14 @@ def test_the_spacing_of_a_survey_is_that_of_any_part_of_it():
     assert spacing(Points(x / 8, y / 8, x)) == 1.0
 
 
+def test_cells_that_begin_elsewhere_are_those_of_moved_points():
+    x, y = np.random.default_rng(5).uniform(-20.0, 20.0, (2, 200))
+    shifted = Cells.over(Points(x, y, x), 2.0, shift=1.0)
+    moved = Cells.over(Points(x + 1.0, y + 1.0, x), 2.0)
+    assert (shifted.first, shifted.shape) == (moved.first, moved.shape)
+    assert np.array_equal(shifted.index, moved.index)
+
+
 def test_points_with_a_gap_between_them_are_apart():
     x, y = np.random.default_rng(6).uniform(0.0, 60.0, (2, 500))
     for gap, count in ((99.0, 1), (126.0, 2), (3000.0, 2)):
