@@ -98,9 +98,16 @@ def title_of(declaration: Declaration) -> str:
 
 
 def help_of(declaration: Declaration) -> str:
-    """Return the help, with what each choice means, in the user's language."""
-    choices = [f"{value}: {tr(label)}." for value, label in declaration.choices.items()]
-    return " ".join([tr(declaration.help), *choices])
+    """Return the help, with what each choice is called in scripts, in the user's language."""
+    text = tr(declaration.help)
+    if not declaration.choices:
+        return text
+    choices = ((value, tr(label)) for value, label in declaration.choices.items())
+    names = (
+        value if value == label.lower().replace(" ", "-") else f"{value}: {label}"
+        for value, label in choices
+    )
+    return f"{text} {tr('In scripts')}: {'; '.join(names)}."
 
 
 def parameters_of(
