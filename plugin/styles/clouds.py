@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Callable, Iterable
 
 import numpy as np
@@ -20,8 +19,6 @@ from qgis.core import (
 )
 from qgis.PyQt.QtGui import QColor, QPainter
 
-from ...algorithms.las.copc_nodes import read_hierarchy, read_nodes, read_pages
-from ...algorithms.las.opening import open_las
 from . import ramps
 
 _GROUND = 2
@@ -121,13 +118,11 @@ def by_height(attribute: str, highest: float) -> Callable[[QgsPointCloudLayer], 
 
 def _usual_height(path: str, attribute: str) -> float:
     """Return the height below which nearly all points of the uppermost node of a COPC file lie."""
-    hierarchy = read_hierarchy(open_las(Path(path)))
-    nodes = np.concatenate(list(read_pages(hierarchy).values()))
-    nodes = nodes[nodes["count"] > 0]
-    points = next(read_nodes(hierarchy, nodes[np.argsort(nodes["key"][:, 0])][:1]))
-    values = np.asarray(points[attribute], dtype=float)
-    if attribute == "Z":
-        values = values * hierarchy.layout.scale[2] + hierarchy.layout.offset[2]
+    import laspy
+
+    with laspy.CopcReader.open(path) as reader:
+        points = reader.query(level=0)
+    values = np.asarray(points.z if attribute == "Z" else points[attribute], dtype=float)
     values = values[np.isfinite(values)]
     return float(np.quantile(values, _NEARLY_ALL)) if values.size else 0.0
 
