@@ -1,7 +1,11 @@
-"""What the figures of the pages share: colours, reliefs, and pictures that are small."""
+"""What the figures of the pages share: colours, reliefs, and pictures that are small.
+
+    tools/environment python docs/drawing.py PICTURE.png ...    makes other pictures small
+"""
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import matplotlib as mpl
@@ -52,3 +56,9 @@ def draw_errors(panel: Axes, true_heights: np.ndarray, error: np.ndarray) -> Non
     # Errors of less than 0.2 m are not shown; from 1 m on they are so in full colour.
     colours[..., 3] = np.clip((np.abs(np.nan_to_num(error)) - 0.2) / 0.8, 0, 0.9)
     panel.imshow(colours, interpolation="nearest")
+
+
+if __name__ == "__main__":
+    for name in sys.argv[1:]:
+        with Image.open(name) as picture:
+            shrink(picture, Path(name), 160)
