@@ -1,6 +1,6 @@
 """What the figures of the pages share: colours, reliefs, and pictures that are small.
 
-    tools/environment python docs/drawing.py PICTURE.png ...    makes other pictures small
+tools/environment python docs/drawing.py PICTURE.png ...    makes other pictures small
 """
 
 from __future__ import annotations
