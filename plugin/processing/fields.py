@@ -23,6 +23,8 @@ from .choices import ChoiceParameter, value_of, values_of, with_labels
 _SYMBOLS = {"deg": "°"}
 _LISTS = ("numbers", "integers")
 _FEWEST_DECIMALS = 3
+# A longer list of choices would hide the rest of the help: there the names have to do.
+_MOST_EXPLAINED = 12
 
 
 def field_of(declaration: Declaration, is_shown: bool = True) -> QgsProcessingParameterDefinition:
@@ -103,8 +105,9 @@ def help_of(declaration: Declaration) -> str:
     if not declaration.choices:
         return text
     choices = ((value, tr(label)) for value, label in declaration.choices.items())
+    is_long = len(declaration.choices) > _MOST_EXPLAINED
     names = (
-        value if value == label.lower().replace(" ", "-") else f"{value}: {label}"
+        value if is_long or value == label.lower().replace(" ", "-") else f"{value}: {label}"
         for value, label in choices
     )
     return f"{text} {tr('In scripts')}: {'; '.join(names)}."

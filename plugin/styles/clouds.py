@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import Callable, Iterable
 
 import numpy as np
@@ -19,6 +20,7 @@ from qgis.core import (
 )
 from qgis.PyQt.QtGui import QColor, QPainter
 
+from ...algorithms.las.copc_sample import sample_of
 from . import ramps
 
 _GROUND = 2
@@ -118,11 +120,7 @@ def by_height(attribute: str, highest: float) -> Callable[[QgsPointCloudLayer], 
 
 def _usual_height(path: str, attribute: str) -> float:
     """Return the height below which nearly all points of the uppermost node of a COPC file lie."""
-    import laspy
-
-    with laspy.CopcReader.open(path) as reader:
-        points = reader.query(level=0)
-    values = np.asarray(points.z if attribute == "Z" else points[attribute], dtype=float)
+    values = sample_of(Path(path), "z" if attribute == "Z" else attribute)
     values = values[np.isfinite(values)]
     return float(np.quantile(values, _NEARLY_ALL)) if values.size else 0.0
 

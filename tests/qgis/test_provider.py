@@ -309,10 +309,12 @@ def test_the_values_of_presets_are_told_before_a_run(algorithm, registry):
     assert "&#x27;" not in help_text and "LiDAR360's" in help_text
 
 
-def test_the_help_tells_what_choices_are_in_scripts(algorithm):
+def test_the_help_tells_what_choices_are_in_scripts(algorithm, registry):
     text = algorithm.parameterDefinition("PRESET").help()
     assert "In scripts: automatic; flat: Flat land, fields; hilly: Hilly land, forest;" in text
     assert "In scripts" not in algorithm.parameterDefinition("MAX_BUILDING_SIZE").help()
+    compare = registry.createAlgorithmById("bareearth:comparesettings")
+    assert "; slope:flat; slope:hilly; " in compare.parameterDefinition("SETTINGS").help()
 
 
 def test_units_and_rare_parameters(algorithm):
