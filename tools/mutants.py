@@ -278,12 +278,15 @@ def main() -> None:
     for each in ("laspy", "lazrs", "pytest", "rasterio", "scipy.ndimage", "scipy.spatial"):
         importlib.import_module(each)  # once, not in each process of tests
 
-    known, kept = Tests(), []
+    known, kept, again = Tests(), [], []
     mutants = sample(asked.count, asked.seed, asked.only)
     if asked.again:
-        kept = [each for each in json.loads(RESULTS.read_text()) if each["seen"]]
-        missed = [each for each in json.loads(RESULTS.read_text()) if not each["seen"]]
-        mutants = [Mutant(*(each[name] for name in Mutant._fields)) for each in missed]
+        for each in json.loads(RESULTS.read_text()):
+            if each["seen"] or (asked.only and each["group"] not in asked.only):
+                kept.append(each)
+            else:
+                again.append(Mutant(*(each[name] for name in Mutant._fields)))
+        mutants = again
     results: list[dict] = []
     for number, mutant in enumerate(mutants):
         tests = known.of(mutant, asked.seconds)

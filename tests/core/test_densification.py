@@ -105,7 +105,7 @@ def test_beyond_a_facet_that_is_too_steep_the_mirror_image_is_judged():
     # The nearest vertex of the first two is (40, 20), and their images lie on the upper land.
     at = np.array([(38.5, 20.5), (38.5, 20.5), (31.0, 20.3)])
     image = 2.0 * np.array([(40.0, 20.0), (40.0, 20.0), (30.0, 20.0)]) - at
-    heights = step(image) + [0.0, 0.1, 0.0]
+    heights = step(image) + np.array([0.0, 0.1, 0.0])
     rules = {"surface": step, "noise_distance": 0.01, "iteration_angle": 0.1}
     for each, expected in ((0, True), (1, False), (2, True)):
         one = at[each : each + 1], heights[each : each + 1]
@@ -120,5 +120,5 @@ def test_far_from_the_surface_a_point_needs_a_neighbour_at_its_level():
     assert joining(two[:1], alone).all()
     assert not joining(two[:1], alone, **rules).any()
     assert joining(two[:1], alone - 0.81, **rules).all()
-    assert joining(two, plane(two) + [1.0, 1.2], **rules).any()
-    assert not joining(two, plane(two) + [1.0, 1.7], **rules).any()
+    assert joining(two, plane(two) + np.array([1.0, 1.2]), **rules).any()
+    assert not joining(two, plane(two) + np.array([1.0, 1.7]), **rules).any()
