@@ -1,4 +1,4 @@
-"""The presets have the values that the pages tell."""
+"""The defaults and the presets have the values that the pages tell."""
 
 import re
 from pathlib import Path
@@ -6,6 +6,13 @@ from pathlib import Path
 import pytest
 
 from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
+from bare_earth.algorithms.filters.slope.filter import SlopeFilter
+from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
+from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
+from bare_earth.algorithms.products.off_terrain import OffTerrain
+from bare_earth.algorithms.survey.ground_classes import GroundClasses
+from bare_earth.algorithms.survey.selection import Selection
 from benchmarks.scenes.simple import village
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -45,20 +52,45 @@ def test_the_pages_tell_the_values_of_each_preset(method):
             assert (found if isinstance(found, tuple) else (found,)) == value, (preset, name)
 
 
-def test_the_page_of_the_slope_filter_tells_its_values_for_most_land():
+# The sets of parameters that the tables of a page tell, by the names that QGIS has for them.
+TABLES = {
+    "tin-densification": (TinDensification, Selection),
+    "slope-filter": (SlopeFilter,),
+    "grid-minimum": (GridMinimum,),
+    "model-key-points": (ModelKeyPoints, GroundClasses),
+    "remove-off-terrain-objects": (OffTerrain,),
+}
+
+
+@pytest.mark.parametrize("page", TABLES)
+def test_the_pages_tell_the_defaults(page):
+    text = (DOCS / f"{page}.md").read_text("utf-8")
+    told = dict(re.findall(r"^\| \*\*.+?\*\* `([A-Z_]+)` \| (.+?) \|", text, re.MULTILINE))
+    points, _ = village()
+    compared = 0
+    for parameters in TABLES[page]:
+        chosen = parameters()
+        for each in chosen.declarations():
+            value = re.match(r"`?([\d.]+|on|off|[a-z-]+`)", told.get(each.name.upper(), ""))
+            if value:
+                resolve = getattr(chosen, "resolve", lambda points, same=chosen: same)
+                assert _text(getattr(resolve(points), each.name)) == value[1].strip("`"), each.name
+                compared += 1
+    assert compared >= 3
+
+
+def _text(value):
+    if isinstance(value, bool):
+        return "on" if value else "off"
+    if isinstance(value, tuple):
+        return ", ".join(map(_text, value))
+    return value if isinstance(value, str) else f"{value:g}"
+
+
+def test_the_presets_of_the_slope_filter_have_the_sizes_of_its_page():
     points, _ = village()
     text = PAGES["slope"].read_text("utf-8")
-    chosen = METHODS["slope"].parameters().resolve(points)
-    for label, name in (
-        ("Search radius", "search_radius"),
-        ("Slope threshold", "slope_threshold"),
-        ("Height threshold", "height_threshold"),
-        ("Cell size", "cell_size"),
-        ("Maximum building size", "max_building_size"),
-    ):
-        value = re.search(rf"\*\*{label}\*\* `{name.upper()}` \| ([\d.]+)", text)
-        assert getattr(chosen, name) == float(value[1]), name
-    sizes = re.findall(r"(\d+) m in \*(\w+)\*", re.sub(r"It is (\d+)", r"\1", text))
+    sizes = re.findall(r"(\d+) m in \*(\w+)\*", text)
     assert [preset for _, preset in sizes] == ["hilly", "steep", "city"]
     for size, preset in sizes:
         chosen = METHODS["slope"].parameters(preset=preset).resolve(points)
