@@ -16,10 +16,10 @@ _SQUARE = 20.0
 
 # Kinds of land, with how many points a square metre: each has something that others have not.
 SCENES = {
-    "hills": 1.0, "gorge": 10.0, "sea_cliff": 3.0, "mesa": 3.0, "boulders": 3.0,
+    "hills": 0.25, "gorge": 10.0, "sea_cliff": 3.0, "mesa": 3.0, "boulders": 3.0,
     "vineyard_terraces": 3.0, "steep_forest": 1.0, "hall_courtyard": 1.0, "complex_on_slope": 2.0,
     "plaza": 3.0, "city_blocks": 2.0, "sparse_village": 1.0, "embankment_and_cutting": 3.0,
-    "bridge_over_road": 4.0, "ramps": 3.0, "dense_canopy": 3.0, "water_gaps": 3.0,
+    "bridge_over_road": 4.0, "viaduct": 3.0, "ramps": 3.0, "dense_canopy": 3.0, "water_gaps": 3.0,
     "multipath": 3.0, "drone_noisy": 8.0, "photogrammetry": 12.0,
 }  # fmt: skip
 # What else than the usual values changes the rules.

@@ -21,7 +21,11 @@ PARAMETERS = [
     SlopeFilter(preset="whitebox"),
     SlopeFilter(slope_norm=False),
 ]
-CLASSIC = [TinDensification(preset="lidar360"), GridMinimum(preset="paper")]
+CLASSIC = [
+    TinDensification(preset="lidar360"),
+    GridMinimum(preset="paper"),
+    SlopeFilter(preset="whitebox", min_neighbours=30),
+]
 
 
 @pytest.mark.parametrize("parameters", PARAMETERS)
