@@ -9,22 +9,27 @@ from pathlib import Path
 import numpy as np
 
 from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.filters.shared.bridges import bridge_decks
+from bare_earth.algorithms.filters.shared.confidence import confidence
 from benchmarks.scenes import make
 
 AGREED = Path(__file__).with_name("label_counts.json")
-_SQUARE = 20.0
+_SQUARE, _SURE = 20.0, 0.8
 
 # Kinds of land, with how many points a square metre: each has something that others have not.
 SCENES = {
     "hills": 0.25, "gorge": 10.0, "sea_cliff": 3.0, "mesa": 3.0, "boulders": 3.0,
     "vineyard_terraces": 3.0, "steep_forest": 1.0, "hall_courtyard": 1.0, "complex_on_slope": 2.0,
     "plaza": 3.0, "city_blocks": 2.0, "sparse_village": 1.0, "embankment_and_cutting": 3.0,
-    "bridge_over_road": 4.0, "viaduct": 3.0, "ramps": 3.0, "dense_canopy": 3.0, "water_gaps": 3.0,
+    "bridge_over_road": 4.0, "bridge_over_railway": 10.0,
+    "bridge_over_river": 2.0, "viaduct": 3.0, "ramps": 3.0, "dense_canopy": 3.0, "water_gaps": 3.0,
     "multipath": 3.0, "drone_noisy": 8.0, "photogrammetry": 12.0,
 }  # fmt: skip
 # What else than the usual values changes the rules.
 PRESETS = [("tin-densification", "lidar360"), ("slope", "whitebox"), ("grid-minimum", "paper")]
 PRESETS += [(method, preset) for method in METHODS for preset in ("automatic", "steep", "city")]
+BRIDGES = ("bridge_over_road", "bridge_over_railway", "bridge_over_river", "viaduct", "plaza")
+UNSURE = ("gorge", "steep_forest", "sparse_village", "water_gaps")
 SOME = ("hills", "sparse_village", "complex_on_slope")
 
 
@@ -34,9 +39,19 @@ def scene_of(kind):
 
 
 def counts_of(scene, method, preset):
-    """Return the points of each square that a method makes ground, row by row."""
+    """Return the points of each square that a method makes ground, row by row.
+
+    Or those that lie on decks, or where the terrain is rather sure, with the ground of a method.
+    """
     points = scene.points
-    found = METHODS[method].classify(points, METHODS[method].parameters(preset=preset))
+    found = METHODS[method].classify(points, METHODS[method].parameters())
+    if preset == "decks":
+        found = bridge_decks(points, found)
+    elif preset == "confidence":
+        sure = confidence(points, found)
+        found = (sure.values >= _SURE).ravel()[sure.cells.index]
+    elif preset != "automatic":
+        found = METHODS[method].classify(points, METHODS[method].parameters(preset=preset))
     x, y = (np.floor((each - each.min()) / _SQUARE).astype(int) for each in (points.x, points.y))
     counts = np.zeros((y.max() + 1, x.max() + 1), dtype=int)
     np.add.at(counts, (y[found], x[found]), 1)
@@ -49,6 +64,10 @@ def runs():
         for method, preset in PRESETS:
             if preset == "automatic" or kind in SOME:
                 yield kind, method, preset
+        if kind in BRIDGES:
+            yield kind, "slope", "decks"
+        if kind in UNSURE:
+            yield kind, "slope", "confidence"
 
 
 if __name__ == "__main__":
