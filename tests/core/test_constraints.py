@@ -17,7 +17,7 @@ from bare_earth.algorithms.engine.rasters import RasterFiles
 from bare_earth.algorithms.engine.requests import ClassifyRequest, TerrainRequest
 from bare_earth.algorithms.engine.runs import classify, terrain
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
-from bare_earth.algorithms.grids.lines import along
+from bare_earth.algorithms.grids.lines import NearPlaces, along, inside_grid
 from bare_earth.algorithms.survey.vector_files import read_lines
 from benchmarks.scenes.simple import scatter
 
@@ -280,3 +280,19 @@ def test_places_along_a_line_are_no_farther_apart_than_the_step():
     assert np.allclose(first[:, 2], 2.0 * np.hypot(first[:, 0], first[:, 1]))
     ring = along(line[:2], 0.5, is_closed=True)
     assert np.array_equal(ring[0], ring[-1])
+
+
+def test_places_inside_lie_at_multiples_of_the_step():
+    found = inside_grid((-1.2, 3.0, 2.5, 4.6), 0.5)
+    x, y = np.arange(-2, 6) * 0.5, np.arange(6, 10) * 0.5
+    assert found.tolist() == [[west, south] for south in y for west in x]
+
+
+def test_near_places_are_those_of_the_squares_round_a_place():
+    near = NearPlaces(np.array([0.5, 100.0]), np.array([0.5, -3.5]), 2.0)
+    x, y = (each.ravel() for each in np.meshgrid(np.arange(-20, 120) / 1.0, np.arange(-20, 20)))
+    expected = np.zeros(len(x), dtype=bool)
+    for at_x, at_y in ((0.5, 0.5), (100.0, -3.5)):
+        column, row = np.floor(x / 2.0) - np.floor(at_x / 2.0), np.floor(y / 2.0) - at_y // 2.0
+        expected |= (np.abs(column) <= 1) & (np.abs(row) <= 1)
+    assert np.array_equal(near.of(x, y), expected)

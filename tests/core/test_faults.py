@@ -168,8 +168,9 @@ def _look_at(name, done, out, old, enough):
 
 
 # The folder on the small disk: that of all outputs; of a survey also that of what it keeps of its
-# blocks, and that of its files, without the rasters and the virtual point cloud.
-DISKS = [*((name, ".") for name in COMMANDS), ("survey", "out"), ("survey", "out/.bare-earth")]
+# blocks, that of its labels alone, and that of its files, without the rasters and the list.
+DISKS = [(name, ".") for name in COMMANDS]
+DISKS += [("survey", "out"), ("survey", "out/.bare-earth"), ("survey", "out/.bare-earth/labels")]
 
 
 @pytest.mark.long

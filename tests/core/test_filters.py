@@ -6,8 +6,11 @@ from runs import CancelAt
 
 from bare_earth.algorithms.core.errors import Cancelled
 from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.filters import METHODS, method_of
+from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
+from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
 from bare_earth.algorithms.products.comparison import compare
 from benchmarks import data
 from benchmarks.scenes import make
@@ -17,6 +20,11 @@ PARAMETERS = [
     *(method.parameters() for method in METHODS.values()),
     SlopeFilter(preset="whitebox"),
     SlopeFilter(slope_norm=False),
+]
+CLASSIC = [
+    TinDensification(preset="lidar360"),
+    GridMinimum(preset="paper"),
+    SlopeFilter(preset="whitebox", min_neighbours=30),
 ]
 
 
@@ -32,6 +40,19 @@ def test_a_handful_of_points_is_classified_without_an_error(parameters, count):
 def test_a_cancel_ends_the_classification(parameters):
     with pytest.raises(Cancelled):
         method_of(parameters).classify(village()[0], parameters, CancelAt(0.3))
+
+
+@pytest.mark.parametrize("parameters", [*PARAMETERS, *CLASSIC])
+def test_progress_never_goes_back(parameters):
+    told = []
+
+    class Heard(Progress):
+        def report(self, fraction):
+            told.append(fraction)
+
+    method_of(parameters).classify(village()[0], parameters, Heard())
+    assert len(told) > 5 and np.diff(told).min() >= 0.0
+    assert 0.9 < told[-1] <= 1.0
 
 
 @pytest.mark.parametrize(

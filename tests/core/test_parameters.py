@@ -67,5 +67,17 @@ def test_every_method_declares_label_help_and_limits(method):
             assert each.minimum is not None and each.maximum is not None, each.name
 
 
+@pytest.mark.parametrize("method", METHODS.values(), ids=METHODS)
+def test_no_length_angle_or_count_is_below_zero(method):
+    tried = 0
+    for each in method.parameters.declarations():
+        if each.kind in ("number", "integer"):
+            below = -1 if each.kind == "integer" else -1e-6
+            with pytest.raises(BareEarthError, match=each.label):
+                method.parameters(**{each.name: below})
+            tried += 1
+    assert tried >= 4
+
+
 def test_the_documented_example_is_right():
     assert doctest.testmod(parameters).failed == 0

@@ -7,7 +7,7 @@ import pytest
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Frame, Points
 from bare_earth.algorithms.core.progress import SILENT
-from bare_earth.algorithms.rasters.geotiff import NODATA, RasterGrid
+from bare_earth.algorithms.rasters.geotiff import NODATA, RasterGrid, read_raster
 from bare_earth.algorithms.rasters.writing import write_geotiff
 
 rasterio = pytest.importorskip("rasterio")
@@ -40,6 +40,31 @@ def test_a_stray_point_does_not_allocate_a_huge_raster():
         RasterGrid.over(points, Frame(), 1.0)
 
 
+def test_stray_points_are_blamed_if_a_large_raster_has_points_in_few_of_its_squares():
+    # Four of 25 squares of a kilometre have points; then four of 961, but of few cells.
+    RasterGrid.over(square(4000.0), Frame(), 1.0)
+    RasterGrid.over(square(30_000.0), Frame(), 100.0)
+    with pytest.raises(BareEarthError, match="stray coordinates"):
+        RasterGrid.over(square(30_000.0), Frame(), 5.0)
+    full = np.arange(0.0, 19_000.0, 990.0)
+    everywhere = Points(*(each.ravel() for each in np.meshgrid(full, full)), np.zeros(400))
+    RasterGrid.over(everywhere, Frame(), 1.0)
+    with pytest.raises(BareEarthError, match="larger cell size"):
+        RasterGrid.over(everywhere, Frame(), 0.9)
+
+
+@pytest.mark.parametrize(("columns", "rows"), [(100, 4_100_000), (4_100_000, 100)])
+def test_a_raster_that_is_long_in_one_direction_counts_by_its_cells(tmp_path, columns, rows):
+    path = tmp_path / "long.vrt"
+    path.write_text(
+        f'<VRTDataset rasterXSize="{columns}" rasterYSize="{rows}">'
+        "<GeoTransform>0, 1, 0, 0, 0, -1</GeoTransform>"
+        '<VRTRasterBand dataType="Byte" band="1"/></VRTDataset>'
+    )
+    with pytest.raises(BareEarthError, match="too many to be held in memory"):
+        read_raster(path)
+
+
 def test_no_points_are_an_error_that_says_so():
     with pytest.raises(BareEarthError, match="no ground point"):
         RasterGrid.over(square(1.0).take([]), Frame(), 1.0)
@@ -55,7 +80,7 @@ def test_the_geotiff_is_tiled_deflated_and_has_nodata_and_crs(tmp_path, kind):
     with rasterio.open(tmp_path / "a.tif") as raster:
         assert np.array_equal(raster.read(1), values)
         assert raster.profile["tiled"] and raster.profile["compress"] == "deflate"
-        assert (raster.nodata, raster.crs.to_epsg()) == (nodata, 25832)
+        assert (raster.nodata, raster.crs.to_epsg()) == (-9999.0 if nodata else 0, 25832)
         assert raster.transform[:6] == (1.0, 0.0, 5e5, 0.0, -1.0, 5.7e6 + 300)
     assert [path.name for path in tmp_path.iterdir()] == ["a.tif"]
 

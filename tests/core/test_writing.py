@@ -76,6 +76,13 @@ def test_only_the_class_changes(las, version, point_format, read, written):
         assert len(after.vlrs) == (3 if written == "laz" else 2)
 
 
+@pytest.mark.parametrize("written", ["las", "laz"])
+def test_nothing_is_told_where_nothing_is_left_out(las, written):
+    heard = las.Heard()
+    write_classified(las.make("in.las"), las.folder / f"out.{written}", new_classes(60), heard)
+    assert (heard.infos, heard.warnings) == ([], [])
+
+
 @pytest.mark.parametrize(("version", "point_format"), EVERY)
 def test_to_laz_and_back_gives_the_same_bytes(las, version, point_format):
     source = las.make(
