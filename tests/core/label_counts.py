@@ -1,6 +1,8 @@
 """How many points of generated scenes become ground, square by square, as it was last agreed.
 
-python tests/core/label_counts.py    after a rule was changed on purpose: writes them anew
+After a rule was changed on purpose, this writes them anew:
+
+    PYTHONPATH=. tools/environment python tests/core/label_counts.py
 """
 
 import json

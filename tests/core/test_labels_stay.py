@@ -19,5 +19,5 @@ def test_no_label_changes_by_accident(kind, method, preset):
     differs = np.abs(np.subtract(found, agreed))
     assert (differs <= _ROUNDED).all(), (
         f"Squares {np.flatnonzero(differs > _ROUNDED).tolist()} have other ground. If a rule was"
-        " changed on purpose, write the counts anew: python tests/core/label_counts.py"
+        " changed on purpose, write the counts anew, as label_counts.py says."
     )

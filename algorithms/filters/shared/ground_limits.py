@@ -121,11 +121,13 @@ def ground_limits(
         on_even = max(on_even, _ABOVE + _ABOVE_FACTOR * noise)
         above = on_even if spacing <= DENSE_SPACING else max(above, on_even)
     factor = tolerance.on_slopes * min(max(spacing, _DENSE), _SPARSE) / _SPARSE
-    rise = factor * _smooth_steepness(surface, cells)
-    curvature = _curvature(surface)
+    slope, curvature = _smooth_steepness(surface, cells), _curvature(surface)
+    rise = factor * slope
     if spacing < _SPARSE:
         rise += _BREAK_FACTOR * np.maximum(curvature - _BREAK, 0.0)
-    highest = np.minimum(above + rise, on_even + _unevenness(curvature, known))
+    # Steeper than vertices are moved along, the middle of a cell is not known that well.
+    uneven = np.where(slope <= _STEEPEST, _unevenness(curvature, known), np.inf)
+    highest = np.minimum(above + rise, on_even + uneven)
     return np.stack((surface - tolerance.below - rise, surface + highest), axis=-1)
 
 
