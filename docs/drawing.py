@@ -61,4 +61,4 @@ def draw_errors(panel: Axes, true_heights: np.ndarray, error: np.ndarray) -> Non
 if __name__ == "__main__":
     for name in sys.argv[1:]:
         with Image.open(name) as picture:
-            shrink(picture, Path(name), 160)
+            shrink(picture, Path(name), 256)
