@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 from drawing import draw_errors, save, shade
 from matplotlib import pyplot
@@ -18,10 +20,10 @@ from benchmarks.scenes import Scene, make
 from benchmarks.scenes.scene import ORIGIN
 
 GROUND = 2
-# Of each place the scene, what is wrong there, and the class of the polygon on it.
+# Of each place what makes the scene, what is wrong there, and the class of the polygon on it.
 PLACES = (
-    ({"kind": "complex_on_slope", "seed": 1}, "a building is kept", 6),
-    ({"kind": "mesa", "seed": 501, "density": 1.0}, "a mountain is lost", GROUND),
+    (partial(make, "complex_on_slope", 1), "a building is kept", 6),
+    (partial(make, "mesa", 501, density=1.0), "a mountain is lost", GROUND),
 )
 # Metres by which the terrain is wrong where somebody would draw.
 WRONG = 0.7
@@ -30,8 +32,8 @@ WRONG = 0.7
 def by_hand() -> None:
     """Draw terrain models without and with a polygon on what is wrong."""
     figure, axes = pyplot.subplots(len(PLACES), 3, figsize=(8.2, 5.6), layout="constrained")
-    for row, (settings, words, value) in zip(axes, PLACES):
-        scene = make(**settings)
+    for row, (make_scene, words, value) in zip(axes, PLACES):
+        scene = make_scene()
         model = TrueModel.of(scene)
         before = _error(scene, model, Corrections())
         ring = _drawn_round(before < -WRONG if value == GROUND else before > WRONG)

@@ -11,13 +11,16 @@ from __future__ import annotations
 import math
 import sys
 import tempfile
+from functools import partial
 from pathlib import Path
+from typing import Callable
 
 import laspy
 import matplotlib as mpl
 import numpy as np
 import rasterio
 from matplotlib import pyplot
+from matplotlib.cm import ScalarMappable
 from PIL import Image
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
@@ -68,15 +71,15 @@ SEED = 1
 def main() -> None:
     """Make the figures that the command line names, or all."""
     mpl.rcParams.update({"font.size": 8, "axes.titlesize": 8, "axes.titlelocation": "left"})
-    figures = {
+    figures: dict[str, Callable[[], None]] = {
         "before-after": tutorial,
         "tin-densification-steps": tin_densification_steps,
         "slope-filter-steps": slope_filter_steps,
         "grid-minimum-steps": grid_minimum_steps,
         "by-hand": by_hand,
+        "presets": print_presets,
+        **{f"which-method-{name}": partial(small_multiples, name) for name in TERRAIN},
     }
-    figures["presets"] = print_presets
-    figures |= {f"which-method-{name}": lambda name=name: small_multiples(name) for name in TERRAIN}
     for name, make_figure in figures.items():
         if name.startswith(tuple(sys.argv[1:]) or ("",)):
             make_figure()
@@ -100,20 +103,19 @@ def tutorial() -> None:
             ),
         )
         terrain(ground, TerrainRequest(rasters=RasterFiles(dsm=rasters["dsm"], chm=rasters["chm"])))
-        grids, extent = {}, None
+        grids = {}
         for each, path in rasters.items():
             with rasterio.open(path) as raster:
                 grids[each] = raster.read(1, masked=True).astype(float).filled(np.nan)
-                extent = raster.bounds[0], raster.bounds[2], raster.bounds[1], raster.bounds[3]
         raw_points(cloud)
         target = IMAGES / "tutorial-classes.png"
         draw_demo(ground, rasters["dtm"], rasters["hillshade"], target, northing=5_931_196.0)
         with Image.open(target) as image:
-            image = image.convert("RGB")
-            image.thumbnail((1000, 1000))
-            shrink(image, target)
+            small = image.convert("RGB")
+        small.thumbnail((1000, 1000))
+        shrink(small, target)
     before_after(grids)
-    maps(grids, extent)
+    maps(grids)
 
 
 def raw_points(cloud: Path) -> None:
@@ -150,13 +152,15 @@ def before_after(grids: dict[str, np.ndarray]) -> None:
     save(figure, "before-after")
 
 
-def maps(grids: dict[str, np.ndarray], extent: tuple[float, ...]) -> None:
+def maps(grids: dict[str, np.ndarray]) -> None:
     """Draw terrain with contours, and canopy height over the hillshade."""
     figure, axes = pyplot.subplots(1, 2, figsize=(8.2, 4.3), layout="constrained")
     for panel in axes:
         shade(panel, grids["dtm"])
     image = axes[0].imshow(grids["dtm"], cmap="gist_earth", alpha=0.35)
-    figure.colorbar(image, ax=axes[0], shrink=0.7, pad=0.01, label="m").solids.set_alpha(1)
+    # A bar of the image would be as pale as it.
+    colours = ScalarMappable(image.norm, image.cmap)
+    figure.colorbar(colours, ax=axes[0], shrink=0.7, pad=0.01, label="m")
     levels = np.arange(math.floor(np.nanmin(grids["dtm"])), np.nanmax(grids["dtm"]) + 1, 1.0)
     thick = np.where(levels % 5 == 0, 0.9, 0.35)
     axes[0].contour(grids["dtm"], levels=levels, colors="#5b3a1a", linewidths=thick)

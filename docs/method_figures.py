@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from typing import TypeVar
 
 import matplotlib as mpl
 import numpy as np
 from drawing import ADDED, GROUND, LINE, OTHER, save, shade
 from matplotlib import pyplot
+from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from bare_earth.algorithms.core.points import Points
@@ -28,6 +30,15 @@ from bare_earth.algorithms.grids.inpaint import inpaint
 from bare_earth.algorithms.grids.morphology import erosion
 from benchmarks.scenes import Scene, make
 
+Value = TypeVar("Value")
+
+
+def chosen(value: Value | None) -> Value:
+    """Return a parameter that `resolve` has set, where its user left it open."""
+    if value is None:
+        raise ValueError("The parameters are not resolved: call their `resolve` first.")
+    return value
+
 
 class Strip:
     """The points of a scene that take part by default, and a strip of it from west to east."""
@@ -40,13 +51,13 @@ class Strip:
         self.inside = np.abs(self.points.y - self.northing) < half
         self.inside &= (self.points.x > self.span[0]) & (self.points.x < self.span[1])
 
-    def draw(self, panel: pyplot.Axes, which: np.ndarray, colour: str, size: float = 3) -> None:
+    def draw(self, panel: Axes, which: np.ndarray, colour: str, size: float = 3) -> None:
         """Draw those of some points that lie in the strip."""
         here = which[self.inside[which]]
         x, z = self.points.x[here] - self.west, self.points.z[here]
         panel.scatter(x, z, size, colour, linewidths=0)
 
-    def frame(self, panel: pyplot.Axes, title: str, **labels: str) -> None:
+    def frame(self, panel: Axes, title: str, **labels: str) -> None:
         """Give a panel its title, its frame, and the names of the colours."""
         handles = [
             Line2D([], [], color=colour, marker="o", linewidth=0, markersize=4, label=label)
@@ -74,7 +85,8 @@ def tin_densification_steps() -> None:
     survey = LowestPoints(points, 1.0)
     cells, apart = survey.cells, survey.spacing
     grids = survey, LowestPoints(points, 1.0, shift=0.5)
-    found = seeds_of_two_grids(points.count, grids, parameters.max_building_size, SILENT)
+    size = chosen(parameters.max_building_size)
+    found = seeds_of_two_grids(points.count, grids, size, SILENT)
     seeds, waiting = checked_seeds(points, *found, cells, apart)
     heights = with_lower(np.full(cells.shape, np.nan), cells, points, seeds)
     rules = tin_densification.densification_rules(parameters)
@@ -132,11 +144,11 @@ def slope_filter_steps() -> None:
     strip = Strip(scene, 67.0, (90.0, 215.0), 1.0)
     points = strip.points
     parameters = slope_filter.SlopeFilter().resolve(points)
-    survey = LowestPoints(points, parameters.cell_size)
+    survey = LowestPoints(points, chosen(parameters.cell_size))
     cells = survey.cells
     known = np.isfinite(survey.heights)
     heights = np.where(known, survey.heights, np.inf)
-    radius = parameters.search_radius / cells.size
+    radius = chosen(parameters.search_radius) / cells.size
     eroded = erosion(heights, radius)
     opened = -erosion(np.where(np.isfinite(eroded), -eroded, np.inf), radius)
     above = np.where(known, heights - opened, np.inf)
@@ -154,9 +166,10 @@ def slope_filter_steps() -> None:
     )  # fmt: skip
     here = np.where(known[row], above[row], np.nan)
     objects = np.zeros(cells.columns, dtype=bool)
-    slope = math.tan(math.radians(parameters.slope_threshold))
+    slope = math.tan(math.radians(chosen(parameters.slope_threshold)))
+    least = chosen(parameters.height_threshold)
     for scale, style in ((radius, "-"), (radius / 4.0, "--"), (radius / 16.0, ":")):
-        allowed = max(slope * scale * cells.size, parameters.height_threshold)
+        allowed = max(slope * scale * cells.size, least)
         limit = erosion(above, scale)[row] + allowed
         objects |= here > limit
         label = f"limit within {scale * cells.size:.1f} m"
@@ -183,18 +196,17 @@ def grid_minimum_steps() -> None:
     strip = Strip(scene, 67.0, (90.0, 215.0), 1.0)
     points = strip.points
     parameters = grid_minimum.GridMinimum().resolve(points)
-    survey = LowestPoints(points, parameters.cell_size)
+    survey = LowestPoints(points, chosen(parameters.cell_size))
     cells, heights = survey.cells, survey.heights
-    last = parameters.height_thresholds[-1]
+    thresholds, largest = chosen(parameters.height_thresholds), chosen(parameters.max_object_size)
+    last = thresholds[-1]
     relief = Relief(heights, cells.size, covered(np.isfinite(heights)), cells.first)
     regions, rims = relief.regions_and_rims(last, 1.0)
-    largest = parameters.max_object_size
-    thresholds = parameters.height_thresholds
     tall = raised_objects(heights, cells.size, thresholds, largest, first=cells.first).raised
     ground = grid_minimum.classify(points, parameters)
 
     figure = pyplot.figure(figsize=(8.2, 6.2), layout="constrained")
-    upper, lower = figure.subfigures(2, 1, height_ratios=(1.9, 4.0))
+    upper, lower = figure.subfigures(2, 1, squeeze=False, height_ratios=(1.9, 4.0)).ravel()
     maps, profiles = upper.subplots(1, 3), lower.subplots(2, 1, sharex=True)
     row = int(strip.northing // cells.size) - cells.first_row
     west = int(strip.span[0] // cells.size) - cells.first_column

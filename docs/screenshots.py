@@ -1,8 +1,10 @@
-"""Makes the pictures of docs/images: the dialog, and maps of what the algorithms make.
+"""Makes the pictures of docs/images: the dialogs, and maps of what the algorithms make.
 
-    tools/environment qgis /usr/bin/python3 docs/screenshots.py TILE.laz [FOLDER]
+    tools/environment qgis /usr/bin/python3 docs/screenshots.py TILE.laz [FOLDER [PICTURE ...]]
 
 It needs the widgets of QGIS but no screen. The names of the pictures hold the version of QGIS.
+Without PICTUREs all are made: dialog, map, map-one-step, ... Those from map-terrain on are of the
+cloud that `map` makes, so name it, too.
 """
 
 from __future__ import annotations
@@ -11,6 +13,7 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+from typing import Any
 
 from qgis.core import (
     Qgis,
@@ -30,7 +33,8 @@ from qgis.PyQt.QtWidgets import QSplitter, QWidget
 
 ALGORITHM = "bareearth:tindensification"
 ONE_STEP = "bareearth:pointcloudtoterrain"
-# Few of them are kept in docs/images.
+# Few pictures are kept in docs/images.
+WANTED = sys.argv[3:]
 IMAGES = Path(sys.argv[2]) if len(sys.argv) > 2 else Path(__file__).parent / "images"
 # What is no ground in the tile of `make demo`: the large building, with what stands round it.
 BUILDING = QgsRectangle(568_136.0, 5_931_179.0, 568_208.0, 5_931_233.0)
@@ -46,6 +50,11 @@ def save(widget: QWidget, name: str, size: QSize) -> None:
     widget.grab().save(str(IMAGES / f"{name}-{VERSION}.png"))
 
 
+def is_wanted(picture: str) -> bool:
+    """Return whether a picture is to be made."""
+    return not WANTED or picture in WANTED
+
+
 def wait(seconds: float) -> None:
     """Let Qt work."""
     end = time.monotonic() + seconds
@@ -56,23 +65,25 @@ def wait(seconds: float) -> None:
 
 def show_dialog(tile: Path, name: str, picture: str) -> None:
     """Picture a dialog with the rare parameters folded away."""
+    if not is_wanted(picture):
+        return
     from processing.gui.AlgorithmDialog import AlgorithmDialog
 
     algorithm = QgsApplication.processingRegistry().createAlgorithmById(name)
     dialog = AlgorithmDialog(algorithm)
     dialog.setParameters({"INPUT": tile.name})
-    save(dialog, picture, QSize(900, 640))
+    save(dialog, picture, QSize(1000, 900))
     dialog.close()
 
 
 def show_map(
     algorithm: str,
-    parameters: dict,
+    parameters: dict[str, Any],
     outputs: dict[str, str],
     name: str,
     over: QgsVectorLayer | None = None,
-) -> dict:
-    """Run an algorithm as the toolbox does, and picture its layers; return what it made.
+) -> None:
+    """Run an algorithm as the toolbox does, and picture its layers.
 
     Parameters
     ----------
@@ -87,6 +98,8 @@ def show_map(
     over : QgsVectorLayer, optional
         A layer to show on top; the map shows what lies round it.
     """
+    if not is_wanted(name):
+        return
     import processing
 
     project = QgsProject.instance()
@@ -95,7 +108,7 @@ def show_map(
     loaded = {
         each: QgsProcessingOutputLayerDefinition(path, project) for each, path in outputs.items()
     }
-    results = processing.runAndLoadResults(algorithm, {**parameters, **loaded})
+    processing.runAndLoadResults(algorithm, {**parameters, **loaded})
     model = QgsLayerTreeModel(project.layerTreeRoot())
     tree = QgsLayerTreeView()
     tree.setModel(model)
@@ -121,7 +134,6 @@ def show_map(
     wait(3.0)  # the last layers are put together
     save(window, name, QSize(800, 560))
     project.clear()
-    return results
 
 
 def show_corrections(tile: Path, folder: Path) -> None:
@@ -170,7 +182,7 @@ def show_maps(tile: Path, folder: Path) -> None:
 
 
 def main() -> None:
-    """Make both pictures."""
+    """Make the pictures."""
     app = QgsApplication([], True)
     app.initQgis()
     font = app.font()

@@ -81,9 +81,9 @@ def add_scheduler(parser: argparse.ArgumentParser) -> None:
 def workers_of(options: argparse.Namespace, resources: Resources) -> Workers:
     """Return who works on many files."""
     from ..engine.cluster import Cluster
-    from ..engine.workers import Processes
+    from ..engine.workers import Local
 
-    return Cluster(options.scheduler, resources) if options.scheduler else Processes(resources)
+    return Cluster(options.scheduler, resources) if options.scheduler else Local(resources)
 
 
 @contextlib.contextmanager

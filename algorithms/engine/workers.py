@@ -181,6 +181,31 @@ class Processes(Workers):
         self._known = {}
 
 
+class Local(Workers):
+    """Processes of this computer, or threads of this process where one block is all there is.
+
+    The one job of that block uses all threads. New processes would only have to start.
+    """
+
+    def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
+        """Be ready for jobs."""
+        self._workers: Workers = (Processes if blocks > 1 else Threads)(self.resources)
+        self._workers.start(folder, least, blocks, tiles)
+        self.at_once, self.share = self._workers.at_once, self._workers.share
+
+    def submit(self, job: Job) -> Running:
+        """Begin a job."""
+        return self._workers.submit(job)
+
+    def restart(self) -> None:
+        """Be ready again after a worker died."""
+        self._workers.restart()
+
+    def stop(self) -> None:
+        """End, also jobs that run."""
+        self._workers.stop()
+
+
 _stop_of_process: threading.Event | None = None
 
 

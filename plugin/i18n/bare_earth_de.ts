@@ -700,6 +700,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>In ebenem Gelände sind Punkte bis zu dieser Höhe über der Fläche durch den Boden Boden. Nicht für die Voreinstellung Whitebox.</translation>
     </message>
     <message>
+        <source>In scripts</source>
+        <translation>In Skripten</translation>
+    </message>
+    <message>
         <source>In the command line some layers are missing: save each in the CRS of the points as GeoJSON, and add {}.</source>
         <translation>In der Befehlszeile fehlen einige Layer: Speichern Sie jeden im KBS der Punkte als GeoJSON, und ergänzen Sie {}.</translation>
     </message>

@@ -700,6 +700,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>En terrain plat, les points jusqu'à cette hauteur au-dessus de la surface passant par le sol sont du sol. Pas pour le préréglage Whitebox.</translation>
     </message>
     <message>
+        <source>In scripts</source>
+        <translation>Dans les scripts</translation>
+    </message>
+    <message>
         <source>In the command line some layers are missing: save each in the CRS of the points as GeoJSON, and add {}.</source>
         <translation>Dans la ligne de commande, certaines couches manquent : enregistrez chacune en GeoJSON dans le SCR des points, et ajoutez {}.</translation>
     </message>

@@ -23,6 +23,8 @@ from .choices import ChoiceParameter, value_of, values_of, with_labels
 _SYMBOLS = {"deg": "°"}
 _LISTS = ("numbers", "integers")
 _FEWEST_DECIMALS = 3
+# A longer list of choices would hide the rest of the help: there the names have to do.
+_MOST_EXPLAINED = 12
 
 
 def field_of(declaration: Declaration, is_shown: bool = True) -> QgsProcessingParameterDefinition:
@@ -98,9 +100,17 @@ def title_of(declaration: Declaration) -> str:
 
 
 def help_of(declaration: Declaration) -> str:
-    """Return the help, with what each choice means, in the user's language."""
-    choices = [f"{value}: {tr(label)}." for value, label in declaration.choices.items()]
-    return " ".join([tr(declaration.help), *choices])
+    """Return the help, with what each choice is called in scripts, in the user's language."""
+    text = tr(declaration.help)
+    if not declaration.choices:
+        return text
+    choices = ((value, tr(label)) for value, label in declaration.choices.items())
+    is_long = len(declaration.choices) > _MOST_EXPLAINED
+    names = (
+        value if is_long or value == label.lower().replace(" ", "-") else f"{value}: {label}"
+        for value, label in choices
+    )
+    return f"{text} {tr('In scripts')}: {'; '.join(names)}."
 
 
 def parameters_of(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, Iterator, Sequence
 
@@ -26,10 +27,11 @@ from qgis.core import (
 from qgis.PyQt.QtCore import QUrl
 
 from ...algorithms.core.errors import BareEarthError
+from ...algorithms.crs.system import Crs
 from ...algorithms.las.crs_records import read_crs
 from ...algorithms.las.opening import open_las
 from ...algorithms.survey.area import Polygon
-from ...algorithms.survey.collection import find_files
+from ...algorithms.survey.collection import find_files, open_collection
 from .. import compat
 from ..i18n import tr
 
@@ -225,7 +227,7 @@ def is_empty(value: Any) -> bool:
 
 
 class CloudCrs:
-    """The CRS of the point clouds of a run, read from the first file when it is first needed.
+    """The CRS of the point clouds of a run, read when it is first needed.
 
     Parameters
     ----------
@@ -240,17 +242,27 @@ class CloudCrs:
 
     @functools.cached_property
     def value(self) -> QgsCoordinateReferenceSystem:
-        """The CRS; invalid, so that nothing is transformed, if the file states none.
+        """The CRS; invalid, so that nothing is transformed, if no file states one.
 
         Raises
         ------
         BareEarthError
-            If there is no file, or it cannot be read.
+            If there is no file, or none can be read.
         """
-        crs = read_crs(open_las(find_files(self._sources, self._recursive)[0]))
+        crs = self._stated()
         if crs.epsg:
             return QgsCoordinateReferenceSystem.fromEpsgId(crs.epsg)
         return QgsCoordinateReferenceSystem.fromWkt(crs.wkt or "")
+
+    def _stated(self) -> Crs:
+        """Return the CRS of the first file that states one: a run refuses files of another."""
+        paths = find_files(self._sources, self._recursive)
+        for path in paths:
+            with suppress(BareEarthError):  # The run tells of a file that cannot be read.
+                crs = read_crs(open_las(path))
+                if crs != Crs():
+                    return crs
+        return open_collection(paths).crs  # It says what is wrong if none can be read.
 
 
 def features_of(

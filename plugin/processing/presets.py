@@ -13,6 +13,8 @@ from ...algorithms.filters.method import Method
 from ..i18n import tr
 from .fields import title_of
 
+_BETWEEN = " / "
+
 
 def presets_of(sets: Sequence[type[ParameterSet]]) -> str:
     """Return what the presets among some parameters stand for, in HTML; empty if there are none."""
@@ -29,14 +31,14 @@ def _table(method: Method) -> str:
     # Too many columns do not fit; a classic preset alone, which differs in all, needs none.
     usual = [row for name, row in rows.items() if name != method.classic]
     columns = [name for name in declared if len({row.get(name) for row in usual}) > 1]
-    head = "".join(f"<th>{escape(title_of(declared[name]))}</th>" for name in columns)
+    # All values in one column: beside the fields of a dialog, more would be narrower than a word.
+    head = _BETWEEN.join(escape(title_of(declared[name])) for name in columns)
     body = "".join(
         f"<tr><td>{escape(tr(labels[name]).partition(' (')[0], quote=False)}</td>"
-        + "".join(f'<td align="right">{_shown(row.get(each))}</td>' for each in columns)
-        + "</tr>"
+        f"<td>{_BETWEEN.join(_shown(row.get(each)) for each in columns)}</td></tr>"
         for name, row in rows.items()
     )
-    head = f"<tr><th>{tr('Preset')}</th>{head}</tr>"
+    head = f"<tr><th>{tr('Preset')}</th><th>{head}</th></tr>"
     return f'<table border="1" cellspacing="0" cellpadding="2">{head}{body}</table>'
 
 
@@ -46,6 +48,6 @@ def _values_of(preset: Any) -> dict[str, Any]:
 
 def _shown(value: Any) -> str:
     if value is None:
-        return ""
+        return "-"
     values = value if isinstance(value, tuple) else (value,)
     return ", ".join(f"{each:g}" for each in values)

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import math
+from pathlib import Path
 from typing import Callable, Iterable
 
+import numpy as np
 from qgis.core import (
     Qgis,
     QgsColorRampShader,
@@ -17,6 +20,7 @@ from qgis.core import (
 )
 from qgis.PyQt.QtGui import QColor, QPainter
 
+from ...algorithms.las.copc_sample import sample_of
 from . import ramps
 
 _GROUND = 2
@@ -30,7 +34,9 @@ _METRES, _LEAST_MM, _MOST_MM = 0.6, 0.8, 2.0
 _SCREEN_ERROR = 0.15
 # By the LAS specification, with no meaning yet; and of those a rare one.
 _RESERVED = (0, 8, 12, 16)
+# The top of the colours of heights, where it is not known up to which nearly all points are.
 _MOST_HEIGHT = 40.0
+_NEARLY_ALL, _STEP = 0.998, 0.5
 
 
 def categories_of(classes: Iterable[int]) -> dict[int, tuple[str, QColor]]:
@@ -88,13 +94,17 @@ def by_height(attribute: str, highest: float) -> Callable[[QgsPointCloudLayer], 
     attribute : str
         What holds them.
     highest : float
-        The highest of them; birds are left out of the colours.
+        The highest of them. Birds are left out of the colours: in a COPC file, for its uppermost
+        node holds some points from everywhere.
     """
 
     def dress(layer: QgsPointCloudLayer) -> None:
         renderer = QgsPointCloudAttributeByRampRenderer()
         renderer.setAttribute(attribute)
-        high = min(max(highest, 1.0), _MOST_HEIGHT)
+        is_copc = layer.dataProvider() is not None and layer.dataProvider().name() == "copc"
+        high = _usual_height(layer.source(), attribute) if is_copc else min(highest, _MOST_HEIGHT)
+        # In steps, for the legend.
+        high = max(math.ceil(high / _STEP) * _STEP, _STEP)
         renderer.setMinimum(0.0)
         renderer.setMaximum(high)
         shader = QgsColorRampShader(0.0, high, ramps.ramp_of(ramps.HEIGHTS))
@@ -106,6 +116,13 @@ def by_height(attribute: str, highest: float) -> Callable[[QgsPointCloudLayer], 
         layer.setRenderer(renderer)
 
     return dress
+
+
+def _usual_height(path: str, attribute: str) -> float:
+    """Return the height below which nearly all points of the uppermost node of a COPC file lie."""
+    values = sample_of(Path(path), "z" if attribute == "Z" else attribute)
+    values = values[np.isfinite(values)]
+    return float(np.quantile(values, _NEARLY_ALL)) if values.size else 0.0
 
 
 def _scale(renderer: QgsPointCloudRenderer) -> None:

@@ -13,7 +13,7 @@ from bare_earth.algorithms.filters.tin_densification.filter import TinDensificat
 from bare_earth.algorithms.products.comparison import compare
 from benchmarks import data
 from benchmarks.scenes import make
-from benchmarks.scenes.simple import village
+from benchmarks.scenes.simple import scatter, surveyed, village
 
 PARAMETERS = [
     *(method.parameters() for method in METHODS.values()),
@@ -69,6 +69,17 @@ def test_a_raised_square_with_one_ramp_stays(method):
     found = METHODS[method].classify(scene.points, METHODS[method].parameters())
     assert found[scene.ground].mean() > 0.98
     assert found[~scene.ground].mean() < 0.05
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_low_plants_go_from_an_even_slope_and_from_a_dune(method):
+    x, y = scatter(density=8.0)
+    plants = np.arange(len(x)) % 12 == 0
+    for terrain in (0.7 * x, 4.0 * np.sin(x / 8.0)):
+        points = Points(x, y, surveyed(x, y, terrain) + np.where(plants, 0.4, 0.0))
+        found = METHODS[method].classify(points, METHODS[method].parameters())
+        assert found[plants].mean() < 0.2
+        assert found[~plants].mean() > 0.99
 
 
 @pytest.mark.parametrize("method", METHODS)

@@ -28,7 +28,7 @@ from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
 from bare_earth.algorithms.engine.options import TileInput, TileMethod, TileOutput
 from bare_earth.algorithms.engine.survey import BlockIndex, Survey, frame_of, grouped
-from bare_earth.algorithms.engine.workers import Processes, Threads
+from bare_earth.algorithms.engine.workers import Local, Processes, Threads
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
@@ -511,6 +511,17 @@ class Impatient(Progress):
     def report(self, fraction):
         if self.asked is not None:
             raise Cancelled
+
+
+def test_one_block_is_worked_off_in_this_process(six, tmp_path, monkeypatch):
+    def refuse(*_):
+        raise OSError("no other process is allowed")
+
+    monkeypatch.setattr(Processes, "start", refuse)
+    local = Local(Resources(threads=2))
+    assert classify_tiles([six], tmp_path / "one", FAST, workers=local).done_count == 6
+    with pytest.raises(OSError, match="no other process"):
+        classify_tiles([six], tmp_path / "many", FAST, workers=local, blocks=Blocks(20.0, 5.0))
 
 
 @pytest.mark.parametrize("kind", [Threads, Processes])

@@ -296,3 +296,21 @@ def test_an_area_of_many_files(registry, scene, context, log, tmp_path):
     for each, (positions, classes) in zip(sorted(out.glob("*.laz")), before):
         again = laspy.read(each)
         assert np.array_equal(again.X, positions) and np.array_equal(again.classification, classes)
+
+
+def test_an_area_of_many_files_whose_first_is_broken(registry, scene, context, log, tmp_path):
+    tiles, out = tmp_path / "tiles", tmp_path / "out"
+    tiles.mkdir()
+    (tiles / "a.laz").write_bytes(b"nothing")
+    write_scene(tiles / "b.laz", epsg=None)  # that of the others is its own
+    write_scene(tiles / "c.laz", origin=(EAST + 80.0, NORTH))
+    given = {
+        "INPUT_FOLDER": str(tiles), "METHOD": "slope", "OUTPUT_FOLDER": str(out),
+        "BOUNDARY": layer_of([TRIANGLE], 4326), "AREA_ONLY": True,
+    }  # fmt: skip
+    results, done = registry.createAlgorithmById("bareearth:classifytiles").run(given, context, log)
+    assert done, log.text
+    assert results["TILE_COUNT"] == 2 and f"{tiles / 'a.laz'} is left out." in log.text
+    las = laspy.read(out / "b.laz")
+    x, y = np.asarray(las.x) - EAST, np.asarray(las.y) - NORTH
+    assert len(x) > 1000 and np.mean(in_triangle(x, y)) > 0.99

@@ -7,6 +7,7 @@ from osgeo import gdal
 from qgis.core import QgsProcessingException
 from support import Log, layer_of, write_scene
 
+from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.plugin.processing.inputs import CloudCrs
 
 EAST, NORTH = 500_000.0, 5_700_000.0
@@ -60,6 +61,16 @@ def test_the_crs_is_that_of_the_files_that_the_run_reads(tmp_path):
     write_scene(tmp_path / "b.laz")
     assert CloudCrs(tmp_path).value.authid() == "EPSG:25832"
     assert CloudCrs(tmp_path, recursive=True).value.authid() == "EPSG:25833"
+
+
+def test_the_crs_is_that_of_the_first_file_that_states_one(tmp_path):
+    (tmp_path / "a.laz").write_bytes(b"nothing")
+    with pytest.raises(BareEarthError, match=r"a\.laz"):
+        assert CloudCrs(tmp_path).value
+    write_scene(tmp_path / "b.laz", epsg=None)
+    assert not CloudCrs(tmp_path).value.isValid()
+    write_scene(tmp_path / "c.laz")
+    assert CloudCrs(tmp_path).value.authid() == "EPSG:25832"
 
 
 def test_the_crs_is_read_once_and_only_if_it_is_needed(tmp_path):

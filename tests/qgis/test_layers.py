@@ -3,6 +3,8 @@
 import json
 import time
 
+import laspy
+import numpy as np
 import pytest
 from qgis.core import (
     Qgis,
@@ -147,3 +149,22 @@ def test_in_a_thread_of_its_own(algorithm, parameters, scene, log):
     others = {path for path in details if path != results["DTM"]}
     assert all(path.endswith((".laz", "classes.tif")) for path in others) and len(others) <= 1
     assert details[results["DTM"]].postProcessor() is not None
+
+
+@needs_copc
+@pytest.mark.parametrize("output_as", ["dimension", "z"])
+def test_birds_do_not_make_the_colours_of_heights_pale(output_as, scene, context, tmp_path):
+    import processing
+
+    las = laspy.read(scene.path)
+    las.classification[:] = np.where(scene.ground, 2, 1)
+    bird = np.flatnonzero(~scene.ground)[::200]
+    las.z[bird] = np.asarray(las.z)[bird] + 25.0
+    las.write(str(scene.path))
+    path = str(tmp_path / "heights.copc.laz")
+    wanted = QgsProcessingOutputLayerDefinition(path, QgsProject.instance())
+    parameters = {"INPUT": str(scene.path), "OUTPUT": wanted, "OUTPUT_AS": output_as}
+    highest = processing.runAndLoadResults("bareearth:heightaboveground", parameters)["MAXIMUM"]
+    renderer = next(iter(QgsProject.instance().mapLayers().values())).renderer()
+    # The flat roof is 7.5 to 11 m above the tilted ground.
+    assert highest > 30.0 and 7.5 < renderer.maximum() <= 11.5

@@ -299,13 +299,22 @@ def test_the_help_has_the_order_of_the_dialog(each):
 def test_the_values_of_presets_are_told_before_a_run(algorithm, registry):
     help_text = algorithm.shortHelpString()
     row = help_text.partition("<td>Steep or rugged terrain</td>")[2].partition("</tr>")[0]
-    assert re.findall(r">([\d.]+)<", row) == ["30", "25", "2"]
-    assert "<th>Maximum building size [m]</th>" in help_text
+    assert row == "<td>30 / 25 / 2</td>"
+    columns = "Maximum building size [m] / Iteration angle [°] / Iteration distance [m]"
+    assert f"<tr><th>Preset</th><th>{columns}</th></tr>" in help_text
     tables = {"gridminimum": 1, "slopefilter": 1, "classifytiles": 3, "pointcloudtoterrain": 3}
     for name, count in tables.items():
         text = registry.createAlgorithmById(f"bareearth:{name}").shortHelpString()
         assert text.count("<td>Steep or rugged terrain</td>") == count
     assert "&#x27;" not in help_text and "LiDAR360's" in help_text
+
+
+def test_the_help_tells_what_choices_are_in_scripts(algorithm, registry):
+    text = algorithm.parameterDefinition("PRESET").help()
+    assert "In scripts: automatic; flat: Flat land, fields; hilly: Hilly land, forest;" in text
+    assert "In scripts" not in algorithm.parameterDefinition("MAX_BUILDING_SIZE").help()
+    compare = registry.createAlgorithmById("bareearth:comparesettings")
+    assert "; slope:flat; slope:hilly; " in compare.parameterDefinition("SETTINGS").help()
 
 
 def test_units_and_rare_parameters(algorithm):

@@ -36,8 +36,13 @@ _FARTHEST, _STEPS_A_METRE = 2.4, 1 << 14
 _NOISE_FACTOR, _MEAN_POINTS, _MEANS = 2.5, 4, 2
 # The lowest of n points lies below the ground by so many times the noise, times sqrt(2 ln n).
 _LOWEST_FACTOR = 0.8
-# Tolerance in metres above a surface through the middle of the noise, and what adds to it.
-_LEAST_ABOVE, _ABOVE, _ABOVE_FACTOR = 0.12, 0.05, 3.0
+# Metres above a surface through the middle of the noise, and how often the noise adds to them.
+_ABOVE, _ABOVE_FACTOR = 0.05, 3.0
+# Metres, and at most which share, that the tolerance above is less where the ground is even.
+_EVEN_LESS, _EVEN_SHARE = 0.07, 0.4
+# Ground is even up to so many metres of curvature, where this share of the cells round about is
+# known.
+_EVEN_CURVATURE, _EVEN_KNOWN = 0.45, 0.6
 _POINTS_A_PART, _POINTS_A_SUM = 1 << 17, 1 << 19
 
 
@@ -84,9 +89,10 @@ def ground_limits(
     Each vertex is moved to the middle of its cell along the slope: the lowest point of a cell lies
     on its lower side. Where points are dense, the surface between them is known better, and the
     tolerance on slopes is less in proportion. At breaks the surface of cells is too smooth, and
-    more is tolerated. Where many points lie in a cell, the lowest lies far below the ground. Their
-    noise is measured there, the surface is laid through its middle, and the tolerance above
-    grows with the noise.
+    more is tolerated. Where the ground is even, however steep, low plants stand out, and less is
+    tolerated above it. Where many points lie in a cell, the lowest lies far below the ground. Their
+    noise is measured there, the surface is laid through its middle, and the tolerance above grows
+    with the noise.
 
     Parameters
     ----------
@@ -106,18 +112,31 @@ def ground_limits(
     numpy.ndarray of float64, shape (rows, columns, 2)
         Heights in metres of the lower and of the upper surface.
     """
-    surface, slopes = _centred(points, vertices, cells)
+    surface, slopes, known = _centred(points, vertices, cells)
     above = tolerance.above
+    on_even = above - min(_EVEN_LESS, _EVEN_SHARE * above)
     if spacing <= NOISE_SPACING:
         level, noise = _middle(_rises(points, cells, surface, slopes), surface.size)
         surface = surface + level.reshape(surface.shape)
-        least = _LEAST_ABOVE if spacing <= DENSE_SPACING else above
-        above = max(least, _ABOVE + _ABOVE_FACTOR * noise)
+        on_even = max(on_even, _ABOVE + _ABOVE_FACTOR * noise)
+        above = on_even if spacing <= DENSE_SPACING else max(above, on_even)
     factor = tolerance.on_slopes * min(max(spacing, _DENSE), _SPARSE) / _SPARSE
     rise = factor * _smooth_steepness(surface, cells)
+    curvature = _curvature(surface)
     if spacing < _SPARSE:
-        rise += _BREAK_FACTOR * np.maximum(_curvature(surface) - _BREAK, 0.0)
-    return np.stack((surface - tolerance.below - rise, surface + above + rise), axis=-1)
+        rise += _BREAK_FACTOR * np.maximum(curvature - _BREAK, 0.0)
+    highest = np.minimum(above + rise, on_even + _unevenness(curvature, known))
+    return np.stack((surface - tolerance.below - rise, surface + highest), axis=-1)
+
+
+def _unevenness(curvature: np.ndarray, known: np.ndarray) -> np.ndarray:
+    """Return by how many metres the ground round each cell is uneven; infinity if by too much."""
+    from scipy import ndimage
+
+    between = ndimage.binary_erosion(known, border_value=1)
+    most = ndimage.maximum_filter(np.where(between, curvature, 0.0), 3, mode="nearest")
+    share = ndimage.uniform_filter(between.astype(np.float32), 3, mode="nearest")
+    return np.where((share >= _EVEN_KNOWN) & (most <= _EVEN_CURVATURE), most, np.inf)
 
 
 def _smooth(surface: np.ndarray, metres: float, cells: Cells) -> np.ndarray:
@@ -141,8 +160,8 @@ def _curvature(surface: np.ndarray) -> np.ndarray:
 
 def _centred(
     points: Points, vertices: np.ndarray, cells: Cells
-) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]:
-    """Return the surface at the middles of cells, and its slope towards north and east."""
+) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray], np.ndarray]:
+    """Return the surface at the middles of cells, its slopes, and which cells have vertices."""
     cell, z = cells.index[vertices], points.z[vertices]
     north, east = _from_middle(points.take(vertices), cells, cell)
     count = np.bincount(cell, minlength=cells.rows * cells.columns)
@@ -153,7 +172,7 @@ def _centred(
         surface = inpaint(heights.reshape(cells.shape), first=cells.first)
         slopes = _slopes(surface, cells)
         moved = z - slopes[0].ravel()[cell] * north - slopes[1].ravel()[cell] * east
-    return surface, slopes
+    return surface, slopes, (count > 0).reshape(cells.shape)
 
 
 def _slopes(surface: np.ndarray, cells: Cells) -> tuple[np.ndarray, np.ndarray]:

@@ -1,0 +1,27 @@
+"""A few points from everywhere in a COPC file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+
+def sample_of(path: Path, dimension: str) -> np.ndarray:
+    """Return a dimension of the points in the uppermost node of the octree.
+
+    Parameters
+    ----------
+    path : Path
+        A COPC file that this package wrote: it is not checked.
+    dimension : str
+        What laspy calls it: "z" for heights in units of the CRS, or the name of an extra dimension.
+
+    Returns
+    -------
+    numpy.ndarray of float, shape (n,)
+    """
+    import laspy
+
+    with laspy.CopcReader.open(str(path)) as reader:
+        return np.asarray(reader.query(level=0)[dimension], dtype=float)
