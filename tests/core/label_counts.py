@@ -32,7 +32,7 @@ PRESETS = [("tin-densification", "lidar360"), ("slope", "whitebox"), ("grid-mini
 PRESETS += [(method, preset) for method in METHODS for preset in ("automatic", "steep", "city")]
 BRIDGES = ("bridge_over_road", "bridge_over_railway", "bridge_over_river", "viaduct", "plaza")
 UNSURE = ("gorge", "steep_forest", "sparse_village", "water_gaps")
-SOME = ("hills", "sparse_village", "complex_on_slope")
+SOME = ("hills", "sparse_village", "complex_on_slope", "water_gaps")
 
 
 def scene_of(kind):

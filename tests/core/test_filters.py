@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
-from runs import CancelAt
+from runs import CancelAt, Fractions
 
 from bare_earth.algorithms.core.errors import Cancelled
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.filters import METHODS, method_of
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
@@ -44,15 +43,10 @@ def test_a_cancel_ends_the_classification(parameters):
 
 @pytest.mark.parametrize("parameters", [*PARAMETERS, *CLASSIC])
 def test_progress_never_goes_back(parameters):
-    told = []
-
-    class Heard(Progress):
-        def report(self, fraction):
-            told.append(fraction)
-
-    method_of(parameters).classify(village()[0], parameters, Heard())
-    assert len(told) > 5 and np.diff(told).min() >= 0.0
-    assert 0.9 < told[-1] <= 1.0
+    progress = Fractions()
+    method_of(parameters).classify(village()[0], parameters, progress)
+    assert len(progress.told) > 5 and np.diff(progress.told).min() >= 0.0
+    assert 0.9 < progress.told[-1] <= 1.0
 
 
 @pytest.mark.parametrize(

@@ -12,6 +12,7 @@ from bare_earth.algorithms.grids import morphology
 from bare_earth.algorithms.grids.cells import Cells, apart, lower_at, spacing
 from bare_earth.algorithms.grids.inpaint import inpaint
 from bare_earth.algorithms.grids.morphology import erosion, in_steps, opening, within_square
+from bare_earth.algorithms.grids.trend import between_blocks
 
 
 def _points(count=500, seed=0):
@@ -218,3 +219,15 @@ def test_points_with_a_gap_between_them_are_apart():
         if count == 2:
             assert len(set(groups[:500])) == len(set(groups[500:])) == 1
             assert groups[0] != groups[-1] and {groups[0], groups[-1]} == {0, 1}
+
+
+def test_values_of_blocks_are_interpolated_alike_in_a_stack():
+    stack = np.random.default_rng(3).normal(size=(5, 3, 4))
+    rows, columns = np.arange(30), np.arange(40)
+    found = between_blocks(stack, 10, rows, columns)
+    assert found.shape == (5, 30, 40)
+    assert np.array_equal(found, [between_blocks(each, 10, rows, columns) for each in stack])
+    place = ((np.arange(3) + 0.5) * 10 - 0.5, (np.arange(4) + 0.5) * 10 - 0.5)
+    plane = 2.0 * place[0][:, None] - place[1]
+    inner = between_blocks(plane, 10, np.arange(5, 25), np.arange(5, 35))
+    assert np.allclose(inner, 2.0 * np.arange(5, 25)[:, None] - np.arange(5, 35))

@@ -95,3 +95,17 @@ def test_an_edge_between_four_vertices_on_a_circle_might_as_well_be_flipped():
     x, y = np.array([0.5, 0.5]), np.array([0.5, 0.5])
     heights = sorted((_heights(tin, x, y)[0][0], tin.flipped_heights(x, y, edges)[0]))
     assert np.allclose(heights, [1.0, 2.0])
+
+
+def test_beside_a_flipped_edge_the_height_is_that_of_the_other_diagonal():
+    square = Points(np.array([0.0, 1.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0, 1.0]), np.arange(4.0))
+    tin = GrowingTin(square)
+    x, y = np.random.default_rng(4).uniform(0.02, 0.98, (2, 60))
+    rising = np.where(y <= x, x + y, 3.0 * y - x)
+    falling = np.where(x + y <= 1.0, x + 3.0 * y, 2.0 - x + y)
+    heights, triangle = _heights(tin, x, y)
+    edges = np.flatnonzero(tin.ambiguous_edges())
+    own = edges[np.argmax(edges // 3 == triangle[:, None], axis=1)]
+    flipped = tin.flipped_heights(x, y, own)
+    assert np.allclose(np.minimum(heights, flipped), np.minimum(rising, falling))
+    assert np.allclose(np.maximum(heights, flipped), np.maximum(rising, falling))

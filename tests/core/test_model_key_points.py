@@ -4,6 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
+from runs import Fractions
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
@@ -33,6 +34,12 @@ def test_every_ground_point_is_within_the_tolerance(above, below):
     assert residuals.max() <= above + 1e-6 and residuals.min() >= -below - 1e-6
     if above and below:
         assert np.count_nonzero(keys) < 0.6 * points.count
+
+
+def test_progress_never_goes_back():
+    progress = Fractions()
+    model_key_points(_hills(), progress=progress)
+    assert len(progress.told) > 5 and np.diff(progress.told).min() >= 0.0
 
 
 def test_a_plane_needs_no_more_than_the_grid_and_the_hull():
