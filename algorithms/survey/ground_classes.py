@@ -20,13 +20,12 @@ class GroundTally:
 
     Attributes
     ----------
-    points, ground : int
-        Points, and those of the ground.
+    ground : int
+        Points of the ground.
     classes : numpy.ndarray of int64, shape (256,)
         Points of each class.
     """
 
-    points: int = 0
     ground: int = 0
     classes: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
 
@@ -69,7 +68,6 @@ class GroundClasses(ParameterSet):
         if not self.ground_classes:
             raise BareEarthError("Choose at least one ground class.")
         ground = ground_of(part, (*self.ground_classes, *also))
-        tally.points += part.count
         tally.ground += int(np.count_nonzero(ground))
         tally.classes += count_classes(part.classification)
         return ground
