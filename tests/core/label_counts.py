@@ -45,15 +45,16 @@ def counts_of(scene, method, preset):
 
     Or those that lie on decks, or where the terrain is rather sure, with the ground of a method.
     """
-    points = scene.points
-    found = METHODS[method].classify(points, METHODS[method].parameters())
+    points, parameters = scene.points, METHODS[method].parameters
+    is_filter = preset not in ("decks", "confidence")
+    found = METHODS[method].classify(
+        points, parameters(preset=preset) if is_filter else parameters()
+    )
     if preset == "decks":
         found = bridge_decks(points, found)
     elif preset == "confidence":
         sure = confidence(points, found)
         found = (sure.values >= _SURE).ravel()[sure.cells.index]
-    elif preset != "automatic":
-        found = METHODS[method].classify(points, METHODS[method].parameters(preset=preset))
     x, y = (np.floor((each - each.min()) / _SQUARE).astype(int) for each in (points.x, points.y))
     counts = np.zeros((y.max() + 1, x.max() + 1), dtype=int)
     np.add.at(counts, (y[found], x[found]), 1)
