@@ -28,18 +28,30 @@ def available_cpus() -> int:
 
 def workers() -> int:
     """Return how many threads the computation of the calling thread may use: 1 if none said so."""
-    return getattr(_current, "workers", 1)
+    return _allowed()()
+
+
+def _allowed() -> Callable[[], int]:
+    """Return what tells how many threads the calling thread may use: that may change."""
+    return getattr(_current, "allowed", lambda: 1)
 
 
 @contextlib.contextmanager
-def may_use(count: int) -> Iterator[None]:
-    """Let the computations of the calling thread use `count` threads while the block runs."""
-    before = workers()
-    _current.workers = max(1, int(count))
+def may_use(count: int | Callable[[], int]) -> Iterator[None]:
+    """Let the computations of the calling thread use some threads while the block runs.
+
+    Parameters
+    ----------
+    count : int or callable
+        How many, or what tells how many at a time: more of them help as soon as they may.
+    """
+    before = _allowed()
+    tells = count if callable(count) else lambda: int(count)
+    _current.allowed = lambda: max(1, tells())
     try:
         yield
     finally:
-        _current.workers = before
+        _current.allowed = before
 
 
 def in_threads(
@@ -107,15 +119,14 @@ class _Shared:
 
     def results(self, progress: Progress) -> list[_Result]:
         """Make the calls; return what they returned, or raise what the first to fail raised."""
-        others = [
-            threading.Thread(target=self._help, name="strip", daemon=True)
-            for _ in range(min(workers(), len(self._items)) - 1)
-        ]
-        for each in others:
-            each.start()
+        others: list[threading.Thread] = []
+        allowed = _allowed()
         try:
             with may_use(1):
                 for number in self._numbers():
+                    while len(others) < min(allowed(), len(self._items) - number) - 1:
+                        others.append(threading.Thread(target=self._help, daemon=True))
+                        others[-1].start()
                     self._call(number)
                     progress((number + 1) / len(self._items))
         finally:

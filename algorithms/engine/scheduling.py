@@ -36,7 +36,7 @@ def run_jobs(
     at_once : int
         How many run at the same time.
     workers : int
-        How many threads each may use itself.
+        How many threads each may use itself. The last ones share those of the others that ended.
     progress : Progress
         Used in the calling thread only.
 
@@ -55,8 +55,13 @@ def run_jobs(
     stop, ended, total = threading.Event(), 0.0, max(sum(weights), 1e-9)
     talks: dict[int, _Relay] = {}
 
+    left = len(jobs)
+
+    def share() -> int:
+        return at_once * workers // max(1, min(left, at_once))
+
     def run(number: int) -> Any:
-        with may_use(workers):
+        with may_use(share):
             return jobs[number](talks[number])
 
     pool = ThreadPoolExecutor(max(1, at_once), thread_name_prefix="block")
@@ -82,6 +87,7 @@ def run_jobs(
                 result = future.result()
                 del talks[number]
                 ended += weights[number]
+                left -= 1
                 yield number, result
     finally:
         stop.set()
