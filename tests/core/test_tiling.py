@@ -289,19 +289,17 @@ def test_where_no_block_has_ground_the_error_is_that_of_the_first(monkeypatch):
 # Threads
 
 
-def test_the_last_two_blocks_get_the_threads_of_those_that_ended(monkeypatch):
-    most = []
-
-    def function(points, progress):
-        end = time.monotonic() + (10.0 if points.x.max() > 250.0 else 0.0)
+def test_the_last_jobs_get_the_threads_of_those_that_ended():
+    def last(progress):
+        end = time.monotonic() + 10.0
         while workers() < 2 and time.monotonic() < end:
             time.sleep(0.01)
-        most.append(workers())
-        return np.ones(points.count, bool)
+        return workers()
 
-    watched(monkeypatch, function)
-    labels_of([cloud_of(*survey())], SlopeFilter(), Blocks(100.0, 20.0), 4)
-    assert len(most) == 6 and sum(each >= 2 for each in most) >= 2
+    jobs = [lambda progress: workers()] * 4 + [last] * 2
+    found = dict(run_jobs(jobs, [1.0] * 6, at_once=4, workers=1, progress=SILENT))
+    assert [found[each] for each in range(4)] == [1] * 4
+    assert found[4] >= 2 and found[5] >= 2
 
 
 def test_blocks_that_are_alone_may_use_all_threads_and_many_one_each(monkeypatch):
