@@ -125,8 +125,9 @@ class _Shared:
             with may_use(1):
                 for number in self._numbers():
                     while len(others) < min(allowed(), len(self._items) - number) - 1:
-                        others.append(threading.Thread(target=self._help, daemon=True))
-                        others[-1].start()
+                        one = threading.Thread(target=self._help, name="strip", daemon=True)
+                        others.append(one)
+                        one.start()
                     self._call(number)
                     progress((number + 1) / len(self._items))
         finally:

@@ -54,7 +54,6 @@ def run_jobs(
     """
     stop, ended, total = threading.Event(), 0.0, max(sum(weights), 1e-9)
     talks: dict[int, _Relay] = {}
-
     left = len(jobs)
 
     def share() -> int:

@@ -314,7 +314,9 @@ def test_blocks_that_are_alone_may_use_all_threads_and_many_one_each(monkeypatch
     assert [count for count, _ in seen] == [4] and seen[0][1] != threading.get_ident()
     seen.clear()
     labels_of([cloud_of(*survey())], SlopeFilter(), Blocks(100.0, 20.0), 4)
-    assert [count for count, _ in seen[:4]] == [1] * 4
+    counts = [count for count, _ in seen]
+    # The last two may have those of the others, if these have ended.
+    assert counts[:4] == [1] * 4 and len(counts) == 6 and set(counts[4:]) <= {1, 2, 4}
     # With memory for one block only there is one at a time, and it may use all threads.
     seen.clear()
     large = Blocks(100.0, 20.0, cost=Cost(a_point=1e18))
