@@ -12,6 +12,7 @@ from ...core.threads import in_threads, parts_of
 from ...grids.cells import Cells
 from ...grids.gradient import gradient, length, steepness
 from ...grids.inpaint import inpaint
+from ...grids.morphology import within_square
 
 # Metres over which the surface is smoothed for the slope along which vertices are moved, how often
 # they are moved, and the steepest slope (rise over run).
@@ -136,7 +137,7 @@ def _unevenness(curvature: np.ndarray, known: np.ndarray) -> np.ndarray:
     from scipy import ndimage
 
     between = ndimage.binary_erosion(known, border_value=1)
-    most = ndimage.maximum_filter(np.where(between, curvature, 0.0), 3, mode="nearest")
+    most = within_square(np.maximum, np.where(between, curvature, 0.0), 1)
     share = ndimage.uniform_filter(between.astype(np.float32), 3, mode="nearest")
     return np.where((share >= _EVEN_KNOWN) & (most <= _EVEN_CURVATURE), most, np.inf)
 
