@@ -45,16 +45,6 @@ class CancelAt(Progress):
             raise Cancelled
 
 
-class Fractions(Progress):
-    """Keeps how far it was told to be."""
-
-    def __init__(self):
-        self.told = []
-
-    def report(self, fraction):
-        self.told.append(fraction)
-
-
 def said(*words):
     """Run the command here; return its exit code, what it says, and what of what went wrong."""
     out, errors = io.StringIO(), io.StringIO()

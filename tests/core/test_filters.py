@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from runs import CancelAt, Fractions
+from runs import CancelAt
 
 from bare_earth.algorithms.core.errors import Cancelled
 from bare_earth.algorithms.core.points import Points
@@ -42,11 +42,11 @@ def test_a_cancel_ends_the_classification(parameters):
 
 
 @pytest.mark.parametrize("parameters", [*PARAMETERS, *CLASSIC])
-def test_progress_never_goes_back(parameters):
-    progress = Fractions()
+def test_progress_never_goes_back(parameters, las):
+    progress = las.Heard()
     method_of(parameters).classify(village()[0], parameters, progress)
-    assert len(progress.told) > 5 and np.diff(progress.told).min() >= 0.0
-    assert 0.9 < progress.told[-1] <= 1.0
+    assert len(progress.fractions) > 5 and np.diff(progress.fractions).min() >= 0.0
+    assert 0.9 < progress.fractions[-1] <= 1.0
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,6 @@ import itertools
 
 import numpy as np
 import pytest
-from runs import Fractions
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
@@ -36,10 +35,10 @@ def test_every_ground_point_is_within_the_tolerance(above, below):
         assert np.count_nonzero(keys) < 0.6 * points.count
 
 
-def test_progress_never_goes_back():
-    progress = Fractions()
+def test_progress_never_goes_back(las):
+    progress = las.Heard()
     model_key_points(_hills(), progress=progress)
-    assert len(progress.told) > 5 and np.diff(progress.told).min() >= 0.0
+    assert len(progress.fractions) > 5 and np.diff(progress.fractions).min() >= 0.0
 
 
 def test_a_plane_needs_no_more_than_the_grid_and_the_hull():
