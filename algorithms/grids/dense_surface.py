@@ -9,52 +9,26 @@ four vertices round a query are taken for all that matter (`heights_of_four`).
 from __future__ import annotations
 
 import itertools
-from typing import NamedTuple
 
 import numpy as np
 
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads
-from .enclosing import NOWHERE, enclosing_heights, heights_of_four
 from .morphology import within_square
+from .near_vertices import WIDEST, NearVertices, Queries
 from .surface import CellLattice, Surface
-from .thinned import TILE, ThinnedPoints, Window
+from .thinned import TILE, ThinnedPoints
 
 # Cells of the lattice along a side of the raster's cells: the centre of one is a corner of four.
 VERTICES_A_SIDE = 2
-# Widths of the windows in which the triangle is looked for; queries that are looked at together, so
-# that their arrays stay in the processor's cache; and queries a vertex of the tile, beyond which
-# triangulating these takes less time.
-_WINDOWS = ((2, 1 << 14, 6.0), (4, 1 << 14, 5.0), (8, 1 << 12, 2.0), (16, 1 << 10, 0.5))
-_WIDEST = _WINDOWS[-1][0]
-_MARGIN = _WIDEST // 2 + 1
 # Cells of the lattice round queries that are left whose vertices are triangulated. The circle round
 # a triangle over a gap holds no vertex, and reaches hardly a cell into where each has one.
-_RIM = _WIDEST
+_RIM = WIDEST
+# Those among them that are triangulated; the others are looked at where a circle holds any.
+_NARROW_RIM = 2
 # Cells by which a vertex may seem to lie outside its tile, because of rounding.
 _A_LITTLE = 0.01
-
-
-class _Queries(NamedTuple):
-    """Places in a tile at which heights are wanted.
-
-    Attributes
-    ----------
-    x, y : numpy.ndarray of float64, shape (q,)
-        In cells of the lattice from the corner of the tile.
-    column, row : numpy.ndarray of intp, shape (q,)
-        The corner of cells next to each.
-    """
-
-    x: np.ndarray
-    y: np.ndarray
-    column: np.ndarray
-    row: np.ndarray
-
-    def take(self, which: np.ndarray | slice) -> _Queries:
-        """Return some of them."""
-        return _Queries(*(each[which] for each in self))
 
 
 class DenseSurface:
@@ -116,7 +90,7 @@ class DenseSurface:
                 for each, count in zip(place, shape)
             )
             row, column = np.repeat(row, len(column)), np.tile(column, len(row))
-            queries = _Queries(column.astype(float), row.astype(float), column, row)
+            queries = Queries(column.astype(float), row.astype(float), column, row)
             found = self._in_tile(place, queries, True, max_edge)
             for whole, part in zip((heights, sure), found):
                 whole[cells] = part.reshape(whole[cells].shape)
@@ -164,7 +138,7 @@ class DenseSurface:
                 for axis, each in enumerate((x, y))
             )
             corners = (np.rint(each).astype(np.intp) for each in (at_x, at_y))
-            queries = _Queries(at_x, at_y, *corners)
+            queries = Queries(at_x, at_y, *corners)
             heights[which], sure[which] = self._in_tile(place, queries, False, max_edge)
 
         in_threads(fill, _by_tile(self._thinned, x, y), progress.part(0.05, 0.7))
@@ -203,7 +177,7 @@ class DenseSurface:
     @property
     def vertices(self) -> np.ndarray:
         """Which of the points are vertices, in ascending order."""
-        return self._vertices()
+        return np.flatnonzero(self._are_vertices())
 
     @property
     def hull(self) -> np.ndarray:
@@ -211,23 +185,11 @@ class DenseSurface:
         return self._thinned.hull
 
     def _in_tile(
-        self, place: tuple[int, int], queries: _Queries, are_corners: bool, max_edge: float | None
+        self, place: tuple[int, int], queries: Queries, are_corners: bool, max_edge: float | None
     ) -> tuple[np.ndarray, np.ndarray]:
         """Return heights of the queries in a tile, and which of them are sure."""
-        window = self._thinned.window(place, _MARGIN)
-        heights = np.full(len(queries.x), np.nan)
-        sure = np.zeros(len(queries.x), dtype=bool)
-        left = np.arange(len(queries.x))
         longest = np.inf if max_edge is None else max_edge / self._thinned.side
-        near = _Near(window, self._points.z, are_corners, longest)
-        for width, count, most in _WINDOWS:
-            if len(left) > most * len(window.which):
-                break
-            for start in range(0, len(left), count):
-                which = left[start : start + count]
-                heights[which], sure[which] = near(queries.take(which), width)
-            left = left[~sure[left]]
-        return heights, sure
+        return NearVertices(self._thinned, place, are_corners, longest).heights(queries)
 
     def _rest(
         self,
@@ -238,64 +200,26 @@ class DenseSurface:
         cells: CellLattice | None = None,
     ) -> np.ndarray:
         """Return heights of the queries that are left, on a triangulation of the vertices near."""
-        vertices = self._vertices((x, y))
+        vertices = np.flatnonzero(self._are_vertices((x, y), _RIM))
+        meshed = self._are_vertices((x, y), _NARROW_RIM)[vertices]
         progress(0.15)
-        surface = Surface(self._points.take(vertices))
+        surface = Surface(self._points.take(vertices), meshed)
         progress(0.2)
         return surface.heights(x, y, max_edge, progress.part(0.2, 1.0), cells)
 
-    def _vertices(self, near: tuple[np.ndarray, np.ndarray] | None = None) -> np.ndarray:
-        """Return which points are vertices, in ascending order; all, or those near some places."""
+    def _are_vertices(
+        self, near: tuple[np.ndarray, np.ndarray] | None = None, rim: int = 0
+    ) -> np.ndarray:
+        """Return which points are vertices (n,); all, or those near some places."""
         is_vertex = np.zeros(self._points.count, dtype=bool)
         is_vertex[self._thinned.hull] = True
-        marked = None if near is None else _marked(self._thinned, *near)
+        marked = None if near is None else _marked(self._thinned, *near, rim)
         for place, tile in self._thinned.tiles.items():
             if marked is None:
                 is_vertex[tile.which] = True
             elif place in marked:
                 is_vertex[tile.which[marked[place][tile.slots]]] = True
-        return np.flatnonzero(is_vertex)
-
-
-class _Near:
-    """Finds heights from the vertices of a tile in a window round each query.
-
-    `z` are the heights of all points; `max_edge` is in cells. Where the queries lie on corners of
-    cells (`are_corners`), each quarter of a window is one of the plane.
-    """
-
-    def __init__(self, window: Window, z: np.ndarray, are_corners: bool, max_edge: float) -> None:
-        # The number -1 of an empty cell is that of the last vertex.
-        self._x, self._y = (np.append(each, NOWHERE) for each in window[1:3])
-        self._z = np.append(z[window.which], 0.0)
-        self._lattice, self._columns = window.lattice.ravel(), window.lattice.shape[1]
-        self._are_corners, self._max_edge = are_corners, max_edge
-
-    def __call__(self, queries: _Queries, width: int) -> tuple[np.ndarray, np.ndarray]:
-        """Return heights of queries in a window of so many cells, and which of them are sure."""
-        half, across = width // 2, np.arange(width)
-        start = (queries.row - half + _MARGIN) * self._columns + queries.column - half + _MARGIN
-        cells = (across[:, None] * self._columns + across).ravel()
-        found = self._lattice[start + cells[:, None]]
-        x, y = self._x[found] - queries.x, self._y[found] - queries.y
-        if width == 2:
-            in_turn = [0, 1, 3, 2]
-            four = (each[in_turn] for each in (x, y, self._z[found]))
-            return heights_of_four(*four, self._max_edge)
-        quarters = _quarters(width) if self._are_corners else None
-        by = queries.column - queries.x, queries.row - queries.y
-        borders = np.array([half - by[0], half - by[1], half + by[0], half + by[1]])
-        return enclosing_heights(x, y, self._z[found], borders, quarters, self._max_edge)
-
-
-def _quarters(width: int) -> list[np.ndarray]:
-    """Return which cells of a window lie southwest, southeast, northeast and northwest."""
-    numbers, half = np.arange(width * width).reshape(width, width), width // 2
-    low, high = slice(None, half), slice(half, None)
-    return [
-        numbers[rows, columns].ravel()
-        for rows, columns in ((low, low), (low, high), (high, high), (high, low))
-    ]
+        return is_vertex
 
 
 def _by_tile(
@@ -314,20 +238,20 @@ def _by_tile(
 
 
 def _marked(
-    thinned: ThinnedPoints, x: np.ndarray, y: np.ndarray
+    thinned: ThinnedPoints, x: np.ndarray, y: np.ndarray, rim: int
 ) -> dict[tuple[int, int], np.ndarray]:
     """Return for each tile which of its cells lie near places; boolean, shape (TILE * TILE,)."""
     marked: dict[tuple[int, int], np.ndarray] = {}
     for place, which in _by_tile(thinned, x, y):
         row, column = (
-            np.floor(thinned.cells(each[which], axis)).astype(np.intp) - at * TILE + _RIM
+            np.floor(thinned.cells(each[which], axis)).astype(np.intp) - at * TILE + rim
             for axis, each, at in ((1, y, place[0]), (0, x, place[1]))
         )
-        near = np.zeros((TILE + 2 * _RIM,) * 2, dtype=np.uint8)
+        near = np.zeros((TILE + 2 * rim,) * 2, dtype=np.uint8)
         near[row, column] = 1
-        near = within_square(np.maximum, near, _RIM)
+        near = within_square(np.maximum, near, rim)
         padded = np.zeros((3 * TILE,) * 2, dtype=bool)
-        padded[TILE - _RIM : 2 * TILE + _RIM, TILE - _RIM : 2 * TILE + _RIM] = near
+        padded[TILE - rim : 2 * TILE + rim, TILE - rim : 2 * TILE + rim] = near
         for i in (-1, 0, 1):
             for k in (-1, 0, 1):
                 part = padded[(1 + i) * TILE : (2 + i) * TILE, (1 + k) * TILE : (2 + k) * TILE]

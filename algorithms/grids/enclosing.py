@@ -20,73 +20,75 @@ _MOST_STEPS = 60
 # Share of the squared distances by which a vertex may lie in the circle and count as on it.
 _ON_CIRCLE = 1e-9
 _NO_WEIGHT = 1e-12
+# Added to a squared distance, tells that the vertex lies in another quarter.
+_FAR = 1e13
 
 
-def enclosing_heights(
+def enclosing_triangles(
     x: np.ndarray,
     y: np.ndarray,
-    z: np.ndarray,
     window: np.ndarray,
     quarters: list[np.ndarray] | None = None,
-    max_edge: float = np.inf,
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return heights on the Delaunay triangulation at queries, and whether they are sure.
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the triangles of the Delaunay triangulation at queries, and whether they are sure.
 
     Parameters
     ----------
     x, y : numpy.ndarray of float64, shape (k, q)
         Vertices near each query, relative to it; `NOWHERE` in the place of one that is missing.
-    z : numpy.ndarray of float64, shape (k, q)
-        Their heights.
     window : numpy.ndarray of float64, shape (4,) or (4, q)
         Distance from the query to the west, south, east and north border of the window that the
         vertices are all vertices of.
     quarters : list of numpy.ndarray of int, optional
         Which of the k vertices can lie southwest, southeast, northeast and northwest of the query;
         if it is not given, that is looked up.
-    max_edge : float
-        Triangles with a longer edge, in the unit of x and y, are gaps.
 
     Returns
     -------
-    heights : numpy.ndarray of float64, shape (q,)
-        Linear in each triangle; NaN where no triangle was found, and in gaps.
+    corners : numpy.ndarray of intp, shape (3, q)
+        Which of the k vertices are the corners.
+    found : numpy.ndarray of bool, shape (q,)
+        Whether there is a triangle.
     sure : numpy.ndarray of bool, shape (q,)
-        Whether the circumcircle lies in the window, so that no vertex beyond matters.
+        Whether its circumcircle lies in the window, so that no vertex beyond matters.
     """
+    count = x.shape[1]
+    corners, found = np.zeros((3, count), dtype=np.intp), np.zeros(count, dtype=bool)
+    sure, window = found.copy(), np.broadcast_to(np.reshape(window, (4, -1)), (4, count))
     distance = x * x + y * y
-    corners, are_there = _nearest_of_quarters(x, y, distance, quarters)
-    heights, sure = np.full(x.shape[1], np.nan), np.zeros(x.shape[1], dtype=bool)
-    window = np.broadcast_to(np.reshape(window, (4, -1)), (4, x.shape[1]))
+    nearest, are_there = _nearest_of_quarters(x, y, distance, quarters)
     active = np.flatnonzero(are_there)
-    if len(active) < x.shape[1]:
-        x, y, distance, corners = (each[:, active] for each in (x, y, distance, corners))
-    triangle = _first_triangle(x, y, corners)
+    if len(active) < count:
+        x, y, distance, nearest = (each.take(active, axis=1) for each in (x, y, distance, nearest))
+    triangle = _first_triangle(x, y, nearest)
     for _ in range(_MOST_STEPS):
-        column = np.arange(len(active))
-        a, b = x[triangle, column], y[triangle, column]
-        slope_x, slope_y, level = _plane(a, b, distance[triangle, column])
+        a, b = picked(x, triangle), picked(y, triangle)
+        slope_x, slope_y, level = _plane(a, b, picked(distance, triangle))
         above = distance - slope_x * x
         above -= slope_y * y
-        worst = above.argmin(axis=0)
-        done = ~(above[worst, column] - level < -_ON_CIRCLE * np.maximum(np.abs(level), 1.0))
-        ended = np.flatnonzero(done)
+        lowest, worst = _lowest(above)
+        goes_on = lowest - level < -_ON_CIRCLE * np.maximum(np.abs(level), 1.0)
+        ended, left = np.flatnonzero(~goes_on), np.flatnonzero(goes_on)
+        which = active[ended]
+        corners[:, which], found[which] = triangle[:, ended], True
+        sure[which] = _lies_within(
+            slope_x[ended] / 2.0, slope_y[ended] / 2.0, level[ended], window[:, which]
+        )
+        if not len(left):
+            break
         if len(ended):
-            which = active[ended]
-            heights[which] = interpolated(a[:, ended], b[:, ended], z[triangle[:, ended], which])
-            sure[which] = _lies_within(
-                slope_x[ended] / 2.0, slope_y[ended] / 2.0, level[ended], window[:, which]
+            active, worst = active[left], worst[left]
+            x, y, distance, triangle, a, b = (
+                each.take(left, axis=1) for each in (x, y, distance, triangle, a, b)
             )
-            heights[which[longest_edge(a[:, ended], b[:, ended]) > max_edge]] = np.nan
-            left = np.flatnonzero(~done)
-            if not len(left):
-                break
-            active, column = active[left], np.arange(len(left))
-            x, y, distance, triangle = (each[:, left] for each in (x, y, distance, triangle))
-            a, b, worst = a[:, left], b[:, left], worst[left]
-        leaving = leaving_corner(a, b, x[worst, column], y[worst, column])
-        triangle[leaving, column] = worst
-    return heights, sure
+        leaving = leaving_corner(a, b, picked(x, worst), picked(y, worst))
+        triangle[leaving, np.arange(len(left))] = worst
+    return corners, found, sure
+
+
+def picked(values: np.ndarray, which: np.ndarray) -> np.ndarray:
+    """Return one value a column, or several: `which`, shape (q,) or (n, q), of values (k, q)."""
+    return values.ravel().take(which * values.shape[1] + np.arange(values.shape[1]))
 
 
 def heights_of_four(
@@ -140,27 +142,40 @@ def _nearest_of_quarters(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return which vertices are the nearest in the four quarters (4, q), and whether all are."""
     corners, are_there = np.empty((4, x.shape[1]), dtype=np.intp), np.ones(x.shape[1], dtype=bool)
-    column = np.arange(x.shape[1])
     if quarters is None:
-        west, south = x < 0.0, y < 0.0
-        places = (west & south, ~west & south, ~west & ~south, west & ~south)
+        # Adding these is ten times as fast as choosing.
+        west, south = (np.multiply(each >= 0.0, _FAR) for each in (x, y))
+        east, north = _FAR - west, _FAR - south
+        beyond = ((west, south), (east, south), (east, north), (west, north))
     for number in range(4):
         if quarters is not None:
             some = quarters[number]
-            corners[number] = some[distance[some].argmin(axis=0)]
+            nearest, which = _lowest(distance[some])
+            corners[number] = some[which]
         else:
-            inside = np.where(places[number], distance, np.inf)
-            corners[number] = inside.argmin(axis=0)
-            are_there &= places[number][corners[number], column]
-        are_there &= distance[corners[number], column] < NOWHERE
+            nearest, corners[number] = _lowest(distance + beyond[number][0] + beyond[number][1])
+        are_there &= nearest < NOWHERE
     return corners, are_there
+
+
+def _lowest(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the lowest of each column of values (k, q), which are changed, and its row.
+
+    The number of the row is kept in the last bits: an argmin down the columns takes ten times as
+    long as a minimum.
+    """
+    mask = (1 << int(len(values) - 1).bit_length()) - 1
+    bits = values.view(np.int64)
+    bits &= ~mask
+    bits |= np.arange(len(values))[:, None]
+    lowest = values.min(axis=0)
+    return lowest, lowest.view(np.int64) & mask
 
 
 def _first_triangle(x: np.ndarray, y: np.ndarray, corners: np.ndarray) -> np.ndarray:
     """Return the three of four corners, one in each quarter, whose triangle holds the query."""
-    column = np.arange(corners.shape[1])
-    west_x, west_y = x[corners[0], column], y[corners[0], column]
-    east_x, east_y = x[corners[2], column], y[corners[2], column]
+    west_x, west_y = picked(x, corners[0]), picked(y, corners[0])
+    east_x, east_y = picked(x, corners[2]), picked(y, corners[2])
     is_left = (east_y - west_y) * west_x - (east_x - west_x) * west_y > 0.0
     return np.where(is_left, corners[[0, 2, 3]], corners[[0, 1, 2]])
 

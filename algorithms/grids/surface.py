@@ -56,11 +56,17 @@ class Surface:
     ----------
     points : Points
         Vertices. Of those with the same x and y the lowest is kept; their order does not matter.
+    meshed : numpy.ndarray of bool, shape (n,), optional
+        Which of them are triangulated, the corners of the convex hull among them; the triangles
+        are checked against all of them. All are, if it is not given.
     """
 
-    def __init__(self, points: Points) -> None:
+    def __init__(self, points: Points, meshed: np.ndarray | None = None) -> None:
         # Sorted by x.
-        self._vertices = points.take(lowest_of_duplicates(*points))
+        kept = lowest_of_duplicates(*points)
+        self._vertices, self._meshed = points.take(kept), np.arange(len(kept))
+        if meshed is not None:
+            self._meshed = np.flatnonzero(meshed[kept])
         self._lock = threading.Lock()
         self._tree_of_all = self._border_of_all = None
 
@@ -140,7 +146,7 @@ class Surface:
         far away makes no difference.
         """
         vertices = self._vertices
-        waiting = [(np.arange(vertices.count), np.arange(len(x)))]
+        waiting = [(self._meshed, np.arange(len(x)))]
         while waiting:
             inside, queries = waiting.pop()
             if not len(queries):
@@ -166,22 +172,22 @@ class Surface:
     ) -> np.ndarray:
         """Return the heights of the queries of a block, on a TIN of the vertices round it."""
         vertices, margin = self._vertices, max(_MARGIN * size, _ON_HULL)
-        if vertices.count <= _VERTICES_A_BLOCK:
-            tin, which, sure = Tin(*vertices), np.arange(vertices.count), np.ones(len(x), bool)
-            progress(0.5)
-            triangle = _located(tin, x, y, cells)
-        else:
-            borders = x.min() - margin, y.min() - margin, x.max() + margin, y.max() + margin
-            which = self._within(borders)
-            tin = Tin(*vertices.take(which))
-            progress(0.4)
-            triangle = _located(tin, x, y, cells)
-            progress(0.6)
+        are_all = len(self._meshed) == vertices.count
+        borders = x.min() - margin, y.min() - margin, x.max() + margin, y.max() + margin
+        is_one_block = len(self._meshed) <= _VERTICES_A_BLOCK
+        which = self._meshed if is_one_block else self._within(borders)
+        tin = Tin(*vertices.take(which))
+        progress(0.4)
+        triangle = _located(tin, x, y, cells)
+        progress(0.6)
+        sure = np.full(len(x), is_one_block)
+        if not is_one_block:
             depth = self._depth(x, y)
             sure = (triangle < 0) & (depth < _ON_HULL)
             triangle[depth <= -_ON_HULL] = -1
+        if not (is_one_block and are_all):
             inside = np.flatnonzero(triangle >= 0)
-            sure[inside] = self._are_delaunay(tin, triangle[inside], borders)
+            sure[inside] = self._are_delaunay(tin, triangle[inside], borders if are_all else None)
         progress(0.8)
         heights = tin.interpolate(x, y, _without_long(tin, triangle, max_edge))
         left = np.flatnonzero(~sure)
@@ -246,25 +252,31 @@ class Surface:
         return np.minimum(depth, np.minimum(x - lower[0, 0], lower[0, -1] - x))
 
     def _within(self, box: tuple[float, float, float, float]) -> np.ndarray:
-        """Return which vertices lie in a box."""
+        """Return which of the vertices that are triangulated lie in a box."""
         west, south, east, north = box
-        first, last = np.searchsorted(self._vertices.x, (west, east))
-        y = self._vertices.y[first:last]
-        return first + np.flatnonzero((y >= south) & (y <= north))
+        first, last = np.searchsorted(self._vertices.x[self._meshed], (west, east))
+        which = self._meshed[first:last]
+        y = self._vertices.y[which]
+        return which[(y >= south) & (y <= north)]
 
     def _are_delaunay(
-        self, tin: Tin, triangle: np.ndarray, window: tuple[float, ...]
+        self, tin: Tin, triangle: np.ndarray, window: tuple[float, ...] | None
     ) -> np.ndarray:
-        """Return whether triangles of a block (k,) are such of the triangulation of all points."""
+        """Return whether triangles of a block (k,) are such of the triangulation of all points.
+
+        If a window is given, all points in it are vertices of the block.
+        """
         used, back = np.unique(triangle, return_inverse=True)
         corners = tin.triangles[used].T
         # Relative to a corner, so that no digit is lost to the size of the coordinates.
         x, y, radius = circumcircles(*(each[corners] - each[corners[0]] for each in (tin.x, tin.y)))
         x, y = x + tin.x[corners[0]], y + tin.y[corners[0]]
-        west, south, east, north = window
-        # All points of the window are vertices: in the circles there is none.
-        delaunay = (x - radius > west) & (x + radius < east)
-        delaunay &= (y - radius > south) & (y + radius < north)
+        delaunay = np.zeros(len(x), dtype=bool)
+        if window is not None:
+            west, south, east, north = window
+            # In the circles that lie in the window there is none.
+            delaunay = (x - radius > west) & (x + radius < east)
+            delaunay &= (y - radius > south) & (y + radius < north)
         # Three vertices on one line have no circle; they only occur along the hull.
         is_circle = np.isfinite(x) & np.isfinite(y) & np.isfinite(radius)
         open_ = np.flatnonzero(is_circle & ~delaunay)

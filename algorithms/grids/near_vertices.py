@@ -1,0 +1,188 @@
+"""Heights on the TIN of thinned points at places in a tile, from the few vertices near each."""
+
+from __future__ import annotations
+
+from typing import Iterator, NamedTuple
+
+import numpy as np
+
+from .enclosing import (
+    NOWHERE,
+    enclosing_triangles,
+    heights_of_four,
+    interpolated,
+    longest_edge,
+    picked,
+)
+from .thinned import ThinnedPoints
+
+# Widths of the windows in which the triangle is looked for, and queries a vertex of the tile above
+# which triangulating these takes less time.
+_WINDOWS = ((2, 6.0), (4, 5.0), (6, 3.0), (8, 2.0), (12, 0.5), (16, 0.5))
+WIDEST = _WINDOWS[-1][0]
+_MARGIN = WIDEST // 2 + 1
+# Of windows so wide the vertices are listed, as many of their cells are empty.
+_LEAST_LISTED = 6
+# Vertices that are looked at together for some queries: their arrays stay in the processor's cache.
+_TOGETHER = 1 << 16
+
+
+class Queries(NamedTuple):
+    """Places in a tile at which heights are wanted.
+
+    Attributes
+    ----------
+    x, y : numpy.ndarray of float64, shape (q,)
+        In cells of the lattice from the corner of the tile.
+    column, row : numpy.ndarray of intp, shape (q,)
+        The corner of cells next to each.
+    """
+
+    x: np.ndarray
+    y: np.ndarray
+    column: np.ndarray
+    row: np.ndarray
+
+    def take(self, which: np.ndarray | slice) -> Queries:
+        """Return some of them."""
+        return Queries(*(each[which] for each in self))
+
+
+class NearVertices:
+    """The vertices of a tile, which tell heights at queries in it from those near each.
+
+    Parameters
+    ----------
+    thinned : ThinnedPoints
+        The vertices.
+    place : tuple of int
+        Row and column of the tile.
+    are_corners : bool
+        Whether the queries lie on corners of cells: each quarter of a window is one of the plane.
+    max_edge : float
+        Triangles with a longer edge, in cells, are gaps.
+    """
+
+    def __init__(
+        self,
+        thinned: ThinnedPoints,
+        place: tuple[int, int],
+        are_corners: bool,
+        max_edge: float = np.inf,
+    ) -> None:
+        window = thinned.window(place, _MARGIN)
+        # Row by row, so that those of some cells in a row follow one another. The number -1 of an
+        # empty cell is that of the last vertex.
+        lattice = window.lattice.ravel()
+        order = lattice[lattice >= 0]
+        self._x, self._y = (np.append(each[order], NOWHERE) for each in window[1:3])
+        self._z = np.append(thinned.points.z[window.which[order]], 0.0)
+        self._before = np.concatenate(([0], np.cumsum(lattice >= 0)))
+        # Vertices southwest of each corner of cells.
+        self._counts = np.zeros(np.add(window.lattice.shape, 1), dtype=np.intp)
+        self._counts[1:, 1:] = (window.lattice >= 0).cumsum(axis=0).cumsum(axis=1)
+        self._lattice = np.where(lattice >= 0, self._before[:-1], -1)
+        self._columns = window.lattice.shape[1]
+        self._are_corners, self._max_edge = are_corners, max_edge
+
+    def heights(self, queries: Queries) -> tuple[np.ndarray, np.ndarray]:
+        """Return heights at queries, NaN where there is none, and which of them are sure."""
+        heights = np.full(len(queries.x), np.nan)
+        sure = np.zeros(len(queries.x), dtype=bool)
+        left = np.arange(len(queries.x))
+        for width, most in _WINDOWS:
+            if len(left) > most * (len(self._x) - 1):
+                break
+            for which in self._promising(queries, left, width):
+                heights[which], sure[which] = self._in_windows(queries.take(which), width)
+            left = left[~sure[left]]
+        return heights, sure
+
+    def _promising(self, queries: Queries, which: np.ndarray, width: int) -> Iterator[np.ndarray]:
+        """Yield those of some queries with vertices in each quarter of a window, part by part."""
+        if width > 2:
+            some = queries.take(which)
+            west, middle, east = (
+                self._counts_southwest(some, width // 2, across) for across in (-1, 0, 1)
+            )
+            columns = middle - west, east - middle
+            quarters = [part for each in columns for part in (each[1] - each[0], each[2] - each[1])]
+            kept = np.flatnonzero(np.min(quarters, axis=0) > 0)
+            which, counts = which[kept], np.sum(quarters, axis=0)[kept]
+        if width < _LEAST_LISTED:
+            counts = np.full(len(which), width * width)
+        else:
+            order = np.argsort(counts, kind="stable")
+            which, counts = which[order], counts[order]
+        start = 0
+        while start < len(which):
+            # No query of those before the last has more vertices than this.
+            most = min(start + _TOGETHER // int(counts[start]), len(which)) - 1
+            stop = start + max(_TOGETHER // int(counts[most]), 1)
+            yield which[start:stop]
+            start = stop
+
+    def _counts_southwest(self, queries: Queries, half: int, across: int) -> np.ndarray:
+        """Return how many vertices lie southwest of the south, middle and north corner of windows.
+
+        That is of shape (3, q). With `across` -1 they are corners in the west, with 0 in the
+        middle, with 1 in the east.
+        """
+        start = queries.column + across * half + _MARGIN
+        rows = queries.row + _MARGIN + np.array([[-half], [0], [half]])
+        return self._counts.take(rows * (self._columns + 1) + start)
+
+    def _in_windows(self, queries: Queries, width: int) -> tuple[np.ndarray, np.ndarray]:
+        """Return heights of queries in a window of so many cells, and which of them are sure."""
+        half, quarters = width // 2, None
+        if width < _LEAST_LISTED:
+            across = np.arange(width)
+            cells = (across[:, None] * self._columns + across).ravel()
+            vertices = self._lattice.take(self._start(queries, half) + cells[:, None])
+            quarters = _quarters(width) if self._are_corners else None
+        else:
+            vertices = _listed(*self._runs(queries, width))
+        x, y = self._x.take(vertices) - queries.x, self._y.take(vertices) - queries.y
+        if width == 2:
+            in_turn = [0, 1, 3, 2]
+            four = (each[in_turn] for each in (x, y, self._z.take(vertices)))
+            return heights_of_four(*four, self._max_edge)
+        by = queries.column - queries.x, queries.row - queries.y
+        borders = np.array([half - by[0], half - by[1], half + by[0], half + by[1]])
+        corners, found, sure = enclosing_triangles(x, y, borders, quarters)
+        a, b, z = picked(x, corners), picked(y, corners), self._z.take(picked(vertices, corners))
+        heights = interpolated(a, b, z)
+        heights[~found | (longest_edge(a, b) > self._max_edge)] = np.nan
+        return heights, sure
+
+    def _start(self, queries: Queries, half: int) -> np.ndarray:
+        """Return the cell in the southwestern corner of the window of each query."""
+        return (queries.row - half + _MARGIN) * self._columns + queries.column - half + _MARGIN
+
+    def _runs(self, queries: Queries, width: int) -> tuple[np.ndarray, np.ndarray]:
+        """Return the first vertex in each row of each query's window, and how many are there."""
+        start = self._start(queries, width // 2) + np.arange(width)[:, None] * self._columns
+        first = self._before.take(start)
+        return first, self._before.take(start + width) - first
+
+
+def _listed(first: np.ndarray, count: np.ndarray) -> np.ndarray:
+    """Return the numbers in runs (rows, q) as a column for each query, with -1 below them."""
+    total = count.sum(axis=0)
+    first, count = first.T.ravel(), count.T.ravel()
+    places = np.arange(count.sum())
+    numbers = np.repeat(first - (np.cumsum(count) - count), count) + places
+    column = np.repeat(np.arange(len(total)), total)
+    listed = np.full((max(total.max(), 1), len(total)), -1)
+    listed.ravel()[(places - (np.cumsum(total) - total)[column]) * len(total) + column] = numbers
+    return listed
+
+
+def _quarters(width: int) -> list[np.ndarray]:
+    """Return which cells of a window lie southwest, southeast, northeast and northwest."""
+    numbers, half = np.arange(width * width).reshape(width, width), width // 2
+    low, high = slice(None, half), slice(half, None)
+    return [
+        numbers[rows, columns].ravel()
+        for rows, columns in ((low, low), (low, high), (high, high), (high, low))
+    ]
