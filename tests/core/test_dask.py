@@ -1,4 +1,5 @@
 import contextlib
+import importlib.util
 import os
 import random
 import shutil
@@ -25,7 +26,10 @@ from bare_earth.algorithms.engine.options import TileOutput
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
 
-pytest.importorskip("distributed")
+# Imported by what works with it alone: it takes a second.
+pytestmark = pytest.mark.skipif(
+    importlib.util.find_spec("distributed") is None, reason="there is no Dask"
+)
 FAST = SlopeFilter(preset="whitebox")
 KILLS = int(os.environ.get("BARE_EARTH_KILLS", "10"))
 
