@@ -6,7 +6,7 @@ import numpy as np
 
 from ...grids.cells import Cells
 from ...grids.inpaint import First, inpaint
-from ...grids.morphology import within_square
+from ...grids.morphology import median_of_nine, within_square
 
 # Metres from a pit between which cells bear witness: nearer ones may belong to the same fault.
 _NEAREST, _FARTHEST = 3.0, 10.0
@@ -167,8 +167,6 @@ def _depth(grid: np.ndarray, first: First) -> np.ndarray:
 
 def _even(grid: np.ndarray, first: First) -> np.ndarray:
     """Return which cells of a grid lie on an even surface."""
-    from scipy import ndimage
-
     filled = inpaint(grid, 2, first).astype(np.float32)
-    middle = ndimage.median_filter(filled, 3, mode="nearest")
+    middle = median_of_nine(filled)
     return np.abs(grid - middle) <= _EVEN
