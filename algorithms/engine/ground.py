@@ -159,11 +159,7 @@ class _Filter(NamedTuple):
             # There is nothing to tell it from, and a survey may be scattered all over a country.
             return np.array([GROUND], dtype=np.uint8)
         tell_of_extent(points, *method.largest(self.parameters), progress)
-        if known.any() and method.takes_known_ground:
-            ground = method.classify(points, self.parameters, part, known_ground=known)
-        else:
-            ground = method.classify(points, self.parameters, part)
-        ground |= known
+        ground = method.ground(points, self.parameters, part, known) | known
         tell_of_little_ground(points, ground, progress)
         labels = ground.astype(np.uint8)
         if finds_bridges:

@@ -7,6 +7,9 @@ from typing import Any, Callable, Mapping, NamedTuple
 import numpy as np
 
 from ..core.parameters import ParameterSet
+from ..core.points import Points
+from ..core.progress import SILENT, Progress
+from .shared.scattered import scattered_lows
 
 # Metres: few buildings are wider.
 _USUAL_OBJECT = 50.0
@@ -78,6 +81,37 @@ class Method(NamedTuple):
     presets: Mapping[str, Any]
     toolbox: Toolbox
     takes_known_ground: bool = False
+
+    def ground(
+        self,
+        points: Points,
+        parameters: ParameterSet,
+        progress: Progress = SILENT,
+        known: np.ndarray | None = None,
+    ) -> np.ndarray:
+        """Return the ground mask of points (n,): low outliers all over a dense cloud go first.
+
+        Parameters
+        ----------
+        points : Points
+            All points that take part.
+        parameters : ParameterSet
+            Those of the method.
+        progress : Progress
+            Receives progress and messages.
+        known : numpy.ndarray of bool, shape (n,), optional
+            Points that are surely ground.
+        """
+        left = np.ones(points.count, dtype=bool)
+        if not self.is_classic(parameters):
+            left = ~scattered_lows(points)
+        some = points if left.all() else points.take(left)
+        starts = {}
+        if self.takes_known_ground and known is not None and known.any():
+            starts["known_ground"] = known[left]
+        ground = np.zeros(points.count, dtype=bool)
+        ground[left] = self.classify(some, parameters, progress, **starts)
+        return ground
 
     def is_classic(self, parameters: ParameterSet) -> bool:
         """Return whether parameters ask for what an original does."""

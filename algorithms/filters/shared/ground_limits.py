@@ -11,7 +11,7 @@ from ...grids.cells import Cells
 from ...grids.gradient import gradient, length, steepness
 from ...grids.inpaint import inpaint
 from ...grids.morphology import within_square
-from .noise import from_middle, middle_of_noise
+from .noise import below_middle, from_middle, middle_of_noise, noise_of_squares
 
 # Metres over which the surface is smoothed for the slope along which vertices are moved, how often
 # they are moved, and the steepest slope (rise over run).
@@ -28,6 +28,9 @@ DENSE_SPACING = 0.17
 _BREAK, _BREAK_FACTOR = 0.25, 1.5
 # Metres above a surface through the middle of the noise, and how often the noise adds to them.
 _ABOVE, _ABOVE_FACTOR = 0.05, 3.0
+# The same where few points lie in a cell, and metres by which less is needed: plants that are lower
+# than the noise can't be told.
+_SPARSE_FACTOR, _USUAL_NOISE = 2.5, 0.07
 # Metres, and at most which share, that the tolerance above is less where the ground is even.
 _EVEN_LESS, _EVEN_SHARE = 0.07, 0.4
 # Ground is even up to so many metres of curvature, where this share of the cells round about is
@@ -79,9 +82,9 @@ def ground_limits(
     on its lower side. Where points are dense, the surface between them is known better, and the
     tolerance on slopes is less in proportion. At breaks the surface of cells is too smooth, and
     more is tolerated. Where the ground is even, however steep, low plants stand out, and less is
-    tolerated above it. Where many points lie in a cell, the lowest lies far below the ground. Their
-    noise is measured there, the surface is laid through its middle, and the tolerance above grows
-    with the noise.
+    tolerated above it. Where many points lie in a cell, the lowest lies far below the ground: the
+    surface is laid through the middle of their noise. The tolerance above grows with the noise that
+    is measured.
 
     Parameters
     ----------
@@ -109,6 +112,12 @@ def ground_limits(
         surface = surface + level.reshape(surface.shape)
         on_even = max(on_even, _ABOVE + _ABOVE_FACTOR * noise)
         above = on_even if spacing <= DENSE_SPACING else max(above, on_even)
+    elif spacing <= _SPARSE:
+        noise = noise_of_squares(points, cells, surface, slopes)
+        # The surface goes through the lowest of so many points.
+        number = max(cells.size / spacing, 1.0) ** 2
+        least = (_SPARSE_FACTOR + float(below_middle(number))) * noise - _USUAL_NOISE
+        above, on_even = max(above, least), max(on_even, least)
     factor = tolerance.on_slopes * min(max(spacing, _DENSE), _SPARSE) / _SPARSE
     slope, curvature = _smooth_steepness(surface, cells), _curvature(surface)
     rise = factor * slope

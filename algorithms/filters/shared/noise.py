@@ -1,4 +1,4 @@
-"""How noisy points of the ground are, where many of them lie in a cell."""
+"""How noisy points of the ground are."""
 
 from __future__ import annotations
 
@@ -15,6 +15,9 @@ from ...grids.cells import Cells
 _NOISE_WINDOW, _NOISE_POINTS, _NOISE_PERCENTILE = 0.6, 8, 25
 # Metres from the lowest points beyond which no point is noise, and how finely rises are told.
 _FARTHEST, _STEPS_A_METRE = 2.4, 1 << 14
+# Cells along the side of a square in which noise is measured where few points lie in a cell, and
+# the percentile of the squares: more of them than of the cells have plants.
+_SQUARE, _SQUARE_PERCENTILE = 3, 10
 # Points within so many times the noise belong to the ground; a mean needs so many of them, and is
 # taken so often.
 _NOISE_FACTOR, _MEAN_POINTS, _MEANS = 2.5, 4, 2
@@ -50,18 +53,56 @@ def middle_of_noise(
         Standard deviation in metres; 0 if no cell has enough points.
     """
     rises = _rises(points, cells, surface, slopes)
-    count, total, square = _sums(rises, np.zeros(surface.size, np.float32), _NOISE_WINDOW)
-    enough = count >= _NOISE_POINTS
-    if not enough.any():
-        return np.zeros(surface.size), 0.0
-    number = np.maximum(count, 1)
-    spread = np.sqrt(np.maximum(square / number - (total / number) ** 2, 0.0))
-    noise = float(np.percentile(spread[enough], _NOISE_PERCENTILE))
-    level = _LOWEST_FACTOR * noise * np.sqrt(2.0 * np.log(number))
-    for _ in range(_MEANS):
+    sums = _sums(rises, np.zeros(surface.size, np.float32), _NOISE_WINDOW)
+    noise = _noise(sums, _NOISE_PERCENTILE)
+    level = below_middle(np.maximum(sums[0], 1)) * noise
+    for _ in range(_MEANS if noise else 0):
         count, total = _sums(rises, level, _NOISE_FACTOR * noise, powers=1)
         level = np.where(count >= _MEAN_POINTS, total / np.maximum(count, 1), level)
     return level, noise
+
+
+def noise_of_squares(
+    points: Points, cells: Cells, surface: np.ndarray, slopes: tuple[np.ndarray, np.ndarray]
+) -> float:
+    """Return the noise of ground points where few of them lie in a cell.
+
+    It is measured in squares of 3 x 3 cells, and too large by the little that the surface is off.
+
+    Parameters
+    ----------
+    points, cells, surface, slopes
+        As for `middle_of_noise`.
+
+    Returns
+    -------
+    float
+        Standard deviation in whole centimetres, in metres: the border of a survey hardly moves it.
+        0 if no square has enough points.
+    """
+    rises = _rises(points, cells, surface, slopes)
+    sums = _sums(rises, np.zeros(surface.size, np.float32), _NOISE_WINDOW)
+    row, column = (
+        (np.arange(count) + first) // _SQUARE - first // _SQUARE
+        for count, first in zip(cells.shape, cells.first)
+    )
+    square = (row[:, None] * (column[-1] + 1) + column).ravel()
+    sums = np.array([np.bincount(square, each) for each in sums])
+    return round(_noise(sums, _SQUARE_PERCENTILE), 2)
+
+
+def below_middle(number: np.ndarray | float) -> np.ndarray | float:
+    """Return by how many times the noise the lowest of some points lies below their middle."""
+    return _LOWEST_FACTOR * np.sqrt(2.0 * np.log(number))
+
+
+def _noise(sums: np.ndarray, percentile: float) -> float:
+    """Return the noise of a percentile of squares, whose points, rises and squares are summed."""
+    count, total, square = sums[:, sums[0] >= _NOISE_POINTS]
+    if not len(count):
+        return 0.0
+    spread = np.sqrt(np.maximum(square / count - (total / count) ** 2, 0.0))
+    return float(np.percentile(spread, percentile))
 
 
 def from_middle(points: Points, cells: Cells, cell: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
