@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import Callable, NamedTuple
 
 import numpy as np
 
+from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..crs.system import unit_name
@@ -21,11 +22,12 @@ from ..survey.selection import ground_of
 from .blocks import Block, Blocks, Store
 from .ground import over_blocks
 from .memory import Cost, Resources
-from .output import HEIGHT_DIMENSION, height_edits
+from .output import HEIGHT_DIMENSION, height_dimension
 from .steps import Marks, PointResult, PointStep, Room
 
 # Metres round a block in which ground points matter for its heights, and what it takes.
 _BLOCKS = Blocks.of(100.0, Cost(150.0, 50.0))
+_INTEGERS = np.iinfo(np.int32)
 
 
 @dataclass(frozen=True)
@@ -163,8 +165,16 @@ class HeightsOfPoints(PointResult):
         self._highest = max(self._highest, float(np.fmax.reduce(heights, initial=-np.inf)))
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
-        """Return the heights as z or as a dimension."""
-        return replace(height_edits(cloud, self.heights, self._as_z), kept=self._kept)
+        """Return the heights as z or as a dimension.
+
+        Raises
+        ------
+        BareEarthError
+            If they do not fit into z.
+        """
+        if self._as_z:
+            return Edits(z=_z_of(cloud, self.heights), kept=self._kept)
+        return Edits(extra=height_dimension(cloud, self.heights), kept=self._kept)
 
     def summary(self, name: str) -> HeightSummary:
         """Return the lowest and the highest height."""
@@ -173,6 +183,22 @@ class HeightsOfPoints(PointResult):
             extremes = np.nan, np.nan
         written = len(self.heights) if self._kept is None else self._ground_count
         return HeightSummary(name, written, self._ground_count, *extremes, self._unit)
+
+
+def _z_of(cloud: PointCloud, heights: np.ndarray) -> np.ndarray:
+    """Return heights as integers of the file's scale and offset."""
+    if np.isnan(heights).any():
+        raise BareEarthError(
+            f"Some points of {cloud.path} are kilometres from any ground, so that they have no"
+            " height above ground. Write the heights as an extra dimension."
+        )
+    values = np.rint((heights - cloud.offset[2]) / cloud.scale[2])
+    if values.min() < _INTEGERS.min or values.max() > _INTEGERS.max:
+        raise BareEarthError(
+            f"Heights above ground do not fit the scale {cloud.scale[2]:g} and offset"
+            f" {cloud.offset[2]:g} of z in {cloud.path}. Write them as an extra dimension."
+        )
+    return values.astype(np.int32)
 
 
 class _Heights(NamedTuple):

@@ -25,7 +25,7 @@ from ..survey.tally import Tally, count_classes
 from .blocks import BRIDGE, GROUND, LOW, Blocks, Store
 from .ground import blocks_of, label_ground
 from .memory import Resources
-from .output import Output
+from .output import Output, height_dimension
 from .remembering import Memory
 from .steps import Marks, PointResult, PointStep, Room
 
@@ -254,13 +254,32 @@ class ClassifiedPoints(PointResult):
         progress: Progress = SILENT,
         heights: np.ndarray | None = None,
     ) -> Edits:
-        """Return the new classes, and what else the output is to have."""
-        output, ground = self._step.output, None
+        """Return the new classes, and what else the output is to have.
+
+        Raises
+        ------
+        BareEarthError
+            If nothing would be left to write, or no height can be measured.
+        """
+        output, kept = self._step.output, self._inside
+        if kept is not None:
+            count = np.count_nonzero(~kept)
+            progress.info(f"{count:,} points outside of the area are left out of the output.")
         if output.needs_ground:
             ground = self.classification == self._step.selection.to_class
-        new = self.classification, ground, self._inside
-        edits = output.edits(cloud, *new, heights, progress)
-        return self._memory.added_to(edits)
+            written = ground if kept is None else ground & kept
+            if not written.any():
+                raise BareEarthError(
+                    f"{cloud.path} has no ground points, so there are no ground points to write,"
+                    " and no heights above ground. Check the parameters and the selection of"
+                    " points."
+                )
+            if output.ground_only:
+                count = np.count_nonzero(~ground if kept is None else kept & ~ground)
+                kept = written
+                progress.info(f"{count:,} points that are not ground are left out of the output.")
+        extra = None if heights is None else height_dimension(cloud, heights)
+        return self._memory.added_to(Edits(self.classification, extra=extra, kept=kept))
 
     def summary(self, name: str) -> ClassifiedSummary:
         """Return how many points there are, and how many of them are ground."""
