@@ -170,7 +170,7 @@ def write_files(
     steps[0].check_survey(collection.box)
     targets = _targets_of(collection, folder, request.tiles.format)
     if rasters is not None:
-        _check_rasters(rasters.request.files, folder, (vpc, *targets, *targets.values()))
+        _check_rasters(rasters.files, folder, (vpc, *targets, *targets.values()))
     failures = {each.path.name: (each.path, each.reason) for each in collection.broken}
     inputs, waiting = {each.path.name: each.path for each in collection.tiles}, []
     for number, step in enumerate(steps):

@@ -63,7 +63,7 @@ class RasterJob(BlockJob):
 
     def _place_of(self, window: CellWindow) -> BlockIndex:
         """Return the place of the block in which the first of some cells has its centre."""
-        cell, blocks = self.step.request.model.dtm_cell_size, self.survey.blocks
+        cell, blocks = self.step.model.dtm_cell_size, self.survey.blocks
         x, y = ((each + 0.5) * cell for each in (window.column, window.row))
         return BlockIndex(int(blocks.number(x)), int(blocks.number(y)))
 
@@ -164,7 +164,7 @@ def make_rasters(
             raise BareEarthError(f"The rasters cannot be made. {lost[0]}")
         made = [each for file in files.values() for each in _kept_in(file)]
         with contextlib.ExitStack() as outputs:
-            return write_rasters(made, survey.frame, step.request, outputs, progress.part(0.8, 1.0))
+            return write_rasters(made, survey.frame, step, outputs, progress.part(0.8, 1.0))
     finally:
         for file in files.values():
             file.unlink(missing_ok=True)

@@ -40,45 +40,6 @@ _BYTES_A_POINT, _BYTES_A_CELL = 130.0, 120.0
 
 
 @dataclass(frozen=True)
-class RasterRequest:
-    """Which rasters are to be made, and how.
-
-    Attributes
-    ----------
-    files : RasterFiles
-        Which, and where they go.
-    model : TerrainModel
-        Cell size and light.
-    surface : SurfaceModel
-        Which points make the surface, and which gaps stay open.
-    """
-
-    files: RasterFiles = field(default_factory=RasterFiles)
-    model: TerrainModel = field(default_factory=TerrainModel)
-    surface: SurfaceModel = field(default_factory=SurfaceModel)
-
-    @property
-    def needs_ground(self) -> bool:
-        """Whether none of them can be made without ground."""
-        return any(LAYERS[each].of_ground for each in self.files.layers)
-
-    @property
-    def needs_surface(self) -> bool:
-        """Whether heights of the surface are needed."""
-        return "surface" in self.files.layers
-
-    @property
-    def needs_all(self) -> bool:
-        """Whether other points than the ground are needed, too."""
-        return any(LAYERS[each].of_all for each in self.files.layers)
-
-    @property
-    def step(self) -> RasterStep:
-        """What is done with a block."""
-        return RasterStep(self.model.dtm_cell_size, self.files.layers, self.surface.max_edge)
-
-
-@dataclass(frozen=True)
 class RasterSize:
     """What was made.
 
@@ -102,8 +63,12 @@ class MakeRasters(Step):
 
     Attributes
     ----------
-    request : RasterRequest
-        Which rasters, and how.
+    files : RasterFiles
+        Which rasters, and where they go.
+    model : TerrainModel
+        Cell size and light.
+    surface : SurfaceModel
+        Which points make the surface, and which gaps stay open.
     ground : GroundClasses
         Which points are ground.
     covers_ground : bool
@@ -114,11 +79,28 @@ class MakeRasters(Step):
         The vertices that follow from them; `seeing` finds these.
     """
 
-    request: RasterRequest = field(default_factory=RasterRequest)
+    files: RasterFiles = field(default_factory=RasterFiles)
+    model: TerrainModel = field(default_factory=TerrainModel)
+    surface: SurfaceModel = field(default_factory=SurfaceModel)
     ground: GroundClasses = field(default_factory=GroundClasses)
     covers_ground: bool = False
     constraints: Constraints = NO_CONSTRAINTS
     fixed: FixedTerrain | None = None
+
+    @property
+    def needs_ground(self) -> bool:
+        """Whether none of them can be made without ground."""
+        return any(LAYERS[each].of_ground for each in self.files.layers)
+
+    @property
+    def needs_surface(self) -> bool:
+        """Whether heights of the surface are needed."""
+        return "surface" in self.files.layers
+
+    @property
+    def of_block(self) -> RasterStep:
+        """What is done with a block."""
+        return RasterStep(self.model.dtm_cell_size, self.files.layers, self.surface.max_edge)
 
     def seeing(
         self, clouds: Iterable[PointCloud], frame: Frame, progress: Progress = SILENT
@@ -134,15 +116,15 @@ class MakeRasters(Step):
         progress : Progress
             Told what cannot be used.
         """
-        cell = self.request.model.dtm_cell_size / VERTICES_A_SIDE
+        cell = self.model.dtm_cell_size / VERTICES_A_SIDE
         fixed = fixed_terrain(self.constraints, clouds, frame, self.ground, cell, progress)
         return replace(self, fixed=fixed)
 
     @property
     def blocks(self) -> Blocks:
         """The blocks in which the rasters are made."""
-        step = self.request.step
-        return Blocks.of(step.reach, Cost(_BYTES_A_POINT, _BYTES_A_CELL / step.cell**2))
+        cell = self.model.dtm_cell_size
+        return Blocks.of(self.of_block.reach, Cost(_BYTES_A_POINT, _BYTES_A_CELL / cell**2))
 
     def tally(self) -> RasterTally:
         """Return what `marks` counts in."""
@@ -152,7 +134,7 @@ class MakeRasters(Step):
         """Return which points are covered, are ground, and belong to the surface."""
         nothing = np.zeros(part.count, dtype=bool)
         ground = self.ground.of(part, tally)
-        if not self.request.needs_ground:
+        if not self.needs_ground:
             ground = nothing
         if self.constraints.any:
             stays = self.constraints.is_ground(part, ground)
@@ -161,22 +143,22 @@ class MakeRasters(Step):
         if self.covers_ground:
             return Marks(ground, ground, nothing)
         shown = ground | (~np.isin(part.classification, NOISE) & ~part.withheld)
-        top = shown & self.request.needs_surface
-        if self.request.surface.surface_returns == "first":
+        top = shown & self.needs_surface
+        if self.surface.surface_returns == "first":
             top &= part.return_number <= 1
         tally.top += int(np.count_nonzero(top))
         return Marks(shown, ground, top)
 
     def tell(self, tally: RasterTally, path: Path, progress: Progress) -> None:
         """Refuse a file that has nothing to make the rasters of."""
-        if self.request.needs_ground:
+        if self.needs_ground:
             self.ground.check(tally, path)
             if tally.ground == tally.excluded:
                 raise BareEarthError(
                     f"All ground points of {path} lie in polygons of water or without ground."
                     " Check the polygons."
                 )
-        if self.request.needs_surface and not tally.top:
+        if self.needs_surface and not tally.top:
             raise BareEarthError(
                 f"{path} has no first returns to make a surface of. Take all returns instead."
             )
@@ -233,7 +215,7 @@ def _job_of(
             top, core = (np.pad(each, (0, points.count - len(each))) for each in (top, core))
         marks = ground, top, core
         part = progress.part(0.1, 1.0)
-        return step.request.step.of(points, *marks, corner, block.box, edges, part)
+        return step.of_block.of(points, *marks, corner, block.box, edges, part)
 
     return job
 
@@ -241,7 +223,7 @@ def _job_of(
 def write_rasters(
     made: Sequence[BlockRasters],
     frame: Frame,
-    request: RasterRequest,
+    step: MakeRasters,
     outputs: contextlib.ExitStack,
     progress: Progress = SILENT,
 ) -> RasterSize:
@@ -253,7 +235,7 @@ def write_rasters(
         Those of its blocks.
     frame : Frame
         That of the survey, with its origin at (0, 0) of the CRS.
-    request : RasterRequest
+    step : MakeRasters
         What is wanted.
     outputs : contextlib.ExitStack
         Takes in the files.
@@ -265,20 +247,20 @@ def write_rasters(
     BareEarthError
         If there is no point to make the rasters of, or one of them cannot be written.
     """
-    cell, files = request.model.dtm_cell_size, request.files.wanted
+    cell, files = step.model.dtm_cell_size, step.files.wanted
     window = _window_of(made, cell)
     grid = _grid_of(window, cell, frame)
     mosaics = {}
-    for name in request.files.layers:
+    for name in step.files.layers:
         pieces = [Piece(each.window, partial(each.layers.__getitem__, name)) for each in made]
         mosaics[name] = Mosaic(pieces, window, cell)
         loose = [each.loose[name] for each in made if name in each.loose]
-        if loose and request.surface.max_edge is None:
+        if loose and step.surface.max_edge is None:
             mosaics[name].fill_gaps(np.concatenate(loose), progress.part(0.0, 0.3))
     for number, (name, path) in enumerate(files.items()):
         part = progress.part(0.3 + 0.7 * number / len(files), 0.3 + 0.7 * (number + 1) / len(files))
         raster = RASTERS[name]
-        make = partial(raster.make, grid=grid, model=request.model)
+        make = partial(raster.make, grid=grid, model=step.model)
         layers = [mosaics[each] for each in raster.layers]
         rows = Rows(window.shape, raster.kind, gathered_strips(layers, make, raster.margin, part))
         temporary = outputs.enter_context(replacing_raster(path))
