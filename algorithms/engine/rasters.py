@@ -27,7 +27,7 @@ from .blocks import Block, Blocks, Store
 from .constraints import NO_CONSTRAINTS, Constraints, FixedTerrain, fixed_terrain
 from .ground import over_blocks
 from .memory import Cost, Resources
-from .mosaic import Mosaic, Piece, gathered_strips
+from .mosaic import Mosaic, gathered_strips
 from .raster_files import RASTERS, RasterFiles
 from .steps import Marks, Step
 
@@ -252,13 +252,12 @@ def write_rasters(
     grid = _grid_of(window, cell, frame)
     mosaics = {}
     for name in step.files.layers:
-        pieces = [Piece(each.window, partial(each.layers.__getitem__, name)) for each in made]
-        mosaics[name] = Mosaic(pieces, window, cell)
+        mosaics[name] = Mosaic(made, name, window, cell)
         loose = [each.loose[name] for each in made if name in each.loose]
         if loose and step.surface.max_edge is None:
             mosaics[name].fill_gaps(np.concatenate(loose), progress.part(0.0, 0.3))
-    for number, (name, path) in enumerate(files.items()):
-        part = progress.part(0.3 + 0.7 * number / len(files), 0.3 + 0.7 * (number + 1) / len(files))
+    parts = progress.part(0.3, 1.0).shares(*[1.0] * len(files))
+    for (name, path), part in zip(files.items(), parts):
         raster = RASTERS[name]
         make = partial(raster.make, grid=grid, model=step.model)
         layers = [mosaics[each] for each in raster.layers]
