@@ -364,3 +364,12 @@ class Blocks:
         local = tuple(each - at for each, at in zip(box, corner * 2))
         part = None if store.leaves.are_inside(leaves, box) else local
         return store.read(leaves, part, corner, progress)
+
+    def core(self, block: Block, contents: BlockPoints, is_only: bool) -> np.ndarray:
+        """Return which points of its contents a block is to say something of; boolean, (n,).
+
+        The only block holds them all.
+        """
+        if is_only:
+            return contents.wanted
+        return contents.wanted & block.holds(contents.points, self.corner(block))

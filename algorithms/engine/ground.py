@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import collections
+from functools import partial
 from typing import Any, Callable, Iterator, NamedTuple
 
 import numpy as np
@@ -17,7 +18,7 @@ from ..filters.shared.bridges import bridge_decks
 from ..filters.shared.doubts import tell_of_extent, tell_of_little_ground
 from ..grids.cells import apart
 from ..survey.selection import Special
-from .blocks import BRIDGE, GROUND, LOW, Block, BlockPoints, Blocks, Store
+from .blocks import BRIDGE, GROUND, LOW, Block, BlockPoints, Blocks, Corner, Store
 from .memory import Resources, give_back
 from .scheduling import run_jobs
 
@@ -78,9 +79,9 @@ def label_ground(
             f"{method.label} does not start from known ground; it only keeps these"
             " points as ground."
         )
-    job_of = _job_maker(store, blocks, _Filter(method, parameters, special))
+    work = partial(_labelled, store, blocks, _Filter(method, parameters, special))
     notes = {}
-    for number, result in over_blocks(store, blocks, job_of, resources, progress):
+    for number, result in over_blocks(store, blocks, work, resources, progress):
         store.put(result.positions, result.labels)
         if result.notes.count:
             notes[number] = result.notes
@@ -90,19 +91,19 @@ def label_ground(
 def over_blocks(
     store: Store,
     blocks: Blocks,
-    job_of: Callable[[Block, bool], Callable[[Progress], Any]],
+    work: Callable[[Block, bool, Progress], Any],
     resources: Resources,
     progress: Progress,
     is_wanted: Callable[[Block], bool] | None = None,
 ) -> Iterator[tuple[int, Any]]:
-    """Yield what a job makes of each block, with the number of the block, as they end.
+    """Yield what is made of each block, with the number of the block, as they end.
 
     Parameters
     ----------
     store, blocks, resources, progress
         As for `label_ground`.
-    job_of : callable
-        Takes a block, and whether it is the only one, and returns its job.
+    work : callable
+        Makes it: takes a block, whether it is the only one, and a `Progress`.
     is_wanted : callable, optional
         Says of a block whether it is to be done; all are, if it is not given.
     """
@@ -117,12 +118,40 @@ def over_blocks(
     ]
     at_once = _at_once(len(todo), max(memory), resources)
     workers = max(1, resources.thread_count // at_once)
-    jobs = [job_of(each, len(todo) == 1) for each in todo]
+    jobs = [partial(work, each, len(todo) == 1) for each in todo]
     is_tight = sum(memory) > resources.bytes
     for number, result in run_jobs(jobs, counts, at_once, workers, progress):
         if is_tight and memory[number] > _MUCH:
             give_back()
         yield number, result
+
+
+def fill(
+    store: Store,
+    blocks: Blocks,
+    values_of: Callable[[BlockPoints, np.ndarray, Corner, Progress], np.ndarray],
+    resources: Resources,
+    progress: Progress,
+) -> None:
+    """Put a value for each wanted point of a store.
+
+    Parameters
+    ----------
+    store, blocks, resources, progress
+        As for `label_ground`.
+    values_of : callable
+        Takes what is seen for a block, which points of it are wanted, its corner and a `Progress`,
+        and returns the values of these points, in their order.
+    """
+
+    def found(block: Block, is_only: bool, progress: Progress) -> tuple[np.ndarray, np.ndarray]:
+        contents = blocks.contents(block, store, progress.part(0.0, 0.1))
+        core = blocks.core(block, contents, is_only)
+        part = progress.part(0.1, 1.0)
+        return contents.positions[core], values_of(contents, core, blocks.corner(block), part)
+
+    for _, (positions, values) in over_blocks(store, blocks, found, resources, progress):
+        store.put(positions, values)
 
 
 def _at_once(number: int, largest: int, resources: Resources) -> int:
@@ -184,29 +213,21 @@ class _Filter(NamedTuple):
         )
 
 
-def _job_maker(
-    store: Store, blocks: Blocks, filter_: _Filter
-) -> Callable[[Block, bool], Callable[[Progress], _Labelled]]:
-    def job_of(block: Block, is_only: bool) -> Callable[[Progress], _Labelled]:
-        def job(progress: Progress) -> _Labelled:
-            contents = blocks.contents(block, store, progress.part(0.0, 0.15))
-            # The only block holds them all.
-            core = contents.wanted.copy()
-            if not is_only:
-                core &= block.holds(contents.points, blocks.corner(block))
-            positions = contents.positions if core.all() else contents.positions[core]
-            notes = _Notes(progress.part(0.15, 1.0), len(positions), is_only)
-            labels = np.zeros(len(positions), dtype=np.uint8)
-            if notes.count:
-                try:
-                    labels = _labels(contents, core, filter_, blocks.buffer, notes)[core]
-                except BareEarthError as error:
-                    notes.failure = error
-            return _Labelled(positions, labels, notes)
-
-        return job
-
-    return job_of
+def _labelled(
+    store: Store, blocks: Blocks, filter_: _Filter, block: Block, is_only: bool, progress: Progress
+) -> _Labelled:
+    """Label the points of a block."""
+    contents = blocks.contents(block, store, progress.part(0.0, 0.15))
+    core = blocks.core(block, contents, is_only)
+    positions = contents.positions if core.all() else contents.positions[core]
+    notes = _Notes(progress.part(0.15, 1.0), len(positions), is_only)
+    labels = np.zeros(len(positions), dtype=np.uint8)
+    if notes.count:
+        try:
+            labels = _labels(contents, core, filter_, blocks.buffer, notes)[core]
+        except BareEarthError as error:
+            notes.failure = error
+    return _Labelled(positions, labels, notes)
 
 
 def _labels(

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import partial
 from pathlib import Path
-from typing import Callable, NamedTuple
 
 import numpy as np
 
@@ -19,8 +17,8 @@ from ..products.height_above_ground import height_above_ground
 from ..survey.area import Area
 from ..survey.ground_classes import GroundClasses, GroundTally
 from ..survey.selection import ground_of
-from .blocks import Block, Blocks, Store
-from .ground import over_blocks
+from .blocks import BlockPoints, Blocks, Corner, Store
+from .ground import fill
 from .memory import Cost, Resources
 from .output import HEIGHT_DIMENSION, height_dimension
 from .steps import Marks, PointResult, PointStep, Room
@@ -118,9 +116,7 @@ class MeasureHeights(PointStep):
 
     def work(self, store: Store, resources: Resources, progress: Progress) -> None:
         """Put the height of each wanted point in metres; NaN in blocks without ground."""
-        job_of = partial(_job_of, store)
-        for _, result in over_blocks(store, self.blocks, job_of, resources, progress):
-            store.put(result.positions, result.heights)
+        fill(store, self.blocks, _heights, resources, progress)
 
     def result(self, path: Path, room: Room) -> HeightsOfPoints:
         """Return what keeps the heights of a file."""
@@ -201,24 +197,12 @@ def _z_of(cloud: PointCloud, heights: np.ndarray) -> np.ndarray:
     return values.astype(np.int32)
 
 
-class _Heights(NamedTuple):
-    """Heights in metres of the points at some positions of a store."""
-
-    positions: np.ndarray
-    heights: np.ndarray
-
-
-def _job_of(store: Store, block: Block, is_only: bool) -> Callable[[Progress], _Heights]:
-    def job(progress: Progress) -> _Heights:
-        points, ground, wanted, positions = _BLOCKS.contents(block, store, progress.part(0.0, 0.1))
-        if not is_only:
-            wanted = wanted & block.holds(points, _BLOCKS.corner(block))
-        positions = positions[wanted]
-        if not ground.any():
-            return _Heights(positions, np.full(len(positions), np.nan))
-        if not len(positions):
-            return _Heights(positions, np.zeros(0))
-        heights = height_above_ground(points, ground, progress.part(0.1, 1.0), wanted)
-        return _Heights(positions, heights[wanted])
-
-    return job
+def _heights(
+    contents: BlockPoints, wanted: np.ndarray, corner: Corner, progress: Progress
+) -> np.ndarray:
+    """Return the heights of wanted points in metres."""
+    if not contents.known.any():
+        return np.full(np.count_nonzero(wanted), np.nan)
+    if not wanted.any():
+        return np.zeros(0)
+    return height_above_ground(contents.points, contents.known, progress, wanted)[wanted]

@@ -171,13 +171,8 @@ class MakeRasters(Step):
         is_wanted: Callable[[Block], bool] | None = None,
     ) -> list[BlockRasters]:
         """Return the rasters of the blocks, or of those that are wanted."""
-        made = {}
-        if len(store.leaves.counts):
-            # The only block of all need not be looked at for what lies in it.
-            job_of = partial(_job_of, store, self, is_wanted is None)
-            jobs = over_blocks(store, self.blocks, job_of, resources, progress, is_wanted)
-            for number, result in jobs:
-                made[number] = result
+        work = partial(_made_of, store, self, is_wanted is None)
+        made = dict(over_blocks(store, self.blocks, work, resources, progress, is_wanted))
         return [made[number] for number in sorted(made)]
 
 
@@ -197,27 +192,24 @@ class RasterTally(GroundTally):
     excluded: int = 0
 
 
-def _job_of(
-    store: Store, step: MakeRasters, are_all: bool, block: Block, is_only: bool
-) -> Callable[[Progress], BlockRasters]:
+def _made_of(
+    store: Store, step: MakeRasters, are_all: bool, block: Block, is_only: bool, progress: Progress
+) -> BlockRasters:
+    """Return the rasters of a block; `are_all` if no block was left out."""
     blocks = step.blocks
-
-    def job(progress: Progress) -> BlockRasters:
-        contents = blocks.contents(block, store, progress.part(0.0, 0.1))
-        corner = blocks.corner(block)
-        core = np.ones(contents.points.count, dtype=bool)
-        if not (is_only and are_all):
-            core = block.holds(contents.points, corner)
-        points, ground, top = contents.points, contents.known, contents.wanted
-        edges = None
-        if step.fixed is not None and points.count:
-            points, ground, edges = step.fixed.added_to(points, ground, corner)
-            top, core = (np.pad(each, (0, points.count - len(each))) for each in (top, core))
-        marks = ground, top, core
-        part = progress.part(0.1, 1.0)
-        return step.of_block.of(points, *marks, corner, block.box, edges, part)
-
-    return job
+    contents = blocks.contents(block, store, progress.part(0.0, 0.1))
+    corner = blocks.corner(block)
+    core = np.ones(contents.points.count, dtype=bool)
+    # The only block of all need not be looked at for what lies in it.
+    if not (is_only and are_all):
+        core = block.holds(contents.points, corner)
+    points, ground, top = contents.points, contents.known, contents.wanted
+    edges = None
+    if step.fixed is not None and points.count:
+        points, ground, edges = step.fixed.added_to(points, ground, corner)
+        top, core = (np.pad(each, (0, points.count - len(each))) for each in (top, core))
+    part = progress.part(0.1, 1.0)
+    return step.of_block.of(points, ground, top, core, corner, block.box, edges, part)
 
 
 def write_rasters(
