@@ -16,7 +16,7 @@ from __future__ import annotations
 from typing import BinaryIO, Iterator
 
 from .lasfile import LasFile
-from .laszip import ChunkHead
+from .laszip import GPS_TIMES, ChunkHead
 from .sources import damaged, open_source
 
 # With the stack that `algorithms.las` asks for, 32 of them do no harm yet, and 64 do.
@@ -47,7 +47,7 @@ def _layers(layout: LasFile, file: BinaryIO) -> Iterator[bytes]:
     for _, size in layout.chunk_table:
         if size:
             file.seek(place)
-            layer = head.gps_times(file.read(head.size))
+            layer = head.layer(GPS_TIMES, file.read(head.size))
             file.seek(place + layer.start)
             yield file.read(layer.stop - layer.start)
         place += size
