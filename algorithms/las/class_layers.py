@@ -62,14 +62,7 @@ def class_layers(layout: LasFile) -> ClassLayers | None:
     """
     if not layout.layers:
         return None
-    head = ChunkHead(layout.record_length, layout.layers)
-    chunks = _chunks(layout, head)
-    return None if chunks is None else ClassLayers(layout, chunks, head)
-
-
-def _chunks(layout: LasFile, head: ChunkHead) -> list[Chunk] | None:
-    """Return the chunks of a file; None if they are not made as they should be."""
-    chunks, start, place = [], 0, layout.points_start + 8
+    head, chunks, start, place = layout.chunk_head, [], 0, layout.points_start + 8
     with open_source(layout.path) as file:
         for _, size in layout.chunk_table:
             file.seek(place)
@@ -81,7 +74,7 @@ def _chunks(layout: LasFile, head: ChunkHead) -> list[Chunk] | None:
                 return None
             chunks.append(Chunk(start, start + count, place, size))
             start, place = start + count, place + size
-    return chunks if start == layout.count else None
+    return ClassLayers(layout, chunks) if start == layout.count else None
 
 
 class ClassLayers:
@@ -93,8 +86,6 @@ class ClassLayers:
         The file.
     chunks : list of Chunk
         All of its chunks, in order.
-    head : ChunkHead
-        What each begins with.
 
     Attributes
     ----------
@@ -104,8 +95,8 @@ class ClassLayers:
         Where each that was written begins in the output, and its bytes there, by its `place`.
     """
 
-    def __init__(self, layout: LasFile, chunks: list[Chunk], head: ChunkHead) -> None:
-        self._layout, self.chunks, self._head = layout, chunks, head
+    def __init__(self, layout: LasFile, chunks: list[Chunk]) -> None:
+        self._layout, self.chunks = layout, chunks
         self.moved: dict[int, tuple[int, int]] = {}
 
     def write(
@@ -176,12 +167,13 @@ class ClassLayers:
         data = source.read(chunk.size)
         if len(data) != chunk.size:
             raise damaged(self._layout.path)
-        size, former = self._head.size, self._head.layer(CLASSES, data)
-        head, data = bytearray(data[:size]), memoryview(data)
-        head[_CLASS] = first_class
+        head = self._layout.chunk_head
+        former, start = head.layer(CLASSES, data), bytearray(data[: head.size])
+        start[_CLASS] = first_class
         # The lengths of the layers follow the number of points.
-        struct.pack_into("<I", head, self._head.record_length + 4 + 4 * CLASSES, len(layer))
-        for part in (head, data[size : former.start], layer, data[former.stop :]):
+        struct.pack_into("<I", start, head.record_length + 4 + 4 * CLASSES, len(layer))
+        data = memoryview(data)
+        for part in (start, data[head.size : former.start], layer, data[former.stop :]):
             file.write(part)
 
 

@@ -241,6 +241,11 @@ class LasFile:
         compression = Compression.of(self.laszip or b"") if self.is_compressed else None
         return compression.layers if compression else 0
 
+    @property
+    def chunk_head(self) -> ChunkHead:
+        """What each chunk of compressed points begins with, if it has layers."""
+        return ChunkHead(self.record_length, self.layers)
+
     @cached_property
     def chunk_table(self) -> list[tuple[int, int]]:
         """Points and bytes of each chunk of a compressed file, as its chunk table says.
@@ -258,7 +263,7 @@ class LasFile:
             compression, place = Compression.of(self.laszip), self.points_start + 8
             if not compression.table_fits(table, self.count, self._room):
                 raise damaged(self.path)
-            head = ChunkHead(self.record_length, self.layers)
+            head = self.chunk_head
             for _, size in table if head.layers else ():
                 file.seek(place)
                 if size and not head.fits(file.read(head.size), size):
