@@ -95,14 +95,11 @@ class MeasureHeights(PointStep):
     ground_only: bool = False
     area: Area | None = None
 
+    tally = GroundTally
     kind = np.float64
     blocks = _BLOCKS
     summary_type = HeightSummary
     vpc_name = "heights.vpc"
-
-    def tally(self) -> GroundTally:
-        """Return what `marks` counts in."""
-        return GroundTally()
 
     def marks(self, part: PointCloud, tally: GroundTally) -> Marks:
         """Return all points, which of them are ground, and which lie in the area."""

@@ -109,6 +109,7 @@ class FindKeyPoints(PointStep):
     ground: GroundClasses = field(default_factory=GroundClasses)
     mark: KeyPointMark = field(default_factory=KeyPointMark)
 
+    tally = GroundTally
     summary_type = KeyPointSummary
     vpc_name = "key_points.vpc"
 
@@ -116,10 +117,6 @@ class FindKeyPoints(PointStep):
     def blocks(self) -> Blocks:
         """The blocks in which key points are found."""
         return Blocks.of(reach(self.parameters))
-
-    def tally(self) -> GroundTally:
-        """Return what `marks` counts in."""
-        return GroundTally()
 
     def marks(self, part: PointCloud, tally: GroundTally) -> Marks:
         """Return the ground points."""

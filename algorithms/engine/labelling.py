@@ -84,6 +84,7 @@ class LabelGround(PointStep):
     cut: Blocks | None = None
     corrections: Corrections = NO_CORRECTIONS
 
+    tally = Tally
     summary_type = ClassifiedSummary
     vpc_name = "classified.vpc"
 
@@ -97,10 +98,6 @@ class LabelGround(PointStep):
         """What says which points take part."""
         reach = method_of(self.parameters).reach(self.parameters)
         return PointChooser(self.selection, self.area, reach, self.corrections)
-
-    def tally(self) -> Tally:
-        """Return what `marks` counts in."""
-        return Tally()
 
     def marks(self, part: PointCloud, tally: Tally) -> Marks:
         """Return which points take part, are surely ground, and lie in the area."""

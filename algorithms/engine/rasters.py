@@ -57,6 +57,22 @@ class RasterSize:
     rows: int
 
 
+@dataclass
+class RasterTally(GroundTally):
+    """What was counted in the parts of a file so far; the rest as in `GroundTally`.
+
+    Attributes
+    ----------
+    top : int
+        Points of the surface.
+    excluded : int
+        Points of the ground that lie where there is to be none.
+    """
+
+    top: int = 0
+    excluded: int = 0
+
+
 @dataclass(frozen=True)
 class MakeRasters(Step):
     """Makes the rasters of classified points.
@@ -86,6 +102,8 @@ class MakeRasters(Step):
     covers_ground: bool = False
     constraints: Constraints = NO_CONSTRAINTS
     fixed: FixedTerrain | None = None
+
+    tally = RasterTally
 
     @property
     def needs_ground(self) -> bool:
@@ -125,10 +143,6 @@ class MakeRasters(Step):
         """The blocks in which the rasters are made."""
         cell = self.model.dtm_cell_size
         return Blocks.of(self.of_block.reach, Cost(_BYTES_A_POINT, _BYTES_A_CELL / cell**2))
-
-    def tally(self) -> RasterTally:
-        """Return what `marks` counts in."""
-        return RasterTally()
 
     def marks(self, part: PointCloud, tally: RasterTally) -> Marks:
         """Return which points are covered, are ground, and belong to the surface."""
@@ -174,22 +188,6 @@ class MakeRasters(Step):
         work = partial(_made_of, store, self, is_wanted is None)
         made = dict(over_blocks(store, self.blocks, work, resources, progress, is_wanted))
         return [made[number] for number in sorted(made)]
-
-
-@dataclass
-class RasterTally(GroundTally):
-    """What was counted in the parts of a file so far; the rest as in `GroundTally`.
-
-    Attributes
-    ----------
-    top : int
-        Points of the surface.
-    excluded : int
-        Points of the ground that lie where there is to be none.
-    """
-
-    top: int = 0
-    excluded: int = 0
 
 
 def _made_of(

@@ -52,17 +52,16 @@ class Step:
     ----------
     kind : type
         Of the value that a store keeps of each point.
+    tally : type
+        Of what `marks` counts in.
     """
 
     kind: type = np.uint8
+    tally: type
 
     @property
     def blocks(self) -> Blocks:
         """The blocks in which it works."""
-        raise NotImplementedError
-
-    def tally(self) -> Any:
-        """Return what `marks` counts in."""
         raise NotImplementedError
 
     def marks(self, part: PointCloud, tally: Any) -> Marks:
