@@ -19,7 +19,8 @@ from ..core.temporary import make_temporary, remove_temporary
 from ..las.backends import require
 from .jobs import JobResult, attempt
 from .memory import Resources, free_memory
-from .workers import SCHEDULER_GONE, Job, JobProgress, Running, Workers, share_of
+from .scheduling import JobProgress
+from .workers import SCHEDULER_GONE, Job, Running, Workers
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -112,7 +113,7 @@ class Cluster(Workers):
                 for each in facts.values()
             }
             memory = int(min(_SHARE * each.free / on_host[each.host] for each in facts.values()))
-        self.share = share_of(1, memory)
+        self.share = Resources.of(1, memory)
         self.at_once = self._room()
         # Each job is done once, whatever Dask still knows of one that is the same.
         self._pool = self._client.get_executor(pure=False)

@@ -81,8 +81,8 @@ class FilePoints:
         self._source, self._target = cloud, target
         self._files, self._is_told = contextlib.ExitStack(), False
         if not self.is_in_memory:
-            memory = min(resources.bytes, _MOST_FOR_BLOCKS) / GIGABYTE
-            self.resources = Resources(threads=resources.threads, memory=max(memory, 0.001))
+            memory = min(resources.bytes, _MOST_FOR_BLOCKS)
+            self.resources = Resources.of(resources.threads, memory)
 
     @classmethod
     def opened(
