@@ -13,7 +13,7 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from .header_edits import with_record_length
-from .lasfile import LARGEST_VLR, RECORD_LENGTHS, LasFile, Vlr, new_vlr
+from .lasfile import LARGEST_VLR, RECORD_LENGTHS, LasFile, Vlr, new_vlr, text_of
 
 EXTRA_BYTES = ("LASF_Spec", 4)
 _DESCRIPTOR = 192
@@ -80,7 +80,7 @@ def place_dimension(layout: LasFile, dimension: ExtraDimension) -> tuple[LasFile
     descriptors = _descriptors(layout)
     start = RECORD_LENGTHS[layout.point_format]
     for number, descriptor in enumerate(descriptors):
-        if _text(descriptor[4:36]) == dimension.name:
+        if text_of(descriptor[4:36]) == dimension.name:
             kind = _checked_kind(layout, dimension, descriptor)
             descriptors[number] = _descriptor(dimension, descriptor[2])
             return _with_record(layout, descriptors), Place(start, kind)
@@ -112,7 +112,7 @@ def extra_dimensions(layout: LasFile) -> list[tuple[str, str, int]]:
         kind, options = descriptor[2], descriptor[3]
         if not 1 <= kind < len(_SIZES):
             continue
-        name, size = _text(descriptor[4:36]), _SIZES[kind]
+        name, size = text_of(descriptor[4:36]), _SIZES[kind]
         if kind in _KINDS:
             found.append((name, "floating", size))
         elif options & (_HAS_SCALE | _HAS_OFFSET):
@@ -128,7 +128,7 @@ def dimension_names(layout: LasFile) -> list[str]:
         descriptors = _descriptors(layout)
     except BareEarthError:
         descriptors = []
-    names = [_text(each[4:36]) for each in descriptors if _size(each)]
+    names = [text_of(each[4:36]) for each in descriptors if _size(each)]
     is_all = sum(map(_size, descriptors)) == layout.extra_bytes
     return names if is_all else [*names, _UNDOCUMENTED]
 
@@ -144,7 +144,7 @@ def runs_of_bytes(layout: LasFile) -> list[tuple[str, int]]:
     except BareEarthError:
         descriptors = []
     for each in descriptors if count else ():
-        if _text(each[4:36]) == REMEMBERED and each[2] == _BYTE:
+        if text_of(each[4:36]) == REMEMBERED and each[2] == _BYTE:
             runs = ("before", start), (REMEMBERED, 1), ("behind", count - start - 1)
             return [run for run in runs if run[1]]
         start += _size(each)
@@ -229,7 +229,3 @@ def _with_record(layout: LasFile, descriptors: list[bytes]) -> LasFile:
     # Behind the points, where few look for it, it would contradict this one.
     evlrs = tuple(evlr for evlr in layout.evlrs if evlr.key != EXTRA_BYTES)
     return replace(layout, vlrs=tuple(vlrs), evlrs=evlrs)
-
-
-def _text(field: bytes) -> str:
-    return field.split(b"\0")[0].decode("utf-8", "replace").strip()

@@ -327,5 +327,5 @@ def new_vlr(key: tuple[str, int], data: bytes, description: str) -> Vlr:
 
 
 def text_of(field: bytes) -> str:
-    """Return the text in a field of fixed length."""
+    """Return the text in a field, which a zero may end."""
     return field.split(b"\0")[0].decode("utf-8", "replace").strip()
