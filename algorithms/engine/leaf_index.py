@@ -6,13 +6,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-# Row and column of a leaf as one number: half of those that fit are below 0.
+# Row and column of a square as one number: half of those that fit are below 0.
 _SHIFT, _HALF = 32, 1 << 30
 
 
 def code_of(row: np.ndarray, column: np.ndarray) -> np.ndarray:
-    """Return one number for row and column of each leaf."""
+    """Return one number for row and column of each square."""
     return (row.astype(np.int64) + _HALF << _SHIFT) + column.astype(np.int64) + _HALF
+
+
+def row_and_column(codes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return what `code_of` made numbers of."""
+    return (codes >> _SHIFT) - _HALF, (codes & ((1 << _SHIFT) - 1)) - _HALF
 
 
 class Sorted(NamedTuple):
@@ -66,7 +71,7 @@ class LeafIndex:
         self._starts, self._counts = added[:, 1].copy(), added[:, 2].copy()
         codes = np.array(list(self._numbers), dtype=np.int64)
         totals = np.add.reduceat(self._counts, self._bounds[0]) if len(codes) else codes
-        return (codes >> _SHIFT) - _HALF, (codes & ((1 << _SHIFT) - 1)) - _HALF, totals
+        return (*row_and_column(codes), totals)
 
     def of(self, leaves: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the starts of the runs of some leaves, ascending, and their numbers of points."""

@@ -13,6 +13,7 @@ from ..core.errors import BareEarthError
 from ..core.files import replacing
 from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
+from ..las.cloud import survey_frame
 from ..products.raster_block import BlockRasters
 from ..survey.collection import Collection
 from .blocks import Block
@@ -23,7 +24,7 @@ from .memory import Resources
 from .memory_points import MemoryPoints, SurveyFile
 from .planning import block_jobs
 from .rasters import MakeRasters, RasterSize, write_rasters
-from .survey import BlockIndex, Survey, frame_of, places_of
+from .survey import BlockIndex, Survey, places_of
 from .workers import Workers
 
 
@@ -152,7 +153,7 @@ def make_rasters(
     Cancelled
         If the user asked to stop.
     """
-    survey = Survey(frame_of(collection), step.blocks)
+    survey = Survey(survey_frame(collection.crs), step.blocks)
     seen, progress = progress.part(0.0, 0.05), progress.part(0.05, 1.0)
     step = step.seeing(parts_of([each.file for each in collection.tiles], seen), survey.frame, seen)
     places = sorted({place for tile in collection.tiles for place in places_of(survey, tile)})

@@ -10,6 +10,7 @@ from ..core.errors import BareEarthError
 from ..core.files import alone_in, describe_write_error
 from ..core.progress import Progress
 from ..core.temporary import remove_leftovers
+from ..las.cloud import survey_frame
 from ..survey.collection import Collection, Tile, open_collection
 from .job_queue import worked_off
 from .jobs import PointJob, TileJob
@@ -18,7 +19,7 @@ from .raster_jobs import make_rasters
 from .rasters import MakeRasters
 from .record import Record, folders_of, label_file, made_of, read_record, remove_record, state_of
 from .steps import PointStep
-from .survey import BlockIndex, Survey, frame_of, places_of
+from .survey import BlockIndex, Survey, places_of
 from .workers import Workers
 
 
@@ -68,7 +69,7 @@ class TileRun:
     ) -> None:
         self.done: list[Any] = []
         self.kept_count, self.empty_count, self.failures = 0, 0, {}
-        self._survey = Survey(frame_of(collection), step.blocks)
+        self._survey = Survey(survey_frame(collection.crs), step.blocks)
         self._collection, self._folder, self._targets = collection, folder, targets
         self._step = step
         self._sources: dict[BlockIndex, list[Path]] = {}

@@ -27,7 +27,7 @@ from bare_earth.algorithms.engine.ground import label_ground
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
 from bare_earth.algorithms.engine.options import TileInput, TileMethod, TileOutput
-from bare_earth.algorithms.engine.survey import BlockIndex, Survey, frame_of, grouped
+from bare_earth.algorithms.engine.survey import BlockIndex, Survey, grouped
 from bare_earth.algorithms.engine.workers import Local, Processes, Threads
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
@@ -209,7 +209,7 @@ def test_copc_tiles_larger_than_their_share_of_memory_give_the_same_bytes(
 
 def test_blocks_are_read_in_groups_that_fit_into_memory(six):
     collection = open_collection([six])
-    survey = Survey(frame_of(collection), Blocks(20.0, 5.0))
+    survey = Survey(survey_frame(collection.crs), Blocks(20.0, 5.0))
     places = [BlockIndex(column, row) for row in range(6) for column in range(15)]
     many = grouped(survey, collection, places, 1, 1 << 40)
     assert len(many) == 4 * 2  # squares of 4 x 4; with 8 x 8 there would be too few
