@@ -13,8 +13,8 @@ from ..core.progress import SILENT, Progress
 from ..grids.model_key_points import ModelKeyPoints, model_key_points, reach
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
+from ..las.lasfile import LasFile
 from ..las.records import check_class
-from ..survey.collection import Tile
 from ..survey.ground_classes import GroundClasses, GroundTally
 from ..survey.tally import count_classes
 from .blocks import BlockPoints, Blocks, Corner, Store
@@ -129,7 +129,7 @@ class FindKeyPoints(PointStep):
         """Refuse a file without ground."""
         self.ground.check(tally, path)
 
-    def check_tile(self, tile: Tile | PointCloud) -> None:
+    def check_tile(self, tile: LasFile | PointCloud) -> None:
         """Refuse a file whose points cannot hold the class."""
         if self.mark.by_class:
             check_class(tile.path, tile.point_format, self.mark.key_class, "the key points")

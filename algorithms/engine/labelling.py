@@ -16,8 +16,8 @@ from ..core.progress import SILENT, Progress
 from ..filters import method_of
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
+from ..las.lasfile import LasFile
 from ..survey.area import Area
-from ..survey.collection import Tile
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.point_chooser import PointChooser
 from ..survey.selection import Selection
@@ -108,7 +108,7 @@ class LabelGround(PointStep):
         """Tell how many points take part; refuse a file in which none does."""
         self.chooser.tell(tally, path, progress)
 
-    def check_tile(self, tile: Tile) -> None:
+    def check_tile(self, tile: LasFile) -> None:
         """Refuse a file whose points cannot hold the classes."""
         self.chooser.check_classes(tile.path, tile.point_format)
 
@@ -129,7 +129,7 @@ class LabelGround(PointStep):
         if self.area is not None and not self.area.may_touch(box):
             raise self.chooser.no_point_in_area("the files", box)
 
-    def skips(self, tile: Tile) -> bool:
+    def skips(self, tile: LasFile) -> bool:
         """Return whether only the area is written, and a file lies outside."""
         if self.area is None or not self.output.area_only:
             return False

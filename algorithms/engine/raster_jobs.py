@@ -155,7 +155,7 @@ def make_rasters(
     """
     survey = Survey(survey_frame(collection.crs), step.blocks)
     seen, progress = progress.part(0.0, 0.05), progress.part(0.05, 1.0)
-    step = step.seeing(parts_of([each.file for each in collection.tiles], seen), survey.frame, seen)
+    step = step.seeing(parts_of(collection.tiles, seen), survey.frame, seen)
     places = sorted({place for tile in collection.tiles for place in places_of(survey, tile)})
     files = {each: folder / f"rasters_{each.column}_{each.row}.npz" for each in places}
     jobs = block_jobs(RasterJob, survey, collection, files, folder, 0, workers, step=step)

@@ -15,8 +15,9 @@ import numpy as np
 
 from ..core.points import Box, Frame
 from ..las.cloud import PointCloud
+from ..las.lasfile import LasFile
 from ..las.reading import read_cloud
-from ..survey.collection import Collection, Tile
+from ..survey.collection import Collection
 from .blocks import Blocks
 from .leaf_index import code_of, row_and_column
 
@@ -89,7 +90,7 @@ def code(place: BlockIndex) -> int:
     return int(code_of(np.int64(place.row), np.int64(place.column)))
 
 
-def places_of(survey: Survey, tile: Tile) -> list[BlockIndex]:
+def places_of(survey: Survey, tile: LasFile) -> list[BlockIndex]:
     """Return the blocks that may hold points of a tile, from south to north.
 
     Raises

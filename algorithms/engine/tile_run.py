@@ -11,7 +11,8 @@ from ..core.files import alone_in, describe_write_error
 from ..core.progress import Progress
 from ..core.temporary import remove_leftovers
 from ..las.cloud import survey_frame
-from ..survey.collection import Collection, Tile, open_collection
+from ..las.lasfile import LasFile
+from ..survey.collection import Collection, open_collection
 from .job_queue import worked_off
 from .jobs import PointJob, TileJob
 from .planning import block_jobs
@@ -26,7 +27,7 @@ from .workers import Workers
 class _Needs(NamedTuple):
     """A tile, the blocks that may hold its points, and the files that these need."""
 
-    tile: Tile
+    tile: LasFile
     places: list[BlockIndex]
     sources: list[Path]
 
@@ -140,7 +141,7 @@ class TileRun:
         for each in folders:
             remove_leftovers(each)
 
-    def _needs(self, tile: Tile) -> _Needs:
+    def _needs(self, tile: LasFile) -> _Needs:
         places = places_of(self._survey, tile)
         for place in places:
             if place not in self._sources:

@@ -169,12 +169,12 @@ def read_trial_points(
     if is_one_file(paths):
         las = open_las(paths[0])
         files, crs = [las], read_crs(las)
-        extent = (*las.minimum[:2], *las.maximum[:2])
+        extent = las.box
     else:
         survey = open_collection(paths, progress=progress.part(0.0, 0.1))
         crs, extent = survey.crs, survey.box
         wide = area.buffered_box(context / crs.horizontal_unit)
-        files = [tile.file for tile in survey.touching(wide)]
+        files = survey.touching(wide)
     _check_width(area, crs)
     clouds = _read(files, area.buffered_box(context / crs.horizontal_unit), progress)
     if not any(area.of(cloud).any() for cloud in clouds):

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
+from ..core.points import Box
 from . import header as fields
 from .laszip import ChunkHead, Compression
 from .sources import FileState, changed, damage_told, damaged, open_source
@@ -176,6 +177,17 @@ class LasFile:
     def maximum(self) -> tuple[float, float, float]:
         """Largest x, y and z in units of the CRS, as the header has them: it may be wrong."""
         return fields.EXTENT.get(self.header)[0::2]
+
+    @property
+    def box(self) -> Box:
+        """Smallest x and y, largest x and y in units of the CRS, as the header has them."""
+        return (*self.minimum[:2], *self.maximum[:2])
+
+    @property
+    def outer_box(self) -> Box:
+        """The box, wider by a step of the coordinates: headers are rounded."""
+        (west, south, east, north), (x, y) = self.box, self.scale[:2]
+        return west - x, south - y, east + x, north + y
 
     @property
     def states_extent(self) -> bool:

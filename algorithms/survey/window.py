@@ -128,10 +128,9 @@ def _leaves_header(layout: LasFile, chunk: laspy.PackedPointRecord) -> bool:
 
 def _may_touch(layout: LasFile, area: Area) -> bool:
     """Return whether the extent in the header touches an area; one that is none touches all."""
-    (west, south, _), (east, north, _) = layout.minimum, layout.maximum
-    x, y, _ = layout.scale  # headers are rounded
+    west, south, east, north = layout.box
     is_one = west <= east and south <= north
-    return not is_one or area.may_touch((west - x, south - y, east + x, north + y))
+    return not is_one or area.may_touch(layout.outer_box)
 
 
 def _cloud(layout: LasFile, parts: Iterator[Columns], progress: Progress) -> PointCloud:

@@ -248,7 +248,7 @@ def test_the_results_are_listed_in_a_virtual_point_cloud(six, out, tmp_path):
 def test_the_format_can_be_chosen(format, six, out):
     classify_tiles([six], out, FAST, output=TileOutput(format=format))
     assert {path.name for path in out.glob("*.la[sz]")} == {f"{n}.{format}" for n in range(6)}
-    assert {tile.file.is_copc for tile in open_collection([out]).tiles} == {format == "copc.laz"}
+    assert {tile.is_copc for tile in open_collection([out]).tiles} == {format == "copc.laz"}
 
 
 def test_outputs_that_would_do_harm_are_refused(six, out, tmp_path):
