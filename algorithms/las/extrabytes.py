@@ -78,6 +78,11 @@ def place_dimension(layout: LasFile, dimension: ExtraDimension) -> tuple[LasFile
         of another type: neither float nor double, or no byte.
     """
     descriptors = _descriptors(layout)
+    if descriptors is None:
+        raise BareEarthError(
+            f"{layout.path} describes more extra bytes than its points have, so no dimension can"
+            " be added. Repair its record on the extra bytes first."
+        )
     start = RECORD_LENGTHS[layout.point_format]
     for number, descriptor in enumerate(descriptors):
         if text_of(descriptor[4:36]) == dimension.name:
@@ -103,12 +108,8 @@ def extra_dimensions(layout: LasFile) -> list[tuple[str, str, int]]:
     The type is "unsigned", "signed" or "floating". Pairs and triples, which are deprecated, and
     bytes that nothing is said of are left out.
     """
-    try:
-        descriptors = _descriptors(layout)
-    except BareEarthError:
-        return []
     found = []
-    for descriptor in descriptors:
+    for descriptor in _descriptors(layout) or ():
         kind, options = descriptor[2], descriptor[3]
         if not 1 <= kind < len(_SIZES):
             continue
@@ -124,10 +125,7 @@ def extra_dimensions(layout: LasFile) -> list[tuple[str, str, int]]:
 
 def dimension_names(layout: LasFile) -> list[str]:
     """Return the names of the dimensions in extra bytes, of which some may not be described."""
-    try:
-        descriptors = _descriptors(layout)
-    except BareEarthError:
-        descriptors = []
+    descriptors = _descriptors(layout) or []
     names = [text_of(each[4:36]) for each in descriptors if _size(each)]
     is_all = sum(map(_size, descriptors)) == layout.extra_bytes
     return names if is_all else [*names, _UNDOCUMENTED]
@@ -138,12 +136,8 @@ def runs_of_bytes(layout: LasFile) -> list[tuple[str, int]]:
 
     The dimension `REMEMBERED` is a run of its own, if there is one.
     """
-    count = layout.extra_bytes
-    try:
-        descriptors, start = _descriptors(layout), 0
-    except BareEarthError:
-        descriptors = []
-    for each in descriptors if count else ():
+    count, start = layout.extra_bytes, 0
+    for each in (_descriptors(layout) or ()) if count else ():
         if text_of(each[4:36]) == REMEMBERED and each[2] == _BYTE:
             runs = ("before", start), (REMEMBERED, 1), ("behind", count - start - 1)
             return [run for run in runs if run[1]]
@@ -156,24 +150,13 @@ def remembers(layout: LasFile) -> bool:
     return (REMEMBERED, 1) in runs_of_bytes(layout)
 
 
-def _descriptors(layout: LasFile) -> list[bytes]:
-    """Return the descriptors that a file has.
-
-    Raises
-    ------
-    BareEarthError
-        If they describe more bytes than its points have.
-    """
+def _descriptors(layout: LasFile) -> list[bytes] | None:
+    """Return the descriptors of a file; None if they describe more bytes than its points have."""
     record = layout.vlr(EXTRA_BYTES)
     data = b"" if record is None else record.data or b""
     whole = len(data) // _DESCRIPTOR * _DESCRIPTOR
     descriptors = [data[at : at + _DESCRIPTOR] for at in range(0, whole, _DESCRIPTOR)]
-    if sum(map(_size, descriptors)) > layout.extra_bytes:
-        raise BareEarthError(
-            f"{layout.path} describes more extra bytes than its points have, so no dimension can"
-            " be added. Repair its record on the extra bytes first."
-        )
-    return descriptors
+    return None if sum(map(_size, descriptors)) > layout.extra_bytes else descriptors
 
 
 def _size(descriptor: bytes) -> int:
