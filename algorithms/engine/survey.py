@@ -9,6 +9,7 @@ from __future__ import annotations
 import itertools
 import math
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Iterable, Iterator, NamedTuple, Sequence
 
 import numpy as np
@@ -103,6 +104,11 @@ def places_of(survey: Survey, tile: LasFile) -> list[BlockIndex]:
         return [BlockIndex(column, row) for row, column in itertools.product(rows, columns)]
     row, column = row_and_column(np.unique(survey.codes(read_cloud(tile.path))))
     return [BlockIndex(*each) for each in zip(column.tolist(), row.tolist())]
+
+
+def sources_of(survey: Survey, collection: Collection, place: BlockIndex) -> list[Path]:
+    """Return the files that may have points which a block needs."""
+    return [each.path for each in collection.touching(survey.window([place]))]
 
 
 def memory_of(survey: Survey, collection: Collection, places: Sequence[BlockIndex]) -> int:

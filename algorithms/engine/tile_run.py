@@ -20,7 +20,7 @@ from .raster_jobs import make_rasters
 from .rasters import MakeRasters
 from .record import Record, folders_of, label_file, made_of, read_record, remove_record, state_of
 from .steps import PointStep
-from .survey import BlockIndex, Survey, places_of
+from .survey import BlockIndex, Survey, places_of, sources_of
 from .workers import Workers
 
 
@@ -145,8 +145,7 @@ class TileRun:
         places = places_of(self._survey, tile)
         for place in places:
             if place not in self._sources:
-                box = self._survey.window([place])
-                self._sources[place] = [each.path for each in self._collection.touching(box)]
+                self._sources[place] = sources_of(self._survey, self._collection, place)
         sources = sorted({path for place in places for path in self._sources[place]})
         return _Needs(tile, places, sources)
 
@@ -157,7 +156,7 @@ class TileRun:
 
     def _keep_done(self, resume: bool, progress: Progress) -> list[Any]:
         """Take out the tiles that are done; return what became of them."""
-        kept, changed = [], 0
+        kept, todo, changed = [], [], 0
         for needs in self._todo:
             target = self._targets[needs.tile.path]
             before = read_record(target) if resume else None
@@ -166,10 +165,8 @@ class TileRun:
                 continue
             changed += before is not None
             remove_record(target)
-        names = {each.name for each in kept}
-        self._todo = [
-            each for each in self._todo if self._targets[each.tile.path].name not in names
-        ]
+            todo.append(needs)
+        self._todo = todo
         if kept:
             progress.info(f"{len(kept):,} files are done already.")
         if changed:
