@@ -177,8 +177,7 @@ def fixed_terrain(
 
 def parts_of(files: Sequence[LasFile], progress: Progress = SILENT) -> Iterator[PointCloud]:
     """Yield all points of some files, part by part."""
-    for number, las in enumerate(files):
-        part = progress.part(number / len(files), (number + 1) / len(files))
+    for las, part in zip(files, progress.shares(*[1.0] * len(files))):
         yield from read_parts(las, part.quiet())
 
 

@@ -85,11 +85,9 @@ class BlockJob:
     def clouds(self, progress: Progress) -> Iterator[PointCloud]:
         """Yield the points of each file that the blocks need."""
         window = self.survey.window(self.places)
-        for number, source in enumerate(self.sources):
-            start, end = (each / len(self.sources) for each in (number, number + 1))
+        for source, part in zip(self.sources, progress.shares(*[1.0] * len(self.sources))):
             try:
-                part = progress.part(start, end).quiet()
-                cloud = read_window(source, window, part, trust_header=True)
+                cloud = read_window(source, window, part.quiet(), trust_header=True)
             except BareEarthError as error:
                 progress.warning(
                     f"{source.name} is left out: the results beside it are made without its"

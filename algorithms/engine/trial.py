@@ -105,11 +105,11 @@ def compare_settings(
                 f"The window and what lies round it have {points.count:,} points, more than fit"
                 " into the memory that may be used. Choose a smaller one."
             )
-        labelled = []
-        for number, setting in enumerate(settings):
-            done = (0.4 + 0.4 * (number + step) / len(settings) for step in (0, 1))
-            part = progress.part(*done)
-            labelled.append(points.labelled(setting, resources, part, is_first=number == 0))
+        parts = progress.part(0.4, 0.8).shares(*[1.0] * len(settings))
+        labelled = [
+            points.labelled(setting, resources, part, is_first=part is parts[0])
+            for setting, part in zip(settings, parts)
+        ]
         found = _page(paths, points, points.outcomes(labelled), options, (context, reach))
         html = found.html()
     with replacing(page) as temporary:

@@ -196,10 +196,8 @@ def _check_width(area: Area, crs: Crs) -> None:
 
 
 def _read(files: Sequence[LasFile], box: Box, progress: Progress) -> tuple[PointCloud, ...]:
-    clouds = []
-    for number, las in enumerate(files):
-        part = progress.part(number / len(files), (number + 1) / len(files))
-        clouds.append(read_window(las, box, part))
+    parts = progress.shares(*[1.0] * len(files))
+    clouds = [read_window(las, box, part) for las, part in zip(files, parts)]
     return tuple(cloud for cloud in clouds if cloud.count)
 
 
