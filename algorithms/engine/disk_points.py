@@ -13,10 +13,10 @@ from typing import BinaryIO, Iterator
 import numpy as np
 
 from ..core.files import describe_write_error
-from ..core.points import Frame
+from ..core.points import Box, Frame
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud, survey_frame
-from .blocks import BlockPoints, Box, Corner, Leaves, gathered
+from .blocks import BlockPoints, Corner, Leaves, gathered
 from .leaf_index import LeafIndex, Sorted, smallest_integers
 
 _RECORD = np.dtype([("x", "<i4"), ("y", "<i4"), ("z", "<i4"), ("flags", "u1")])

@@ -6,11 +6,11 @@ from typing import Iterator, NamedTuple, Sequence
 
 import numpy as np
 
-from ..core.points import Frame
+from ..core.points import Box, Frame
 from ..core.progress import SILENT, Progress
 from ..core.threads import over_parts, parts_of
 from ..las.cloud import PointCloud
-from .blocks import BlockPoints, Blocks, Box, Corner, Leaves, gathered
+from .blocks import BlockPoints, Blocks, Corner, Leaves, gathered
 from .leaf_index import LeafIndex, Sorted, code_of, smallest_integers
 
 # Points that are looked at, sorted, and read together.

@@ -81,10 +81,6 @@ def test_a_tile_of_a_kilometre_that_begins_at_a_block_has_no_narrow_rest(east, o
     assert [(each.column, each.row) for each in blocks.over(store)] == [(east // 2000, 2850)]
 
 
-def test_what_a_box_needs_is_whole_blocks_and_their_buffer():
-    assert Blocks(100.0, 10.0).needed((150, 20, 210, 99)) == (90, -10, 310, 110)
-
-
 def test_every_point_lies_in_one_block_and_crowded_blocks_are_quartered():
     x, y, z = survey()
     crowd = np.random.default_rng(4).uniform(10_000, 12_000, (2, 5000)).astype(int)
