@@ -38,13 +38,7 @@ _ANGLE_UNIT = 0.006
 
 
 class Statistics(Tally):
-    """Counts what header and info record say of points.
-
-    Attributes
-    ----------
-    gps_time : tuple of float
-        The smallest and the largest; 0 and 0 where no point has any.
-    """
+    """Counts what header and info record say of points."""
 
     def __init__(self, layout: LasFile) -> None:
         super().__init__(layout)
