@@ -12,7 +12,6 @@ from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Notes, Progress
 from ..filters import method_of
-from ..filters.method import Method
 from ..filters.shared.below_ground import below_ground
 from ..filters.shared.bridges import bridge_decks
 from ..filters.shared.doubts import tell_of_extent, tell_of_little_ground
@@ -26,6 +25,10 @@ from .scheduling import run_jobs
 _MUCH = 100_000_000
 # The steps of bridges and of low outliers take these shares of the time of a block.
 _BRIDGES_SHARE, _LOW_SHARE = 0.15, 0.1
+
+
+# Labels the points of a window.
+_Label = Callable[[BlockPoints, Progress], np.ndarray]
 
 
 class _Labelled(NamedTuple):
@@ -79,7 +82,7 @@ def label_ground(
             f"{method.label} does not start from known ground; it only keeps these"
             " points as ground."
         )
-    work = partial(_labelled, store, blocks, _Filter(method, parameters, special))
+    work = partial(_labelled, store, blocks, partial(_label, parameters, special))
     notes = {}
     for number, result in over_blocks(store, blocks, work, resources, progress):
         store.put(result.positions, result.labels)
@@ -160,61 +163,41 @@ def _at_once(number: int, largest: int, resources: Resources) -> int:
     return int(max(1, min(number, resources.thread_count, fitting)))
 
 
-class _Filter(NamedTuple):
-    """What labels the points of a window.
-
-    Attributes
-    ----------
-    method : Method
-        The ground filter.
-    parameters : ParameterSet
-        Those of the method.
-    special : Special
-        As for `label_ground`.
-    """
-
-    method: Method
-    parameters: ParameterSet
-    special: Special
-
-    def label(self, contents: BlockPoints, progress: Progress) -> np.ndarray:
-        """Return the label of each point."""
-        depth, method = self.special.low_noise_depth, self.method
-        end = 1.0 if depth is None else 1.0 - _LOW_SHARE
-        finds_bridges = self._finds_bridges
-        part = progress.part(0.0, end - _BRIDGES_SHARE if finds_bridges else end)
-        points, known = contents.points, contents.known
-        if points.count == 1:
-            # There is nothing to tell it from, and a survey may be scattered all over a country.
-            return np.array([GROUND], dtype=np.uint8)
-        tell_of_extent(points, *method.largest(self.parameters), progress)
-        if known.any() and method.takes_known_ground:
-            ground = method.classify(points, self.parameters, part, known_ground=known)
-        else:
-            ground = method.classify(points, self.parameters, part)
-        ground |= known
-        tell_of_little_ground(points, ground, progress)
-        labels = ground.astype(np.uint8)
-        if finds_bridges:
-            decks = bridge_decks(points, ground) & ~known
-            labels[decks] = BRIDGE
-            ground &= ~decks
-            progress(end)
-        if depth is not None:
-            low = below_ground(points, ground, depth, progress.part(end, 1.0))
-            labels[low & (labels == 0)] = LOW
-        return labels
-
-    @property
-    def _finds_bridges(self) -> bool:
-        wanted = self.special.bridges
-        return wanted == "find" or (
-            wanted == "automatic" and not self.method.is_classic(self.parameters)
-        )
+def _label(
+    parameters: ParameterSet, special: Special, contents: BlockPoints, progress: Progress
+) -> np.ndarray:
+    """Return the label of each point of a window."""
+    depth, method = special.low_noise_depth, method_of(parameters)
+    end = 1.0 if depth is None else 1.0 - _LOW_SHARE
+    finds_bridges = special.bridges == "find" or (
+        special.bridges == "automatic" and not method.is_classic(parameters)
+    )
+    part = progress.part(0.0, end - _BRIDGES_SHARE if finds_bridges else end)
+    points, known = contents.points, contents.known
+    if points.count == 1:
+        # There is nothing to tell it from, and a survey may be scattered all over a country.
+        return np.array([GROUND], dtype=np.uint8)
+    tell_of_extent(points, *method.largest(parameters), progress)
+    if known.any() and method.takes_known_ground:
+        ground = method.classify(points, parameters, part, known_ground=known)
+    else:
+        ground = method.classify(points, parameters, part)
+    ground |= known
+    tell_of_little_ground(points, ground, progress)
+    labels = ground.astype(np.uint8)
+    if finds_bridges:
+        decks = bridge_decks(points, ground) & ~known
+        labels[decks] = BRIDGE
+        ground &= ~decks
+        progress(end)
+    if depth is not None:
+        low = below_ground(points, ground, depth, progress.part(end, 1.0))
+        labels[low & (labels == 0)] = LOW
+    return labels
 
 
 def _labelled(
-    store: Store, blocks: Blocks, filter_: _Filter, block: Block, is_only: bool, progress: Progress
+    store: Store, blocks: Blocks, label: _Label, block: Block, is_only: bool, progress: Progress
 ) -> _Labelled:
     """Label the points of a block."""
     contents = blocks.contents(block, store, progress.part(0.0, 0.15))
@@ -224,14 +207,14 @@ def _labelled(
     labels = np.zeros(len(positions), dtype=np.uint8)
     if notes.count:
         try:
-            labels = _labels(contents, core, filter_, blocks.buffer, notes)[core]
+            labels = _labels(contents, core, label, blocks.buffer, notes)[core]
         except BareEarthError as error:
             notes.failure = error
     return _Labelled(positions, labels, notes)
 
 
 def _labels(
-    contents: BlockPoints, wanted: np.ndarray, filter_: _Filter, reach: float, progress: Progress
+    contents: BlockPoints, wanted: np.ndarray, label: _Label, reach: float, progress: Progress
 ) -> np.ndarray:
     """Return the label of each point of a window that is wanted.
 
@@ -243,7 +226,7 @@ def _labels(
     progress(0.1)
     progress = progress.part(0.1, 1.0)
     if count == 1:
-        return filter_.label(contents, progress)
+        return label(contents, progress)
     sizes = np.bincount(groups, minlength=count)
     labels, failures, done = np.zeros(len(groups), dtype=np.uint8), [], 0
     needed = np.flatnonzero(np.bincount(groups[wanted], minlength=count))
@@ -252,7 +235,7 @@ def _labels(
         part = progress.part(done / len(groups), end / len(groups))
         try:
             # What there is to say of the points is said of the most of them.
-            labels[which] = filter_.label(contents.take(which), part.quiet() if done else part)
+            labels[which] = label(contents.take(which), part.quiet() if done else part)
         except BareEarthError as error:
             failures.append(error)
         done = end
