@@ -18,7 +18,7 @@ from ..products.raster_block import BlockRasters
 from ..survey.collection import Collection
 from .blocks import Block
 from .constraints import parts_of
-from .job_queue import worked_off
+from .job_queue import JobQueue
 from .jobs import BlockJob
 from .memory import Resources
 from .memory_points import MemoryPoints, SurveyFile
@@ -160,9 +160,10 @@ def make_rasters(
     files = {each: folder / f"rasters_{each.column}_{each.row}.npz" for each in places}
     jobs = block_jobs(RasterJob, survey, collection, files, folder, 0, workers, step=step)
     try:
-        lost = worked_off(jobs, [], workers, progress.part(0.0, 0.8)).lost
-        if lost:
-            raise BareEarthError(f"The rasters cannot be made. {lost[0]}")
+        queue = JobQueue(jobs, [], workers, progress.part(0.0, 0.8))
+        queue.work()
+        if queue.lost:
+            raise BareEarthError(f"The rasters cannot be made. {queue.lost[0]}")
         made = [each for file in files.values() for each in _kept_in(file)]
         with contextlib.ExitStack() as outputs:
             return write_rasters(made, survey.frame, step, outputs, progress.part(0.8, 1.0))

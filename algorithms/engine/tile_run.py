@@ -13,7 +13,7 @@ from ..core.temporary import remove_leftovers
 from ..las.cloud import survey_frame
 from ..las.lasfile import LasFile
 from ..survey.collection import Collection, open_collection
-from .job_queue import worked_off
+from .job_queue import JobQueue
 from .jobs import PointJob, TileJob
 from .planning import block_jobs
 from .raster_jobs import make_rasters
@@ -123,7 +123,8 @@ class TileRun:
             kept = self._keep_done(resume, progress)
             blocks, tiles = self._jobs(workers)
             end = 0.8 if rasters else 1.0
-            queue = worked_off(blocks, tiles, workers, progress.part(0.02, end))
+            queue = JobQueue(blocks, tiles, workers, progress.part(0.02, end))
+            queue.work()
             self.done, self.kept_count = sorted([*kept, *queue.done]), len(kept)
             self.empty_count += queue.empty_count
             self.failures.update(queue.failures)
