@@ -16,7 +16,7 @@ from ..filters.shared.below_ground import below_ground
 from ..filters.shared.bridges import bridge_decks
 from ..filters.shared.doubts import tell_of_extent, tell_of_little_ground
 from ..grids.cells import apart
-from ..survey.selection import Special
+from ..survey.selection import Selection
 from .blocks import BRIDGE, GROUND, LOW, Block, BlockPoints, Blocks, Corner, Store
 from .memory import Resources, give_back
 from .scheduling import run_jobs
@@ -48,7 +48,7 @@ def label_ground(
     store: Store,
     parameters: ParameterSet,
     blocks: Blocks,
-    special: Special = Special(),
+    selection: Selection = Selection(),
     resources: Resources = Resources(),
     progress: Progress = SILENT,
 ) -> None:
@@ -62,8 +62,8 @@ def label_ground(
         Those of one method.
     blocks : Blocks
         How the survey is cut; `blocks_of` says.
-    special : Special
-        What gets `LOW`, and whether decks of bridges get `BRIDGE`.
+    selection : Selection
+        Says whether low outliers get `LOW`, and decks of bridges `BRIDGE`.
     resources : Resources
         Threads, and the memory for the blocks.
     progress : Progress
@@ -82,7 +82,7 @@ def label_ground(
             f"{method.label} does not start from known ground; it only keeps these"
             " points as ground."
         )
-    work = partial(_labelled, store, blocks, partial(_label, parameters, special))
+    work = partial(_labelled, store, blocks, partial(_label, parameters, selection))
     notes = {}
     for number, result in over_blocks(store, blocks, work, resources, progress):
         store.put(result.positions, result.labels)
@@ -164,13 +164,13 @@ def _at_once(number: int, largest: int, resources: Resources) -> int:
 
 
 def _label(
-    parameters: ParameterSet, special: Special, contents: BlockPoints, progress: Progress
+    parameters: ParameterSet, selection: Selection, contents: BlockPoints, progress: Progress
 ) -> np.ndarray:
     """Return the label of each point of a window."""
-    depth, method = special.low_noise_depth, method_of(parameters)
-    end = 1.0 if depth is None else 1.0 - _LOW_SHARE
-    finds_bridges = special.bridges == "find" or (
-        special.bridges == "automatic" and not method.is_classic(parameters)
+    method, finds_low = method_of(parameters), selection.low_noise_class
+    end = 1.0 - _LOW_SHARE if finds_low else 1.0
+    finds_bridges = selection.bridges == "find" or (
+        selection.bridges == "automatic" and not method.is_classic(parameters)
     )
     part = progress.part(0.0, end - _BRIDGES_SHARE if finds_bridges else end)
     points, known = contents.points, contents.known
@@ -190,8 +190,8 @@ def _label(
         labels[decks] = BRIDGE
         ground &= ~decks
         progress(end)
-    if depth is not None:
-        low = below_ground(points, ground, depth, progress.part(end, 1.0))
+    if finds_low:
+        low = below_ground(points, ground, selection.low_noise_depth, progress.part(end, 1.0))
         labels[low & (labels == 0)] = LOW
     return labels
 

@@ -147,8 +147,7 @@ class LabelGround(PointStep):
 
     def work(self, store: Store, resources: Resources, progress: Progress) -> None:
         """Label the points."""
-        special = self.selection.special
-        label_ground(store, self.parameters, self.blocks, special, resources, progress)
+        label_ground(store, self.parameters, self.blocks, self.selection, resources, progress)
 
     def result(self, path: Path, room: Room) -> ClassifiedPoints:
         """Return what turns labels into classes."""

@@ -77,7 +77,7 @@ def whole_classes(path, parameters, selection=Selection(), blocks=BLOCKS):
         survey_frame(cloud.crs),
         blocks,
     )
-    label_ground(store, parameters, blocks, selection.special)
+    label_ground(store, parameters, blocks, selection)
     labels = store.labels[0]
     rows = points_of([path])
     unsorted = np.column_stack((cloud.x, cloud.y, cloud.z)).astype(np.int64)

@@ -24,7 +24,7 @@ from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
-from bare_earth.algorithms.survey.selection import Special
+from bare_earth.algorithms.survey.selection import Selection
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
 ORIGIN = (500_000.0, 5_700_000.0, 50.0)
@@ -52,7 +52,8 @@ def labels_of(parts, parameters, blocks, threads=1, depth=1.0, known=None, progr
     store = MemoryPoints(
         [SurveyFile(each, np.ones(each.count, bool)) for each in parts], frame, blocks
     )
-    label_ground(store, parameters, blocks, Special(depth), Resources(threads=threads), progress)
+    selection = Selection(low_noise_class=depth is not None, low_noise_depth=depth or 1.0)
+    label_ground(store, parameters, blocks, selection, Resources(threads=threads), progress)
     return store.labels
 
 
