@@ -139,14 +139,14 @@ class Cluster(Workers):
         """Return what the workers say of themselves; refuse those that could not work."""
         from ..core.version import __version__
 
+        install = f"Install bare-earth {__version__} there."
         try:
             facts = self._client.run(_facts, str(self._mark), on_error="return")
         except OSError as error:
             raise BareEarthError(SCHEDULER_GONE) from error
         except Exception as error:
             raise BareEarthError(
-                f"The workers of {self._address} cannot load this package ({error}). Install"
-                f" bare-earth {__version__} there."
+                f"The workers of {self._address} cannot load this package ({error}). {install}"
             ) from error
         if not facts:
             raise BareEarthError(
@@ -158,8 +158,7 @@ class Cluster(Workers):
                 raise BareEarthError(f"The worker {address} does not answer. Run it again.")
             if not isinstance(each, _Facts):
                 raise BareEarthError(
-                    f"The worker {address} cannot load this package ({each}). Install bare-earth"
-                    f" {__version__} there."
+                    f"The worker {address} cannot load this package ({each}). {install}"
                 )
             if each.version != __version__:
                 raise BareEarthError(

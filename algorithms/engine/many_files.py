@@ -181,7 +181,7 @@ def write_files(
         targets = _targets_of(collection, place, request.tiles.format if is_last else "same")
         part = progress.part(*(0.02 + 0.96 * each / len(steps) for each in (number, number + 1)))
         run = TileRun(collection, place, targets, step, part)
-        run.work(workers, request.tiles.resume, part, None if number else rasters)
+        run.work(workers, request.tiles.resume, None if number else rasters)
         for path, reason in run.failures.items():
             failures[path.name] = inputs[path.name], reason
         if not number:

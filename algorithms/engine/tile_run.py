@@ -46,7 +46,7 @@ class TileRun:
     step : PointStep
         What is to be found.
     progress : Progress
-        Receives progress.
+        Receives progress, and a line on each finished file.
 
     Attributes
     ----------
@@ -72,7 +72,7 @@ class TileRun:
         self.kept_count, self.empty_count, self.failures = 0, 0, {}
         self._survey = Survey(survey_frame(collection.crs), step.blocks)
         self._collection, self._folder, self._targets = collection, folder, targets
-        self._step = step
+        self._step, self._progress = step, progress
         self._sources: dict[BlockIndex, list[Path]] = {}
         # As they are before any of them is read.
         self._states = {each.path: state_of(each.path) for each in collection.tiles}
@@ -88,13 +88,7 @@ class TileRun:
                 self.failures[tile.path] = str(error)
             progress(0.02 * number / len(collection.tiles))
 
-    def work(
-        self,
-        workers: Workers,
-        resume: bool,
-        progress: Progress,
-        rasters: MakeRasters | None = None,
-    ) -> None:
+    def work(self, workers: Workers, resume: bool, rasters: MakeRasters | None = None) -> None:
         """Do it.
 
         Parameters
@@ -103,8 +97,6 @@ class TileRun:
             Who does it; they are stopped afterwards.
         resume : bool
             Whether files that a run before has done stay.
-        progress : Progress
-            Receives progress, and a line on each finished file.
         rasters : MakeRasters, optional
             Rasters to make of the outputs.
 
@@ -116,11 +108,12 @@ class TileRun:
             If the user asked to stop.
         """
         _, records, waiting = folders_of(self._folder)
+        progress = self._progress
         _make(self._folder, records)
         with alone_in(records):
             self._clear(values=not resume)
             _make(waiting)
-            kept = self._keep_done(resume, progress)
+            kept = self._keep_done(resume)
             blocks, tiles = self._jobs(workers)
             end = 0.8 if rasters else 1.0
             queue = JobQueue(blocks, tiles, workers, progress.part(0.02, end))
@@ -155,7 +148,7 @@ class TileRun:
         sources = map(self._states.__getitem__, needs.sources)
         return made_of(self._survey, self._step, path, sources, self._targets[path])
 
-    def _keep_done(self, resume: bool, progress: Progress) -> list[Any]:
+    def _keep_done(self, resume: bool) -> list[Any]:
         """Take out the tiles that are done; return what became of them."""
         kept, todo, changed = [], [], 0
         for needs in self._todo:
@@ -169,9 +162,9 @@ class TileRun:
             todo.append(needs)
         self._todo = todo
         if kept:
-            progress.info(f"{len(kept):,} files are done already.")
+            self._progress.info(f"{len(kept):,} files are done already.")
         if changed:
-            progress.info(
+            self._progress.info(
                 f"{changed:,} finished files are made again, because parameters, inputs or the"
                 " version have changed."
             )
