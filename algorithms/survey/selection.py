@@ -124,11 +124,6 @@ class Selection(ParameterSet):
         " keeps them, whatever its settings. It then remembers the classes again.",
     )
 
-    def new_classes(self) -> list[tuple[int, str]]:
-        """Return the classes that the user chose for points, each with what gets it."""
-        chosen = ((self.to_class, "the ground"), (self.bridge_class, "bridges"))
-        return [(value, name) for value, name in chosen if value is not None]
-
     def choose(
         self,
         part: PointCloud,
