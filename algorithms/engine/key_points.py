@@ -202,6 +202,6 @@ def _keys(
     if not wanted.any():
         return np.zeros(0, dtype=np.uint8)
     # The grid belongs to the CRS, not to the block.
-    anchor = tuple(-each for each in corner)
+    anchor = -corner[0], -corner[1]
     keys = model_key_points(contents.points, parameters, progress, anchor)[wanted]
     return np.where(keys, _KEY, _OTHER).astype(np.uint8)

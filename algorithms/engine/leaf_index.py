@@ -73,8 +73,8 @@ class LeafIndex:
 
     def of(self, leaves: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the starts of the runs of some leaves, ascending, and their numbers of points."""
-        runs = [np.arange(*self._bounds[leaf : leaf + 2]) for leaf in leaves]
-        runs = np.concatenate([np.zeros(0, np.intp), *runs])
+        of_each = [np.arange(*self._bounds[leaf : leaf + 2]) for leaf in leaves]
+        runs = np.concatenate([np.zeros(0, np.intp), *of_each])
         runs = runs[np.argsort(self._starts[runs], kind="stable")]
         return self._starts[runs], self._counts[runs]
 

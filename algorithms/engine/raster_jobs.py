@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Iterator, Mapping, Sequence
+from typing import Any, Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -71,7 +71,7 @@ class RasterJob(BlockJob):
 
 def _keep(file: Path, made: Sequence[BlockRasters]) -> None:
     """Write the rasters of a block, or of the parts of one."""
-    content: dict[str, np.ndarray] = {}
+    content: dict[str, Any] = {}
     for number, each in enumerate(made):
         small = {"window": np.array(each.window), "box": each.box, "counts": each.counts}
         loose = {f"loose.{name}": value for name, value in each.loose.items()}

@@ -66,7 +66,7 @@ def run_jobs(
     pool = ThreadPoolExecutor(max(1, at_once), thread_name_prefix="block")
     try:
         waiting = iter(range(len(jobs)))
-        running: dict[Future, int] = {}
+        running: dict[Future[Any], int] = {}
         # Not all at once: results that nobody has fetched yet would fill the memory.
         while True:
             for number in waiting:
