@@ -11,6 +11,8 @@ from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from .shared.scattered import scattered_lows
 
+# Share of the points from which on low outliers are told.
+_MANY_OUTLIERS = 1e-4
 # Metres: few buildings are wider.
 _USUAL_OBJECT = 50.0
 
@@ -106,6 +108,11 @@ class Method(NamedTuple):
         if not self.is_classic(parameters):
             left = ~scattered_lows(points)
         some = points if left.all() else points.take(left)
+        if some.count < (1.0 - _MANY_OUTLIERS) * points.count:
+            progress.info(
+                "Low outliers are scattered all over the points. They are left out, and are not"
+                " ground."
+            )
         starts = {}
         if self.takes_known_ground and known is not None and known.any():
             starts["known_ground"] = known[left]
