@@ -104,20 +104,23 @@ class Method(NamedTuple):
         known : numpy.ndarray of bool, shape (n,), optional
             Points that are surely ground.
         """
-        left = np.ones(points.count, dtype=bool)
-        if not self.is_classic(parameters):
-            left = ~scattered_lows(points)
-        some = points if left.all() else points.take(left)
-        if some.count < (1.0 - _MANY_OUTLIERS) * points.count:
+        starts = known is not None and known.any() and self.takes_known_ground
+
+        def found(points: Points, known: np.ndarray | None) -> np.ndarray:
+            seeds = {"known_ground": known} if starts else {}
+            return self.classify(points, parameters, progress, **seeds)
+
+        lows = None if self.is_classic(parameters) else scattered_lows(points)
+        if lows is None or not lows.any():
+            del lows  # a byte a point
+            return found(points, known)
+        if np.count_nonzero(lows) > _MANY_OUTLIERS * points.count:
             progress.info(
                 "Low outliers are scattered all over the points. They are left out, and are not"
                 " ground."
             )
-        starts = {}
-        if self.takes_known_ground and known is not None and known.any():
-            starts["known_ground"] = known[left]
-        ground = np.zeros(points.count, dtype=bool)
-        ground[left] = self.classify(some, parameters, progress, **starts)
+        ground = ~lows
+        ground[~lows] = found(points.take(~lows), None if known is None else known[~lows])
         return ground
 
     def is_classic(self, parameters: ParameterSet) -> bool:
