@@ -211,6 +211,16 @@ def pytest_runtest_setup(item):
         pytest.skip("long: `make test-long` runs it")
 
 
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    """Give each process whole files, so that what the tests of a file share is made once."""
+    if config.getvalue("dist") != "load":  # that is, unless another way is asked for
+        return None
+    from xdist.scheduler import LoadFileScheduling
+
+    return LoadFileScheduling(config, log)
+
+
 def pytest_collection_finish():
     """Keep what all tests share from being looked through for garbage again and again."""
     gc.freeze()

@@ -5,6 +5,7 @@ After a rule was changed on purpose, this writes them anew:
     PYTHONPATH=. tools/environment python tests/core/label_counts.py
 """
 
+import functools
 import json
 from pathlib import Path
 
@@ -35,21 +36,25 @@ UNSURE = ("gorge", "steep_forest", "sparse_village", "water_gaps")
 SOME = ("hills", "sparse_village", "complex_on_slope", "water_gaps")
 
 
+@functools.lru_cache(maxsize=1)
 def scene_of(kind):
     """Return one scene, small enough to be classified in a moment."""
     return make(kind, seed=11, density=SCENES[kind], size=60.0 if SCENES[kind] > 4.0 else 90.0)
 
 
-def counts_of(scene, method, preset):
+@functools.lru_cache(maxsize=12)
+def _ground(kind, method, preset):
+    parameters = METHODS[method].parameters(preset=preset)
+    return METHODS[method].classify(scene_of(kind).points, parameters)
+
+
+def counts_of(kind, method, preset):
     """Return the points of each square that a method makes ground, row by row.
 
     Or those that lie on decks, or where the terrain is rather sure, with the ground of a method.
     """
-    points, parameters = scene.points, METHODS[method].parameters
-    is_filter = preset not in ("decks", "confidence")
-    found = METHODS[method].classify(
-        points, parameters(preset=preset) if is_filter else parameters()
-    )
+    points, is_filter = scene_of(kind).points, preset not in ("decks", "confidence")
+    found = _ground(kind, method, preset if is_filter else "automatic")
     if preset == "decks":
         found = bridge_decks(points, found)
     elif preset == "confidence":
@@ -75,7 +80,7 @@ def runs():
 
 if __name__ == "__main__":
     lines = [
-        f'"{kind} {method} {preset}": {counts_of(scene_of(kind), method, preset)}'
+        f'"{kind} {method} {preset}": {counts_of(kind, method, preset)}'
         for kind, method, preset in runs()
     ]
     AGREED.write_text("{\n" + ",\n".join(lines) + "\n}\n", encoding="utf-8")

@@ -1,5 +1,6 @@
 """The benchmark on a scene small enough for every run: no data, no peers, so that it cannot rot."""
 
+import importlib.util
 import re
 
 import numpy as np
@@ -15,7 +16,10 @@ from benchmarks.scenes import KINDS, make
 from benchmarks.scenes.simple import village
 from benchmarks.sensitivity import Place, scaled, sensitivity
 
-pytest.importorskip("matplotlib")
+# Imported by what draws alone.
+pytestmark = pytest.mark.skipif(
+    importlib.util.find_spec("matplotlib") is None, reason="there is no matplotlib"
+)
 
 
 def write_village(path):

@@ -96,6 +96,44 @@ def test_ground_below_a_deck_is_not_of_it():
     assert found[deck].mean() > 0.7
 
 
+# Where the limits are: points on a lattice, so that each metre is a cell
+
+
+def crossing(width=5, land=10, beside=0, height=0.0):
+    """Return a river valley of 16 m between two banks, and a deck across it.
+
+    From each bank so many metres (`beside`) next to the deck have a height of their own.
+    """
+    z = np.zeros((16 + 2 * land, 40))
+    z[land:-land] = -6.0
+    z[land:-land, 20 : 20 + width] = 0.0
+    if beside:
+        z[land - beside : land] = z[-land : beside - land] = height
+    return z
+
+
+@pytest.mark.parametrize("turn", range(4))
+@pytest.mark.parametrize(
+    "valley, is_bridge",
+    [
+        (crossing(width=2), False),  # it is wider than the spacing and a metre
+        (crossing(width=3), True),
+        (crossing(land=3), False),  # four metres of ground at each end, up to the survey's border
+        (crossing(land=4), True),
+        (crossing(beside=1, height=-0.41), False),  # no step between them, down and up again
+        (crossing(beside=1, height=-0.39), True),
+        (crossing(beside=5, height=np.nan), True),  # but nothing need be known of some metres
+    ],
+    ids=["narrow", "wide", "little land", "land", "ditch", "shallow ditch", "gap"],
+)
+def test_a_deck_is_wide_and_comes_to_ground_on_land(valley, is_bridge, turn):
+    z = np.rot90(valley, turn)
+    row, column = np.nonzero(np.isfinite(z))
+    points = Points(column + 0.5, row + 0.5, z[row, column])
+    found = bridge_decks(points, np.ones(points.count, bool))
+    assert found.any() == is_bridge
+
+
 # What is left alone
 
 

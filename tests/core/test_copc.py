@@ -200,7 +200,7 @@ def nodes_by_the_rule(records, cube):
 
 @pytest.mark.parametrize("spread", [100, 3000, 40_000])
 def test_each_node_has_the_points_that_the_rule_gives_it_in_file_order(small_leaves, spread):
-    records = cloud_of(8_000, spread=spread)
+    records = cloud_of(5_000, spread=spread)
     records[0, :12] = np.array([10**7, 0, 0], "<i4").view(np.uint8)  # far away
     cube, nodes = octree_of(records)
     wanted = nodes_by_the_rule(records, cube)
@@ -248,12 +248,12 @@ def test_points_in_one_place_end_the_octree_all_the_same(las, few_in_memory, cou
 @pytest.mark.parametrize("spread", [50, 3000, 40_000])
 @pytest.mark.parametrize("stray", [0, 2])
 def test_the_same_bytes_however_few_points_fit_into_memory(las, few_in_memory, spread, stray):
-    records = cloud_of(30_000, spread=spread)
+    records = cloud_of(15_000, spread=spread)
     # So far that all others lie in few of the cells that are told apart at a time.
     records[:stray, :12] = np.array([[2**30, 5, 0], [0, -(2**30), 9]], "<i4").view(np.uint8)[:stray]
     source = las.make(version=4, point_format=6, records=records,
                       evlrs=[las.evlr(b"behind", 9, b"the points")])  # fmt: skip
-    changes = Edits(classification=classes_of(30_000))
+    changes = Edits(classification=classes_of(15_000))
     (much, little), heard = both_ways(las, source, changes)
     assert much.read_bytes() == little.read_bytes()
     with CopcReader.open(little) as reader:

@@ -251,7 +251,7 @@ def small_inputs(tmp_path_factory):
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(workers, "Processes", workers.Threads)
-        return _made_inputs(tmp_path_factory.mktemp("small"), 3_000, 100.0, run)
+        return _made_inputs(tmp_path_factory.mktemp("small"), 2_000, 70.0, run)
 
 
 @pytest.mark.parametrize("name", COMMANDS)

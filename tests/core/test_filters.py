@@ -1,5 +1,7 @@
 """What every ground filter has to do, whatever its rules."""
 
+import functools
+
 import numpy as np
 import pytest
 from runs import CancelAt
@@ -12,9 +14,11 @@ from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
 from bare_earth.algorithms.products.comparison import compare
 from benchmarks import data
-from benchmarks.scenes import make
+from benchmarks.scenes import make as make_scene
 from benchmarks.scenes.simple import scatter, surveyed, village
 
+# Of the same scene each method is asked, one after the other.
+make = functools.lru_cache(maxsize=4)(make_scene)
 PARAMETERS = [
     *(method.parameters() for method in METHODS.values()),
     SlopeFilter(preset="whitebox"),

@@ -64,6 +64,28 @@ def test_a_building_in_a_corner_of_the_survey_is_not_ground():
     assert not found[roof].any() and found[~roof].all()
 
 
+@pytest.mark.parametrize("size, side", [(0.5, 28), (2.0, 7), (3.0, 4)])
+def test_what_is_left_within_a_roof_goes_with_it_up_to_200_square_metres(size, side):
+    for more in (0, 1):
+        cells = side + more
+        heights = np.zeros((cells + 46, cells + 46))
+        heights[15:-15, 15:-15] = 5.0
+        rest = np.zeros(heights.shape, dtype=bool)
+        rest[23:-23, 23:-23] = True
+        ground = ground_cells(heights, size, (heights > 0) & ~rest, 3.0 * size)
+        assert (ground[rest] == more).all()
+
+
+def test_beyond_the_survey_a_roof_goes_on_where_gaps_are_judged():
+    heights = np.zeros((40, 70))
+    heights[13:27, 26:40] = 6.0
+    heights[:, 40:] = np.nan
+    # A window of 6 m cuts off the corners of what is 14 m wide, but not where it goes on.
+    corners = [13, 26], [39, 39]
+    assert _ground(heights, window=6.0)[corners].all()
+    assert not _ground(heights, window=6.0, judges_gaps=False)[corners].any()
+
+
 def test_a_rock_with_walls_all_round_is_ground_and_buildings_as_high_are_not():
     rows, columns = np.indices((60, 60)) - 30.0
     inside = np.hypot(rows, columns) < 12.0

@@ -324,7 +324,7 @@ def test_the_proxy_is_given_where_other_users_do_not_see_it(support):
 
     def looking(command, settings):
         seen.append((" ".join(command), settings.get("https_proxy")))
-        return pip.Finished(1, "") if "install" in command else run(command, settings)
+        return pip.Finished(1, "") if "install" in command else answer_of(tuple(command))
 
     with pytest.raises(BareEarthError):
         support.get_by_pip(looking, "http://me:word@proxy.invalid:3128")

@@ -17,7 +17,7 @@ from bare_earth.algorithms.engine.rasters import MakeRasters
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.products.terrain_model import TerrainModel
 
-COUNT, SIDE = 300_000, 340.0
+COUNT, SIDE = 150_000, 240.0
 MAPS = {name: Path(f"{name}.tif") for name in ("dtm", "dsm")}
 STEPS = {
     "heights": MeasureHeights(),

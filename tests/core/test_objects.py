@@ -132,6 +132,30 @@ def test_cells_level_with_the_ground_grow_back_and_others_do_not():
     assert np.array_equal(np.argwhere(~grown), np.argwhere(heights > 101.0))
 
 
+def test_level_cells_grow_back_four_cells_far_on_any_side_of_a_slope():
+    heights = plain(slope=1.0)
+    inside = np.zeros(heights.shape, dtype=bool)
+    inside[10:50, 10:50] = True
+    grown = relief(np.where(inside, np.nan, heights)).regrown(~inside, heights, 0.3)
+    inside[14:46, 14:46] = False
+    assert grown[inside].all()
+    assert np.count_nonzero(~grown) == 32 * 32
+
+
+@pytest.mark.parametrize("side", ["last row", "last column"])
+@pytest.mark.parametrize("rise, is_level", [(2.35, True), (2.39, False)])
+def test_the_last_cells_are_judged_by_the_slope_of_the_terrain_there(rise, is_level, side):
+    # It becomes steeper row by row; by the slope of the row before, 2.32 m would be too much.
+    heights = np.tile(0.025 * np.arange(52.0)[:, None] ** 2, (1, 40))
+    kept = np.ones(heights.shape, dtype=bool)
+    heights[-1] += rise
+    kept[-1] = False
+    if side == "last column":
+        heights, kept = heights.T, kept.T
+    grown = relief(np.where(kept, heights, np.nan)).regrown(kept, heights, 0.3)
+    assert (grown[~kept] == is_level).all()
+
+
 def test_cells_finer_than_a_metre_find_the_same_object():
     heights = plain(120)
     heights[40:64, 50:90] += 8.0

@@ -134,7 +134,8 @@ def test_real_points_give_the_same_bytes_in_memory_and_on_disk(name, tmp_path):
 
 
 def test_ground_points_only_in_memory_and_on_disk(small, tmp_path):
-    source, only = write(tmp_path / "in.las"), Output(ground_only=True)
+    source = write(tmp_path / "in.las", 3000, shape=(130.0, 70.0))
+    only = Output(ground_only=True)
     results = [
         run(source, tmp_path / str(each.memory), GridMinimum(), each, output=only)
         for each in (MUCH, LITTLE)
@@ -144,7 +145,8 @@ def test_ground_points_only_in_memory_and_on_disk(small, tmp_path):
 
 
 def test_heights_above_ground_in_memory_and_on_disk(small, tmp_path):
-    source, heights = write(tmp_path / "in.las", 6000), Output(height_above_ground=True)
+    source = write(tmp_path / "in.las", 3000, shape=(130.0, 70.0))
+    heights = Output(height_above_ground=True)
     results = [
         run(source, tmp_path / str(each.memory), GridMinimum(), each, output=heights)
         for each in (MUCH, LITTLE)
@@ -167,6 +169,8 @@ def test_a_stray_point_far_away_stops_nothing(parameters, resources, tmp_path):
     source = write(tmp_path / "in.las", 4000, stray=(1e6,))
     summary, _ = run(source, tmp_path / "out", parameters, resources)
     assert 1000 < summary.ground_count < 3900
+    if parameters != SlopeFilter():
+        return  # a raster knows no method
     with pytest.raises(BareEarthError, match="larger cell size, or remove points with stray"):
         run(source, tmp_path / "dtm", parameters, resources, rasters=("dtm",))
     assert os.listdir(tmp_path / "dtm") == []
@@ -243,7 +247,8 @@ def test_the_same_errors_on_disk(selection, area, word, tmp_path):
     "fraction", [0.05, 0.6, 0.95, *(pytest.param(each, marks=LONG) for each in (0.0, 0.3, 0.8))]
 )
 def test_a_cancel_leaves_nothing(small, fraction, resources, tmp_path):
-    source, progress = write(tmp_path / "in.las", 4000), CancelAt(fraction)
+    source = write(tmp_path / "in.las", 3000, shape=(130.0, 70.0))
+    progress = CancelAt(fraction)
     with pytest.raises(Cancelled):
         run(source, tmp_path / "out", GridMinimum(), resources, rasters=("dtm",), progress=progress)
     assert os.listdir(tmp_path / "out") == [] and progress.last >= fraction

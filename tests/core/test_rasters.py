@@ -36,7 +36,7 @@ def _cloud(x, y, z):
     return cloud_of(*(np.rint(each * 100) for each in (x, y, z)), classes=2)
 
 
-def _hills(count, size=900.0, keep=None):
+def _hills(count, size=600.0, keep=None):
     x, y = np.random.default_rng(1).uniform(-size / 2, size / 2, (2, count))
     if keep is not None:
         x, y = x[keep(x, y)], y[keep(x, y)]
@@ -81,14 +81,14 @@ def small_blocks(monkeypatch):
 
 def _is_lake(x, y, margin=0.0):
     # Along the hills, so that both shores are as high.
-    return np.hypot(x / (120.0 + margin), y / (300.0 + margin)) < 1.0
+    return np.hypot(x / (80.0 + margin), y / (200.0 + margin)) < 1.0
 
 
 CLOUDS = {
-    "dense": _hills(25_000, 320.0),
-    "uneven": _hills(20_000, keep=lambda x, y: np.random.default_rng(2).random(len(x)) > y / 900.0),
-    "lake": _hills(40_000, keep=lambda x, y: ~_is_lake(x, y)),
-    "sparse": _hills(200),
+    "dense": _hills(14_000, 240.0),
+    "uneven": _hills(9_000, keep=lambda x, y: np.random.default_rng(2).random(len(x)) > y / 600.0),
+    "lake": _hills(18_000, keep=lambda x, y: ~_is_lake(x, y)),
+    "sparse": _hills(90),
 }
 
 
@@ -114,7 +114,7 @@ def test_a_terrain_model_in_blocks_is_that_of_one_tin(small_blocks, tmp_path, na
 def test_gaps_wider_than_the_longest_edge_stay_open(small_blocks, tmp_path):
     found, x, y, _ = _made(CLOUDS["lake"], tmp_path, max_edge=30.0)
     assert np.isnan(found[_is_lake(x, y, -20.0)]).all()
-    inside = ~_is_lake(x, y, 10.0) & (np.abs(x) < 440.0) & (np.abs(y) < 440.0)
+    inside = ~_is_lake(x, y, 10.0) & (np.abs(x) < 290.0) & (np.abs(y) < 290.0)
     assert np.isfinite(found[inside]).all()
 
 
@@ -218,13 +218,13 @@ def test_a_cancel_leaves_nothing(survey, tmp_path, fraction):
 
 def test_confidence_is_low_across_gaps_and_high_where_ground_is_dense(tmp_path):
     found, x, y, _ = _made(CLOUDS["lake"], tmp_path, files=("confidence",), cell=1.0)
-    within, beyond = _is_lake(x, y, -30.0), ~_is_lake(x, y, 30.0) & (np.abs(x) < 400)
+    within, beyond = _is_lake(x, y, -30.0), ~_is_lake(x, y, 30.0) & (np.abs(x) < 270)
     assert np.nanmedian(found[within]) < 0.7 * np.nanmedian(found[beyond])
     assert np.nanmin(found) >= 0.0 and np.nanmax(found) <= 1.0
 
 
 def test_the_file_is_cloud_optimised(tmp_path):
-    _made(CLOUDS["dense"], tmp_path, cell=0.4)
+    _made(CLOUDS["dense"], tmp_path, cell=0.3)
     with rasterio.open(tmp_path / "dtm.tif") as raster:
         assert raster.overviews(1) == [2, 4]
         assert raster.profile["tiled"] and raster.profile["compress"] == "deflate"

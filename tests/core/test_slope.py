@@ -226,6 +226,42 @@ def test_a_ditch_and_a_courtyard_are_not_taken_for_low_outliers():
     assert low_clusters(grid, 1.0, 2.0, 6.0, 54.0).sum() == 9
 
 
+@pytest.mark.parametrize("length, is_found", [(3, True), (4, False)])
+def test_a_cluster_is_no_longer_than_a_disc_where_one_of_a_cell_is_wide_enough(length, is_found):
+    grid = np.zeros((60, 60))
+    grid[30, 30 : 30 + length] = -13.0
+    # Cells of 3 m: the disc of a cell's radius is 9 m wide, and more is a ditch.
+    found = low_clusters(grid, 3.0, 2.0, 6.0, 54.0)
+    assert np.array_equal(found, (grid < 0) & is_found)
+
+
+def test_a_grid_begins_at_the_first_cell_unless_told():
+    # Gaps are filled by squares of cells of the CRS: the fill of a cluster decides on it.
+    random = np.random.default_rng(16)
+    grid = random.normal(0.0, 0.7, (20, 20))
+    grid[random.random(grid.shape) < 0.6] = np.nan
+    differs = False
+    for depth in np.arange(3.25, 3.265, 0.002):
+        grid[9:11, 9:11] = -depth
+        found, same, other = (
+            low_clusters(grid, 1.0, 2.0, 6.0, 9.0, **first)
+            for first in ({}, {"first": (0, 0)}, {"first": (-1, 0)})
+        )
+        assert np.array_equal(found, same)
+        differs |= (found != other).any()
+    assert differs
+
+
+def test_the_slope_of_the_terrain_is_averaged_over_no_more_than_the_search_radius():
+    row, column = np.indices((40, 40)) - 20.0
+    cone = 8.0 * np.clip(1.0 - np.hypot(row, column) / 10.0, 0.0, 1.0)
+    points = Points(2.0 * column.ravel() + 1.0, 2.0 * row.ravel() + 1.0, cone.ravel())
+    found = classify(points, SlopeFilter(search_radius=4.0, cell_size=2.0, max_building_size=4.0))
+    # Round the top the slopes of all sides cancel out; farther off there would be more of one.
+    stands_out = np.hypot(row, column).ravel() <= 1.0
+    assert np.array_equal(found, ~stands_out)
+
+
 @pytest.mark.parametrize("parameters", [SlopeFilter(), CLASSIC])
 def test_the_order_and_the_place_of_the_points_do_not_matter(parameters):
     points, _ = village()

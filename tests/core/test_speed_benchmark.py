@@ -51,9 +51,9 @@ def measured(*commands):
 
 
 def test_cost_is_that_of_the_process():
-    busy = "import time\nwhile time.process_time() < 0.5: pass"
+    busy = "import time\nwhile time.process_time() < 0.25: pass"
     parent = (
-        "import multiprocessing as m, time\ndef f():\n while time.process_time() < 0.5: pass\n"
+        "import multiprocessing as m, time\ndef f():\n while time.process_time() < 0.25: pass\n"
         "p = m.get_context('fork').Process(target=f)\np.start(); p.join()"
     )
     large, busy, parent = measured(
@@ -64,9 +64,9 @@ def test_cost_is_that_of_the_process():
     assert not large.problem
     assert 300e6 < large.memory < 400e6
     assert large.wall > 0.3
-    assert 0.5 <= busy.cpu < 5.0
+    assert 0.25 <= busy.cpu < 5.0
     assert busy.memory < 100e6
-    assert parent.cpu >= 0.5
+    assert parent.cpu >= 0.25
 
 
 def test_process_that_fails_or_takes_too_long_is_told():

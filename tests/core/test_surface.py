@@ -19,6 +19,16 @@ def _with_lake(points):
     return points.take(np.hypot(points.x - 45, points.y - 50) > 30)
 
 
+def _villages(points):
+    return points.take((np.abs(points.x - 50) > 30) & (np.abs(points.y - 50) < 30))
+
+
+def _with_corners(points):
+    """Return points within a large square, of which only the corners are there."""
+    corners = [-110, 110, 110, -110], [-10, -10, 210, 210], [0, 1, 4, 2]
+    return Points(*map(np.append, points, corners))
+
+
 def _rotated(points):
     return Points(points.x - points.y, points.x + points.y, points.z)
 
@@ -28,6 +38,7 @@ CLOUDS = {
     "lake": _with_lake(_scatter()),
     "rotated": _rotated(_scatter()),
     "stray": Points(*(np.append(each, 5e3) for each in _scatter())),
+    "villages": _with_corners(_villages(_scatter())),
     "uneven": Points(_scatter().x ** 3 / 1e4, _scatter().y, _scatter().z),
 }
 
@@ -70,6 +81,16 @@ def test_the_order_of_the_points_does_not_matter(small_blocks):
     one, other = Surface(points), Surface(mixed)
     assert np.array_equal(one.heights(x, y), other.heights(x, y), equal_nan=True)
     assert np.array_equal(one.nearest(x, y), other.nearest(x, y))
+
+
+@pytest.mark.parametrize("turn", range(0, 360, 30))
+def test_a_triangle_is_a_gap_whichever_of_its_edges_is_too_long(turn):
+    angle = np.radians(turn)
+    x, y = np.array([0.0, 6.0, 12.0, 6.0]), np.array([0.0, 1.0, 0.0, 0.5])  # the last is a query
+    x, y = x * np.cos(angle) - y * np.sin(angle), x * np.sin(angle) + y * np.cos(angle)
+    surface = Surface(Points(x[:3], y[:3], np.full(3, 5.0)))
+    assert np.allclose(surface.heights(x[3:], y[3:], 12.1), 5.0)
+    assert np.isnan(surface.heights(x[3:], y[3:], 11.9))
 
 
 @pytest.mark.parametrize("count", [1, 2, 50])

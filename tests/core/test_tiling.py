@@ -153,11 +153,11 @@ def test_a_block_gets_the_points_of_its_window_that_take_part(tmp_path, request,
 
 @pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
 def test_labels_do_not_depend_on_threads_order_or_the_cut_into_files(parameters):
-    xyz, random = survey(3600, 120.0, 75.0), np.random.default_rng(7)
-    blocks = Blocks(80.0, 30.0, most_points=1600)
+    xyz, random = survey(2400, 100.0, 60.0), np.random.default_rng(7)
+    blocks = Blocks(80.0, 30.0, most_points=1200)
     (expected,) = labels_of([cloud_of(*xyz)], parameters, blocks)
     assert {0, 1, 2} == set(np.unique(expected)) and 0.4 < (expected == 1).mean() < 0.95
-    cuts = np.array_split(random.permutation(len(expected)), (1200, 3000))
+    cuts = np.array_split(random.permutation(len(expected)), (800, 2000))
     offsets = [tuple(np.subtract(ORIGIN, random.integers(0, 9000, 3))) for _ in cuts]
     parts = [cloud_of(*(v[cut] for v in xyz), at) for cut, at in zip(cuts, offsets)]
     for cut, labels in zip(cuts, labels_of(parts, parameters, blocks, threads=5)):
@@ -170,15 +170,15 @@ def test_labels_do_not_depend_on_threads_order_or_the_cut_into_files(parameters)
 def test_real_points_get_the_same_labels_in_any_order_and_number_of_threads(name):
     cloud, random = read_cloud(real(name)), np.random.default_rng(2)
     xyz = [values.astype(np.int64) for values in (cloud.x, cloud.y, cloud.z)]
-    near = cloud.x < cloud.x.min() + 250 / cloud.scale[0]
-    near &= cloud.y < cloud.y.min() + 250 / cloud.scale[1]
+    near = cloud.x < cloud.x.min() + 170 / cloud.scale[0]
+    near &= cloud.y < cloud.y.min() + 170 / cloud.scale[1]
     keep = np.flatnonzero(near & (random.random(cloud.count) < min(1.0, 50_000 / cloud.count)))
     mixed = random.permutation(keep)
     whole, shuffled = (
         cloud_of(*(each[which] for each in xyz), cloud.offset, cloud.scale[0])
         for which in (keep, mixed)
     )
-    blocks = Blocks(150.0, 30.0)
+    blocks = Blocks(100.0, 30.0)
     (expected,) = labels_of([whole], SlopeFilter(), blocks, 1)
     (found,) = labels_of([shuffled], SlopeFilter(), blocks, 5)
     assert np.array_equal(found[np.argsort(mixed)], expected[np.argsort(keep)])
@@ -214,7 +214,7 @@ def test_files_of_one_scale_give_equal_numbers_for_equal_places():
 
 
 def test_points_that_are_only_context_get_no_label_and_their_blocks_no_filter():
-    x, y, z = survey()
+    x, y, z = survey(12_000, 220.0, 80.0)
     cloud, blocks = cloud_of(x, y, z), Blocks(80.0, 40.0)
     every, wanted = np.ones(cloud.count, bool), x < 7000
     whole, some = (

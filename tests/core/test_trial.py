@@ -29,7 +29,7 @@ FOOT = 0.3048
 def scene():
     """Return x, y, z in metres from the origin, and which points are on the roof."""
     random = np.random.default_rng(7)
-    x, y = random.uniform(0, SIDE, (2, 25_000))
+    x, y = random.uniform(0, SIDE, (2, 12_000))
     roof = (x > HALL[0]) & (x < HALL[1]) & (y > HALL[2]) & (y < HALL[3])
     z = 100 + 0.03 * x + np.where(roof, 9.0, 0.0) + random.normal(0, 0.02, len(x))
     return *(np.round(each, 3) for each in (x, y, z)), roof
