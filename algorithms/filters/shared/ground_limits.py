@@ -115,7 +115,7 @@ def ground_limits(
     elif spacing <= _SPARSE:
         noise = noise_of_squares(points, cells, surface, slopes)
         # The surface goes through the lowest of so many points.
-        number = max(cells.size / spacing, 1.0) ** 2
+        number = np.asarray(max(cells.size / spacing, 1.0) ** 2)
         least = (_SPARSE_FACTOR + float(below_middle(number))) * noise - _USUAL_NOISE
         above, on_even = max(above, least), max(on_even, least)
     factor = tolerance.on_slopes * min(max(spacing, _DENSE), _SPARSE) / _SPARSE

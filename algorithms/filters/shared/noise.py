@@ -91,7 +91,7 @@ def noise_of_squares(
     return round(_noise(sums, _SQUARE_PERCENTILE), 2)
 
 
-def below_middle(number: np.ndarray | float) -> np.ndarray | float:
+def below_middle(number: np.ndarray) -> np.ndarray:
     """Return by how many times the noise the lowest of some points lies below their middle."""
     return _LOWEST_FACTOR * np.sqrt(2.0 * np.log(number))
 
