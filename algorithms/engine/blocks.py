@@ -15,7 +15,7 @@ from typing import Callable, Iterator, NamedTuple, Protocol, Sequence
 
 import numpy as np
 
-from ..core.points import Points
+from ..core.points import Box, Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads, parts_of
 from .memory import Cost
@@ -39,7 +39,6 @@ _LEVELS = 4
 # What a point is labelled; 0 where it is neither.
 GROUND, LOW, BRIDGE = 1, 2, 3
 
-Box = tuple[float, float, float, float]
 # x and y in metres.
 Corner = tuple[float, float]
 
@@ -300,20 +299,6 @@ class Blocks:
         buffer = self.buffer
         return west - buffer, south - buffer, east + buffer, north + buffer
 
-    def needed(self, box: Box) -> Box:
-        """Return the box of the points without which those in a box cannot be labelled.
-
-        Parameters
-        ----------
-        box : tuple of float
-            Smallest x and y, largest x and y, in metres of the frame.
-        """
-        first, last = (
-            self.window(self.block(*(int(self.number(each)) for each in corner)))
-            for corner in (box[:2], box[2:])
-        )
-        return (*first[:2], *last[2:])
-
     def over(self, store: Store) -> Iterator[Block]:
         """Yield the blocks that may hold points of a store, from south to north."""
         leaves = store.leaves
@@ -364,3 +349,12 @@ class Blocks:
         local = tuple(each - at for each, at in zip(box, corner * 2))
         part = None if store.leaves.are_inside(leaves, box) else local
         return store.read(leaves, part, corner, progress)
+
+    def core(self, block: Block, contents: BlockPoints, is_only: bool) -> np.ndarray:
+        """Return which points of its contents a block is to say something of; boolean, (n,).
+
+        The only block holds them all.
+        """
+        if is_only:
+            return contents.wanted
+        return contents.wanted & block.holds(contents.points, self.corner(block))

@@ -19,7 +19,8 @@ from ..core.temporary import make_temporary, remove_temporary
 from ..las.backends import require
 from .jobs import JobResult, attempt
 from .memory import Resources, free_memory
-from .workers import SCHEDULER_GONE, Job, JobProgress, Running, Workers, share_of
+from .scheduling import JobProgress
+from .workers import SCHEDULER_GONE, Job, Running, Workers
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -112,7 +113,7 @@ class Cluster(Workers):
                 for each in facts.values()
             }
             memory = int(min(_SHARE * each.free / on_host[each.host] for each in facts.values()))
-        self.share = share_of(1, memory)
+        self.share = Resources.of(1, memory)
         self.at_once = self._room()
         # Each job is done once, whatever Dask still knows of one that is the same.
         self._pool = self._client.get_executor(pure=False)
@@ -138,14 +139,14 @@ class Cluster(Workers):
         """Return what the workers say of themselves; refuse those that could not work."""
         from ..core.version import __version__
 
+        install = f"Install bare-earth {__version__} there."
         try:
             facts = self._client.run(_facts, str(self._mark), on_error="return")
         except OSError as error:
             raise BareEarthError(SCHEDULER_GONE) from error
         except Exception as error:
             raise BareEarthError(
-                f"The workers of {self._address} cannot load this package ({error}). Install"
-                f" bare-earth {__version__} there."
+                f"The workers of {self._address} cannot load this package ({error}). {install}"
             ) from error
         if not facts:
             raise BareEarthError(
@@ -157,8 +158,7 @@ class Cluster(Workers):
                 raise BareEarthError(f"The worker {address} does not answer. Run it again.")
             if not isinstance(each, _Facts):
                 raise BareEarthError(
-                    f"The worker {address} cannot load this package ({each}). Install bare-earth"
-                    f" {__version__} there."
+                    f"The worker {address} cannot load this package ({each}). {install}"
                 )
             if each.version != __version__:
                 raise BareEarthError(

@@ -168,98 +168,87 @@ def fixed_terrain(
     """
     if not constraints.any:
         return None
-    shapes = _Shapes(constraints, clouds, frame, ground, cell / _PER_CELL, progress)
-    borders, insides = zip(*shapes.water()) if constraints.water else ((), ())
-    none = np.zeros((0, 3))
-    edges = np.concatenate([none, *shapes.breaklines(), *borders])
+    unit, step = frame.horizontal_unit, cell / _PER_CELL
+    lines = [
+        along(line * (unit, unit, frame.vertical_unit), step) for line in constraints.breaklines
+    ]
+    waters = [
+        tuple(np.column_stack((ring * unit, np.zeros(len(ring)))) for ring in polygon)
+        for polygon in constraints.water
+    ]
+    borders = [
+        np.concatenate([along(ring, step, is_closed=True) for ring in polygon])
+        for polygon in waters
+    ]
+    rivers = [along(line * (unit, unit, 1.0), _STATION)[:, :2] for line in constraints.rivers]
+    near = _ground_near([*lines, *borders], clouds, ground, frame)
+    if waters:
+        # What lies in water is no bank.
+        water = Area(None, tuple(tuple(ring[:, :2] for ring in each) for each in waters))
+        near = near[~water.contains(*near[:, :2].T)]
+    heights, none = NearestHeights(near, _NEAR), np.zeros((0, 3))
+    flat = list(_flattened(waters, borders, rivers, heights, progress))
+    borders, insides = zip(*flat) if flat else ((), ())
+    edges = np.concatenate([none, *_along_breaklines(lines, heights, progress), *borders])
     return FixedTerrain(edges, np.concatenate([none, *insides]), cell)
 
 
 def parts_of(files: Sequence[LasFile], progress: Progress = SILENT) -> Iterator[PointCloud]:
     """Yield all points of some files, part by part."""
-    for number, las in enumerate(files):
-        part = progress.part(number / len(files), (number + 1) / len(files))
+    for las, part in zip(files, progress.shares(*[1.0] * len(files))):
         yield from read_parts(las, part.quiet())
 
 
-class _Shapes:
-    """Lines and water in metres of the survey, and the ground near them."""
+def _along_breaklines(
+    lines: Sequence[np.ndarray], ground: NearestHeights, progress: Progress
+) -> Iterator[np.ndarray]:
+    """Yield the vertices of each breakline."""
+    lost = 0
+    for line in lines:
+        unknown = np.isnan(line[:, 2])
+        sides = ground.beside(line)[np.tile(unknown, 2)]
+        sides = sides[~np.isnan(sides[:, 2])]
+        lost += bool(unknown.all()) and not len(sides)
+        yield np.concatenate((line[~unknown], sides))
+    if lost:
+        progress.warning(
+            f"Breaklines left out: {lost:,}. They have no z, and no ground point within"
+            f" {_NEAR:g} m."
+        )
 
-    def __init__(
-        self,
-        constraints: Constraints,
-        clouds: Iterable[PointCloud],
-        frame: Frame,
-        ground: GroundClasses,
-        step: float,
-        progress: Progress,
-    ) -> None:
-        self._constraints, self._step, self._progress = constraints, step, progress
-        self._frame = frame
-        unit = frame.horizontal_unit
-        self._lines = [
-            along(line * (unit, unit, frame.vertical_unit), step) for line in constraints.breaklines
-        ]
-        self._waters = [
-            tuple(np.column_stack((ring * unit, np.zeros(len(ring)))) for ring in polygon)
-            for polygon in constraints.water
-        ]
-        self._borders = [
-            np.concatenate([along(ring, step, is_closed=True) for ring in polygon])
-            for polygon in self._waters
-        ]
-        near = _ground_near([*self._lines, *self._borders], clouds, ground, frame)
-        if self._waters:
-            # What lies in water is no bank.
-            water = Area(None, tuple(tuple(ring[:, :2] for ring in each) for each in self._waters))
-            near = near[~water.contains(*near[:, :2].T)]
-        self._ground = NearestHeights(near, _NEAR)
 
-    def breaklines(self) -> Iterator[np.ndarray]:
-        """Yield the vertices of each breakline."""
-        lost = 0
-        for line in self._lines:
-            unknown = np.isnan(line[:, 2])
-            sides = self._ground.beside(line)[np.tile(unknown, 2)]
-            sides = sides[~np.isnan(sides[:, 2])]
-            lost += bool(unknown.all()) and not len(sides)
-            yield np.concatenate((line[~unknown], sides))
-        if lost:
-            self._progress.warning(
-                f"Breaklines left out: {lost:,}. They have no z, and no ground point within"
-                f" {_NEAR:g} m."
-            )
-
-    def water(self) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-        """Yield the vertices of each water: those of its border, and some inside."""
-        rivers = [
-            along(line * ([self._frame.horizontal_unit] * 2 + [1.0]), _STATION)[:, :2]
-            for line in self._constraints.rivers
-        ]
-        dry = 0
-        for polygon, border in zip(self._waters, self._borders):
-            heights = self._ground.at(border[:, :2])
-            if np.isnan(heights).all():
-                dry += 1
-                yield np.zeros((0, 3)), np.zeros((0, 3))
-                continue
-            area = Area(None, (tuple(ring[:, :2] for ring in polygon),))
-            inside = inside_grid(area.bounds, _INSIDE)
-            inside = inside[area.contains(*inside.T)]
-            places = np.concatenate((border[:, :2], inside))
-            levels = np.full(len(places), np.nanpercentile(heights, _LEVEL))
-            line = np.concatenate(
-                [np.zeros((0, 2)), *(each[area.contains(*each.T)] for each in rivers)]
-            )
-            if len(line) > 1:
-                levels = falling(line, border[:, :2], heights, places, _LEVEL)
-            vertices = np.column_stack((places, levels))
-            yield vertices[: len(border)], vertices[len(border) :]
-        if dry:
-            self._progress.warning(
-                f"Polygons of water that are not flattened: {dry:,}. They have no ground point"
-                f" within {_NEAR:g} m of their border. The terrain uses no ground points in them."
-            )
+def _flattened(
+    waters: Sequence[Polygon],
+    borders: Sequence[np.ndarray],
+    rivers: Sequence[np.ndarray],
+    ground: NearestHeights,
+    progress: Progress,
+) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Yield the vertices of each water: those of its border, and some inside."""
+    dry = 0
+    for polygon, border in zip(waters, borders):
+        heights = ground.at(border[:, :2])
+        if np.isnan(heights).all():
+            dry += 1
+            yield np.zeros((0, 3)), np.zeros((0, 3))
+            continue
+        area = Area(None, (tuple(ring[:, :2] for ring in polygon),))
+        inside = inside_grid(area.bounds, _INSIDE)
+        inside = inside[area.contains(*inside.T)]
+        places = np.concatenate((border[:, :2], inside))
+        levels = np.full(len(places), np.nanpercentile(heights, _LEVEL))
+        line = np.concatenate(
+            [np.zeros((0, 2)), *(each[area.contains(*each.T)] for each in rivers)]
+        )
+        if len(line) > 1:
+            levels = falling(line, border[:, :2], heights, places, _LEVEL)
+        vertices = np.column_stack((places, levels))
+        yield vertices[: len(border)], vertices[len(border) :]
+    if dry:
+        progress.warning(
+            f"Polygons of water that are not flattened: {dry:,}. They have no ground point"
+            f" within {_NEAR:g} m of their border. The terrain uses no ground points in them."
+        )
 
 
 def _ground_near(

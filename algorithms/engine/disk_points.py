@@ -13,10 +13,10 @@ from typing import BinaryIO, Iterator
 import numpy as np
 
 from ..core.files import describe_write_error
-from ..core.points import Frame
+from ..core.points import Box, Frame
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud, survey_frame
-from .blocks import BlockPoints, Box, Corner, Leaves, gathered
+from .blocks import BlockPoints, Corner, Leaves, gathered
 from .leaf_index import LeafIndex, Sorted, smallest_integers
 
 _RECORD = np.dtype([("x", "<i4"), ("y", "<i4"), ("z", "<i4"), ("flags", "u1")])
@@ -153,7 +153,8 @@ class DiskPoints:
 
         def read(number: int) -> BlockPoints:
             start, end = runs[number]
-            records = self._read(start, end)
+            with self._lock:
+                records = _read(self._records, _RECORD, start, end)
             columns = {name: records[name] for name in "xyz"}
             points = dataclasses.replace(self.cloud, **columns).points(slice(None), frame)
             flags = records["flags"]
@@ -162,12 +163,6 @@ class DiskPoints:
 
         return gathered([end - start for start, end in runs], read, box, kind, progress)
 
-    def _read(self, start: int, end: int) -> np.ndarray:
-        with self._lock:
-            self._records.seek(start * _RECORD.itemsize)
-            data = self._records.read((end - start) * _RECORD.itemsize)
-        return np.frombuffer(data, dtype=_RECORD)
-
     def put(self, positions: np.ndarray, labels: np.ndarray) -> None:
         """Keep the labels of points; their positions ascend."""
         if not len(positions):
@@ -175,16 +170,11 @@ class DiskPoints:
         cuts = np.flatnonzero(np.diff(positions) > _GAP) + 1
         for where, values in zip(np.split(positions, cuts), np.split(labels, cuts)):
             first, last = int(where[0]), int(where[-1]) + 1
-            held = self._labels_at(first, last).copy()
+            held = _read(self._labels, self._kind, first, last).copy()
             held[where - first] = values
             with self._told():
                 self._labels.seek(first * self._kind.itemsize)
                 self._labels.write(held.tobytes())
-
-    def _labels_at(self, first: int, last: int) -> np.ndarray:
-        self._labels.seek(first * self._kind.itemsize)
-        data = self._labels.read((last - first) * self._kind.itemsize)
-        return np.frombuffer(data, dtype=self._kind)
 
     def values_of(self, number: int, part: PointCloud) -> np.ndarray:
         """Return what is kept of the points of a part that was appended.
@@ -205,8 +195,15 @@ class DiskPoints:
         selected = np.unpackbits(bits, count=part.count).astype(bool)
         order = self._sorted(part, selected).order
         values = np.zeros(part.count, dtype=self._kind)
-        values[np.flatnonzero(selected)[order]] = self._labels_at(start, start + len(order))
+        end = start + len(order)
+        values[np.flatnonzero(selected)[order]] = _read(self._labels, self._kind, start, end)
         return values
+
+
+def _read(file: BinaryIO, kind: np.dtype, start: int, end: int) -> np.ndarray:
+    """Return some of the values in a file, all of which are of one type."""
+    file.seek(start * kind.itemsize)
+    return np.frombuffer(file.read((end - start) * kind.itemsize), dtype=kind)
 
 
 def room_on_disk(target: Path, kind: type, count: int) -> np.ndarray:

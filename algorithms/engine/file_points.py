@@ -81,8 +81,8 @@ class FilePoints:
         self._source, self._target = cloud, target
         self._files, self._is_told = contextlib.ExitStack(), False
         if not self.is_in_memory:
-            memory = min(resources.bytes, _MOST_FOR_BLOCKS) / GIGABYTE
-            self.resources = Resources(threads=resources.threads, memory=max(memory, 0.001))
+            memory = min(resources.bytes, _MOST_FOR_BLOCKS)
+            self.resources = Resources.of(resources.threads, memory)
 
     @classmethod
     def opened(
@@ -182,11 +182,10 @@ class FilePoints:
             for (step, tally), marks in zip(steps, every):
                 for mine, some in zip(marks, step.marks(part, tally)):
                     mine[where] = some
-        stores = []
-        for number, ((step, tally), marks) in enumerate(zip(steps, every)):
+        stores, shares = [], progress.shares(*[1.0] * len(steps))
+        for (step, tally), marks, part in zip(steps, every, shares):
             step.tell(tally, self.path, progress)
             files, frame = [SurveyFile(self.cloud, *marks)], survey_frame(self.cloud.crs)
-            part = progress.part(number / len(steps), (number + 1) / len(steps))
             stores.append(MemoryPoints(files, frame, step.blocks, part, step.kind))
         return stores
 

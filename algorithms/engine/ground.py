@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import collections
+from functools import partial
 from typing import Any, Callable, Iterator, NamedTuple
 
 import numpy as np
@@ -11,13 +12,12 @@ from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Notes, Progress
 from ..filters import method_of
-from ..filters.method import Method
 from ..filters.shared.below_ground import below_ground
 from ..filters.shared.bridges import bridge_decks
 from ..filters.shared.doubts import tell_of_extent, tell_of_little_ground
 from ..grids.cells import apart
-from ..survey.selection import Special
-from .blocks import BRIDGE, GROUND, LOW, Block, BlockPoints, Blocks, Store
+from ..survey.selection import Selection
+from .blocks import BRIDGE, GROUND, LOW, Block, BlockPoints, Blocks, Corner, Store
 from .memory import Resources, give_back
 from .scheduling import run_jobs
 
@@ -25,6 +25,10 @@ from .scheduling import run_jobs
 _MUCH = 100_000_000
 # The steps of bridges and of low outliers take these shares of the time of a block.
 _BRIDGES_SHARE, _LOW_SHARE = 0.15, 0.1
+
+
+# Labels the points of a window.
+_Label = Callable[[BlockPoints, Progress], np.ndarray]
 
 
 class _Labelled(NamedTuple):
@@ -44,7 +48,7 @@ def label_ground(
     store: Store,
     parameters: ParameterSet,
     blocks: Blocks,
-    special: Special = Special(),
+    selection: Selection = Selection(),
     resources: Resources = Resources(),
     progress: Progress = SILENT,
 ) -> None:
@@ -58,8 +62,8 @@ def label_ground(
         Those of one method.
     blocks : Blocks
         How the survey is cut; `blocks_of` says.
-    special : Special
-        What gets `LOW`, and whether decks of bridges get `BRIDGE`.
+    selection : Selection
+        Says whether low outliers get `LOW`, and decks of bridges `BRIDGE`.
     resources : Resources
         Threads, and the memory for the blocks.
     progress : Progress
@@ -78,9 +82,9 @@ def label_ground(
             f"{method.label} does not start from known ground; it only keeps these"
             " points as ground."
         )
-    job_of = _job_maker(store, blocks, _Filter(method, parameters, special))
+    work = partial(_labelled, store, blocks, partial(_label, parameters, selection))
     notes = {}
-    for number, result in over_blocks(store, blocks, job_of, resources, progress):
+    for number, result in over_blocks(store, blocks, work, resources, progress):
         store.put(result.positions, result.labels)
         if result.notes.count:
             notes[number] = result.notes
@@ -90,19 +94,19 @@ def label_ground(
 def over_blocks(
     store: Store,
     blocks: Blocks,
-    job_of: Callable[[Block, bool], Callable[[Progress], Any]],
+    work: Callable[[Block, bool, Progress], Any],
     resources: Resources,
     progress: Progress,
     is_wanted: Callable[[Block], bool] | None = None,
 ) -> Iterator[tuple[int, Any]]:
-    """Yield what a job makes of each block, with the number of the block, as they end.
+    """Yield what is made of each block, with the number of the block, as they end.
 
     Parameters
     ----------
     store, blocks, resources, progress
         As for `label_ground`.
-    job_of : callable
-        Takes a block, and whether it is the only one, and returns its job.
+    work : callable
+        Makes it: takes a block, whether it is the only one, and a `Progress`.
     is_wanted : callable, optional
         Says of a block whether it is to be done; all are, if it is not given.
     """
@@ -117,12 +121,40 @@ def over_blocks(
     ]
     at_once = _at_once(len(todo), max(memory), resources)
     workers = max(1, resources.thread_count // at_once)
-    jobs = [job_of(each, len(todo) == 1) for each in todo]
+    jobs = [partial(work, each, len(todo) == 1) for each in todo]
     is_tight = sum(memory) > resources.bytes
     for number, result in run_jobs(jobs, counts, at_once, workers, progress):
         if is_tight and memory[number] > _MUCH:
             give_back()
         yield number, result
+
+
+def fill(
+    store: Store,
+    blocks: Blocks,
+    values_of: Callable[[BlockPoints, np.ndarray, Corner, Progress], np.ndarray],
+    resources: Resources,
+    progress: Progress,
+) -> None:
+    """Put a value for each wanted point of a store.
+
+    Parameters
+    ----------
+    store, blocks, resources, progress
+        As for `label_ground`.
+    values_of : callable
+        Takes what is seen for a block, which points of it are wanted, its corner and a `Progress`,
+        and returns the values of these points, in their order.
+    """
+
+    def found(block: Block, is_only: bool, progress: Progress) -> tuple[np.ndarray, np.ndarray]:
+        contents = blocks.contents(block, store, progress.part(0.0, 0.1))
+        core = blocks.core(block, contents, is_only)
+        part = progress.part(0.1, 1.0)
+        return contents.positions[core], values_of(contents, core, blocks.corner(block), part)
+
+    for _, (positions, values) in over_blocks(store, blocks, found, resources, progress):
+        store.put(positions, values)
 
 
 def _at_once(number: int, largest: int, resources: Resources) -> int:
@@ -131,86 +163,54 @@ def _at_once(number: int, largest: int, resources: Resources) -> int:
     return int(max(1, min(number, resources.thread_count, fitting)))
 
 
-class _Filter(NamedTuple):
-    """What labels the points of a window.
-
-    Attributes
-    ----------
-    method : Method
-        The ground filter.
-    parameters : ParameterSet
-        Those of the method.
-    special : Special
-        As for `label_ground`.
-    """
-
-    method: Method
-    parameters: ParameterSet
-    special: Special
-
-    def label(self, contents: BlockPoints, progress: Progress) -> np.ndarray:
-        """Return the label of each point."""
-        depth, method = self.special.low_noise_depth, self.method
-        end = 1.0 if depth is None else 1.0 - _LOW_SHARE
-        finds_bridges = self._finds_bridges
-        part = progress.part(0.0, end - _BRIDGES_SHARE if finds_bridges else end)
-        points, known = contents.points, contents.known
-        if points.count == 1:
-            # There is nothing to tell it from, and a survey may be scattered all over a country.
-            return np.array([GROUND], dtype=np.uint8)
-        tell_of_extent(points, *method.largest(self.parameters), progress)
-        if known.any() and method.takes_known_ground:
-            ground = method.classify(points, self.parameters, part, known_ground=known)
-        else:
-            ground = method.classify(points, self.parameters, part)
-        ground |= known
-        tell_of_little_ground(points, ground, progress)
-        labels = ground.astype(np.uint8)
-        if finds_bridges:
-            decks = bridge_decks(points, ground) & ~known
-            labels[decks] = BRIDGE
-            ground &= ~decks
-            progress(end)
-        if depth is not None:
-            low = below_ground(points, ground, depth, progress.part(end, 1.0))
-            labels[low & (labels == 0)] = LOW
-        return labels
-
-    @property
-    def _finds_bridges(self) -> bool:
-        wanted = self.special.bridges
-        return wanted == "find" or (
-            wanted == "automatic" and not self.method.is_classic(self.parameters)
-        )
+def _label(
+    parameters: ParameterSet, selection: Selection, contents: BlockPoints, progress: Progress
+) -> np.ndarray:
+    """Return the label of each point of a window."""
+    method, finds_low = method_of(parameters), selection.low_noise_class
+    end = 1.0 - _LOW_SHARE if finds_low else 1.0
+    finds_bridges = selection.bridges == "find" or (
+        selection.bridges == "automatic" and not method.is_classic(parameters)
+    )
+    part = progress.part(0.0, end - _BRIDGES_SHARE if finds_bridges else end)
+    points, known = contents.points, contents.known
+    if points.count == 1:
+        # There is nothing to tell it from, and a survey may be scattered all over a country.
+        return np.array([GROUND], dtype=np.uint8)
+    tell_of_extent(points, *method.largest(parameters), progress)
+    ground = method.ground(points, parameters, part, known) | known
+    tell_of_little_ground(points, ground, progress)
+    labels = ground.astype(np.uint8)
+    if finds_bridges:
+        decks = bridge_decks(points, ground) & ~known
+        labels[decks] = BRIDGE
+        ground &= ~decks
+        progress(end)
+    if finds_low:
+        low = below_ground(points, ground, selection.low_noise_depth, progress.part(end, 1.0))
+        labels[low & (labels == 0)] = LOW
+    return labels
 
 
-def _job_maker(
-    store: Store, blocks: Blocks, filter_: _Filter
-) -> Callable[[Block, bool], Callable[[Progress], _Labelled]]:
-    def job_of(block: Block, is_only: bool) -> Callable[[Progress], _Labelled]:
-        def job(progress: Progress) -> _Labelled:
-            contents = blocks.contents(block, store, progress.part(0.0, 0.15))
-            # The only block holds them all.
-            core = contents.wanted.copy()
-            if not is_only:
-                core &= block.holds(contents.points, blocks.corner(block))
-            positions = contents.positions if core.all() else contents.positions[core]
-            notes = _Notes(progress.part(0.15, 1.0), len(positions), is_only)
-            labels = np.zeros(len(positions), dtype=np.uint8)
-            if notes.count:
-                try:
-                    labels = _labels(contents, core, filter_, blocks.buffer, notes)[core]
-                except BareEarthError as error:
-                    notes.failure = error
-            return _Labelled(positions, labels, notes)
-
-        return job
-
-    return job_of
+def _labelled(
+    store: Store, blocks: Blocks, label: _Label, block: Block, is_only: bool, progress: Progress
+) -> _Labelled:
+    """Label the points of a block."""
+    contents = blocks.contents(block, store, progress.part(0.0, 0.15))
+    core = blocks.core(block, contents, is_only)
+    positions = contents.positions if core.all() else contents.positions[core]
+    notes = _Notes(progress.part(0.15, 1.0), len(positions), is_only)
+    labels = np.zeros(len(positions), dtype=np.uint8)
+    if notes.count:
+        try:
+            labels = _labels(contents, core, label, blocks.buffer, notes)[core]
+        except BareEarthError as error:
+            notes.failure = error
+    return _Labelled(positions, labels, notes)
 
 
 def _labels(
-    contents: BlockPoints, wanted: np.ndarray, filter_: _Filter, reach: float, progress: Progress
+    contents: BlockPoints, wanted: np.ndarray, label: _Label, reach: float, progress: Progress
 ) -> np.ndarray:
     """Return the label of each point of a window that is wanted.
 
@@ -222,7 +222,7 @@ def _labels(
     progress(0.1)
     progress = progress.part(0.1, 1.0)
     if count == 1:
-        return filter_.label(contents, progress)
+        return label(contents, progress)
     sizes = np.bincount(groups, minlength=count)
     labels, failures, done = np.zeros(len(groups), dtype=np.uint8), [], 0
     needed = np.flatnonzero(np.bincount(groups[wanted], minlength=count))
@@ -231,7 +231,7 @@ def _labels(
         part = progress.part(done / len(groups), end / len(groups))
         try:
             # What there is to say of the points is said of the most of them.
-            labels[which] = filter_.label(contents.take(which), part.quiet() if done else part)
+            labels[which] = label(contents.take(which), part.quiet() if done else part)
         except BareEarthError as error:
             failures.append(error)
         done = end

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
-from functools import partial
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Callable, NamedTuple
 
 import numpy as np
 
+from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..crs.system import unit_name
@@ -18,14 +17,15 @@ from ..products.height_above_ground import height_above_ground
 from ..survey.area import Area
 from ..survey.ground_classes import GroundClasses, GroundTally
 from ..survey.selection import ground_of
-from .blocks import Block, Blocks, Store
-from .ground import over_blocks
+from .blocks import BlockPoints, Blocks, Corner, Store
+from .ground import fill
 from .memory import Cost, Resources
-from .output import HEIGHT_DIMENSION, height_edits
+from .output import HEIGHT_DIMENSION, height_dimension
 from .steps import Marks, PointResult, PointStep, Room
 
 # Metres round a block in which ground points matter for its heights, and what it takes.
 _BLOCKS = Blocks.of(100.0, Cost(150.0, 50.0))
+_INTEGERS = np.iinfo(np.int32)
 
 
 @dataclass(frozen=True)
@@ -95,14 +95,11 @@ class MeasureHeights(PointStep):
     ground_only: bool = False
     area: Area | None = None
 
+    tally = GroundTally
     kind = np.float64
     blocks = _BLOCKS
     summary_type = HeightSummary
     vpc_name = "heights.vpc"
-
-    def tally(self) -> GroundTally:
-        """Return what `marks` counts in."""
-        return GroundTally()
 
     def marks(self, part: PointCloud, tally: GroundTally) -> Marks:
         """Return all points, which of them are ground, and which lie in the area."""
@@ -116,9 +113,7 @@ class MeasureHeights(PointStep):
 
     def work(self, store: Store, resources: Resources, progress: Progress) -> None:
         """Put the height of each wanted point in metres; NaN in blocks without ground."""
-        job_of = partial(_job_of, store)
-        for _, result in over_blocks(store, self.blocks, job_of, resources, progress):
-            store.put(result.positions, result.heights)
+        fill(store, self.blocks, _heights, resources, progress)
 
     def result(self, path: Path, room: Room) -> HeightsOfPoints:
         """Return what keeps the heights of a file."""
@@ -163,8 +158,16 @@ class HeightsOfPoints(PointResult):
         self._highest = max(self._highest, float(np.fmax.reduce(heights, initial=-np.inf)))
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
-        """Return the heights as z or as a dimension."""
-        return replace(height_edits(cloud, self.heights, self._as_z), kept=self._kept)
+        """Return the heights as z or as a dimension.
+
+        Raises
+        ------
+        BareEarthError
+            If they do not fit into z.
+        """
+        if self._as_z:
+            return Edits(z=_z_of(cloud, self.heights), kept=self._kept)
+        return Edits(extra=height_dimension(cloud, self.heights), kept=self._kept)
 
     def summary(self, name: str) -> HeightSummary:
         """Return the lowest and the highest height."""
@@ -175,24 +178,28 @@ class HeightsOfPoints(PointResult):
         return HeightSummary(name, written, self._ground_count, *extremes, self._unit)
 
 
-class _Heights(NamedTuple):
-    """Heights in metres of the points at some positions of a store."""
+def _z_of(cloud: PointCloud, heights: np.ndarray) -> np.ndarray:
+    """Return heights as integers of the file's scale and offset."""
+    if np.isnan(heights).any():
+        raise BareEarthError(
+            f"Some points of {cloud.path} are kilometres from any ground, so that they have no"
+            " height above ground. Write the heights as an extra dimension."
+        )
+    values = np.rint((heights - cloud.offset[2]) / cloud.scale[2])
+    if values.min() < _INTEGERS.min or values.max() > _INTEGERS.max:
+        raise BareEarthError(
+            f"Heights above ground do not fit the scale {cloud.scale[2]:g} and offset"
+            f" {cloud.offset[2]:g} of z in {cloud.path}. Write them as an extra dimension."
+        )
+    return values.astype(np.int32)
 
-    positions: np.ndarray
-    heights: np.ndarray
 
-
-def _job_of(store: Store, block: Block, is_only: bool) -> Callable[[Progress], _Heights]:
-    def job(progress: Progress) -> _Heights:
-        points, ground, wanted, positions = _BLOCKS.contents(block, store, progress.part(0.0, 0.1))
-        if not is_only:
-            wanted = wanted & block.holds(points, _BLOCKS.corner(block))
-        positions = positions[wanted]
-        if not ground.any():
-            return _Heights(positions, np.full(len(positions), np.nan))
-        if not len(positions):
-            return _Heights(positions, np.zeros(0))
-        heights = height_above_ground(points, ground, progress.part(0.1, 1.0), wanted)
-        return _Heights(positions, heights[wanted])
-
-    return job
+def _heights(
+    contents: BlockPoints, wanted: np.ndarray, corner: Corner, progress: Progress
+) -> np.ndarray:
+    """Return the heights of wanted points in metres."""
+    if not contents.known.any():
+        return np.full(np.count_nonzero(wanted), np.nan)
+    if not wanted.any():
+        return np.zeros(0)
+    return height_above_ground(contents.points, contents.known, progress, wanted)[wanted]

@@ -68,15 +68,21 @@ class JobQueue:
         self._finished = 0.0
 
     def work(self) -> None:
-        """Run all jobs.
+        """Run all jobs, and stop the workers.
 
         Raises
         ------
         BareEarthError
             If the workers are gone.
         Cancelled
-            If the user asked to stop; the workers must be stopped then.
+            If the user asked to stop.
         """
+        try:
+            self._run()
+        finally:
+            self._workers.stop()
+
+    def _run(self) -> None:
         self._find_ready()
         while self._fill():
             futures = {each.future: each for each in self._running}
@@ -187,18 +193,6 @@ class JobQueue:
         for (kind, _), texts in self._heard.items():
             more = f" (And {len(texts) - 1:,} more like this.)" if len(texts) > 1 else ""
             getattr(self._progress, kind)(texts[0] + more)
-
-
-def worked_off(
-    blocks: list[BlockJob], tiles: list[TileJob], workers: Workers, progress: Progress
-) -> JobQueue:
-    """Run jobs, stop the workers, and return what became of the jobs; see `JobQueue`."""
-    queue = JobQueue(blocks, tiles, workers, progress)
-    try:
-        queue.work()
-    finally:
-        workers.stop()
-    return queue
 
 
 def _without_numbers(text: str) -> str:

@@ -17,8 +17,8 @@ from ..core.files import replacing
 from ..core.progress import Notes, Progress
 from ..core.threads import may_use
 from ..las.cloud import PointCloud
+from ..las.lasfile import LasFile
 from ..las.writing import layers_kept, write_changed
-from ..survey.collection import Tile
 from ..survey.window import read_window
 from .file_points import FilePoints
 from .memory import Resources
@@ -85,11 +85,9 @@ class BlockJob:
     def clouds(self, progress: Progress) -> Iterator[PointCloud]:
         """Yield the points of each file that the blocks need."""
         window = self.survey.window(self.places)
-        for number, source in enumerate(self.sources):
-            start, end = (each / len(self.sources) for each in (number, number + 1))
+        for source, part in zip(self.sources, progress.shares(*[1.0] * len(self.sources))):
             try:
-                part = progress.part(start, end).quiet()
-                cloud = read_window(source, window, part, trust_header=True)
+                cloud = read_window(source, window, part.quiet(), trust_header=True)
             except BareEarthError as error:
                 progress.warning(
                     f"{source.name} is left out: the results beside it are made without its"
@@ -175,7 +173,7 @@ class TileJob:
         What all jobs share.
     step : PointStep
         What was found.
-    tile : Tile
+    tile : LasFile
         The input.
     target : Path
         The output.
@@ -189,7 +187,7 @@ class TileJob:
 
     survey: Survey
     step: PointStep
-    tile: Tile
+    tile: LasFile
     target: Path
     places: tuple[BlockIndex, ...]
     files: tuple[Path, ...]
@@ -197,7 +195,7 @@ class TileJob:
 
     def run(self, resources: Resources, progress: Progress) -> Any:
         """Do it; return the summary of the step, or None if there is nothing to write."""
-        step, las, path = self.step, self.tile.file, self.tile.path
+        step, las, path = self.step, self.tile, self.tile.path
         tally, kept = step.tally(), KeptValues(self)
         is_copied = layers_kept(las, self.target) is not None
         reading = progress.part(0.0, 0.4).quiet()

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import Callable, NamedTuple
 
 import numpy as np
 
@@ -14,12 +13,12 @@ from ..core.progress import SILENT, Progress
 from ..grids.model_key_points import ModelKeyPoints, model_key_points, reach
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
+from ..las.lasfile import LasFile
 from ..las.records import check_class
-from ..survey.collection import Tile
 from ..survey.ground_classes import GroundClasses, GroundTally
 from ..survey.tally import count_classes
-from .blocks import Block, Blocks, Store
-from .ground import over_blocks
+from .blocks import BlockPoints, Blocks, Corner, Store
+from .ground import fill
 from .memory import Resources
 from .remembering import Memory
 from .steps import Marks, PointResult, PointStep, Room
@@ -110,6 +109,7 @@ class FindKeyPoints(PointStep):
     ground: GroundClasses = field(default_factory=GroundClasses)
     mark: KeyPointMark = field(default_factory=KeyPointMark)
 
+    tally = GroundTally
     summary_type = KeyPointSummary
     vpc_name = "key_points.vpc"
 
@@ -117,10 +117,6 @@ class FindKeyPoints(PointStep):
     def blocks(self) -> Blocks:
         """The blocks in which key points are found."""
         return Blocks.of(reach(self.parameters))
-
-    def tally(self) -> GroundTally:
-        """Return what `marks` counts in."""
-        return GroundTally()
 
     def marks(self, part: PointCloud, tally: GroundTally) -> Marks:
         """Return the ground points."""
@@ -133,16 +129,14 @@ class FindKeyPoints(PointStep):
         """Refuse a file without ground."""
         self.ground.check(tally, path)
 
-    def check_tile(self, tile: Tile | PointCloud) -> None:
+    def check_tile(self, tile: LasFile | PointCloud) -> None:
         """Refuse a file whose points cannot hold the class."""
         if self.mark.by_class:
             check_class(tile.path, tile.point_format, self.mark.key_class, "the key points")
 
     def work(self, store: Store, resources: Resources, progress: Progress) -> None:
         """Find the key points."""
-        job_of = partial(_job_of, store, self.blocks, self.parameters)
-        for _, found in over_blocks(store, self.blocks, job_of, resources, progress):
-            store.put(found.positions, np.where(found.keys, _KEY, _OTHER).astype(np.uint8))
+        fill(store, self.blocks, partial(_keys, self.parameters), resources, progress)
 
     def result(self, path: Path, room: Room) -> KeyPointsOfPoints:
         """Return what keeps the key points of a file."""
@@ -197,27 +191,17 @@ class KeyPointsOfPoints(PointResult):
         return KeyPointSummary(name, len(self._values), *points, counts)
 
 
-class _Found(NamedTuple):
-    """Which of the points at some positions of a store are key points."""
-
-    positions: np.ndarray
-    keys: np.ndarray
-
-
-def _job_of(
-    store: Store, blocks: Blocks, parameters: ModelKeyPoints, block: Block, is_only: bool
-) -> Callable[[Progress], _Found]:
-    def job(progress: Progress) -> _Found:
-        contents = blocks.contents(block, store, progress.part(0.0, 0.1))
-        core = contents.wanted.copy()
-        if not is_only:
-            core &= block.holds(contents.points, blocks.corner(block))
-        keys = np.zeros(len(core), dtype=bool)
-        if core.any():
-            # The grid belongs to the CRS, not to the block.
-            anchor = tuple(-each for each in blocks.corner(block))
-            part = progress.part(0.1, 1.0)
-            keys = model_key_points(contents.points, parameters, part, anchor)
-        return _Found(contents.positions[core], keys[core])
-
-    return job
+def _keys(
+    parameters: ModelKeyPoints,
+    contents: BlockPoints,
+    wanted: np.ndarray,
+    corner: Corner,
+    progress: Progress,
+) -> np.ndarray:
+    """Return `_KEY` or `_OTHER` for wanted points."""
+    if not wanted.any():
+        return np.zeros(0, dtype=np.uint8)
+    # The grid belongs to the CRS, not to the block.
+    anchor = -corner[0], -corner[1]
+    keys = model_key_points(contents.points, parameters, progress, anchor)[wanted]
+    return np.where(keys, _KEY, _OTHER).astype(np.uint8)

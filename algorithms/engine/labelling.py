@@ -16,8 +16,8 @@ from ..core.progress import SILENT, Progress
 from ..filters import method_of
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
+from ..las.lasfile import LasFile
 from ..survey.area import Area
-from ..survey.collection import Tile
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.point_chooser import PointChooser
 from ..survey.selection import Selection
@@ -25,7 +25,7 @@ from ..survey.tally import Tally, count_classes
 from .blocks import BRIDGE, GROUND, LOW, Blocks, Store
 from .ground import blocks_of, label_ground
 from .memory import Resources
-from .output import Output
+from .output import Output, height_dimension
 from .remembering import Memory
 from .steps import Marks, PointResult, PointStep, Room
 
@@ -84,6 +84,7 @@ class LabelGround(PointStep):
     cut: Blocks | None = None
     corrections: Corrections = NO_CORRECTIONS
 
+    tally = Tally
     summary_type = ClassifiedSummary
     vpc_name = "classified.vpc"
 
@@ -98,10 +99,6 @@ class LabelGround(PointStep):
         reach = method_of(self.parameters).reach(self.parameters)
         return PointChooser(self.selection, self.area, reach, self.corrections)
 
-    def tally(self) -> Tally:
-        """Return what `marks` counts in."""
-        return Tally()
-
     def marks(self, part: PointCloud, tally: Tally) -> Marks:
         """Return which points take part, are surely ground, and lie in the area."""
         inside, selected, known = self.chooser.choose(part, tally)
@@ -111,7 +108,7 @@ class LabelGround(PointStep):
         """Tell how many points take part; refuse a file in which none does."""
         self.chooser.tell(tally, path, progress)
 
-    def check_tile(self, tile: Tile) -> None:
+    def check_tile(self, tile: LasFile) -> None:
         """Refuse a file whose points cannot hold the classes."""
         self.chooser.check_classes(tile.path, tile.point_format)
 
@@ -132,7 +129,7 @@ class LabelGround(PointStep):
         if self.area is not None and not self.area.may_touch(box):
             raise self.chooser.no_point_in_area("the files", box)
 
-    def skips(self, tile: Tile) -> bool:
+    def skips(self, tile: LasFile) -> bool:
         """Return whether only the area is written, and a file lies outside."""
         if self.area is None or not self.output.area_only:
             return False
@@ -150,8 +147,7 @@ class LabelGround(PointStep):
 
     def work(self, store: Store, resources: Resources, progress: Progress) -> None:
         """Label the points."""
-        special = self.selection.special
-        label_ground(store, self.parameters, self.blocks, special, resources, progress)
+        label_ground(store, self.parameters, self.blocks, self.selection, resources, progress)
 
     def result(self, path: Path, room: Room) -> ClassifiedPoints:
         """Return what turns labels into classes."""
@@ -254,13 +250,32 @@ class ClassifiedPoints(PointResult):
         progress: Progress = SILENT,
         heights: np.ndarray | None = None,
     ) -> Edits:
-        """Return the new classes, and what else the output is to have."""
-        output, ground = self._step.output, None
+        """Return the new classes, and what else the output is to have.
+
+        Raises
+        ------
+        BareEarthError
+            If nothing would be left to write, or no height can be measured.
+        """
+        output, kept = self._step.output, self._inside
+        if kept is not None:
+            count = np.count_nonzero(~kept)
+            progress.info(f"{count:,} points outside of the area are left out of the output.")
         if output.needs_ground:
             ground = self.classification == self._step.selection.to_class
-        new = self.classification, ground, self._inside
-        edits = output.edits(cloud, *new, heights, progress)
-        return self._memory.added_to(edits)
+            written = ground if kept is None else ground & kept
+            if not written.any():
+                raise BareEarthError(
+                    f"{cloud.path} has no ground points, so there are no ground points to write,"
+                    " and no heights above ground. Check the parameters and the selection of"
+                    " points."
+                )
+            if output.ground_only:
+                count = np.count_nonzero(~ground if kept is None else kept & ~ground)
+                kept = written
+                progress.info(f"{count:,} points that are not ground are left out of the output.")
+        extra = None if heights is None else height_dimension(cloud, heights)
+        return self._memory.added_to(Edits(self.classification, extra=extra, kept=kept))
 
     def summary(self, name: str) -> ClassifiedSummary:
         """Return how many points there are, and how many of them are ground."""

@@ -6,13 +6,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-# Row and column of a leaf as one number: half of those that fit are below 0.
+# Row and column of a square as one number: half of those that fit are below 0.
 _SHIFT, _HALF = 32, 1 << 30
 
 
 def code_of(row: np.ndarray, column: np.ndarray) -> np.ndarray:
-    """Return one number for row and column of each leaf."""
+    """Return one number for row and column of each square."""
     return (row.astype(np.int64) + _HALF << _SHIFT) + column.astype(np.int64) + _HALF
+
+
+def row_and_column(codes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return what `code_of` made numbers of."""
+    return (codes >> _SHIFT) - _HALF, (codes & ((1 << _SHIFT) - 1)) - _HALF
 
 
 class Sorted(NamedTuple):
@@ -45,33 +50,31 @@ class LeafIndex:
     """The runs of the leaves of a store, added as its points are sorted."""
 
     def __init__(self) -> None:
-        self._numbers: dict[int, int] = {}
         self._added: list[np.ndarray] = []
-        self._bounds = np.zeros((2, 0), dtype=np.intp)
+        # Where the runs of each leaf begin, and where those of the last one end.
+        self._bounds = np.zeros(1, dtype=np.intp)
         self._starts = self._counts = np.zeros(0, dtype=np.int64)
 
     def add(self, codes: np.ndarray, counts: np.ndarray, start: int) -> None:
         """Add points that were sorted together and stand in the store from `start` on."""
-        numbers = [self._numbers.setdefault(each, len(self._numbers)) for each in codes.tolist()]
         starts = start + np.cumsum(counts) - counts
-        self._added.append(np.column_stack((numbers, starts, counts)).astype(np.int64))
+        self._added.append(np.column_stack((codes, starts, counts)).astype(np.int64))
 
     def finish(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """End the points; return row, column and number of points of each leaf."""
         added = np.concatenate([np.zeros((0, 3), np.int64), *self._added])
         self._added = []
         added = added[np.argsort(added[:, 0], kind="stable")]
-        every = np.arange(len(self._numbers))
-        self._bounds = np.searchsorted(added[:, 0], [every, every + 1])
+        codes, first = np.unique(added[:, 0], return_index=True)
+        self._bounds = np.append(first, len(added))
         self._starts, self._counts = added[:, 1].copy(), added[:, 2].copy()
-        codes = np.array(list(self._numbers), dtype=np.int64)
-        totals = np.add.reduceat(self._counts, self._bounds[0]) if len(codes) else codes
-        return (codes >> _SHIFT) - _HALF, (codes & ((1 << _SHIFT) - 1)) - _HALF, totals
+        totals = np.add.reduceat(self._counts, first) if len(codes) else codes
+        return (*row_and_column(codes), totals)
 
     def of(self, leaves: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the starts of the runs of some leaves, ascending, and their numbers of points."""
-        runs = [np.arange(*self._bounds[:, leaf]) for leaf in leaves]
-        runs = np.concatenate([np.zeros(0, np.intp), *runs])
+        of_each = [np.arange(*self._bounds[leaf : leaf + 2]) for leaf in leaves]
+        runs = np.concatenate([np.zeros(0, np.intp), *of_each])
         runs = runs[np.argsort(self._starts[runs], kind="stable")]
         return self._starts[runs], self._counts[runs]
 

@@ -170,18 +170,16 @@ def write_files(
     steps[0].check_survey(collection.box)
     targets = _targets_of(collection, folder, request.tiles.format)
     if rasters is not None:
-        _check_rasters(rasters.request.files, folder, (vpc, *targets, *targets.values()))
+        _check_rasters(rasters.files, folder, (vpc, *targets, *targets.values()))
     failures = {each.path.name: (each.path, each.reason) for each in collection.broken}
-    inputs, waiting = {each.path.name: each.path for each in collection.tiles}, []
-    for number, step in enumerate(steps):
-        is_last, place = number == len(steps) - 1, folder
-        if not is_last:
-            place = folders_of(folder)[1] / f"{_WAITING}-{number}"
-            waiting.append(place)
+    inputs = {each.path.name: each.path for each in collection.tiles}
+    waiting = [folders_of(folder)[1] / f"{_WAITING}-{each}" for each in range(len(steps) - 1)]
+    parts = progress.part(0.02, 0.98).shares(*[1.0] * len(steps))
+    for number, (step, place, part) in enumerate(zip(steps, (*waiting, folder), parts)):
+        is_last = place is folder
         targets = _targets_of(collection, place, request.tiles.format if is_last else "same")
-        part = progress.part(*(0.02 + 0.96 * each / len(steps) for each in (number, number + 1)))
         run = TileRun(collection, place, targets, step, part)
-        run.work(workers, request.tiles.resume, part, None if number else rasters)
+        run.work(workers, request.tiles.resume, None if number else rasters)
         for path, reason in run.failures.items():
             failures[path.name] = inputs[path.name], reason
         if not number:

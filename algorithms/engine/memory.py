@@ -52,9 +52,14 @@ class Resources(ParameterSet):
         """Number of threads to use."""
         return self.threads or available_cpus()
 
+    @classmethod
+    def of(cls, threads: int | None, memory: float) -> Resources:
+        """Return so many threads, and so many bytes of memory, or the least there may be."""
+        return cls(threads, max(memory / GIGABYTE, 0.001))
+
     def now(self) -> Resources:
         """Return the same with the memory that is free now, where none was given."""
-        return Resources(self.thread_count, max(self.bytes / GIGABYTE, 0.001))
+        return Resources.of(self.thread_count, self.bytes)
 
     @property
     def bytes(self) -> int:
@@ -99,8 +104,7 @@ def free_memory() -> int:
 
 
 def _linux_free() -> int | None:
-    lines = _lines(_MEMINFO)
-    for line in lines:
+    for line in _lines(_MEMINFO):
         if line.startswith("MemAvailable:"):
             return int(line.split()[1]) * 1024
     try:
@@ -115,12 +119,9 @@ def _cgroup_free() -> int | None:
     if not limit or not used or not limit[0].isdigit():
         return None
     # Of what is used, the system gives up the cache of files that nobody has read lately.
-    cached = [line.split()[1] for line in _lines(_CGROUP / "memory.stat") if _is_cache(line)]
-    return max(int(limit[0]) - int(used[0]) + sum(map(int, cached)), 0)
-
-
-def _is_cache(line: str) -> bool:
-    return line.startswith("inactive_file ")
+    lines = _lines(_CGROUP / "memory.stat")
+    cached = [int(each.split()[1]) for each in lines if each.startswith("inactive_file ")]
+    return max(int(limit[0]) - int(used[0]) + sum(cached), 0)
 
 
 def _lines(path: Path) -> list[str]:

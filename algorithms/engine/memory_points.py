@@ -6,11 +6,11 @@ from typing import Iterator, NamedTuple, Sequence
 
 import numpy as np
 
-from ..core.points import Frame
+from ..core.points import Box, Frame
 from ..core.progress import SILENT, Progress
 from ..core.threads import over_parts, parts_of
 from ..las.cloud import PointCloud
-from .blocks import BlockPoints, Blocks, Box, Corner, Leaves, gathered
+from .blocks import BlockPoints, Blocks, Corner, Leaves, gathered
 from .leaf_index import LeafIndex, Sorted, code_of, smallest_integers
 
 # Points that are looked at, sorted, and read together.
@@ -81,28 +81,21 @@ class MemoryPoints:
         self._orders = [_indices(part, progress.part(0.0, 0.3)) for part in self._parts]
         self._ends = np.cumsum([len(order) for order in self._orders])
         self._runs = LeafIndex()
-        is_one = self._is_one_block(blocks)
-        side = blocks.side if is_one else blocks.leaf_side
+        only = self._only_block(blocks)
+        side = blocks.leaf_side if only is None else blocks.side
         self._start = blocks.start
-        first = self._lowest_block(blocks) if is_one else (0.0, 0.0)
-        self._sort(None if is_one else side, progress.part(0.3, 1.0))
+        self._sort(side if only is None else None, progress.part(0.3, 1.0))
         row, column, totals = self._runs.finish()
-        x, y = ((n + by) * side + blocks.start for n, by in zip((column, row), first))
+        x, y = ((n + by) * side + blocks.start for n, by in zip((column, row), only or (0, 0)))
         self.leaves = Leaves(x, y, side, totals)
 
-    def _is_one_block(self, blocks: Blocks) -> bool:
+    def _only_block(self, blocks: Blocks) -> tuple[float, float] | None:
+        """Return column and row of the block that holds all points; None if there are more."""
         if self._ends[-1] > blocks.most_points:
-            return False
-        blocks_of_corners = blocks.number(self._bounds())
-        return bool((blocks_of_corners == blocks_of_corners[:1]).all())
-
-    def _lowest_block(self, blocks: Blocks) -> tuple[float, float]:
-        """Return column and row of the block that holds the smallest x and y."""
-        return tuple(blocks.number(self._bounds().min(axis=0)).tolist())
-
-    def _bounds(self) -> np.ndarray:
-        """Return x and y of two corners of each file, shape (corners, 2)."""
-        return np.array([part.cloud.bounds(self._frame) for part in self._parts]).reshape(-1, 2)
+            return None
+        corners = np.array([part.cloud.bounds(self._frame) for part in self._parts]).reshape(-1, 2)
+        numbers = blocks.number(corners)
+        return tuple(numbers[0].tolist()) if (numbers == numbers[:1]).all() else None
 
     def _sort(self, side: float | None, progress: Progress) -> None:
         """Sort the points of each file by leaves; there is but one leaf where `side` is None."""

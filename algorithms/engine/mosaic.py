@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Callable, Iterator, NamedTuple, Sequence
+from typing import Callable, Iterator, Sequence
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
 from ..grids.morphology import within_square
 from ..grids.surface import CellLattice, Surface
+from ..products.raster_block import BlockRasters
 
 # Cells that are put together at a time.
 _CELLS_A_STRIP = 4_000_000
@@ -18,36 +19,25 @@ _CELLS_A_STRIP = 4_000_000
 _ROWS = 256
 
 
-class Piece(NamedTuple):
-    """The raster of a block.
-
-    Attributes
-    ----------
-    window : CellWindow
-        Its cells.
-    load : callable
-        Returns its heights, rows from south to north.
-    """
-
-    window: CellWindow
-    load: Callable[[], np.ndarray]
-
-
 class Mosaic:
-    """Heights of a survey.
+    """A layer of a survey.
 
     Parameters
     ----------
-    pieces : sequence of Piece
+    made : sequence of BlockRasters
         Those of the blocks. Cells in none of them have no height.
+    layer : str
+        Which of their layers.
     window : CellWindow
         All cells.
     cell : float
         Side of a cell in metres.
     """
 
-    def __init__(self, pieces: Sequence[Piece], window: CellWindow, cell: float) -> None:
-        self._pieces, self.window, self._cell = pieces, window, cell
+    def __init__(
+        self, made: Sequence[BlockRasters], layer: str, window: CellWindow, cell: float
+    ) -> None:
+        self._made, self._layer, self.window, self._cell = made, layer, window, cell
         self._gaps: Surface | None = None
 
     def strips(self) -> list[tuple[int, int]]:
@@ -66,10 +56,10 @@ class Mosaic:
         whole = self.window
         strip = CellWindow(whole.row + whole.rows - end, whole.column, end - start, whole.columns)
         heights = np.full(strip.shape, np.nan, dtype=np.float32)
-        for window, load in self._pieces:
-            target, source = _overlap(strip, window), _overlap(window, strip)
+        for each in self._made:
+            target, source = _overlap(strip, each.window), _overlap(each.window, strip)
             if target is not None:
-                heights[target] = load()[source]
+                heights[target] = each.layers[self._layer][source]
         if self._gaps is not None:
             self._fill(heights, strip)
         return heights[::-1]

@@ -156,7 +156,7 @@ def classify_file(
             parts = (result.part(*each) for each in points.parts())
             drawn = products["rasters"].seeing(parts, frame, progress)
             made = drawn.work(waiting["rasters"], points.resources, part)
-            write_rasters(made, frame, drawn.request, outputs, writing)
+            write_rasters(made, frame, drawn, outputs, writing)
         if "heights" in products:
             heights = _worked(points, products["heights"], waiting["heights"], measuring).heights
         edits = result.edits(points.cloud, progress, heights)
@@ -272,7 +272,7 @@ def rasters_of_file(
         frame = survey_frame(points.cloud.crs)
         step = step.seeing((part for _, part in points.parts()), frame, progress)
         made = step.work(store, points.resources, progress.part(0.15, 0.9))
-        return write_rasters(made, frame, step.request, outputs, progress.part(0.9, 1.0))
+        return write_rasters(made, frame, step, outputs, progress.part(0.9, 1.0))
 
 
 def check_cloud(source: Path, target: Path) -> None:

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..survey.collection import Collection
 from .jobs import BlockJob
-from .survey import BlockIndex, Survey, grouped, memory_of, points_in
+from .survey import BlockIndex, Survey, grouped, memory_of, points_in, sources_of
 from .workers import Workers
 
 
@@ -42,10 +42,7 @@ def block_jobs(
     """
     least = max((memory_of(survey, collection, [each]) for each in files), default=0)
     workers.start(folder, least, len(files), tile_count)
-    sources = {
-        place: {each.path for each in collection.touching(survey.window([place]))}
-        for place in files
-    }
+    sources = {each: sources_of(survey, collection, each) for each in files}
     groups = grouped(survey, collection, list(files), workers.at_once, workers.share.bytes)
     return [
         kind(

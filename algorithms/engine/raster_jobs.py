@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Iterator, Mapping, Sequence
+from typing import Any, Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -13,17 +13,18 @@ from ..core.errors import BareEarthError
 from ..core.files import replacing
 from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
+from ..las.cloud import survey_frame
 from ..products.raster_block import BlockRasters
 from ..survey.collection import Collection
 from .blocks import Block
 from .constraints import parts_of
-from .job_queue import worked_off
+from .job_queue import JobQueue
 from .jobs import BlockJob
 from .memory import Resources
 from .memory_points import MemoryPoints, SurveyFile
 from .planning import block_jobs
 from .rasters import MakeRasters, RasterSize, write_rasters
-from .survey import BlockIndex, Survey, frame_of, places_of
+from .survey import BlockIndex, Survey, places_of
 from .workers import Workers
 
 
@@ -63,14 +64,14 @@ class RasterJob(BlockJob):
 
     def _place_of(self, window: CellWindow) -> BlockIndex:
         """Return the place of the block in which the first of some cells has its centre."""
-        cell, blocks = self.step.request.model.dtm_cell_size, self.survey.blocks
+        cell, blocks = self.step.model.dtm_cell_size, self.survey.blocks
         x, y = ((each + 0.5) * cell for each in (window.column, window.row))
         return BlockIndex(int(blocks.number(x)), int(blocks.number(y)))
 
 
 def _keep(file: Path, made: Sequence[BlockRasters]) -> None:
     """Write the rasters of a block, or of the parts of one."""
-    content: dict[str, np.ndarray] = {}
+    content: dict[str, Any] = {}
     for number, each in enumerate(made):
         small = {"window": np.array(each.window), "box": each.box, "counts": each.counts}
         loose = {f"loose.{name}": value for name, value in each.loose.items()}
@@ -152,19 +153,20 @@ def make_rasters(
     Cancelled
         If the user asked to stop.
     """
-    survey = Survey(frame_of(collection), step.blocks)
+    survey = Survey(survey_frame(collection.crs), step.blocks)
     seen, progress = progress.part(0.0, 0.05), progress.part(0.05, 1.0)
-    step = step.seeing(parts_of([each.file for each in collection.tiles], seen), survey.frame, seen)
+    step = step.seeing(parts_of(collection.tiles, seen), survey.frame, seen)
     places = sorted({place for tile in collection.tiles for place in places_of(survey, tile)})
     files = {each: folder / f"rasters_{each.column}_{each.row}.npz" for each in places}
     jobs = block_jobs(RasterJob, survey, collection, files, folder, 0, workers, step=step)
     try:
-        lost = worked_off(jobs, [], workers, progress.part(0.0, 0.8)).lost
-        if lost:
-            raise BareEarthError(f"The rasters cannot be made. {lost[0]}")
+        queue = JobQueue(jobs, [], workers, progress.part(0.0, 0.8))
+        queue.work()
+        if queue.lost:
+            raise BareEarthError(f"The rasters cannot be made. {queue.lost[0]}")
         made = [each for file in files.values() for each in _kept_in(file)]
         with contextlib.ExitStack() as outputs:
-            return write_rasters(made, survey.frame, step.request, outputs, progress.part(0.8, 1.0))
+            return write_rasters(made, survey.frame, step, outputs, progress.part(0.8, 1.0))
     finally:
         for file in files.values():
             file.unlink(missing_ok=True)

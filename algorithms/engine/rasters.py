@@ -27,7 +27,7 @@ from .blocks import Block, Blocks, Store
 from .constraints import NO_CONSTRAINTS, Constraints, FixedTerrain, fixed_terrain
 from .ground import over_blocks
 from .memory import Cost, Resources
-from .mosaic import Mosaic, Piece, gathered_strips
+from .mosaic import Mosaic, gathered_strips
 from .raster_files import RASTERS, RasterFiles
 from .steps import Marks, Step
 
@@ -37,45 +37,6 @@ _MOST_CELLS = 4_000_000_000
 _MANY_CELLS, _LEAST_COVERED = 10_000_000, 0.01
 # Bytes that a block takes for each point that it sees, and for each cell.
 _BYTES_A_POINT, _BYTES_A_CELL = 130.0, 120.0
-
-
-@dataclass(frozen=True)
-class RasterRequest:
-    """Which rasters are to be made, and how.
-
-    Attributes
-    ----------
-    files : RasterFiles
-        Which, and where they go.
-    model : TerrainModel
-        Cell size and light.
-    surface : SurfaceModel
-        Which points make the surface, and which gaps stay open.
-    """
-
-    files: RasterFiles = field(default_factory=RasterFiles)
-    model: TerrainModel = field(default_factory=TerrainModel)
-    surface: SurfaceModel = field(default_factory=SurfaceModel)
-
-    @property
-    def needs_ground(self) -> bool:
-        """Whether none of them can be made without ground."""
-        return any(LAYERS[each].of_ground for each in self.files.layers)
-
-    @property
-    def needs_surface(self) -> bool:
-        """Whether heights of the surface are needed."""
-        return "surface" in self.files.layers
-
-    @property
-    def needs_all(self) -> bool:
-        """Whether other points than the ground are needed, too."""
-        return any(LAYERS[each].of_all for each in self.files.layers)
-
-    @property
-    def step(self) -> RasterStep:
-        """What is done with a block."""
-        return RasterStep(self.model.dtm_cell_size, self.files.layers, self.surface.max_edge)
 
 
 @dataclass(frozen=True)
@@ -96,109 +57,6 @@ class RasterSize:
     rows: int
 
 
-@dataclass(frozen=True)
-class MakeRasters(Step):
-    """Makes the rasters of classified points.
-
-    Attributes
-    ----------
-    request : RasterRequest
-        Which rasters, and how.
-    ground : GroundClasses
-        Which points are ground.
-    covers_ground : bool
-        Whether the rasters reach as far as the ground does, not as all points but noise.
-    constraints : Constraints
-        Breaklines, water, and where there is no ground.
-    fixed : FixedTerrain or None
-        The vertices that follow from them; `seeing` finds these.
-    """
-
-    request: RasterRequest = field(default_factory=RasterRequest)
-    ground: GroundClasses = field(default_factory=GroundClasses)
-    covers_ground: bool = False
-    constraints: Constraints = NO_CONSTRAINTS
-    fixed: FixedTerrain | None = None
-
-    def seeing(
-        self, clouds: Iterable[PointCloud], frame: Frame, progress: Progress = SILENT
-    ) -> MakeRasters:
-        """Return the step that knows the vertices of its constraints.
-
-        Parameters
-        ----------
-        clouds : iterable of PointCloud
-            All points with their classes, part by part; see `fixed_terrain`.
-        frame : Frame
-            That of the survey.
-        progress : Progress
-            Told what cannot be used.
-        """
-        cell = self.request.model.dtm_cell_size / VERTICES_A_SIDE
-        fixed = fixed_terrain(self.constraints, clouds, frame, self.ground, cell, progress)
-        return replace(self, fixed=fixed)
-
-    @property
-    def blocks(self) -> Blocks:
-        """The blocks in which the rasters are made."""
-        step = self.request.step
-        return Blocks.of(step.reach, Cost(_BYTES_A_POINT, _BYTES_A_CELL / step.cell**2))
-
-    def tally(self) -> RasterTally:
-        """Return what `marks` counts in."""
-        return RasterTally()
-
-    def marks(self, part: PointCloud, tally: RasterTally) -> Marks:
-        """Return which points are covered, are ground, and belong to the surface."""
-        nothing = np.zeros(part.count, dtype=bool)
-        ground = self.ground.of(part, tally)
-        if not self.request.needs_ground:
-            ground = nothing
-        if self.constraints.any:
-            stays = self.constraints.is_ground(part, ground)
-            tally.excluded += int(np.count_nonzero(ground & ~stays))
-            ground = stays
-        if self.covers_ground:
-            return Marks(ground, ground, nothing)
-        shown = ground | (~np.isin(part.classification, NOISE) & ~part.withheld)
-        top = shown & self.request.needs_surface
-        if self.request.surface.surface_returns == "first":
-            top &= part.return_number <= 1
-        tally.top += int(np.count_nonzero(top))
-        return Marks(shown, ground, top)
-
-    def tell(self, tally: RasterTally, path: Path, progress: Progress) -> None:
-        """Refuse a file that has nothing to make the rasters of."""
-        if self.request.needs_ground:
-            self.ground.check(tally, path)
-            if tally.ground == tally.excluded:
-                raise BareEarthError(
-                    f"All ground points of {path} lie in polygons of water or without ground."
-                    " Check the polygons."
-                )
-        if self.request.needs_surface and not tally.top:
-            raise BareEarthError(
-                f"{path} has no first returns to make a surface of. Take all returns instead."
-            )
-
-    def work(
-        self,
-        store: Store,
-        resources: Resources,
-        progress: Progress,
-        is_wanted: Callable[[Block], bool] | None = None,
-    ) -> list[BlockRasters]:
-        """Return the rasters of the blocks, or of those that are wanted."""
-        made = {}
-        if len(store.leaves.counts):
-            # The only block of all need not be looked at for what lies in it.
-            job_of = partial(_job_of, store, self, is_wanted is None)
-            jobs = over_blocks(store, self.blocks, job_of, resources, progress, is_wanted)
-            for number, result in jobs:
-                made[number] = result
-        return [made[number] for number in sorted(made)]
-
-
 @dataclass
 class RasterTally(GroundTally):
     """What was counted in the parts of a file so far; the rest as in `GroundTally`.
@@ -215,33 +73,147 @@ class RasterTally(GroundTally):
     excluded: int = 0
 
 
-def _job_of(
-    store: Store, step: MakeRasters, are_all: bool, block: Block, is_only: bool
-) -> Callable[[Progress], BlockRasters]:
+@dataclass(frozen=True)
+class MakeRasters(Step):
+    """Makes the rasters of classified points.
+
+    Attributes
+    ----------
+    files : RasterFiles
+        Which rasters, and where they go.
+    model : TerrainModel
+        Cell size and light.
+    surface : SurfaceModel
+        Which points make the surface, and which gaps stay open.
+    ground : GroundClasses
+        Which points are ground.
+    covers_ground : bool
+        Whether the rasters reach as far as the ground does, not as all points but noise.
+    constraints : Constraints
+        Breaklines, water, and where there is no ground.
+    fixed : FixedTerrain or None
+        The vertices that follow from them; `seeing` finds these.
+    """
+
+    files: RasterFiles = field(default_factory=RasterFiles)
+    model: TerrainModel = field(default_factory=TerrainModel)
+    surface: SurfaceModel = field(default_factory=SurfaceModel)
+    ground: GroundClasses = field(default_factory=GroundClasses)
+    covers_ground: bool = False
+    constraints: Constraints = NO_CONSTRAINTS
+    fixed: FixedTerrain | None = None
+
+    tally = RasterTally
+
+    @property
+    def needs_ground(self) -> bool:
+        """Whether none of them can be made without ground."""
+        return any(LAYERS[each].of_ground for each in self.files.layers)
+
+    @property
+    def needs_surface(self) -> bool:
+        """Whether heights of the surface are needed."""
+        return "surface" in self.files.layers
+
+    @property
+    def of_block(self) -> RasterStep:
+        """What is done with a block."""
+        return RasterStep(self.model.dtm_cell_size, self.files.layers, self.surface.max_edge)
+
+    def seeing(
+        self, clouds: Iterable[PointCloud], frame: Frame, progress: Progress = SILENT
+    ) -> MakeRasters:
+        """Return the step that knows the vertices of its constraints.
+
+        Parameters
+        ----------
+        clouds : iterable of PointCloud
+            All points with their classes, part by part; see `fixed_terrain`.
+        frame : Frame
+            That of the survey.
+        progress : Progress
+            Told what cannot be used.
+        """
+        cell = self.model.dtm_cell_size / VERTICES_A_SIDE
+        fixed = fixed_terrain(self.constraints, clouds, frame, self.ground, cell, progress)
+        return replace(self, fixed=fixed)
+
+    @property
+    def blocks(self) -> Blocks:
+        """The blocks in which the rasters are made."""
+        cell = self.model.dtm_cell_size
+        return Blocks.of(self.of_block.reach, Cost(_BYTES_A_POINT, _BYTES_A_CELL / cell**2))
+
+    def marks(self, part: PointCloud, tally: RasterTally) -> Marks:
+        """Return which points are covered, are ground, and belong to the surface."""
+        nothing = np.zeros(part.count, dtype=bool)
+        ground = self.ground.of(part, tally)
+        if not self.needs_ground:
+            ground = nothing
+        if self.constraints.any:
+            stays = self.constraints.is_ground(part, ground)
+            tally.excluded += int(np.count_nonzero(ground & ~stays))
+            ground = stays
+        if self.covers_ground:
+            return Marks(ground, ground, nothing)
+        shown = ground | (~np.isin(part.classification, NOISE) & ~part.withheld)
+        top = shown & self.needs_surface
+        if self.surface.surface_returns == "first":
+            top &= part.return_number <= 1
+        tally.top += int(np.count_nonzero(top))
+        return Marks(shown, ground, top)
+
+    def tell(self, tally: RasterTally, path: Path, progress: Progress) -> None:
+        """Refuse a file that has nothing to make the rasters of."""
+        if self.needs_ground:
+            self.ground.check(tally, path)
+            if tally.ground == tally.excluded:
+                raise BareEarthError(
+                    f"All ground points of {path} lie in polygons of water or without ground."
+                    " Check the polygons."
+                )
+        if self.needs_surface and not tally.top:
+            raise BareEarthError(
+                f"{path} has no first returns to make a surface of. Take all returns instead."
+            )
+
+    def work(
+        self,
+        store: Store,
+        resources: Resources,
+        progress: Progress,
+        is_wanted: Callable[[Block], bool] | None = None,
+    ) -> list[BlockRasters]:
+        """Return the rasters of the blocks, or of those that are wanted."""
+        work = partial(_made_of, store, self, is_wanted is None)
+        made = dict(over_blocks(store, self.blocks, work, resources, progress, is_wanted))
+        return [made[number] for number in sorted(made)]
+
+
+def _made_of(
+    store: Store, step: MakeRasters, are_all: bool, block: Block, is_only: bool, progress: Progress
+) -> BlockRasters:
+    """Return the rasters of a block; `are_all` if no block was left out."""
     blocks = step.blocks
-
-    def job(progress: Progress) -> BlockRasters:
-        contents = blocks.contents(block, store, progress.part(0.0, 0.1))
-        corner = blocks.corner(block)
-        core = np.ones(contents.points.count, dtype=bool)
-        if not (is_only and are_all):
-            core = block.holds(contents.points, corner)
-        points, ground, top = contents.points, contents.known, contents.wanted
-        edges = None
-        if step.fixed is not None and points.count:
-            points, ground, edges = step.fixed.added_to(points, ground, corner)
-            top, core = (np.pad(each, (0, points.count - len(each))) for each in (top, core))
-        marks = ground, top, core
-        part = progress.part(0.1, 1.0)
-        return step.request.step.of(points, *marks, corner, block.box, edges, part)
-
-    return job
+    contents = blocks.contents(block, store, progress.part(0.0, 0.1))
+    corner = blocks.corner(block)
+    core = np.ones(contents.points.count, dtype=bool)
+    # The only block of all need not be looked at for what lies in it.
+    if not (is_only and are_all):
+        core = block.holds(contents.points, corner)
+    points, ground, top = contents.points, contents.known, contents.wanted
+    edges = None
+    if step.fixed is not None and points.count:
+        points, ground, edges = step.fixed.added_to(points, ground, corner)
+        top, core = (np.pad(each, (0, points.count - len(each))) for each in (top, core))
+    part = progress.part(0.1, 1.0)
+    return step.of_block.of(points, ground, top, core, corner, block.box, edges, part)
 
 
 def write_rasters(
     made: Sequence[BlockRasters],
     frame: Frame,
-    request: RasterRequest,
+    step: MakeRasters,
     outputs: contextlib.ExitStack,
     progress: Progress = SILENT,
 ) -> RasterSize:
@@ -253,7 +225,7 @@ def write_rasters(
         Those of its blocks.
     frame : Frame
         That of the survey, with its origin at (0, 0) of the CRS.
-    request : RasterRequest
+    step : MakeRasters
         What is wanted.
     outputs : contextlib.ExitStack
         Takes in the files.
@@ -265,20 +237,19 @@ def write_rasters(
     BareEarthError
         If there is no point to make the rasters of, or one of them cannot be written.
     """
-    cell, files = request.model.dtm_cell_size, request.files.wanted
+    cell, files = step.model.dtm_cell_size, step.files.wanted
     window = _window_of(made, cell)
     grid = _grid_of(window, cell, frame)
     mosaics = {}
-    for name in request.files.layers:
-        pieces = [Piece(each.window, partial(each.layers.__getitem__, name)) for each in made]
-        mosaics[name] = Mosaic(pieces, window, cell)
+    for name in step.files.layers:
+        mosaics[name] = Mosaic(made, name, window, cell)
         loose = [each.loose[name] for each in made if name in each.loose]
-        if loose and request.surface.max_edge is None:
+        if loose and step.surface.max_edge is None:
             mosaics[name].fill_gaps(np.concatenate(loose), progress.part(0.0, 0.3))
-    for number, (name, path) in enumerate(files.items()):
-        part = progress.part(0.3 + 0.7 * number / len(files), 0.3 + 0.7 * (number + 1) / len(files))
+    parts = progress.part(0.3, 1.0).shares(*[1.0] * len(files))
+    for (name, path), part in zip(files.items(), parts):
         raster = RASTERS[name]
-        make = partial(raster.make, grid=grid, model=request.model)
+        make = partial(raster.make, grid=grid, model=step.model)
         layers = [mosaics[each] for each in raster.layers]
         rows = Rows(window.shape, raster.kind, gathered_strips(layers, make, raster.margin, part))
         temporary = outputs.enter_context(replacing_raster(path))

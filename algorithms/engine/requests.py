@@ -9,6 +9,7 @@ from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet
 from ..filters import DEFAULT_METHOD, METHODS
 from ..grids.model_key_points import ModelKeyPoints
+from ..products.raster_block import LAYERS
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import TerrainModel
 from ..survey.area import Area
@@ -23,7 +24,7 @@ from .memory import Resources
 from .options import TileInput, TileMethod, TileOutput
 from .output import Output
 from .raster_files import RasterFiles
-from .rasters import MakeRasters, RasterRequest
+from .rasters import MakeRasters
 
 _Request = TypeVar("_Request", bound="Request")
 
@@ -121,9 +122,10 @@ class ClassifyRequest(Request):
     @property
     def raster_step(self) -> MakeRasters:
         """What makes the rasters of the classified points."""
-        request = RasterRequest(self.rasters, self.terrain, self.surface)
-        covers_ground = not request.needs_all
-        return MakeRasters(request, self._ground, covers_ground, self.constraints)
+        covers_ground = not any(LAYERS[each].of_all for each in self.rasters.layers)
+        return MakeRasters(
+            self.rasters, self.terrain, self.surface, self._ground, covers_ground, self.constraints
+        )
 
     @property
     def height_step(self) -> MeasureHeights:
@@ -201,5 +203,6 @@ class TerrainRequest(Request):
     @property
     def raster_step(self) -> MakeRasters:
         """What makes the rasters."""
-        request = RasterRequest(self.rasters, self.terrain, self.surface)
-        return MakeRasters(request, self.ground, constraints=self.constraints)
+        return MakeRasters(
+            self.rasters, self.terrain, self.surface, self.ground, constraints=self.constraints
+        )

@@ -53,7 +53,7 @@ def run_jobs(
         If the user asked to stop.
     """
     stop, ended, total = threading.Event(), 0.0, max(sum(weights), 1e-9)
-    talks: dict[int, _Relay] = {}
+    talks: dict[int, JobProgress] = {}
     left = len(jobs)
 
     def share() -> int:
@@ -66,11 +66,11 @@ def run_jobs(
     pool = ThreadPoolExecutor(max(1, at_once), thread_name_prefix="block")
     try:
         waiting = iter(range(len(jobs)))
-        running: dict[Future, int] = {}
+        running: dict[Future[Any], int] = {}
         # Not all at once: results that nobody has fetched yet would fill the memory.
         while True:
             for number in waiting:
-                talks[number] = _Relay(stop)
+                talks[number] = JobProgress(stop)
                 running[pool.submit(run, number)] = number
                 if len(running) >= max(1, at_once):
                     break
@@ -93,15 +93,15 @@ def run_jobs(
         pool.shutdown(wait=False, cancel_futures=True)
 
 
-class _Relay(Notes):
-    """The progress of a job: a note that the calling thread reads."""
+class JobProgress(Notes):
+    """How far a job is, for the thread that looks on; ends the job once `stop` is set."""
 
     def __init__(self, stop: threading.Event) -> None:
         super().__init__()
-        self.fraction = 0.0
-        self._stop = stop
+        self.fraction, self._stop = 0.0, stop
 
     def report(self, fraction: float) -> None:
+        """Note how far the job is."""
         if self._stop.is_set():
             raise Cancelled
         self.fraction = fraction

@@ -19,7 +19,7 @@ from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
-from ..survey.collection import Tile
+from ..las.lasfile import LasFile
 from .blocks import Blocks, Store
 from .memory import Resources
 
@@ -52,17 +52,16 @@ class Step:
     ----------
     kind : type
         Of the value that a store keeps of each point.
+    tally : type
+        Of what `marks` counts in.
     """
 
     kind: type = np.uint8
+    tally: type
 
     @property
     def blocks(self) -> Blocks:
         """The blocks in which it works."""
-        raise NotImplementedError
-
-    def tally(self) -> Any:
-        """Return what `marks` counts in."""
         raise NotImplementedError
 
     def marks(self, part: PointCloud, tally: Any) -> Marks:
@@ -107,13 +106,13 @@ class PointStep(Step):
     summary_type: type
     vpc_name: str
 
-    def check_tile(self, tile: Tile) -> None:
+    def check_tile(self, tile: LasFile) -> None:
         """Refuse, before any work, a file that cannot hold what is found."""
 
     def check_survey(self, box: Box) -> None:
         """Refuse, before any work, files whose points have these bounds in units of the CRS."""
 
-    def skips(self, tile: Tile) -> bool:
+    def skips(self, tile: LasFile) -> bool:
         """Return whether nothing of a file is to be written, as its header says."""
         return False
 

@@ -9,16 +9,18 @@ from __future__ import annotations
 import itertools
 import math
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Iterable, Iterator, NamedTuple, Sequence
 
 import numpy as np
 
 from ..core.points import Box, Frame
-from ..core.progress import SILENT, Progress
-from ..las.cloud import PointCloud, survey_frame
+from ..las.cloud import PointCloud
+from ..las.lasfile import LasFile
 from ..las.reading import read_cloud
-from ..survey.collection import Collection, Tile
-from .blocks import Block, Blocks
+from ..survey.collection import Collection
+from .blocks import Blocks
+from .leaf_index import code_of, row_and_column
 
 # Metres by which boxes are read larger than needed: the points are chosen exactly thereafter.
 _MARGIN = 0.1
@@ -29,7 +31,7 @@ _BYTES_HELD = 48
 # So many times as many groups of blocks as workers, at least, so that none of them is idle long.
 _GROUPS_A_WORKER = 4
 _LARGEST_GROUP = 16
-_STEP, _SHIFT, _HALF = 1 << 20, 32, 1 << 31
+_STEP = 1 << 20
 
 
 class BlockIndex(NamedTuple):
@@ -54,13 +56,9 @@ class Survey:
     frame: Frame
     blocks: Blocks
 
-    def block(self, place: BlockIndex) -> Block:
-        """Return the block at a place."""
-        return self.blocks.block(*place)
-
     def window(self, places: Iterable[BlockIndex]) -> Box:
         """Return the box, in units of the CRS, of all points that some blocks need."""
-        boxes = np.array([self.blocks.window(self.block(place)) for place in places])
+        boxes = np.array([self.blocks.window(self.blocks.block(*place)) for place in places])
         low, high = boxes[:, :2].min(axis=0) - _MARGIN, boxes[:, 2:].max(axis=0) + _MARGIN
         corners = np.concatenate([low, high]) / self.frame.horizontal_unit
         return tuple(float(each) for each in corners + np.tile(self.frame.origin, 2))
@@ -84,21 +82,16 @@ class Survey:
             places = cloud.places(part, self.frame)
             # As `Block.holds`: of the same numbers in the same way.
             column, row = (self.blocks.number(each) for each in places)
-            codes[part] = (row.astype(np.int64) << _SHIFT) + column.astype(np.int64) + _HALF
+            codes[part] = code_of(row, column)
         return codes
 
 
 def code(place: BlockIndex) -> int:
     """Return one number for a place."""
-    return (place.row << _SHIFT) + place.column + _HALF
+    return int(code_of(np.int64(place.row), np.int64(place.column)))
 
 
-def frame_of(collection: Collection) -> Frame:
-    """Return the frame of a survey, in which its blocks lie."""
-    return survey_frame(collection.crs)
-
-
-def places_of(survey: Survey, tile: Tile, progress: Progress = SILENT) -> list[BlockIndex]:
+def places_of(survey: Survey, tile: LasFile) -> list[BlockIndex]:
     """Return the blocks that may hold points of a tile, from south to north.
 
     Raises
@@ -109,9 +102,13 @@ def places_of(survey: Survey, tile: Tile, progress: Progress = SILENT) -> list[B
     columns, rows = survey.places_in(tile.outer_box)
     if len(columns) * len(rows) <= _MOST_PLACES:
         return [BlockIndex(column, row) for row, column in itertools.product(rows, columns)]
-    codes = np.unique(survey.codes(read_cloud(tile.path, progress)))
-    low = (codes & ((1 << _SHIFT) - 1)) - _HALF
-    return [BlockIndex(*each) for each in zip(low.tolist(), (codes >> _SHIFT).tolist())]
+    row, column = row_and_column(np.unique(survey.codes(read_cloud(tile.path))))
+    return [BlockIndex(*each) for each in zip(column.tolist(), row.tolist())]
+
+
+def sources_of(survey: Survey, collection: Collection, place: BlockIndex) -> list[Path]:
+    """Return the files that may have points which a block needs."""
+    return [each.path for each in collection.touching(survey.window([place]))]
 
 
 def memory_of(survey: Survey, collection: Collection, places: Sequence[BlockIndex]) -> int:

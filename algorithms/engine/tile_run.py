@@ -10,22 +10,24 @@ from ..core.errors import BareEarthError
 from ..core.files import alone_in, describe_write_error
 from ..core.progress import Progress
 from ..core.temporary import remove_leftovers
-from ..survey.collection import Collection, Tile, open_collection
-from .job_queue import worked_off
+from ..las.cloud import survey_frame
+from ..las.lasfile import LasFile
+from ..survey.collection import Collection, open_collection
+from .job_queue import JobQueue
 from .jobs import PointJob, TileJob
 from .planning import block_jobs
 from .raster_jobs import make_rasters
 from .rasters import MakeRasters
 from .record import Record, folders_of, label_file, made_of, read_record, remove_record, state_of
 from .steps import PointStep
-from .survey import BlockIndex, Survey, frame_of, places_of
+from .survey import BlockIndex, Survey, places_of, sources_of
 from .workers import Workers
 
 
 class _Needs(NamedTuple):
     """A tile, the blocks that may hold its points, and the files that these need."""
 
-    tile: Tile
+    tile: LasFile
     places: list[BlockIndex]
     sources: list[Path]
 
@@ -44,7 +46,7 @@ class TileRun:
     step : PointStep
         What is to be found.
     progress : Progress
-        Receives progress.
+        Receives progress, and a line on each finished file.
 
     Attributes
     ----------
@@ -68,9 +70,9 @@ class TileRun:
     ) -> None:
         self.done: list[Any] = []
         self.kept_count, self.empty_count, self.failures = 0, 0, {}
-        self._survey = Survey(frame_of(collection), step.blocks)
+        self._survey = Survey(survey_frame(collection.crs), step.blocks)
         self._collection, self._folder, self._targets = collection, folder, targets
-        self._step = step
+        self._step, self._progress = step, progress
         self._sources: dict[BlockIndex, list[Path]] = {}
         # As they are before any of them is read.
         self._states = {each.path: state_of(each.path) for each in collection.tiles}
@@ -86,13 +88,7 @@ class TileRun:
                 self.failures[tile.path] = str(error)
             progress(0.02 * number / len(collection.tiles))
 
-    def work(
-        self,
-        workers: Workers,
-        resume: bool,
-        progress: Progress,
-        rasters: MakeRasters | None = None,
-    ) -> None:
+    def work(self, workers: Workers, resume: bool, rasters: MakeRasters | None = None) -> None:
         """Do it.
 
         Parameters
@@ -101,8 +97,6 @@ class TileRun:
             Who does it; they are stopped afterwards.
         resume : bool
             Whether files that a run before has done stay.
-        progress : Progress
-            Receives progress, and a line on each finished file.
         rasters : MakeRasters, optional
             Rasters to make of the outputs.
 
@@ -114,14 +108,16 @@ class TileRun:
             If the user asked to stop.
         """
         _, records, waiting = folders_of(self._folder)
+        progress = self._progress
         _make(self._folder, records)
         with alone_in(records):
             self._clear(values=not resume)
             _make(waiting)
-            kept = self._keep_done(resume, progress)
+            kept = self._keep_done(resume)
             blocks, tiles = self._jobs(workers)
             end = 0.8 if rasters else 1.0
-            queue = worked_off(blocks, tiles, workers, progress.part(0.02, end))
+            queue = JobQueue(blocks, tiles, workers, progress.part(0.02, end))
+            queue.work()
             self.done, self.kept_count = sorted([*kept, *queue.done]), len(kept)
             self.empty_count += queue.empty_count
             self.failures.update(queue.failures)
@@ -139,12 +135,11 @@ class TileRun:
         for each in folders:
             remove_leftovers(each)
 
-    def _needs(self, tile: Tile) -> _Needs:
+    def _needs(self, tile: LasFile) -> _Needs:
         places = places_of(self._survey, tile)
         for place in places:
             if place not in self._sources:
-                box = self._survey.window([place])
-                self._sources[place] = [each.path for each in self._collection.touching(box)]
+                self._sources[place] = sources_of(self._survey, self._collection, place)
         sources = sorted({path for place in places for path in self._sources[place]})
         return _Needs(tile, places, sources)
 
@@ -153,9 +148,9 @@ class TileRun:
         sources = map(self._states.__getitem__, needs.sources)
         return made_of(self._survey, self._step, path, sources, self._targets[path])
 
-    def _keep_done(self, resume: bool, progress: Progress) -> list[Any]:
+    def _keep_done(self, resume: bool) -> list[Any]:
         """Take out the tiles that are done; return what became of them."""
-        kept, changed = [], 0
+        kept, todo, changed = [], [], 0
         for needs in self._todo:
             target = self._targets[needs.tile.path]
             before = read_record(target) if resume else None
@@ -164,14 +159,12 @@ class TileRun:
                 continue
             changed += before is not None
             remove_record(target)
-        names = {each.name for each in kept}
-        self._todo = [
-            each for each in self._todo if self._targets[each.tile.path].name not in names
-        ]
+            todo.append(needs)
+        self._todo = todo
         if kept:
-            progress.info(f"{len(kept):,} files are done already.")
+            self._progress.info(f"{len(kept):,} files are done already.")
         if changed:
-            progress.info(
+            self._progress.info(
                 f"{changed:,} finished files are made again, because parameters, inputs or the"
                 " version have changed."
             )

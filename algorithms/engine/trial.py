@@ -18,7 +18,7 @@ from ..survey.area import box_in_words
 from .file_points import fits_in_memory
 from .memory import Resources
 from .trial_commands import commands_for
-from .trial_options import USUAL_CONTEXT, Setting, TrialOptions
+from .trial_options import USUAL_CONTEXT, TrialOptions
 from .trial_points import TrialPoints, read_trial_points
 
 
@@ -105,11 +105,11 @@ def compare_settings(
                 f"The window and what lies round it have {points.count:,} points, more than fit"
                 " into the memory that may be used. Choose a smaller one."
             )
-        labelled = []
-        for number, setting in enumerate(settings):
-            done = (0.4 + 0.4 * (number + step) / len(settings) for step in (0, 1))
-            part = progress.part(*done)
-            labelled.append(points.labelled(setting, resources, part, is_first=number == 0))
+        parts = progress.part(0.4, 0.8).shares(*[1.0] * len(settings))
+        labelled = [
+            points.labelled(setting, resources, part, is_first=part is parts[0])
+            for setting, part in zip(settings, parts)
+        ]
         found = _page(paths, points, points.outcomes(labelled), options, (context, reach))
         html = found.html()
     with replacing(page) as temporary:
@@ -133,7 +133,7 @@ def _page(
     return TrialPage(
         paths,
         f"Window: {box_in_words(points.box)} ({window.width:.0f} x {window.height:.0f} m)",
-        _notes(options.chosen, *seen),
+        _notes(*seen),
         window,
         outcomes,
         [figures_of(window, each, first) for each in outcomes],
@@ -142,7 +142,7 @@ def _page(
     )
 
 
-def _notes(settings: Sequence[Setting], context: float, reach: float) -> list[str]:
+def _notes(context: float, reach: float) -> list[str]:
     """Return what must be known to judge the pictures."""
     notes = [
         f"{context:g} m round the window were read as well, to judge the points in it.",

@@ -169,12 +169,12 @@ def read_trial_points(
     if is_one_file(paths):
         las = open_las(paths[0])
         files, crs = [las], read_crs(las)
-        extent = (*las.minimum[:2], *las.maximum[:2])
+        extent = las.box
     else:
         survey = open_collection(paths, progress=progress.part(0.0, 0.1))
         crs, extent = survey.crs, survey.box
         wide = area.buffered_box(context / crs.horizontal_unit)
-        files = [tile.file for tile in survey.touching(wide)]
+        files = survey.touching(wide)
     _check_width(area, crs)
     clouds = _read(files, area.buffered_box(context / crs.horizontal_unit), progress)
     if not any(area.of(cloud).any() for cloud in clouds):
@@ -196,10 +196,8 @@ def _check_width(area: Area, crs: Crs) -> None:
 
 
 def _read(files: Sequence[LasFile], box: Box, progress: Progress) -> tuple[PointCloud, ...]:
-    clouds = []
-    for number, las in enumerate(files):
-        part = progress.part(number / len(files), (number + 1) / len(files))
-        clouds.append(read_window(las, box, part))
+    parts = progress.shares(*[1.0] * len(files))
+    clouds = [read_window(las, box, part) for las, part in zip(files, parts)]
     return tuple(cloud for cloud in clouds if cloud.count)
 
 

@@ -11,12 +11,11 @@ from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor, 
 from pathlib import Path
 from typing import NamedTuple, Union
 
-from ..core.errors import Cancelled
-from ..core.progress import Progress
 from ..core.temporary import remove_leftovers
 from .jobs import BlockJob, JobResult, TileJob, attempt
-from .memory import GIGABYTE, Resources
+from .memory import Resources
 from .record import folders_of
+from .scheduling import JobProgress
 
 # Seconds that jobs get to stop by themselves when the user cancels.
 _PATIENCE = 0.7
@@ -31,19 +30,6 @@ class Running(NamedTuple):
 
     future: Future
     progress: JobProgress
-
-
-class JobProgress(Progress):
-    """How far a job is, for the thread that looks on; ends the job once `stop` is set."""
-
-    def __init__(self, stop: threading.Event) -> None:
-        self.fraction, self._stop = 0.0, stop
-
-    def report(self, fraction: float) -> None:
-        """Note how far the job is."""
-        if self._stop.is_set():
-            raise Cancelled
-        self.fraction = fraction
 
 
 class Workers:
@@ -64,7 +50,7 @@ class Workers:
 
     def __init__(self, resources: Resources = Resources()) -> None:
         self.resources = resources
-        self.at_once, self.share = 1, share_of(1, 0)
+        self.at_once, self.share = 1, Resources.of(1, 0)
 
     def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
         """Be ready for jobs.
@@ -82,7 +68,7 @@ class Workers:
         self.at_once = int(max(1, min(threads, memory // max(least, 1), max(blocks, tiles))))
         # Blocks take the time: where there are few, each may use the threads that would be idle.
         together = max(1, min(self.at_once, blocks))
-        self.share = share_of(max(1, threads // together), memory // self.at_once)
+        self.share = Resources.of(max(1, threads // together), memory // self.at_once)
 
     def submit(self, job: Job) -> Running:
         """Begin a job."""
@@ -102,11 +88,6 @@ class Workers:
 
     def stop(self) -> None:
         """End, also jobs that run; of what these were writing nothing is left."""
-
-
-def share_of(threads: int, memory: int) -> Resources:
-    """Return what a job may use, given the bytes."""
-    return Resources(threads=threads, memory=max(memory / GIGABYTE, 0.001))
 
 
 class Threads(Workers):

@@ -7,7 +7,12 @@ from typing import Any, Callable, Mapping, NamedTuple
 import numpy as np
 
 from ..core.parameters import ParameterSet
+from ..core.points import Points
+from ..core.progress import SILENT, Progress
+from .shared.scattered import scattered_lows
 
+# Share of the points from which on low outliers are told.
+_MANY_OUTLIERS = 1e-4
 # Metres: few buildings are wider.
 _USUAL_OBJECT = 50.0
 
@@ -78,6 +83,45 @@ class Method(NamedTuple):
     presets: Mapping[str, Any]
     toolbox: Toolbox
     takes_known_ground: bool = False
+
+    def ground(
+        self,
+        points: Points,
+        parameters: ParameterSet,
+        progress: Progress = SILENT,
+        known: np.ndarray | None = None,
+    ) -> np.ndarray:
+        """Return the ground mask of points (n,): low outliers all over a dense cloud go first.
+
+        Parameters
+        ----------
+        points : Points
+            All points that take part.
+        parameters : ParameterSet
+            Those of the method.
+        progress : Progress
+            Receives progress and messages.
+        known : numpy.ndarray of bool, shape (n,), optional
+            Points that are surely ground.
+        """
+        starts = known is not None and known.any() and self.takes_known_ground
+
+        def found(points: Points, known: np.ndarray | None) -> np.ndarray:
+            seeds = {"known_ground": known} if starts else {}
+            return self.classify(points, parameters, progress, **seeds)
+
+        lows = None if self.is_classic(parameters) else scattered_lows(points)
+        if lows is None or not lows.any():
+            del lows  # a byte a point
+            return found(points, known)
+        if np.count_nonzero(lows) > _MANY_OUTLIERS * points.count:
+            progress.info(
+                "Low outliers are scattered all over the points. They are left out, and are not"
+                " ground."
+            )
+        ground = ~lows
+        ground[~lows] = found(points.take(~lows), None if known is None else known[~lows])
+        return ground
 
     def is_classic(self, parameters: ParameterSet) -> bool:
         """Return whether parameters ask for what an original does."""

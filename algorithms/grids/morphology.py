@@ -102,6 +102,38 @@ def within_square(which: np.ufunc, grid: np.ndarray, reach: int) -> np.ndarray:
     return result
 
 
+def median_of_nine(grid: np.ndarray) -> np.ndarray:
+    """Return the median of the 3 x 3 cells round each, as `scipy.ndimage.median_filter` does.
+
+    That takes ten times as long, as it sorts the nine anew for each cell.
+
+    Parameters
+    ----------
+    grid : numpy.ndarray of float, shape (rows, columns)
+        Without NaN. Beyond it the cells at its border go on.
+
+    Returns
+    -------
+    numpy.ndarray of the same type, shape (rows, columns)
+    """
+    padded = np.pad(grid, 1, mode="edge")
+    # The lowest, middle and highest of three rows; of these, the three columns.
+    lowest, middle, highest = _ranked(padded[:-2], padded[1:-1], padded[2:])
+    left, centre, right = (slice(k, k + grid.shape[1]) for k in range(3))
+    return _ranked(
+        np.maximum(np.maximum(lowest[:, left], lowest[:, centre]), lowest[:, right]),
+        _ranked(middle[:, left], middle[:, centre], middle[:, right])[1],
+        np.minimum(np.minimum(highest[:, left], highest[:, centre]), highest[:, right]),
+    )[1]
+
+
+def _ranked(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Return the lowest, the middle and the highest of three."""
+    low, high = np.minimum(a, b), np.maximum(a, b)
+    middle = np.minimum(high, c)
+    return np.minimum(low, middle), np.maximum(low, middle), np.maximum(high, c)
+
+
 def _spread(which: np.ufunc, grid: np.ndarray, reach: int) -> np.ndarray:
     """Return the extreme of so many rows before and after each, in steps that double."""
     done = 0

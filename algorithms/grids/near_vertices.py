@@ -144,9 +144,8 @@ class NearVertices:
             vertices = _listed(*self._runs(queries, width))
         x, y = self._x.take(vertices) - queries.x, self._y.take(vertices) - queries.y
         if width == 2:
-            in_turn = [0, 1, 3, 2]
-            four = (each[in_turn] for each in (x, y, self._z.take(vertices)))
-            return heights_of_four(*four, self._max_edge)
+            in_turn, z = [0, 1, 3, 2], self._z.take(vertices)
+            return heights_of_four(x[in_turn], y[in_turn], z[in_turn], self._max_edge)
         by = queries.column - queries.x, queries.row - queries.y
         borders = np.array([half - by[0], half - by[1], half + by[0], half + by[1]])
         corners, found, sure = enclosing_triangles(x, y, borders, quarters)

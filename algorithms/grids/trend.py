@@ -9,6 +9,7 @@ import numpy as np
 from ..core.threads import in_threads
 from .gradient import length
 from .inpaint import First
+from .morphology import median_of_nine
 
 # Side in metres of the blocks whose median slope is the trend of the terrain.
 _BLOCK = 15.0
@@ -65,16 +66,13 @@ class Trend:
 
     def _of_axis(self, heights: np.ndarray, axis: int) -> np.ndarray:
         """Return slope along an axis and departure from it, of each block (2, rows, columns)."""
-        from scipy import ndimage
-
         if heights.shape[axis] == 1:  # a grid one cell wide has no slope across
             return np.zeros((2, 1, 1), dtype=heights.dtype)
         slopes = np.diff(heights, axis=axis) / heights.dtype.type(self._size)
         blocks = _sampled_blocks(slopes, self._block, self._within)
         slope = np.median(blocks, axis=2)
         departure = np.median(np.abs(blocks - slope[..., None]), axis=2)
-        smooth = (ndimage.median_filter(each, 3, mode="nearest") for each in (slope, departure))
-        return np.stack(list(smooth))
+        return np.stack([median_of_nine(each) for each in (slope, departure)])
 
     def of_rows(self, first: int, last: int) -> Rises:
         """Return the rises at all cells of some rows, `last` not among them."""

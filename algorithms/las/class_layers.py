@@ -22,13 +22,13 @@ import numpy as np
 
 from .cloud import PointCloud
 from .lasfile import RECORD_LENGTHS, LasFile
-from .laszip import LAYERS, POINT_14, ChunkHead
+from .laszip import CLASSES, LAYERS, POINT_14, ChunkHead
 from .records import LazRecordWriter, laszip_vlr, named, read_records
 from .sources import damaged, open_source
 
 # What of a point decides how its class is coded.
 _DECISIVE = ("return_number", "number_of_returns", "scanner_channel")
-_FORMAT, _RETURNS, _CHANNEL, _CLASS, _CLASS_LAYER = 6, 14, 15, 16, 2
+_FORMAT, _RETURNS, _CHANNEL, _CLASS = 6, 14, 15, 16
 # Returns of a pulse that has one, and that has more: as small as can be.
 _ONLY, _FIRST_OF_TWO = 0x11, 0x21
 # Points whose layers are made at a time.
@@ -52,21 +52,6 @@ class Chunk(NamedTuple):
     size: int
 
 
-class _Head(ChunkHead):
-    """The head of a chunk, and where the layer of its classes is."""
-
-    @property
-    def class_length(self) -> int:
-        """Where the length of the layer of the classes stands."""
-        return self.record_length + 4 + 4 * _CLASS_LAYER
-
-    def class_layer(self, data: bytes | memoryview, start: int = 0) -> slice:
-        """Return where the layer of the classes stands of the chunk at `start`."""
-        _, *lengths = self.numbers(data, start)
-        place = start + self.size + sum(lengths[:_CLASS_LAYER])
-        return slice(place, place + lengths[_CLASS_LAYER])
-
-
 def class_layers(layout: LasFile) -> ClassLayers | None:
     """Return the layers of the classes of a file; None if it has none that can be replaced.
 
@@ -77,14 +62,7 @@ def class_layers(layout: LasFile) -> ClassLayers | None:
     """
     if not layout.layers:
         return None
-    head = _Head(layout.record_length, layout.layers)
-    chunks = _chunks(layout, head)
-    return None if chunks is None else ClassLayers(layout, chunks, head)
-
-
-def _chunks(layout: LasFile, head: _Head) -> list[Chunk] | None:
-    """Return the chunks of a file; None if they are not made as they should be."""
-    chunks, start, place = [], 0, layout.points_start + 8
+    head, chunks, start, place = layout.chunk_head, [], 0, layout.points_start + 8
     with open_source(layout.path) as file:
         for _, size in layout.chunk_table:
             file.seek(place)
@@ -96,7 +74,7 @@ def _chunks(layout: LasFile, head: _Head) -> list[Chunk] | None:
                 return None
             chunks.append(Chunk(start, start + count, place, size))
             start, place = start + count, place + size
-    return chunks if start == layout.count else None
+    return ClassLayers(layout, chunks) if start == layout.count else None
 
 
 class ClassLayers:
@@ -108,8 +86,6 @@ class ClassLayers:
         The file.
     chunks : list of Chunk
         All of its chunks, in order.
-    head : _Head
-        What each begins with.
 
     Attributes
     ----------
@@ -119,8 +95,8 @@ class ClassLayers:
         Where each that was written begins in the output, and its bytes there, by its `place`.
     """
 
-    def __init__(self, layout: LasFile, chunks: list[Chunk], head: _Head) -> None:
-        self._layout, self.chunks, self._head = layout, chunks, head
+    def __init__(self, layout: LasFile, chunks: list[Chunk]) -> None:
+        self._layout, self.chunks = layout, chunks
         self.moved: dict[int, tuple[int, int]] = {}
 
     def write(
@@ -191,11 +167,13 @@ class ClassLayers:
         data = source.read(chunk.size)
         if len(data) != chunk.size:
             raise damaged(self._layout.path)
-        size, former = self._head.size, self._head.class_layer(data)
-        head, data = bytearray(data[:size]), memoryview(data)
-        head[_CLASS] = first_class
-        struct.pack_into("<I", head, self._head.class_length, len(layer))
-        for part in (head, data[size : former.start], layer, data[former.stop :]):
+        head = self._layout.chunk_head
+        former, start = head.layer(CLASSES, data), bytearray(data[: head.size])
+        start[_CLASS] = first_class
+        # The lengths of the layers follow the number of points.
+        struct.pack_into("<I", start, head.record_length + 4 + 4 * CLASSES, len(layer))
+        data = memoryview(data)
+        for part in (start, data[head.size : former.start], layer, data[former.stop :]):
             file.write(part)
 
 
@@ -228,7 +206,7 @@ def _new_layers(
     chunks: Sequence[slice],
 ) -> Iterator[bytes]:
     """Yield the layer of the classes for each chunk of some points."""
-    head = _Head(RECORD_LENGTHS[_FORMAT], LAYERS[POINT_14])
+    head = ChunkHead(RECORD_LENGTHS[_FORMAT], LAYERS[POINT_14])
     points = np.zeros((len(classes), head.record_length), dtype=np.uint8)
     is_only = (return_number == 1) & (number_of_returns <= 1)
     points[:, _RETURNS] = np.where(is_only, _ONLY, _FIRST_OF_TWO)
@@ -242,5 +220,5 @@ def _new_layers(
     sizes = writer.chunk_sizes(file)
     data, start = file.getbuffer(), 8
     for size in sizes:
-        yield bytes(data[head.class_layer(data, start)])
+        yield bytes(data[head.layer(CLASSES, data, start)])
         start += size

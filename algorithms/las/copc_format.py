@@ -8,7 +8,7 @@ from ..core.progress import Progress
 from ..crs.system import compound_wkt
 from . import header as fields
 from .copc_octree import Cube
-from .crs_records import GEOKEY_RECORDS, WKT_RECORD, read_crs, wkt_text
+from .crs_records import GEOKEY_RECORDS, WKT_RECORD, read_crs
 from .lasfile import (
     COPC_EXTENTS,
     COPC_HIERARCHY,
@@ -22,6 +22,7 @@ from .lasfile import (
     LasFile,
     Vlr,
     new_vlr,
+    text_of,
 )
 from .records import Tally, column, laszip_vlr, named
 
@@ -37,13 +38,7 @@ _ANGLE_UNIT = 0.006
 
 
 class Statistics(Tally):
-    """Counts what header and info record say of points.
-
-    Attributes
-    ----------
-    gps_time : tuple of float
-        The smallest and the largest; 0 and 0 where no point has any.
-    """
+    """Counts what header and info record say of points."""
 
     def __init__(self, layout: LasFile) -> None:
         super().__init__(layout)
@@ -207,7 +202,7 @@ def _wkt(layout: LasFile, progress: Progress) -> Vlr | None:
         )
         return None
     for vlr in layout.vlrs:
-        if vlr.key == WKT_RECORD and wkt_text(vlr.data) == text:
+        if vlr.key == WKT_RECORD and text_of(vlr.data) == text:
             return vlr
     if layout.vlr(*GEOKEY_RECORDS) is not None:
         progress.info("The CRS, given as GeoTIFF keys, becomes well-known text, as COPC needs it.")

@@ -21,7 +21,6 @@ from ..core.errors import BareEarthError
 from ..core.points import Box
 from .copc import HIERARCHY_ENTRY
 from .lasfile import COPC_INFO, LasFile
-from .laszip import ChunkHead
 from .records import named, needed, selection_of
 from .sources import damage_told, damaged, open_source
 
@@ -259,7 +258,7 @@ def _decompress(layout: LasFile, file: BinaryIO, nodes: np.ndarray) -> np.ndarra
     if len(compressed) != int(nodes["size"].sum(dtype=np.int64)):
         raise damaged(layout.path)
     counts, sizes = nodes["count"].tolist(), nodes["size"].tolist()
-    head = ChunkHead(layout.record_length, layout.layers)
+    head = layout.chunk_head
     starts = itertools.accumulate(sizes, initial=0)
     if not all(head.fits(compressed, size, start) for size, start in zip(sizes, starts)):
         raise damaged(layout.path)

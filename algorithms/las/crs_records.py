@@ -8,7 +8,7 @@ from ..core.progress import SILENT, Notes, Progress
 from ..crs.geokeys import read_geokeys
 from ..crs.provider import library
 from ..crs.system import Crs, crs_of_geokeys, crs_of_wkt
-from .lasfile import LasFile
+from .lasfile import LasFile, text_of
 
 WKT_RECORD = ("LASF_Projection", 2112)
 # The directory of the keys, their numbers and their texts.
@@ -50,7 +50,7 @@ def _stated(
 
     It depends on the library that knows EPSG codes, too.
     """
-    text, keys = wkt_text(content[0]), read_geokeys(*content[1:])
+    text, keys = text_of(content[0]), read_geokeys(*content[1:])
     readers = [
         lambda notes: None if keys is None else crs_of_geokeys(keys, notes),
         lambda notes: crs_of_wkt(text, notes),
@@ -61,8 +61,3 @@ def _stated(
         if crs is not None:
             return crs, tuple(notes.messages)
     return None, ()
-
-
-def wkt_text(data: bytes) -> str:
-    """Return the well-known text in the bytes of its record."""
-    return data.split(b"\0")[0].decode("utf-8", "replace").strip()

@@ -119,14 +119,14 @@ class EditedFile:
         """
         start = 0
         for old in self._sources():
-            records = self.apply(old, start)
-            classes = self.classes(records, start)
-            end = start + len(old)
+            part = slice(start, start + len(old))
+            records = self._applied(old, part)
+            classes = self._classes(records, part)
             if self._changes.kept is not None:
-                kept = self._changes.kept[start:end]
+                kept = self._changes.kept[part]
                 records, classes = records[kept], classes[kept]
-            yield records, classes, end / self.source.count
-            start = end
+            yield records, classes, part.stop / self.source.count
+            start = part.stop
 
     def _sources(self) -> Iterator[np.ndarray]:
         if self._records is None:
@@ -140,27 +140,14 @@ class EditedFile:
             largest = int(classes.max())
             check_class(self.source.path, self.source.point_format, largest, "the ground")
 
-    def classes(self, records: np.ndarray, start: int) -> np.ndarray:
-        """Return the classes that records, which begin with the point `start`, are to have."""
+    def _classes(self, records: np.ndarray, part: slice) -> np.ndarray:
+        """Return the classes that records are to have, which are that part of the points."""
         if self._changes.classification is not None:
-            return self._changes.classification[start : start + len(records)]
+            return self._changes.classification[part]
         return np.asarray(named(self.target, records)["classification"])
 
-    def apply(self, records: np.ndarray, start: int) -> np.ndarray:
-        """Return records as they are to be, but for their classes.
-
-        Parameters
-        ----------
-        records : numpy.ndarray of uint8, shape (k, record length)
-            Records of the source; may be changed in place.
-        start : int
-            Number of the first of them in the file.
-
-        Returns
-        -------
-        numpy.ndarray of uint8, shape (k, record length of the target)
-        """
-        part = slice(start, start + len(records))
+    def _applied(self, records: np.ndarray, part: slice) -> np.ndarray:
+        """Return records as they are to be, but for their classes; may change them in place."""
         if self.target.record_length > records.shape[1]:
             longer = np.empty((len(records), self.target.record_length), dtype=np.uint8)
             longer[:, : records.shape[1]] = records

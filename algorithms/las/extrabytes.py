@@ -13,7 +13,7 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from .header_edits import with_record_length
-from .lasfile import LARGEST_VLR, RECORD_LENGTHS, LasFile, Vlr, new_vlr
+from .lasfile import LARGEST_VLR, RECORD_LENGTHS, LasFile, Vlr, new_vlr, text_of
 
 EXTRA_BYTES = ("LASF_Spec", 4)
 _DESCRIPTOR = 192
@@ -78,9 +78,14 @@ def place_dimension(layout: LasFile, dimension: ExtraDimension) -> tuple[LasFile
         of another type: neither float nor double, or no byte.
     """
     descriptors = _descriptors(layout)
+    if descriptors is None:
+        raise BareEarthError(
+            f"{layout.path} describes more extra bytes than its points have, so no dimension can"
+            " be added. Repair its record on the extra bytes first."
+        )
     start = RECORD_LENGTHS[layout.point_format]
     for number, descriptor in enumerate(descriptors):
-        if _text(descriptor[4:36]) == dimension.name:
+        if text_of(descriptor[4:36]) == dimension.name:
             kind = _checked_kind(layout, dimension, descriptor)
             descriptors[number] = _descriptor(dimension, descriptor[2])
             return _with_record(layout, descriptors), Place(start, kind)
@@ -103,16 +108,12 @@ def extra_dimensions(layout: LasFile) -> list[tuple[str, str, int]]:
     The type is "unsigned", "signed" or "floating". Pairs and triples, which are deprecated, and
     bytes that nothing is said of are left out.
     """
-    try:
-        descriptors = _descriptors(layout)
-    except BareEarthError:
-        return []
     found = []
-    for descriptor in descriptors:
+    for descriptor in _descriptors(layout) or ():
         kind, options = descriptor[2], descriptor[3]
         if not 1 <= kind < len(_SIZES):
             continue
-        name, size = _text(descriptor[4:36]), _SIZES[kind]
+        name, size = text_of(descriptor[4:36]), _SIZES[kind]
         if kind in _KINDS:
             found.append((name, "floating", size))
         elif options & (_HAS_SCALE | _HAS_OFFSET):
@@ -124,11 +125,8 @@ def extra_dimensions(layout: LasFile) -> list[tuple[str, str, int]]:
 
 def dimension_names(layout: LasFile) -> list[str]:
     """Return the names of the dimensions in extra bytes, of which some may not be described."""
-    try:
-        descriptors = _descriptors(layout)
-    except BareEarthError:
-        descriptors = []
-    names = [_text(each[4:36]) for each in descriptors if _size(each)]
+    descriptors = _descriptors(layout) or []
+    names = [text_of(each[4:36]) for each in descriptors if _size(each)]
     is_all = sum(map(_size, descriptors)) == layout.extra_bytes
     return names if is_all else [*names, _UNDOCUMENTED]
 
@@ -138,13 +136,9 @@ def runs_of_bytes(layout: LasFile) -> list[tuple[str, int]]:
 
     The dimension `REMEMBERED` is a run of its own, if there is one.
     """
-    count = layout.extra_bytes
-    try:
-        descriptors, start = _descriptors(layout), 0
-    except BareEarthError:
-        descriptors = []
-    for each in descriptors if count else ():
-        if _text(each[4:36]) == REMEMBERED and each[2] == _BYTE:
+    count, start = layout.extra_bytes, 0
+    for each in (_descriptors(layout) or ()) if count else ():
+        if text_of(each[4:36]) == REMEMBERED and each[2] == _BYTE:
             runs = ("before", start), (REMEMBERED, 1), ("behind", count - start - 1)
             return [run for run in runs if run[1]]
         start += _size(each)
@@ -156,24 +150,13 @@ def remembers(layout: LasFile) -> bool:
     return (REMEMBERED, 1) in runs_of_bytes(layout)
 
 
-def _descriptors(layout: LasFile) -> list[bytes]:
-    """Return the descriptors that a file has.
-
-    Raises
-    ------
-    BareEarthError
-        If they describe more bytes than its points have.
-    """
+def _descriptors(layout: LasFile) -> list[bytes] | None:
+    """Return the descriptors of a file; None if they describe more bytes than its points have."""
     record = layout.vlr(EXTRA_BYTES)
     data = b"" if record is None else record.data or b""
     whole = len(data) // _DESCRIPTOR * _DESCRIPTOR
     descriptors = [data[at : at + _DESCRIPTOR] for at in range(0, whole, _DESCRIPTOR)]
-    if sum(map(_size, descriptors)) > layout.extra_bytes:
-        raise BareEarthError(
-            f"{layout.path} describes more extra bytes than its points have, so no dimension can"
-            " be added. Repair its record on the extra bytes first."
-        )
-    return descriptors
+    return None if sum(map(_size, descriptors)) > layout.extra_bytes else descriptors
 
 
 def _size(descriptor: bytes) -> int:
@@ -229,7 +212,3 @@ def _with_record(layout: LasFile, descriptors: list[bytes]) -> LasFile:
     # Behind the points, where few look for it, it would contradict this one.
     evlrs = tuple(evlr for evlr in layout.evlrs if evlr.key != EXTRA_BYTES)
     return replace(layout, vlrs=tuple(vlrs), evlrs=evlrs)
-
-
-def _text(field: bytes) -> str:
-    return field.split(b"\0")[0].decode("utf-8", "replace").strip()

@@ -16,7 +16,7 @@ from __future__ import annotations
 from typing import BinaryIO, Iterator
 
 from .lasfile import LasFile
-from .laszip import ChunkHead
+from .laszip import GPS_TIMES
 from .sources import damaged, open_source
 
 # With the stack that `algorithms.las` asks for, 32 of them do no harm yet, and 64 do.
@@ -43,11 +43,11 @@ def check_gps_times(layout: LasFile) -> None:
 
 def _layers(layout: LasFile, file: BinaryIO) -> Iterator[bytes]:
     """Yield the layer of the GPS times of each chunk."""
-    head, place = ChunkHead(layout.record_length, layout.layers), layout.points_start + 8
+    head, place = layout.chunk_head, layout.points_start + 8
     for _, size in layout.chunk_table:
         if size:
             file.seek(place)
-            layer = head.gps_times(file.read(head.size))
+            layer = head.layer(GPS_TIMES, file.read(head.size))
             file.seek(place + layer.start)
             yield file.read(layer.stop - layer.start)
         place += size

@@ -35,11 +35,6 @@ class Field(NamedTuple):
         """Write the values into a header."""
         struct.pack_into(f"<{self.layout}", header, self.start, *values)
 
-    @property
-    def place(self) -> slice:
-        """Where its bytes are."""
-        return slice(self.start, self.start + struct.calcsize(f"<{self.layout}"))
-
 
 GLOBAL_ENCODING = Field(6, "H")
 VERSION = Field(24, "2B")

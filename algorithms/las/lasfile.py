@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
+from ..core.points import Box
 from . import header as fields
 from .laszip import ChunkHead, Compression
 from .sources import FileState, changed, damage_told, damaged, open_source
@@ -178,6 +179,17 @@ class LasFile:
         return fields.EXTENT.get(self.header)[0::2]
 
     @property
+    def box(self) -> Box:
+        """Smallest x and y, largest x and y in units of the CRS, as the header has them."""
+        return (*self.minimum[:2], *self.maximum[:2])
+
+    @property
+    def outer_box(self) -> Box:
+        """The box, wider by a step of the coordinates: headers are rounded."""
+        (west, south, east, north), (x, y) = self.box, self.scale[:2]
+        return west - x, south - y, east + x, north + y
+
+    @property
     def states_extent(self) -> bool:
         """Whether the extent in the header is one that the integers of points can have.
 
@@ -241,6 +253,11 @@ class LasFile:
         compression = Compression.of(self.laszip or b"") if self.is_compressed else None
         return compression.layers if compression else 0
 
+    @property
+    def chunk_head(self) -> ChunkHead:
+        """What each chunk of compressed points begins with, if it has layers."""
+        return ChunkHead(self.record_length, self.layers)
+
     @cached_property
     def chunk_table(self) -> list[tuple[int, int]]:
         """Points and bytes of each chunk of a compressed file, as its chunk table says.
@@ -258,7 +275,7 @@ class LasFile:
             compression, place = Compression.of(self.laszip), self.points_start + 8
             if not compression.table_fits(table, self.count, self._room):
                 raise damaged(self.path)
-            head = ChunkHead(self.record_length, self.layers)
+            head = self.chunk_head
             for _, size in table if head.layers else ():
                 file.seek(place)
                 if size and not head.fits(file.read(head.size), size):
@@ -322,5 +339,5 @@ def new_vlr(key: tuple[str, int], data: bytes, description: str) -> Vlr:
 
 
 def text_of(field: bytes) -> str:
-    """Return the text in a field of fixed length."""
+    """Return the text in a field, which a zero may end."""
     return field.split(b"\0")[0].decode("utf-8", "replace").strip()

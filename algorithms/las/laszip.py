@@ -15,8 +15,8 @@ import struct
 from typing import NamedTuple, Sequence
 
 POINT_14, _EXTRA_BYTES_14, _WAVE_PACKET_13 = 10, 14, 9
-# Which of the layers of a point has its GPS time.
-_GPS_TIMES = 8
+# Which of the layers of a point have its class and its GPS time.
+CLASSES, GPS_TIMES = 2, 8
 # Layers of a point, its colours, those with near infrared, and its wave packet.
 LAYERS = {POINT_14: 9, 11: 1, 12: 2, 13: 1}
 # Bytes of each part of a point but of its extra bytes, and the parts of each point format.
@@ -154,11 +154,11 @@ class ChunkHead(NamedTuple):
             return False
         return self.size + sum(self.numbers(data, start)[1:]) <= size
 
-    def gps_times(self, data: bytes) -> slice:
-        """Return where the layer of the GPS times is in the chunk that begins with `data`."""
-        _, *lengths = self.numbers(data)
-        start = self.size + sum(lengths[:_GPS_TIMES])
-        return slice(start, start + lengths[_GPS_TIMES])
+    def layer(self, number: int, data: bytes | memoryview, start: int = 0) -> slice:
+        """Return where a layer stands of the chunk at `start`."""
+        _, *lengths = self.numbers(data, start)
+        place = start + self.size + sum(lengths[:number])
+        return slice(place, place + lengths[number])
 
 
 def with_chunk_size(record: bytes, points: int) -> bytes:

@@ -25,15 +25,16 @@ if TYPE_CHECKING:
 
 _CHUNK = 500_000
 _POINTS_A_PART = 1 << 17
-_SMALL = {
-    "classification": np.uint8,
-    "return_number": np.uint8,
-    "number_of_returns": np.uint8,
-    "withheld": bool,
-    "scanner_channel": np.uint8,
-    "remembered": np.uint8,
+_COORDINATES = {"x": "X", "y": "Y", "z": "Z"}
+_COLUMNS: dict[str, tuple[str, type]] = {
+    **{name: (source, np.int32) for name, source in _COORDINATES.items()},
+    "classification": ("classification", np.uint8),
+    "return_number": ("return_number", np.uint8),
+    "number_of_returns": ("number_of_returns", np.uint8),
+    "withheld": ("withheld", bool),
+    "scanner_channel": ("scanner_channel", np.uint8),
+    "remembered": (REMEMBERED, np.uint8),
 }
-_COORDINATES = ("x", "y", "z")
 
 
 def read_cloud(
@@ -69,7 +70,7 @@ def read_cloud(
         records = np.empty((layout.count, layout.record_length), dtype=np.uint8)
         # x, y and z stay where they are among the records: a copy would be half as much again.
         points = named(layout, records)
-        coordinates = {name: points[name.upper()] for name in _COORDINATES}
+        coordinates = {name: points[source] for name, source in _COORDINATES.items()}
         cloud = _empty_cloud(layout, layout.count, crs, records=records, **coordinates)
         pieces = read_records(layout, MOST_KEPT, records)
     else:
@@ -246,14 +247,18 @@ def read_chunks(layout: LasFile) -> Iterator[laspy.PackedPointRecord]:
         yield named(layout, records)
 
 
-def _empty_cloud(layout: LasFile, count: int, crs: Crs, **kept: np.ndarray) -> PointCloud:
-    """Return room for points, but for the columns that there are."""
-    kinds = {**{name: np.int32 for name in _COORDINATES}, **_SMALL}
+def columns_of(layout: LasFile) -> dict[str, tuple[str, type]]:
+    """Return which columns of a `PointCloud` a file has: their names there, and their types."""
+    columns = dict(_COLUMNS)
     if layout.point_format < FIRST_EXTENDED_FORMAT:
-        del kinds["scanner_channel"]
+        del columns["scanner_channel"]
     if not remembers(layout):
-        del kinds["remembered"]
-    empty = {name: np.empty(count, dtype=kind) for name, kind in kinds.items() if name not in kept}
+        del columns["remembered"]
+    return columns
+
+
+def cloud_of(layout: LasFile, crs: Crs, **columns: np.ndarray) -> PointCloud:
+    """Return the cloud of some points of a file."""
     return PointCloud(
         path=layout.path,
         scale=layout.scale,
@@ -261,18 +266,21 @@ def _empty_cloud(layout: LasFile, count: int, crs: Crs, **kept: np.ndarray) -> P
         point_format=layout.point_format,
         crs=crs,
         file=layout,
-        **empty,
-        **kept,
+        **columns,
     )
+
+
+def _empty_cloud(layout: LasFile, count: int, crs: Crs, **kept: np.ndarray) -> PointCloud:
+    """Return room for points, but for the columns that there are."""
+    kinds = {name: kind for name, (_, kind) in columns_of(layout).items() if name not in kept}
+    empty = {name: np.empty(count, dtype=kind) for name, kind in kinds.items()}
+    return cloud_of(layout, crs, **empty, **kept)
 
 
 def _fill(cloud: PointCloud, where: slice, points: laspy.PackedPointRecord) -> None:
     """Put points into their place in a cloud; where their coordinates are kept, they are there."""
-    names = {name: name for name in _SMALL if getattr(cloud, name) is not None}
-    if cloud.remembered is not None:
-        names["remembered"] = REMEMBERED
-    if cloud.records is None:
-        names.update({name: name.upper() for name in _COORDINATES})
+    there = () if cloud.records is None else _COORDINATES
+    names = {name: each for name, (each, _) in columns_of(cloud.file).items() if name not in there}
 
     def copy(part: slice) -> None:
         for name, source in names.items():

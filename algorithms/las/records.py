@@ -136,22 +136,6 @@ def column(records: np.ndarray, start: int, kind: str | np.dtype) -> np.ndarray:
     return records.view(np.dtype({**row, "itemsize": records.shape[1]}))["field"][:, 0]
 
 
-def set_classes(layout: LasFile, records: np.ndarray, classes: np.ndarray) -> None:
-    """Write classes into the bytes of points; flags in the same byte stay.
-
-    Parameters
-    ----------
-    layout : LasFile
-        The file whose point format the records have.
-    records : numpy.ndarray of uint8, shape (n, record length)
-        Changed in place.
-    classes : numpy.ndarray of uint8, shape (n,)
-        Up to 31 in point formats 0 to 5, whose byte has three flags above the class.
-    """
-    if len(records):
-        named(layout, records)["classification"][:] = classes
-
-
 class Tally:
     """Counts what a header says of points, as they are written.
 

@@ -25,22 +25,9 @@ from .copc_nodes import OctreeError
 from .edits import EditedFile, Edits
 from .header import EVLR_COUNT
 from .header_edits import with_statistics
-from .lasfile import (
-    COPC_HIERARCHY,
-    COPC_INFO,
-    LASZIP,
-    LasFile,
-)
+from .lasfile import COPC_HIERARCHY, COPC_INFO, LASZIP, LasFile
 from .opening import open_las
-from .records import (
-    LasRecordWriter,
-    LazRecordWriter,
-    Tally,
-    copy_range,
-    laszip_vlr,
-    named,
-    set_classes,
-)
+from .records import LasRecordWriter, LazRecordWriter, Tally, copy_range, laszip_vlr, named
 from .sources import open_source
 
 _COPC_SUFFIX = ".copc.laz"
@@ -224,10 +211,13 @@ def _write(rewriting: EditedFile, target: Path, progress: Progress) -> None:
         writer = LazRecordWriter(file, laszip) if laszip else LasRecordWriter(file)
         channels, tally = set(), Tally(layout)
         for records, classes, done in rewriting.points():
-            set_classes(layout, records, classes)
-            if laszip is not None and layout.point_format in _EXTENDED_WITH_WAVEFORMS:
-                channels |= set(np.unique(named(layout, records)["scanner_channel"]).tolist())
-                _check_channels(layout, channels)
+            if len(records):
+                points = named(layout, records)
+                # The flags in the same byte stay.
+                points["classification"][:] = classes
+                if laszip is not None and layout.point_format in _EXTENDED_WITH_WAVEFORMS:
+                    channels |= set(np.unique(points["scanner_channel"]).tolist())
+                    _check_channels(layout, channels)
             writer.write(records)
             if rewriting.leaves_out:
                 tally.add(records)

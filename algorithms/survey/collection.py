@@ -30,48 +30,6 @@ _MOST_NAMES = 3
 
 
 @dataclass(frozen=True)
-class Tile:
-    """One file of a survey.
-
-    Attributes
-    ----------
-    file : LasFile
-        The file as it was opened.
-    crs : Crs
-        What is known of the coordinate reference system.
-    """
-
-    file: LasFile
-    crs: Crs
-
-    @property
-    def path(self) -> Path:
-        """The path of the file."""
-        return self.file.path
-
-    @property
-    def count(self) -> int:
-        """Number of points."""
-        return self.file.count
-
-    @property
-    def point_format(self) -> int:
-        """LAS point format."""
-        return self.file.point_format
-
-    @property
-    def box(self) -> Box:
-        """Smallest x and y, largest x and y in units of the CRS."""
-        return (*self.file.minimum[:2], *self.file.maximum[:2])
-
-    @property
-    def outer_box(self) -> Box:
-        """The box, wider by a step of the coordinates: headers are rounded."""
-        (west, south, east, north), (x, y) = self.box, self.file.scale[:2]
-        return west - x, south - y, east + x, north + y
-
-
-@dataclass(frozen=True)
 class BrokenTile:
     """A file that cannot be worked on, and a sentence that says why."""
 
@@ -85,7 +43,7 @@ class Collection:
 
     Attributes
     ----------
-    tiles : tuple of Tile
+    tiles : tuple of LasFile
         Those that can be read, one at least, all in the same CRS.
     broken : tuple of BrokenTile
         Those that cannot.
@@ -93,7 +51,7 @@ class Collection:
         The CRS of all of them.
     """
 
-    tiles: tuple[Tile, ...]
+    tiles: tuple[LasFile, ...]
     broken: tuple[BrokenTile, ...]
     crs: Crs
 
@@ -112,7 +70,7 @@ class Collection:
     def _boxes(self) -> np.ndarray:
         return np.array([tile.outer_box for tile in self.tiles])
 
-    def touching(self, box: Box) -> list[Tile]:
+    def touching(self, box: Box) -> list[LasFile]:
         """Return the tiles whose extents share a place with a box, their borders included."""
         west, south, east, north = self._boxes.T
         touches = (west <= box[2]) & (east >= box[0]) & (south <= box[3]) & (north >= box[1])
@@ -143,10 +101,13 @@ def open_collection(
         If the user asked to stop.
     """
     paths = find_files(sources, recursive, progress)
-    heard, tiles, broken, known = Notes(), [], [], {}
+    heard, tiles, stated, broken = Notes(), [], [], []
     for number, path in enumerate(paths, start=1):
         try:
-            tiles.append(_tile(open_las(path), known, heard))
+            tile = open_las(path)
+            _check_extent(tile)
+            stated.append(_crs_of(tile, heard))
+            tiles.append(tile)
         except BareEarthError as error:
             broken.append(BrokenTile(path, str(error)))
         progress(number / len(paths))
@@ -157,7 +118,7 @@ def open_collection(
             else f"None of the {len(broken)} files can be read. The first: {broken[0].reason}"
         )
     _tell(heard, progress)
-    crs = _common_crs(tiles, progress)
+    crs = _common_crs(tiles, stated, progress)
     _tell_of_twins(tiles, progress)
     return Collection(tuple(tiles), tuple(broken), crs)
 
@@ -251,14 +212,12 @@ def _listed(source: Path) -> list[Path]:
     return [source.parent / name for name in names if name and not name.startswith("#")]
 
 
-def _tile(layout: LasFile, known: dict[Crs, Crs], heard: Notes) -> Tile:
-    """Return what a header says; `known` keeps one text of each CRS for all files."""
-    _check_extent(layout)
+def _crs_of(layout: LasFile, heard: Notes) -> Crs:
+    """Return the CRS that a file states; those without any are told of together."""
     crs = read_crs(layout)
     if crs != Crs():
-        # Files without any CRS are told of together.
         read_crs(layout, heard)
-    return Tile(layout, known.setdefault(crs, crs))
+    return crs
 
 
 def _check_extent(layout: LasFile) -> None:
@@ -269,36 +228,26 @@ def _check_extent(layout: LasFile) -> None:
         raise no_extent(layout)
 
 
-def _common_crs(tiles: list[Tile], progress: Progress) -> Crs:
-    """Return the CRS of all tiles, or refuse those that differ."""
-    groups: list[list[Tile]] = []
-    for tile in tiles:
-        group = next((group for group in groups if _is_same(group[0].crs, tile.crs)), None)
-        if group is None:
-            groups.append([tile])
-        else:
-            group.append(tile)
-    stated = [group for group in groups if group[0].crs != Crs()]
-    unstated = [tile for tile in tiles if tile.crs == Crs()]
-    if not stated:
-        progress.warning(
-            f"{_names(unstated)} {'do' if len(unstated) > 1 else 'does'} not say the CRS:"
-            " coordinates are taken as metres."
-        )
+def _common_crs(tiles: list[LasFile], stated: list[Crs], progress: Progress) -> Crs:
+    """Return the CRS of all tiles, given what each states, or refuse those that differ."""
+    groups: dict[Crs, list[LasFile]] = {}
+    for tile, crs in zip(tiles, stated):
+        same = next((each for each in groups if _is_same(each, crs)), crs)
+        groups.setdefault(same, []).append(tile)
+    known, unstated = [crs for crs in groups if crs != Crs()], groups.get(Crs(), [])
+    lack = f"{_names(unstated)} {'do' if len(unstated) > 1 else 'does'} not say the CRS:"
+    if not known:
+        progress.warning(f"{lack} coordinates are taken as metres.")
         return Crs()
-    crs = stated[0][0].crs
-    if len(stated) > 1 or (unstated and not _has_same_units(crs, Crs())):
+    if len(known) > 1 or (unstated and not _has_same_units(known[0], Crs())):
         raise BareEarthError(
             "The files are not in the same CRS: "
-            + "; ".join(f"{_described(group[0].crs)}: {_names(group)}" for group in groups)
+            + "; ".join(f"{_described(crs)}: {_names(some)}" for crs, some in groups.items())
             + ". Reproject them to one CRS, or work on each group alone."
         )
     if unstated:
-        progress.warning(
-            f"{_names(unstated)} {'do' if len(unstated) > 1 else 'does'} not say the CRS: that of"
-            f" the others is used, {crs.name}."
-        )
-    return crs
+        progress.warning(f"{lack} that of the others is used, {known[0].name}.")
+    return known[0]
 
 
 def _is_same(one: Crs, other: Crs) -> bool:
@@ -335,17 +284,17 @@ def _described(crs: Crs) -> str:
     return f"{crs.name} in {unit_name(crs.horizontal_unit)}, height {unit_name(crs.vertical_unit)}"
 
 
-def _names(tiles: list[Tile]) -> str:
+def _names(tiles: list[LasFile]) -> str:
     names = ", ".join(tile.path.name for tile in tiles[:_MOST_NAMES])
     more = len(tiles) - _MOST_NAMES
     return f"{names} and {more} more" if more > 0 else names
 
 
-def _tell_of_twins(tiles: list[Tile], progress: Progress) -> None:
+def _tell_of_twins(tiles: list[LasFile], progress: Progress) -> None:
     """Warn of tiles that look like the same points twice: LAZ and COPC of it, or copies."""
-    seen: dict[tuple[float, ...], Tile] = {}
+    seen: dict[tuple[float, ...], LasFile] = {}
     for tile in tiles:
-        extent = (*tile.file.minimum, *tile.file.maximum)
+        extent = (*tile.minimum, *tile.maximum)
         key = tile.count, *(round(each, 2) for each in extent)
         twin = seen.setdefault(key, tile)
         if twin is not tile:

@@ -67,8 +67,10 @@ class PointChooser:
     def check_classes(self, path: Path, point_format: int) -> None:
         """Refuse a file whose points have no room for the classes that the user chose."""
         by_hand = [(value, "a correction") for value in self.corrections.classes]
-        for value, name in (*self.selection.new_classes(), *by_hand):
-            check_class(path, point_format, value, name)
+        ground, bridges = self.selection.to_class, self.selection.bridge_class
+        for value, name in ((ground, "the ground"), (bridges, "bridges"), *by_hand):
+            if value is not None:
+                check_class(path, point_format, value, name)
 
     def by_hand(self, part: PointCloud) -> ByHand | None:
         """Return what is known of points by hand; None if nothing can be."""

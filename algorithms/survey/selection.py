@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple, Sequence
+from typing import Sequence
 
 import numpy as np
 
@@ -19,23 +19,6 @@ from .tally import Tally
 NEVER_CLASSIFIED, UNCLASSIFIED, GROUND = 0, 1, 2
 LOW_NOISE = 7
 NOISE = (LOW_NOISE, 18)
-
-
-class Special(NamedTuple):
-    """What is looked for beside the ground.
-
-    Attributes
-    ----------
-    low_noise_depth : float or None
-        Points that lie so many metres below the ground are low outliers; none are looked for if it
-        is None.
-    bridges : str
-        Whether decks of bridges are: ``find``, ``keep`` (as ground), or ``automatic`` if that is
-        for the method to say.
-    """
-
-    low_noise_depth: float | None = None
-    bridges: str = "automatic"
 
 
 @dataclass(frozen=True)
@@ -140,16 +123,6 @@ class Selection(ParameterSet):
         " point. A later run on the output finds the classes that were changed by hand since, and"
         " keeps them, whatever its settings. It then remembers the classes again.",
     )
-
-    @property
-    def special(self) -> Special:
-        """What is to be looked for beside the ground."""
-        return Special(self.low_noise_depth if self.low_noise_class else None, self.bridges)
-
-    def new_classes(self) -> list[tuple[int, str]]:
-        """Return the classes that the user chose for points, each with what gets it."""
-        chosen = ((self.to_class, "the ground"), (self.bridge_class, "bridges"))
-        return [(value, name) for value, name in chosen if value is not None]
 
     def choose(
         self,

@@ -19,9 +19,8 @@ class Tally:
 
     Attributes
     ----------
-    points, within, withheld, unnumbered : int
-        Points of all parts, those in the area (all without one), those withheld and those without
-        return number.
+    points, withheld, unnumbered : int
+        Points of all parts, those withheld and those without return number.
     free : int
         Points in the area that are not withheld.
     eligible, of_returns, known, by_hand, selected : int
@@ -36,7 +35,6 @@ class Tally:
     """
 
     points: int = 0
-    within: int = 0
     withheld: int = 0
     unnumbered: int = 0
     free: int = 0
@@ -60,7 +58,6 @@ class Tally:
         if within is not None:
             classes, free = classes[within], free & within
             counts = count_classes(classes)
-        self.within += len(classes)
         self.classes_within += counts
         self.add_counts(withheld=part.withheld, free=free, **masks)
 

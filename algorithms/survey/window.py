@@ -12,25 +12,14 @@ from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
 from ..las.copc_nodes import OctreeError, find_nodes, read_hierarchy, read_nodes
 from ..las.crs_records import read_crs
-from ..las.extrabytes import REMEMBERED, remembers
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
-from ..las.reading import read_chunks, require_packages
+from ..las.reading import cloud_of, columns_of, read_chunks, require_packages
 from .area import Area
 
 if TYPE_CHECKING:
     import laspy
 
-_COLUMNS: dict[str, tuple[str, type]] = {
-    "x": ("X", np.int32),
-    "y": ("Y", np.int32),
-    "z": ("Z", np.int32),
-    "classification": ("classification", np.uint8),
-    "return_number": ("return_number", np.uint8),
-    "number_of_returns": ("number_of_returns", np.uint8),
-    "withheld": ("withheld", bool),
-}
-_REMEMBERED: dict[str, tuple[str, type]] = {"remembered": (REMEMBERED, np.uint8)}
 Columns = dict[str, np.ndarray]
 
 
@@ -119,8 +108,10 @@ def _inside(layout: LasFile, area: Area, chunk: laspy.PackedPointRecord) -> Colu
 
 
 def _columns(layout: LasFile) -> dict[str, tuple[str, type]]:
-    """Return which columns of a file are read: their name there, and their type."""
-    return {**_COLUMNS, **_REMEMBERED} if remembers(layout) else _COLUMNS
+    """Return which columns of a file are read: all but those that only writing needs."""
+    columns = columns_of(layout)
+    columns.pop("scanner_channel", None)
+    return columns
 
 
 def _leaves_header(layout: LasFile, chunk: laspy.PackedPointRecord) -> bool:
@@ -137,10 +128,9 @@ def _leaves_header(layout: LasFile, chunk: laspy.PackedPointRecord) -> bool:
 
 def _may_touch(layout: LasFile, area: Area) -> bool:
     """Return whether the extent in the header touches an area; one that is none touches all."""
-    (west, south, _), (east, north, _) = layout.minimum, layout.maximum
-    x, y, _ = layout.scale  # headers are rounded
+    west, south, east, north = layout.box
     is_one = west <= east and south <= north
-    return not is_one or area.may_touch((west - x, south - y, east + x, north + y))
+    return not is_one or area.may_touch(layout.outer_box)
 
 
 def _cloud(layout: LasFile, parts: Iterator[Columns], progress: Progress) -> PointCloud:
@@ -153,12 +143,4 @@ def _cloud(layout: LasFile, parts: Iterator[Columns], progress: Progress) -> Poi
             kept[name].append(values)
     # One after the other, so that not all columns are there twice at the same time.
     columns = {name: np.concatenate(kept.pop(name)) for name in names}
-    return PointCloud(
-        path=layout.path,
-        scale=layout.scale,
-        offset=layout.offset,
-        point_format=layout.point_format,
-        crs=read_crs(layout, progress),
-        file=layout,
-        **columns,
-    )
+    return cloud_of(layout, read_crs(layout, progress), **columns)

@@ -72,14 +72,14 @@ def test_links_to_the_same_file_count_once(las):
 
 def test_a_tile_is_what_the_header_says(las):
     path = tile(las, "a.laz", 300, 500, count=77, extra=2)
-    (found,) = open_collection([path]).tiles
+    collection = open_collection([path])
+    (found,) = collection.tiles
     assert (found.path, found.count, found.box) == (path, 77, (300, 500, 400, 600))
-    file = found.file
-    assert (file.minimum[2], file.maximum[2]) == (1, 9)
-    assert (file.scale, file.offset) == (las.SCALE, las.OFFSET)
-    assert (found.point_format, file.record_length) == (6, 32)
-    assert (file.is_compressed, file.is_copc) == (True, False)
-    assert found.crs.name == "site"
+    assert (found.minimum[2], found.maximum[2]) == (1, 9)
+    assert (found.scale, found.offset) == (las.SCALE, las.OFFSET)
+    assert (found.point_format, found.record_length) == (6, 32)
+    assert (found.is_compressed, found.is_copc) == (True, False)
+    assert collection.crs.name == "site"
 
 
 def test_a_broken_file_stops_nothing_and_is_told(las):

@@ -87,6 +87,28 @@ def test_low_plants_go_from_an_even_slope_and_from_a_dune(method):
 
 
 @pytest.mark.parametrize("method", METHODS)
+def test_noisy_ground_stays(method):
+    # Points half a metre apart with noise of 0.1 m: few of them lie in a cell of a metre.
+    scene = make("hills", seed=4, noise=0.1, size=80.0)
+    found = METHODS[method].classify(scene.points, METHODS[method].parameters())
+    assert found[scene.ground].mean() > 0.98
+    assert found[~scene.ground].mean() < 0.25
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_scattered_low_outliers_do_not_take_the_ground_of_a_dense_cloud_away(method, las):
+    # Nearly each square metre has one.
+    scene = make("drone_noisy", seed=4, low_outliers=4e-3, size=24.0)
+    lows = scene.classes == 7
+    assert lows.sum() > 24.0**2
+    told = las.Heard()
+    found = METHODS[method].ground(scene.points, METHODS[method].parameters(), told)
+    assert found[scene.ground].mean() > 0.97
+    assert found[lows].mean() < 0.02
+    assert any("Low outliers are scattered" in each for each in told.infos)
+
+
+@pytest.mark.parametrize("method", METHODS)
 def test_scattered_points_of_images_take_no_ground_away(method):
     # In each 16th cell of a metre one point lies 1 to 12 m below the ground.
     scene = make("photogrammetry", seed=5, density=25.0, size=90.0)

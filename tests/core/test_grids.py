@@ -11,7 +11,13 @@ from bare_earth.algorithms.grids import cells as cells_module
 from bare_earth.algorithms.grids import morphology
 from bare_earth.algorithms.grids.cells import Cells, apart, lower_at, spacing
 from bare_earth.algorithms.grids.inpaint import inpaint
-from bare_earth.algorithms.grids.morphology import erosion, in_steps, opening, within_square
+from bare_earth.algorithms.grids.morphology import (
+    erosion,
+    in_steps,
+    median_of_nine,
+    opening,
+    within_square,
+)
 from bare_earth.algorithms.grids.trend import between_blocks
 
 
@@ -96,6 +102,12 @@ def test_the_extreme_within_a_square_agrees_with_that_of_scipy(shape, reach):
     assert np.array_equal(within_square(np.minimum, grid, reach), lowest)
     spread = ndimage.maximum_filter((grid > 1.5).astype(np.uint8), side, mode="constant")
     assert np.array_equal(within_square(np.maximum, grid > 1.5, reach), spread)
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (1, 5), (2, 2), (30, 40)])
+def test_the_median_of_nine_is_that_of_a_slower_filter(shape):
+    grid = np.random.default_rng(3).integers(0, 9, shape).astype(np.float32)
+    assert np.array_equal(median_of_nine(grid), ndimage.median_filter(grid, 3, mode="nearest"))
 
 
 def test_strips_and_threads_do_not_change_the_extremes(monkeypatch):

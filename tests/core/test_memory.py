@@ -13,7 +13,7 @@ from bare_earth.algorithms.engine.heights import MeasureHeights
 from bare_earth.algorithms.engine.memory import Resources, give_back
 from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
 from bare_earth.algorithms.engine.raster_files import RasterFiles
-from bare_earth.algorithms.engine.rasters import MakeRasters, RasterRequest
+from bare_earth.algorithms.engine.rasters import MakeRasters
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.products.terrain_model import TerrainModel
 
@@ -21,8 +21,8 @@ COUNT, SIDE = 150_000, 240.0
 MAPS = {name: Path(f"{name}.tif") for name in ("dtm", "dsm")}
 STEPS = {
     "heights": MeasureHeights(),
-    "terrain": MakeRasters(RasterRequest(RasterFiles(dtm=MAPS["dtm"]), TerrainModel(1.0))),
-    "surface": MakeRasters(RasterRequest(RasterFiles(**MAPS), TerrainModel(1.0))),
+    "terrain": MakeRasters(RasterFiles(dtm=MAPS["dtm"]), TerrainModel(1.0)),
+    "surface": MakeRasters(RasterFiles(**MAPS), TerrainModel(1.0)),
 }
 
 

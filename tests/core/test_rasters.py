@@ -18,7 +18,7 @@ from bare_earth.algorithms.engine import blocks as blocks_module
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
 from bare_earth.algorithms.engine.raster_files import RASTERS, RasterFiles
-from bare_earth.algorithms.engine.rasters import MakeRasters, RasterRequest, write_rasters
+from bare_earth.algorithms.engine.rasters import MakeRasters, write_rasters
 from bare_earth.algorithms.engine.workers import Processes, Threads
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 from bare_earth.algorithms.grids.tin import Tin, hull_corners
@@ -45,13 +45,13 @@ def _hills(count, size=600.0, keep=None):
 
 def _made(cloud, folder, max_edge=None, files=("dtm",), cell=2.5, shown=True):
     files = RasterFiles(**{name: folder / f"{name}.tif" for name in files})
-    request = RasterRequest(files, TerrainModel(cell), SurfaceModel(max_edge=max_edge))
+    step = MakeRasters(files, TerrainModel(cell), SurfaceModel(max_edge=max_edge))
     every = np.full(cloud.count, shown)
-    step, files_of = MakeRasters(request), [SurveyFile(cloud, every, every, every)]
+    files_of = [SurveyFile(cloud, every, every, every)]
     store = MemoryPoints(files_of, survey_frame(cloud.crs), step.blocks)
     made = step.work(store, Resources(), SILENT)
     with contextlib.ExitStack() as outputs:
-        write_rasters(made, survey_frame(cloud.crs), request, outputs)
+        write_rasters(made, survey_frame(cloud.crs), step, outputs)
     with rasterio.open(next(iter(files.wanted.values()))) as raster:
         values = raster.read(1, masked=True).filled(np.nan)
         rows, columns = np.mgrid[: raster.height, : raster.width]

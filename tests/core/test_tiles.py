@@ -27,7 +27,7 @@ from bare_earth.algorithms.engine.ground import label_ground
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
 from bare_earth.algorithms.engine.options import TileInput, TileMethod, TileOutput
-from bare_earth.algorithms.engine.survey import BlockIndex, Survey, frame_of, grouped
+from bare_earth.algorithms.engine.survey import BlockIndex, Survey, grouped
 from bare_earth.algorithms.engine.workers import Local, Processes, Threads
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
@@ -77,7 +77,7 @@ def whole_classes(path, parameters, selection=Selection(), blocks=BLOCKS):
         survey_frame(cloud.crs),
         blocks,
     )
-    label_ground(store, parameters, blocks, selection.special)
+    label_ground(store, parameters, blocks, selection)
     labels = store.labels[0]
     rows = points_of([path])
     unsorted = np.column_stack((cloud.x, cloud.y, cloud.z)).astype(np.int64)
@@ -209,7 +209,7 @@ def test_copc_tiles_larger_than_their_share_of_memory_give_the_same_bytes(
 
 def test_blocks_are_read_in_groups_that_fit_into_memory(six):
     collection = open_collection([six])
-    survey = Survey(frame_of(collection), Blocks(20.0, 5.0))
+    survey = Survey(survey_frame(collection.crs), Blocks(20.0, 5.0))
     places = [BlockIndex(column, row) for row in range(6) for column in range(15)]
     many = grouped(survey, collection, places, 1, 1 << 40)
     assert len(many) == 4 * 2  # squares of 4 x 4; with 8 x 8 there would be too few
@@ -248,7 +248,7 @@ def test_the_results_are_listed_in_a_virtual_point_cloud(six, out, tmp_path):
 def test_the_format_can_be_chosen(format, six, out):
     classify_tiles([six], out, FAST, output=TileOutput(format=format))
     assert {path.name for path in out.glob("*.la[sz]")} == {f"{n}.{format}" for n in range(6)}
-    assert {tile.file.is_copc for tile in open_collection([out]).tiles} == {format == "copc.laz"}
+    assert {tile.is_copc for tile in open_collection([out]).tiles} == {format == "copc.laz"}
 
 
 def test_outputs_that_would_do_harm_are_refused(six, out, tmp_path):

@@ -24,7 +24,7 @@ from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
-from bare_earth.algorithms.survey.selection import Special
+from bare_earth.algorithms.survey.selection import Selection
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
 ORIGIN = (500_000.0, 5_700_000.0, 50.0)
@@ -52,7 +52,8 @@ def labels_of(parts, parameters, blocks, threads=1, depth=1.0, known=None, progr
     store = MemoryPoints(
         [SurveyFile(each, np.ones(each.count, bool)) for each in parts], frame, blocks
     )
-    label_ground(store, parameters, blocks, Special(depth), Resources(threads=threads), progress)
+    selection = Selection(low_noise_class=depth is not None, low_noise_depth=depth or 1.0)
+    label_ground(store, parameters, blocks, selection, Resources(threads=threads), progress)
     return store.labels
 
 
@@ -79,10 +80,6 @@ def test_a_tile_of_a_kilometre_that_begins_at_a_block_has_no_narrow_rest(east, o
     blocks = Blocks.of(100.0)
     store = MemoryPoints([SurveyFile(cloud, np.ones(2, bool))], survey_frame(cloud.crs), blocks)
     assert [(each.column, each.row) for each in blocks.over(store)] == [(east // 2000, 2850)]
-
-
-def test_what_a_box_needs_is_whole_blocks_and_their_buffer():
-    assert Blocks(100.0, 10.0).needed((150, 20, 210, 99)) == (90, -10, 310, 110)
 
 
 def test_every_point_lies_in_one_block_and_crowded_blocks_are_quartered():

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import threading
 from typing import NamedTuple
 
 import numpy as np
 
 from ...core.points import Points
-from ...core.threads import in_threads, parts_of
 from ...grids.cells import Cells
 from ...grids.gradient import gradient, length, steepness
 from ...grids.inpaint import inpaint
 from ...grids.morphology import within_square
+from .noise import below_middle, from_middle, middle_of_noise, noise_of_squares
 
 # Metres over which the surface is smoothed for the slope along which vertices are moved, how often
 # they are moved, and the steepest slope (rise over run).
@@ -27,24 +26,16 @@ NOISE_SPACING = 0.36
 DENSE_SPACING = 0.17
 # Metres of curvature over a cell from which on there is a break, and what each more adds.
 _BREAK, _BREAK_FACTOR = 0.25, 1.5
-# Metres round the lowest points within which noise is measured, the points that a cell must have
-# for that, and the percentile of the cells: most have plants as well.
-_NOISE_WINDOW, _NOISE_POINTS, _NOISE_PERCENTILE = 0.6, 8, 25
-# Metres from the lowest points beyond which no point is noise, and how finely rises are told.
-_FARTHEST, _STEPS_A_METRE = 2.4, 1 << 14
-# Points within so many times the noise belong to the ground; a mean needs so many of them, and is
-# taken so often.
-_NOISE_FACTOR, _MEAN_POINTS, _MEANS = 2.5, 4, 2
-# The lowest of n points lies below the ground by so many times the noise, times sqrt(2 ln n).
-_LOWEST_FACTOR = 0.8
 # Metres above a surface through the middle of the noise, and how often the noise adds to them.
 _ABOVE, _ABOVE_FACTOR = 0.05, 3.0
+# The same where few points lie in a cell, and metres by which less is needed: plants that are lower
+# than the noise can't be told.
+_SPARSE_FACTOR, _USUAL_NOISE = 2.5, 0.07
 # Metres, and at most which share, that the tolerance above is less where the ground is even.
 _EVEN_LESS, _EVEN_SHARE = 0.07, 0.4
 # Ground is even up to so many metres of curvature, where this share of the cells round about is
 # known.
 _EVEN_CURVATURE, _EVEN_KNOWN = 0.45, 0.6
-_POINTS_A_PART, _POINTS_A_SUM = 1 << 17, 1 << 19
 
 
 class Tolerance(NamedTuple):
@@ -91,9 +82,9 @@ def ground_limits(
     on its lower side. Where points are dense, the surface between them is known better, and the
     tolerance on slopes is less in proportion. At breaks the surface of cells is too smooth, and
     more is tolerated. Where the ground is even, however steep, low plants stand out, and less is
-    tolerated above it. Where many points lie in a cell, the lowest lies far below the ground. Their
-    noise is measured there, the surface is laid through its middle, and the tolerance above grows
-    with the noise.
+    tolerated above it. Where many points lie in a cell, the lowest lies far below the ground: the
+    surface is laid through the middle of their noise. The tolerance above grows with the noise that
+    is measured.
 
     Parameters
     ----------
@@ -117,10 +108,16 @@ def ground_limits(
     above = tolerance.above
     on_even = above - min(_EVEN_LESS, _EVEN_SHARE * above)
     if spacing <= NOISE_SPACING:
-        level, noise = _middle(_rises(points, cells, surface, slopes), surface.size)
+        level, noise = middle_of_noise(points, cells, surface, slopes)
         surface = surface + level.reshape(surface.shape)
         on_even = max(on_even, _ABOVE + _ABOVE_FACTOR * noise)
         above = on_even if spacing <= DENSE_SPACING else max(above, on_even)
+    elif spacing <= _SPARSE:
+        noise = noise_of_squares(points, cells, surface, slopes)
+        # The surface goes through the lowest of so many points.
+        number = np.asarray(max(cells.size / spacing, 1.0) ** 2)
+        least = (_SPARSE_FACTOR + float(below_middle(number))) * noise - _USUAL_NOISE
+        above, on_even = max(above, least), max(on_even, least)
     factor = tolerance.on_slopes * min(max(spacing, _DENSE), _SPARSE) / _SPARSE
     slope, curvature = _smooth_steepness(surface, cells), _curvature(surface)
     rise = factor * slope
@@ -166,7 +163,7 @@ def _centred(
 ) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray], np.ndarray]:
     """Return the surface at the middles of cells, its slopes, and which cells have vertices."""
     cell, z = cells.index[vertices], points.z[vertices]
-    north, east = _from_middle(points.take(vertices), cells, cell)
+    north, east = from_middle(points.take(vertices), cells, cell)
     count = np.bincount(cell, minlength=cells.rows * cells.columns)
     moved = z
     for _ in range(_MOVES + 1):
@@ -183,102 +180,3 @@ def _slopes(surface: np.ndarray, cells: Cells) -> tuple[np.ndarray, np.ndarray]:
     north, east = gradient(_smooth(surface, _SLOPE_SMOOTHING, cells), cells.size)
     share = _STEEPEST / np.maximum(length(north, east), _STEEPEST)
     return north * share, east * share
-
-
-def _from_middle(points: Points, cells: Cells, cell: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return how many metres north and east of the middle of their cell points lie."""
-    row, column = np.divmod(cell, cells.columns)
-    north = points.y - (row + (cells.first_row + 0.5)) * cells.size
-    east = points.x - (column + (cells.first_column + 0.5)) * cells.size
-    return north, east
-
-
-def _rises(
-    points: Points, cells: Cells, surface: np.ndarray, slopes: tuple[np.ndarray, np.ndarray]
-) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Return the cells of the points that may be noise of the ground, and how far they rise.
-
-    For each part of the points there are cells, int32, and rises above the surface, float32. These
-    are multiples of a power of two: their sums are exact, in whatever order they are taken.
-    """
-    height, to_north, to_east = (each.ravel() for each in (surface, *slopes))
-
-    def near(part: slice) -> tuple[np.ndarray, np.ndarray]:
-        cell = cells.index[part]
-        north, east = _from_middle(points.take(part), cells, cell)
-        rise = points.z[part] - height[cell]
-        rise -= to_north[cell] * north
-        rise -= to_east[cell] * east
-        which = np.flatnonzero(np.abs(rise) <= _FARTHEST)
-        rise = np.rint(rise[which] * _STEPS_A_METRE) / _STEPS_A_METRE
-        return cell[which], rise.astype(np.float32)
-
-    def joined(part: slice) -> tuple[np.ndarray, np.ndarray]:
-        pieces = [
-            near(slice(start, min(start + _POINTS_A_PART, part.stop)))
-            for start in range(part.start, part.stop, _POINTS_A_PART)
-        ]
-        cell, rise = (np.concatenate(each) for each in zip(*pieces))
-        return cell, rise
-
-    return in_threads(joined, parts_of(points.count, _POINTS_A_SUM))
-
-
-def _middle(rises: list[tuple[np.ndarray, np.ndarray]], cells: int) -> tuple[np.ndarray, float]:
-    """Return the middle of the ground points of each cell, and their noise, both in metres.
-
-    The lowest points give a first guess, as they lie below by a multiple of the noise that their
-    number tells; then the points round the guess are averaged.
-    """
-    count, total, square = _sums(rises, np.zeros(cells, np.float32), _NOISE_WINDOW)
-    enough = count >= _NOISE_POINTS
-    if not enough.any():
-        return np.zeros(cells), 0.0
-    number = np.maximum(count, 1)
-    spread = np.sqrt(np.maximum(square / number - (total / number) ** 2, 0.0))
-    noise = float(np.percentile(spread[enough], _NOISE_PERCENTILE))
-    level = _LOWEST_FACTOR * noise * np.sqrt(2.0 * np.log(number))
-    for _ in range(_MEANS):
-        count, total = _sums(rises, level, _NOISE_FACTOR * noise, powers=1)
-        level = np.where(count >= _MEAN_POINTS, total / np.maximum(count, 1), level)
-    return level, noise
-
-
-def _sums(
-    rises: list[tuple[np.ndarray, np.ndarray]], level: np.ndarray, most: float, powers: int = 2
-) -> np.ndarray:
-    """Return how many rises of each cell lie near its level, their sum, and that of their squares.
-
-    Parameters
-    ----------
-    rises : list of tuple
-        As `_rises` returns them.
-    level : numpy.ndarray of float, shape (cells,)
-        Metres.
-    most : float
-        Metres from the level.
-    powers : int
-        2, or 1 if nobody asks for the squares.
-
-    Returns
-    -------
-    numpy.ndarray of float64, shape (powers + 1, cells)
-    """
-    sums, lock = np.zeros((powers + 1, level.size)), threading.Lock()
-
-    def add(part: tuple[np.ndarray, np.ndarray]) -> None:
-        at, value = part
-        near = np.flatnonzero(np.abs(value - level.take(at)) <= most)
-        if not len(near):
-            return
-        at, value = at.take(near), value.take(near).astype(np.float64)
-        first = int(at.min())
-        at = (at - first).astype(np.intp)
-        found = [np.bincount(at), np.bincount(at, value)]
-        if powers > 1:
-            found.append(np.bincount(at, value * value))
-        with lock:
-            sums[:, first : first + len(found[0])] += found
-
-    in_threads(add, rises)
-    return sums

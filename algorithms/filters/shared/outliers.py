@@ -6,10 +6,12 @@ import numpy as np
 
 from ...grids.cells import Cells
 from ...grids.inpaint import First, inpaint
-from ...grids.morphology import within_square
+from ...grids.morphology import median_of_nine, within_square
 
 # Metres from a pit between which cells bear witness: nearer ones may belong to the same fault.
 _NEAREST, _FARTHEST = 3.0, 10.0
+# Metres between witnesses.
+_APART = 0.5
 # A cell is as low as a pit within so many metres, and so much for each metre of distance, but
 # within this share of the depth of the pit.
 _LEVEL, _LEVEL_SLOPE, _DEPTH_SHARE = 0.5, 0.2, 0.33
@@ -57,7 +59,7 @@ def low_outliers(
     Pingel, T., Clarke, K., McBride, W. (2013): An improved simple morphological filter for the
     terrain classification of airborne LIDAR data. ISPRS Journal 77, section 2.2.
     """
-    depth = _depth(grid, first)
+    depth = depth_of_pits(grid, first)
     pits = depth > slope * size
     return pits & ~supported(grid, size, pits, depth, first) if spares_supported else pits
 
@@ -83,7 +85,7 @@ def lone_points(grid: np.ndarray, cells: Cells, z: np.ndarray) -> np.ndarray:
     """
     from scipy import ndimage
 
-    depth = _depth(grid, cells.first)
+    depth = depth_of_pits(grid, cells.first)
     even = _even(grid, cells.first)
     around = ndimage.uniform_filter(even.astype(np.float32), 3, mode="nearest")
     doubtful = (depth > _LONE_DEPTH) & (9.0 * around > _LEAST_EVEN - 0.5)
@@ -151,14 +153,16 @@ def supported(
 def _witnesses(size: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return the offsets of the cells that bear witness, in rows and columns, and their level."""
     reach = int(np.ceil(_FARTHEST / size))
-    steps = np.arange(-reach, reach + 1)
+    # Of narrow cells not all, as many as there are of wide ones.
+    stride = max(round(_APART / size), 1)
+    steps = np.arange(-(reach // stride), reach // stride + 1) * stride
     rows, columns = (each.ravel() for each in np.meshgrid(steps, steps, indexing="ij"))
     distance = np.hypot(rows, columns) * size
     ring = (distance >= _NEAREST) & (distance <= _FARTHEST)
     return rows[ring], columns[ring], _LEVEL + _LEVEL_SLOPE * distance[ring]
 
 
-def _depth(grid: np.ndarray, first: First) -> np.ndarray:
+def depth_of_pits(grid: np.ndarray, first: First) -> np.ndarray:
     """Return how many metres a closing by 3 x 3 cells raises each cell; 0 where there is none."""
     filled = inpaint(grid, first=first)
     closed = within_square(np.minimum, within_square(np.maximum, filled, 1), 1)
@@ -167,8 +171,6 @@ def _depth(grid: np.ndarray, first: First) -> np.ndarray:
 
 def _even(grid: np.ndarray, first: First) -> np.ndarray:
     """Return which cells of a grid lie on an even surface."""
-    from scipy import ndimage
-
     filled = inpaint(grid, 2, first).astype(np.float32)
-    middle = ndimage.median_filter(filled, 3, mode="nearest")
+    middle = median_of_nine(filled)
     return np.abs(grid - middle) <= _EVEN

@@ -1,0 +1,184 @@
+"""How noisy points of the ground are."""
+
+from __future__ import annotations
+
+import threading
+
+import numpy as np
+
+from ...core.points import Points
+from ...core.threads import in_threads, parts_of
+from ...grids.cells import Cells
+
+# Metres round the lowest points within which noise is measured, the points that a cell must have
+# for that, and the percentile of the cells: most have plants as well.
+_NOISE_WINDOW, _NOISE_POINTS, _NOISE_PERCENTILE = 0.6, 8, 25
+# Metres from the lowest points beyond which no point is noise, and how finely rises are told.
+_FARTHEST, _STEPS_A_METRE = 2.4, 1 << 14
+# Cells along the side of a square in which noise is measured where few points lie in a cell, and
+# the percentile of the squares: more of them than of the cells have plants.
+_SQUARE, _SQUARE_PERCENTILE = 3, 10
+# Points within so many times the noise belong to the ground; a mean needs so many of them, and is
+# taken so often.
+_NOISE_FACTOR, _MEAN_POINTS, _MEANS = 2.5, 4, 2
+# The lowest of n points lies below the ground by so many times the noise, times sqrt(2 ln n).
+_LOWEST_FACTOR = 0.8
+_POINTS_A_PART, _POINTS_A_SUM = 1 << 17, 1 << 19
+
+
+def middle_of_noise(
+    points: Points, cells: Cells, surface: np.ndarray, slopes: tuple[np.ndarray, np.ndarray]
+) -> tuple[np.ndarray, float]:
+    """Return the middle of the ground points of each cell, and their noise, both in metres.
+
+    The lowest points give a first guess, as they lie below by a multiple of the noise that their
+    number tells; then the points round the guess are averaged.
+
+    Parameters
+    ----------
+    points : Points
+        All points.
+    cells : Cells
+        A grid over the points.
+    surface : numpy.ndarray of float64, shape (rows, columns)
+        Heights in metres of a surface through the lowest points, at the middles of the cells.
+    slopes : tuple of numpy.ndarray of float64, shape (rows, columns)
+        Its slope (rise over run) towards north and east.
+
+    Returns
+    -------
+    level : numpy.ndarray of float64, shape (rows * columns,)
+        Metres above the surface.
+    noise : float
+        Standard deviation in metres; 0 if no cell has enough points.
+    """
+    rises = _rises(points, cells, surface, slopes)
+    sums = _sums(rises, np.zeros(surface.size, np.float32), _NOISE_WINDOW)
+    noise = _noise(sums, _NOISE_PERCENTILE)
+    level = below_middle(np.maximum(sums[0], 1)) * noise
+    for _ in range(_MEANS if noise else 0):
+        count, total = _sums(rises, level, _NOISE_FACTOR * noise, powers=1)
+        level = np.where(count >= _MEAN_POINTS, total / np.maximum(count, 1), level)
+    return level, noise
+
+
+def noise_of_squares(
+    points: Points, cells: Cells, surface: np.ndarray, slopes: tuple[np.ndarray, np.ndarray]
+) -> float:
+    """Return the noise of ground points where few of them lie in a cell.
+
+    It is measured in squares of 3 x 3 cells, and too large by the little that the surface is off.
+
+    Parameters
+    ----------
+    points, cells, surface, slopes
+        As for `middle_of_noise`.
+
+    Returns
+    -------
+    float
+        Standard deviation in whole centimetres, in metres: the border of a survey hardly moves it.
+        0 if no square has enough points.
+    """
+    rises = _rises(points, cells, surface, slopes)
+    sums = _sums(rises, np.zeros(surface.size, np.float32), _NOISE_WINDOW)
+    row, column = (
+        (np.arange(count) + first) // _SQUARE - first // _SQUARE
+        for count, first in zip(cells.shape, cells.first)
+    )
+    square = (row[:, None] * (column[-1] + 1) + column).ravel()
+    sums = np.array([np.bincount(square, each) for each in sums])
+    return round(_noise(sums, _SQUARE_PERCENTILE), 2)
+
+
+def below_middle(number: np.ndarray) -> np.ndarray:
+    """Return by how many times the noise the lowest of some points lies below their middle."""
+    return _LOWEST_FACTOR * np.sqrt(2.0 * np.log(number))
+
+
+def _noise(sums: np.ndarray, percentile: float) -> float:
+    """Return the noise of a percentile of squares, whose points, rises and squares are summed."""
+    count, total, square = sums[:, sums[0] >= _NOISE_POINTS]
+    if not len(count):
+        return 0.0
+    spread = np.sqrt(np.maximum(square / count - (total / count) ** 2, 0.0))
+    return float(np.percentile(spread, percentile))
+
+
+def from_middle(points: Points, cells: Cells, cell: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return how many metres north and east of the middle of their cell points lie."""
+    row, column = np.divmod(cell, cells.columns)
+    north = points.y - (row + (cells.first_row + 0.5)) * cells.size
+    east = points.x - (column + (cells.first_column + 0.5)) * cells.size
+    return north, east
+
+
+def _rises(
+    points: Points, cells: Cells, surface: np.ndarray, slopes: tuple[np.ndarray, np.ndarray]
+) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Return the cells of the points that may be noise of the ground, and how far they rise.
+
+    For each part of the points there are cells, int32, and rises above the surface, float32. These
+    are multiples of a power of two: their sums are exact, in whatever order they are taken.
+    """
+    height, to_north, to_east = (each.ravel() for each in (surface, *slopes))
+
+    def near(part: slice) -> tuple[np.ndarray, np.ndarray]:
+        cell = cells.index[part]
+        north, east = from_middle(points.take(part), cells, cell)
+        rise = points.z[part] - height[cell]
+        rise -= to_north[cell] * north
+        rise -= to_east[cell] * east
+        which = np.flatnonzero(np.abs(rise) <= _FARTHEST)
+        rise = np.rint(rise[which] * _STEPS_A_METRE) / _STEPS_A_METRE
+        return cell[which], rise.astype(np.float32)
+
+    def joined(part: slice) -> tuple[np.ndarray, np.ndarray]:
+        pieces = [
+            near(slice(start, min(start + _POINTS_A_PART, part.stop)))
+            for start in range(part.start, part.stop, _POINTS_A_PART)
+        ]
+        cell, rise = (np.concatenate(each) for each in zip(*pieces))
+        return cell, rise
+
+    return in_threads(joined, parts_of(points.count, _POINTS_A_SUM))
+
+
+def _sums(
+    rises: list[tuple[np.ndarray, np.ndarray]], level: np.ndarray, most: float, powers: int = 2
+) -> np.ndarray:
+    """Return how many rises of each cell lie near its level, their sum, and that of their squares.
+
+    Parameters
+    ----------
+    rises : list of tuple
+        As `_rises` returns them.
+    level : numpy.ndarray of float, shape (cells,)
+        Metres.
+    most : float
+        Metres from the level.
+    powers : int
+        2, or 1 if nobody asks for the squares.
+
+    Returns
+    -------
+    numpy.ndarray of float64, shape (powers + 1, cells)
+    """
+    sums, lock = np.zeros((powers + 1, level.size)), threading.Lock()
+
+    def add(part: tuple[np.ndarray, np.ndarray]) -> None:
+        at, value = part
+        near = np.flatnonzero(np.abs(value - level.take(at)) <= most)
+        if not len(near):
+            return
+        at, value = at.take(near), value.take(near).astype(np.float64)
+        first = int(at.min())
+        at = (at - first).astype(np.intp)
+        found = [np.bincount(at), np.bincount(at, value)]
+        if powers > 1:
+            found.append(np.bincount(at, value * value))
+        with lock:
+            sums[:, first : first + len(found[0])] += found
+
+    in_threads(add, rises)
+    return sums
