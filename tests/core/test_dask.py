@@ -1,5 +1,4 @@
 import contextlib
-import importlib.util
 import os
 import random
 import shutil
@@ -26,12 +25,17 @@ from bare_earth.algorithms.engine.options import TileOutput
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
 
-# Imported by what works with it alone: it takes a second.
-pytestmark = pytest.mark.skipif(
-    importlib.util.find_spec("distributed") is None, reason="there is no Dask"
-)
 FAST = SlopeFilter(preset="whitebox")
 KILLS = int(os.environ.get("BARE_EARTH_KILLS", "10"))
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _dask():
+    """Import Dask before any test: not with all files, as it takes a second.
+
+    Where it is imported while its configuration is another, its own is gone afterwards.
+    """
+    pytest.importorskip("distributed")
 
 
 def free_port():
