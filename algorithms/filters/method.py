@@ -119,8 +119,8 @@ class Method(NamedTuple):
                 "Low outliers are scattered all over the points. They are left out, and are not"
                 " ground."
             )
-        ground = ~lows
-        ground[~lows] = found(points.take(~lows), None if known is None else known[~lows])
+        left, ground = ~lows, np.zeros(points.count, dtype=bool)
+        ground[left] = found(points.take(left), None if known is None else known[left])
         return ground
 
     def is_classic(self, parameters: ParameterSet) -> bool:

@@ -121,18 +121,17 @@ def heights_of_four(
     # half a turn.
     is_first = cross[1] * dot[3] + dot[1] * cross[3] >= 0.0
     start = np.where(is_first, 0, 1)
-    column = np.arange(x.shape[1])
     one, other = start, start + 2
-    one_x, one_y = x[one, column], y[one, column]
-    is_left = (y[other, column] - one_y) * one_x - (x[other, column] - one_x) * one_y > 0.0
+    one_x, one_y = picked(x, one), picked(y, one)
+    is_left = (picked(y, other) - one_y) * one_x - (picked(x, other) - one_x) * one_y > 0.0
     third = np.where(is_left, start + 3, start + 1) % 4
     corners = np.stack((one, np.where(is_left, other, third), np.where(is_left, third, other)))
-    a, b = x[corners, column], y[corners, column]
+    a, b = picked(x, corners), picked(y, corners)
     weights = _opposite_areas(a, b)
     total = weights.sum(axis=0)
     found = (weights >= 0.0).all(axis=0) & (total > 0.0) & (np.abs(x).max(axis=0) < NOWHERE / 2.0)
     with np.errstate(divide="ignore", invalid="ignore"):
-        heights = (weights * z[corners, column]).sum(axis=0) / total
+        heights = (weights * picked(z, corners)).sum(axis=0) / total
     heights[~found | (longest_edge(a, b) > max_edge)] = np.nan
     return heights, found
 

@@ -6,6 +6,7 @@ from typing import Iterator, NamedTuple
 
 import numpy as np
 
+from .cells import numbered
 from .enclosing import (
     NOWHERE,
     enclosing_triangles,
@@ -169,11 +170,9 @@ def _listed(first: np.ndarray, count: np.ndarray) -> np.ndarray:
     """Return the numbers in runs (rows, q) as a column for each query, with -1 below them."""
     total = count.sum(axis=0)
     first, count = first.T.ravel(), count.T.ravel()
-    places = np.arange(count.sum())
-    numbers = np.repeat(first - (np.cumsum(count) - count), count) + places
-    column = np.repeat(np.arange(len(total)), total)
     listed = np.full((max(total.max(), 1), len(total)), -1)
-    listed.ravel()[(places - (np.cumsum(total) - total)[column]) * len(total) + column] = numbers
+    column = np.repeat(np.arange(len(total)), total)
+    listed[numbered(total), column] = np.repeat(first, count) + numbered(count)
     return listed
 
 

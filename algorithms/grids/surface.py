@@ -180,7 +180,7 @@ class Surface:
         progress(0.4)
         triangle = _located(tin, x, y, cells)
         progress(0.6)
-        sure = np.full(len(x), is_one_block)
+        sure = np.ones(len(x), dtype=bool)
         if not is_one_block:
             depth = self._depth(x, y)
             sure = (triangle < 0) & (depth < _ON_HULL)
@@ -254,8 +254,8 @@ class Surface:
     def _within(self, box: tuple[float, float, float, float]) -> np.ndarray:
         """Return which of the vertices that are triangulated lie in a box."""
         west, south, east, north = box
-        first, last = np.searchsorted(self._vertices.x[self._meshed], (west, east))
-        which = self._meshed[first:last]
+        borders = np.searchsorted(self._vertices.x, (west, east))
+        which = self._meshed[slice(*np.searchsorted(self._meshed, borders))]
         y = self._vertices.y[which]
         return which[(y >= south) & (y <= north)]
 

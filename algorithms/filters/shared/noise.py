@@ -8,6 +8,7 @@ import numpy as np
 
 from ...core.points import Points
 from ...core.threads import in_threads, parts_of
+from ...grids.cell_blocks import CellBlocks
 from ...grids.cells import Cells
 
 # Metres round the lowest points within which noise is measured, the points that a cell must have
@@ -82,12 +83,8 @@ def noise_of_squares(
     """
     rises = _rises(points, cells, surface, slopes)
     sums = _sums(rises, np.zeros(surface.size, np.float32), _NOISE_WINDOW)
-    row, column = (
-        (np.arange(count) + first) // _SQUARE - first // _SQUARE
-        for count, first in zip(cells.shape, cells.first)
-    )
-    square = (row[:, None] * (column[-1] + 1) + column).ravel()
-    sums = np.array([np.bincount(square, each) for each in sums])
+    squares = CellBlocks.over(cells, _SQUARE * cells.size)
+    sums = np.array([squares.total(each.reshape(cells.shape)).ravel() for each in sums])
     return round(_noise(sums, _SQUARE_PERCENTILE), 2)
 
 
