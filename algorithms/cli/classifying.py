@@ -91,8 +91,8 @@ def _classify(options: argparse.Namespace) -> int:
     from ..engine.many_files import classify_files
     from ..engine.one_file import classify_file
     from ..engine.requests import ClassifyRequest
-    from ..survey.collection import is_one_file
     from ..survey.corrections import NO_CORRECTIONS
+    from ..survey.files import is_one_file
     from ..survey.vector_files import read_corrections
 
     area = _area_of(options)

@@ -76,7 +76,7 @@ def _write(options: argparse.Namespace) -> int:
     from ..engine.many_files import write_files
     from ..engine.one_file import write_points
     from ..engine.requests import HeightRequest, KeyPointRequest
-    from ..survey.collection import is_one_file
+    from ..survey.files import is_one_file
 
     kind = HeightRequest if options.command == "height" else KeyPointRequest
     request = kind.of(chosen(options))

@@ -20,12 +20,12 @@ from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
 from ..las.writing import layers_kept, write_changed
 from ..survey.window import read_window
+from .block_grid import BlockGrid, BlockIndex, code
 from .file_points import FilePoints
 from .memory import Resources
 from .memory_points import MemoryPoints, SurveyFile
 from .record import Record, write_record
 from .steps import PointStep
-from .survey import BlockIndex, Survey, code
 
 _FAILURE = "no ground"
 
@@ -54,7 +54,7 @@ class BlockJob:
 
     Attributes
     ----------
-    survey : Survey
+    grid : BlockGrid
         What all jobs share.
     places : tuple of BlockIndex
         The blocks.
@@ -66,7 +66,7 @@ class BlockJob:
         About how many points the blocks hold.
     """
 
-    survey: Survey
+    grid: BlockGrid
     places: tuple[BlockIndex, ...]
     files: tuple[Path, ...]
     sources: tuple[Path, ...]
@@ -84,7 +84,7 @@ class BlockJob:
 
     def clouds(self, progress: Progress) -> Iterator[PointCloud]:
         """Yield the points of each file that the blocks need."""
-        window = self.survey.window(self.places)
+        window = self.grid.window(self.places)
         for source, part in zip(self.sources, progress.shares(*[1.0] * len(self.sources))):
             try:
                 cloud = read_window(source, window, part.quiet(), trust_header=True)
@@ -116,8 +116,8 @@ class PointJob(BlockJob):
         kind, failure = self.step.kind, ""
         values = [np.zeros(part.cloud.count, kind) for part in parts]
         if any(part.wanted.any() and part.selected.any() for part in parts):
-            survey, part = self.survey, progress.part(0.3, 0.35)
-            store = MemoryPoints(parts, survey.frame, survey.blocks, part, kind)
+            grid, part = self.grid, progress.part(0.3, 0.35)
+            store = MemoryPoints(parts, grid.frame, grid.blocks, part, kind)
             try:
                 self.step.work(store, resources, progress.part(0.35, 0.95))
                 values = store.labels
@@ -132,7 +132,7 @@ class PointJob(BlockJob):
         parts, codes = [], []
         here, tally = np.array([code(place) for place in self.places]), self.step.tally()
         for cloud in self.clouds(progress):
-            codes.append(self.survey.codes(cloud))
+            codes.append(self.grid.codes(cloud))
             marks = self.step.marks(cloud, tally)
             wanted = marks.wanted & np.isin(codes[-1], here)
             parts.append(SurveyFile(cloud, *marks._replace(wanted=wanted)))
@@ -169,7 +169,7 @@ class TileJob:
 
     Attributes
     ----------
-    survey : Survey
+    grid : BlockGrid
         What all jobs share.
     step : PointStep
         What was found.
@@ -185,7 +185,7 @@ class TileJob:
         Says from what the output is made; written after it.
     """
 
-    survey: Survey
+    grid: BlockGrid
     step: PointStep
     tile: LasFile
     target: Path
@@ -232,7 +232,7 @@ class KeptValues:
     """
 
     def __init__(self, job: TileJob) -> None:
-        self._survey, self._path, self._count = job.survey, job.tile.path, job.tile.count
+        self._grid, self._path, self._count = job.grid, job.tile.path, job.tile.count
         self._kind, self.failure = job.step.kind, ""
         self._left: dict[int, np.ndarray] = {}
         for place, file in zip(job.places, job.files):
@@ -251,7 +251,7 @@ class KeptValues:
         """
         if where.stop > self._count:
             raise self._changed()
-        codes, values = self._survey.codes(part), np.zeros(part.count, dtype=self._kind)
+        codes, values = self._grid.codes(part), np.zeros(part.count, dtype=self._kind)
         for each in np.unique(codes):
             here, left = np.flatnonzero(codes == each), self._left.get(int(each))
             if left is None:

@@ -12,7 +12,7 @@ from ..core.errors import BareEarthError
 from ..core.files import check_output, is_same_file, temporary_folder
 from ..core.progress import SILENT, Progress
 from ..las.writing import check_writable
-from ..survey.collection import Collection, open_collection
+from ..survey.files import Survey, open_survey
 from ..survey.vpc import SUFFIX as VPC_SUFFIX
 from ..survey.vpc import write_vpc
 from .blocks import Blocks
@@ -133,7 +133,7 @@ def write_files(
     Parameters
     ----------
     sources : iterable of Path
-        Files, folders, virtual point clouds and lists, as for `open_collection`.
+        Files, folders, virtual point clouds and lists, as for `open_survey`.
     folder : Path
         Where the outputs go, under the names of the inputs; made if it is not there.
     steps : sequence of PointStep
@@ -165,20 +165,20 @@ def write_files(
                 f"Input and output are the same file, {source}. Choose another output."
             )
     recursive = request.files.recursive
-    collection = open_collection(sources, recursive, progress.part(0.0, 0.02))
-    _check_survey(collection, folder, vpc, sources if recursive else [])
-    steps[0].check_survey(collection.box)
-    targets = _targets_of(collection, folder, request.tiles.format)
+    survey = open_survey(sources, recursive, progress.part(0.0, 0.02))
+    _check_survey(survey, folder, vpc, sources if recursive else [])
+    steps[0].check_survey(survey.box)
+    targets = _targets_of(survey, folder, request.tiles.format)
     if rasters is not None:
         _check_rasters(rasters.files, folder, (vpc, *targets, *targets.values()))
-    failures = {each.path.name: (each.path, each.reason) for each in collection.broken}
-    inputs = {each.path.name: each.path for each in collection.tiles}
+    failures = {each.path.name: (each.path, each.reason) for each in survey.broken}
+    inputs = {each.path.name: each.path for each in survey.tiles}
     waiting = [folders_of(folder)[1] / f"{_WAITING}-{each}" for each in range(len(steps) - 1)]
     parts = progress.part(0.02, 0.98).shares(*[1.0] * len(steps))
     for number, (step, place, part) in enumerate(zip(steps, (*waiting, folder), parts)):
         is_last = place is folder
-        targets = _targets_of(collection, place, request.tiles.format if is_last else "same")
-        run = TileRun(collection, place, targets, step, part)
+        targets = _targets_of(survey, place, request.tiles.format if is_last else "same")
+        run = TileRun(survey, place, targets, step, part)
         run.work(workers, request.tiles.resume, None if number else rasters)
         for path, reason in run.failures.items():
             failures[path.name] = inputs[path.name], reason
@@ -190,7 +190,7 @@ def write_files(
             break
         if not is_last:
             done = [place / each.name for each in run.done]
-            collection = open_collection(done, progress=SILENT)
+            survey = open_survey(done, progress=SILENT)
     reasons = {str(path): reason for path, reason in sorted(failures.values())}
     for path, reason in reasons.items():
         progress.warning(f"{path} is left out. {reason}")
@@ -230,7 +230,7 @@ def rasters_of_files(
     Parameters
     ----------
     sources : iterable of Path
-        Files, folders, virtual point clouds and lists, as for `open_collection`.
+        Files, folders, virtual point clouds and lists, as for `open_survey`.
     request : TerrainRequest
         What to make.
     progress : Progress
@@ -246,24 +246,22 @@ def rasters_of_files(
         If the user asked to stop; no output is left behind.
     """
     recursive = request.files.recursive
-    collection = open_collection(sources, recursive, progress.part(0.0, 0.05))
-    request.rasters.check(tuple(each.path for each in collection.tiles))
-    for each in collection.broken:
+    survey = open_survey(sources, recursive, progress.part(0.0, 0.05))
+    request.rasters.check(tuple(each.path for each in survey.tiles))
+    for each in survey.broken:
         progress.warning(f"{each.path} is left out. {each.reason}")
     beside = next(iter(request.rasters.wanted.values())).parent
     workers = workers or Threads(request.resources)
     with temporary_folder(beside) as folder:
         part = progress.part(0.05, 1.0)
-        return make_rasters(collection, folder, request.raster_step, workers, part)
+        return make_rasters(survey, folder, request.raster_step, workers, part)
 
 
-def _check_survey(
-    collection: Collection, folder: Path, vpc: Path, searched: Sequence[Path]
-) -> None:
+def _check_survey(survey: Survey, folder: Path, vpc: Path, searched: Sequence[Path]) -> None:
     """Refuse what could not be done or would do harm, before any work."""
-    if collection.crs.is_geographic:
+    if survey.crs.is_geographic:
         raise BareEarthError(
-            f"The files are not in a projected CRS ({collection.crs.name}), so that nothing can be"
+            f"The files are not in a projected CRS ({survey.crs.name}), so that nothing can be"
             " measured in them. Reproject them first."
         )
     if folder.exists() and not folder.is_dir():
@@ -271,7 +269,7 @@ def _check_survey(
     if not folder.exists():
         check_output(folder)
     here = folder.resolve()
-    for path in [each.path for each in (*collection.tiles, *collection.broken)]:
+    for path in [each.path for each in (*survey.tiles, *survey.broken)]:
         if path.parent.resolve() == here:
             raise BareEarthError(
                 f"Input and output are in the same folder, {folder}. Choose another output."
@@ -297,10 +295,10 @@ def _check_rasters(rasters: RasterFiles, folder: Path, others: tuple[Path, ...])
     RasterFiles(**elsewhere).check(others)
 
 
-def _targets_of(collection: Collection, folder: Path, format: str = "same") -> dict[Path, Path]:
+def _targets_of(survey: Survey, folder: Path, format: str = "same") -> dict[Path, Path]:
     """Return the output of each input; refuse those that would get the same name."""
     targets, inputs = {}, {}
-    for tile in (*collection.tiles, *collection.broken):
+    for tile in (*survey.tiles, *survey.broken):
         name = tile.path.name
         if format != "same":
             stem = name[: -len(_COPC)] if name.lower().endswith(_COPC) else tile.path.stem

@@ -5,16 +5,16 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from ..survey.collection import Collection
+from ..survey.files import Survey
+from .block_grid import BlockGrid, BlockIndex, grouped, memory_of, points_in, sources_of
 from .jobs import BlockJob
-from .survey import BlockIndex, Survey, grouped, memory_of, points_in, sources_of
 from .workers import Workers
 
 
 def block_jobs(
     kind: type[BlockJob],
+    grid: BlockGrid,
     survey: Survey,
-    collection: Collection,
     files: dict[BlockIndex, Path],
     folder: Path,
     tile_count: int,
@@ -27,8 +27,8 @@ def block_jobs(
     ----------
     kind : type
         Of the jobs.
-    survey, collection
-        The survey.
+    grid, survey
+        The blocks, and the files.
     files : dict of BlockIndex to Path
         Where what is made of each block goes.
     folder : Path
@@ -40,17 +40,17 @@ def block_jobs(
     **more
         What jobs of this kind know besides.
     """
-    least = max((memory_of(survey, collection, [each]) for each in files), default=0)
+    least = max((memory_of(grid, survey, [each]) for each in files), default=0)
     workers.start(folder, least, len(files), tile_count)
-    sources = {each: sources_of(survey, collection, each) for each in files}
-    groups = grouped(survey, collection, list(files), workers.at_once, workers.share.bytes)
+    sources = {each: sources_of(grid, survey, each) for each in files}
+    groups = grouped(grid, survey, list(files), workers.at_once, workers.share.bytes)
     return [
         kind(
-            survey,
+            grid,
             tuple(group),
             tuple(files[each] for each in group),
             tuple(sorted(set().union(*(sources[each] for each in group)))),
-            points_in(collection, survey.window(group)),
+            points_in(survey, grid.window(group)),
             **more,
         )
         for group in groups

@@ -15,7 +15,8 @@ from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
 from ..las.cloud import survey_frame
 from ..products.raster_block import BlockRasters
-from ..survey.collection import Collection
+from ..survey.files import Survey
+from .block_grid import BlockGrid, BlockIndex, places_of
 from .blocks import Block
 from .constraints import parts_of
 from .job_queue import JobQueue
@@ -24,7 +25,6 @@ from .memory import Resources
 from .memory_points import MemoryPoints, SurveyFile
 from .planning import block_jobs
 from .rasters import MakeRasters, RasterSize, write_rasters
-from .survey import BlockIndex, Survey, places_of
 from .workers import Workers
 
 
@@ -49,8 +49,8 @@ class RasterJob(BlockJob):
         ]
         made: dict[BlockIndex, list[BlockRasters]] = {place: [] for place in self.places}
         if any(part.selected.any() for part in parts):
-            survey, rest = self.survey, progress.part(0.6, 0.95)
-            store = MemoryPoints(parts, survey.frame, survey.blocks, progress.part(0.5, 0.6))
+            grid, rest = self.grid, progress.part(0.6, 0.95)
+            store = MemoryPoints(parts, grid.frame, grid.blocks, progress.part(0.5, 0.6))
             for each in self.step.work(store, resources, rest, lambda b: self._place(b) in made):
                 made[self._place_of(each.window)].append(each)
         for place, file in zip(self.places, self.files):
@@ -59,12 +59,12 @@ class RasterJob(BlockJob):
 
     def _place(self, block: Block) -> BlockIndex:
         """Return the place of the block of which one is a part."""
-        share = round(self.survey.blocks.side / block.side)
+        share = round(self.grid.blocks.side / block.side)
         return BlockIndex(block.column // share, block.row // share)
 
     def _place_of(self, window: CellWindow) -> BlockIndex:
         """Return the place of the block in which the first of some cells has its centre."""
-        cell, blocks = self.step.model.dtm_cell_size, self.survey.blocks
+        cell, blocks = self.step.model.dtm_cell_size, self.grid.blocks
         x, y = ((each + 0.5) * cell for each in (window.column, window.row))
         return BlockIndex(int(blocks.number(x)), int(blocks.number(y)))
 
@@ -125,7 +125,7 @@ def _kept_in(file: Path) -> list[BlockRasters]:
 
 
 def make_rasters(
-    collection: Collection,
+    survey: Survey,
     folder: Path,
     step: MakeRasters,
     workers: Workers,
@@ -135,7 +135,7 @@ def make_rasters(
 
     Parameters
     ----------
-    collection : Collection
+    survey : Survey
         The files.
     folder : Path
         Where the rasters of the blocks wait; it must be there, and is seen by all workers.
@@ -153,12 +153,12 @@ def make_rasters(
     Cancelled
         If the user asked to stop.
     """
-    survey = Survey(survey_frame(collection.crs), step.blocks)
+    grid = BlockGrid(survey_frame(survey.crs), step.blocks)
     seen, progress = progress.part(0.0, 0.05), progress.part(0.05, 1.0)
-    step = step.seeing(parts_of(collection.tiles, seen), survey.frame, seen)
-    places = sorted({place for tile in collection.tiles for place in places_of(survey, tile)})
+    step = step.seeing(parts_of(survey.tiles, seen), grid.frame, seen)
+    places = sorted({place for tile in survey.tiles for place in places_of(grid, tile)})
     files = {each: folder / f"rasters_{each.column}_{each.row}.npz" for each in places}
-    jobs = block_jobs(RasterJob, survey, collection, files, folder, 0, workers, step=step)
+    jobs = block_jobs(RasterJob, grid, survey, files, folder, 0, workers, step=step)
     try:
         queue = JobQueue(jobs, [], workers, progress.part(0.0, 0.8))
         queue.work()
@@ -166,7 +166,7 @@ def make_rasters(
             raise BareEarthError(f"The rasters cannot be made. {queue.lost[0]}")
         made = [each for file in files.values() for each in _kept_in(file)]
         with contextlib.ExitStack() as outputs:
-            return write_rasters(made, survey.frame, step, outputs, progress.part(0.8, 1.0))
+            return write_rasters(made, grid.frame, step, outputs, progress.part(0.8, 1.0))
     finally:
         for file in files.values():
             file.unlink(missing_ok=True)

@@ -10,8 +10,8 @@ from typing import Any, Iterable
 
 from ..core.errors import BareEarthError
 from ..core.files import replacing
+from .block_grid import BlockGrid, BlockIndex
 from .steps import Step
-from .survey import BlockIndex, Survey
 
 _FOLDER, _LABELS = ".bare-earth", "labels"
 _LONGEST_NAME = 250
@@ -45,14 +45,14 @@ def state_of(path: Path) -> State:
 
 
 def made_of(
-    survey: Survey, step: Step, tile: Path, sources: Iterable[State], target: Path
+    grid: BlockGrid, step: Step, tile: Path, sources: Iterable[State], target: Path
 ) -> Record:
     """Return all that an output depends on.
 
     Parameters
     ----------
-    survey : Survey
-        Frame and blocks.
+    grid : BlockGrid
+        The blocks of the survey.
     step : Step
         What is made.
     tile : Path
@@ -63,7 +63,7 @@ def made_of(
         The output.
     """
     return {
-        **_settings(survey, step),
+        **_settings(grid, step),
         "input": tile.name,
         "output": target.name,
         "files": list(sources),
@@ -71,11 +71,11 @@ def made_of(
 
 
 def label_file(
-    survey: Survey, step: Step, folder: Path, place: BlockIndex, sources: Iterable[State]
+    grid: BlockGrid, step: Step, folder: Path, place: BlockIndex, sources: Iterable[State]
 ) -> Path:
     """Return where what is found in a block is kept; the name tells all that it depends on."""
     content = {
-        **_settings(survey, step),
+        **_settings(grid, step),
         "place": list(place),
         "files": list(sources),
     }
@@ -83,15 +83,15 @@ def label_file(
     return folder / f"{place.column}_{place.row}_{digest[:20]}.npz"
 
 
-def _settings(survey: Survey, step: Step) -> dict[str, Any]:
+def _settings(grid: BlockGrid, step: Step) -> dict[str, Any]:
     from ..core.version import __version__
 
-    blocks = survey.blocks
+    blocks = grid.blocks
     return {
         "version": __version__,
         **step.settings(),
-        "origin": list(survey.frame.origin),
-        "units": [survey.frame.horizontal_unit, survey.frame.vertical_unit],
+        "origin": list(grid.frame.origin),
+        "units": [grid.frame.horizontal_unit, grid.frame.vertical_unit],
         "blocks": [blocks.side, blocks.buffer, blocks.most_points],
     }
 

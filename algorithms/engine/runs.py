@@ -7,7 +7,7 @@ from typing import Any, Iterable, Union
 
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
-from ..survey.collection import is_one_file
+from ..survey.files import is_one_file
 from .many_files import SurveySummary, classify_files, rasters_of_files, write_files
 from .one_file import Summary, classify_file, rasters_of_file, write_points
 from .rasters import RasterSize

@@ -17,8 +17,8 @@ from ..products.local_relief import LocalRelief, write_local_relief
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import MapTerrain
 from ..rasters.writing import replacing_raster
-from ..survey.collection import is_one_file
 from ..survey.corrections import NO_CORRECTIONS, Corrections
+from ..survey.files import is_one_file
 from ..survey.selection import Selection
 from .constraints import NO_CONSTRAINTS, Constraints
 from .many_files import classify_files

@@ -12,7 +12,8 @@ from ..core.progress import Progress
 from ..core.temporary import remove_leftovers
 from ..las.cloud import survey_frame
 from ..las.lasfile import LasFile
-from ..survey.collection import Collection, open_collection
+from ..survey.files import Survey, open_survey
+from .block_grid import BlockGrid, BlockIndex, places_of, sources_of
 from .job_queue import JobQueue
 from .jobs import PointJob, TileJob
 from .planning import block_jobs
@@ -20,7 +21,6 @@ from .raster_jobs import make_rasters
 from .rasters import MakeRasters
 from .record import Record, folders_of, label_file, made_of, read_record, remove_record, state_of
 from .steps import PointStep
-from .survey import BlockIndex, Survey, places_of, sources_of
 from .workers import Workers
 
 
@@ -37,7 +37,7 @@ class TileRun:
 
     Parameters
     ----------
-    collection : Collection
+    survey : Survey
         The files.
     folder : Path
         That of the outputs.
@@ -62,7 +62,7 @@ class TileRun:
 
     def __init__(
         self,
-        collection: Collection,
+        survey: Survey,
         folder: Path,
         targets: dict[Path, Path],
         step: PointStep,
@@ -70,14 +70,14 @@ class TileRun:
     ) -> None:
         self.done: list[Any] = []
         self.kept_count, self.empty_count, self.failures = 0, 0, {}
-        self._survey = Survey(survey_frame(collection.crs), step.blocks)
-        self._collection, self._folder, self._targets = collection, folder, targets
+        self._grid = BlockGrid(survey_frame(survey.crs), step.blocks)
+        self._survey, self._folder, self._targets = survey, folder, targets
         self._step, self._progress = step, progress
         self._sources: dict[BlockIndex, list[Path]] = {}
         # As they are before any of them is read.
-        self._states = {each.path: state_of(each.path) for each in collection.tiles}
+        self._states = {each.path: state_of(each.path) for each in survey.tiles}
         self._todo: list[_Needs] = []
-        for number, tile in enumerate(collection.tiles, start=1):
+        for number, tile in enumerate(survey.tiles, start=1):
             if step.skips(tile):
                 self.empty_count += 1
                 continue
@@ -86,7 +86,7 @@ class TileRun:
                 self._todo.append(self._needs(tile))
             except BareEarthError as error:
                 self.failures[tile.path] = str(error)
-            progress(0.02 * number / len(collection.tiles))
+            progress(0.02 * number / len(survey.tiles))
 
     def work(self, workers: Workers, resume: bool, rasters: MakeRasters | None = None) -> None:
         """Do it.
@@ -123,7 +123,7 @@ class TileRun:
             self.failures.update(queue.failures)
             if self.done and rasters is not None:
                 paths = [self._folder / each.name for each in self.done]
-                made = open_collection(paths, progress=progress.quiet())
+                made = open_survey(paths, progress=progress.quiet())
                 make_rasters(made, waiting, rasters, workers, progress.part(end, 1.0))
             self._clear(values=True)
 
@@ -136,17 +136,17 @@ class TileRun:
             remove_leftovers(each)
 
     def _needs(self, tile: LasFile) -> _Needs:
-        places = places_of(self._survey, tile)
+        places = places_of(self._grid, tile)
         for place in places:
             if place not in self._sources:
-                self._sources[place] = sources_of(self._survey, self._collection, place)
+                self._sources[place] = sources_of(self._grid, self._survey, place)
         sources = sorted({path for place in places for path in self._sources[place]})
         return _Needs(tile, places, sources)
 
     def _made_of(self, needs: _Needs) -> Record:
         path = needs.tile.path
         sources = map(self._states.__getitem__, needs.sources)
-        return made_of(self._survey, self._step, path, sources, self._targets[path])
+        return made_of(self._grid, self._step, path, sources, self._targets[path])
 
     def _keep_done(self, resume: bool) -> list[Any]:
         """Take out the tiles that are done; return what became of them."""
@@ -172,18 +172,16 @@ class TileRun:
 
     def _jobs(self, workers: Workers) -> tuple[list[PointJob], list[TileJob]]:
         """Return the jobs for all that is to be done, and let the workers begin."""
-        survey, collection, step = self._survey, self._collection, self._step
+        grid, survey, step = self._grid, self._survey, self._step
         places = sorted({place for needs in self._todo for place in needs.places})
         waiting = folders_of(self._folder)[2]
         files = {
-            each: label_file(
-                survey, step, waiting, each, map(self._states.get, self._sources[each])
-            )
+            each: label_file(grid, step, waiting, each, map(self._states.get, self._sources[each]))
             for each in places
         }
         tiles = [
             TileJob(
-                survey,
+                grid,
                 step,
                 needs.tile,
                 self._targets[needs.tile.path],
@@ -195,7 +193,7 @@ class TileRun:
         ]
         missing = {each: files[each] for each in places if not files[each].exists()}
         blocks = block_jobs(
-            PointJob, survey, collection, missing, self._folder, len(tiles), workers, step=step
+            PointJob, grid, survey, missing, self._folder, len(tiles), workers, step=step
         )
         return blocks, tiles
 

@@ -7,7 +7,7 @@ from typing import Sequence
 
 from ..core.commands import shell_line
 from ..products.trial_page import Commands
-from ..survey.collection import is_one_file
+from ..survey.files import is_one_file
 from .options import TileMethod
 from .trial_options import Setting
 

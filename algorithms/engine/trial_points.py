@@ -20,7 +20,7 @@ from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..products.window_trial import Line, Outcome, Window, outcome_of
 from ..survey.area import Area, box_in_words
-from ..survey.collection import is_one_file, open_collection
+from ..survey.files import is_one_file, open_survey
 from ..survey.window import read_window
 from .labelling import LabelGround
 from .memory import Resources
@@ -171,7 +171,7 @@ def read_trial_points(
         files, crs = [las], read_crs(las)
         extent = las.box
     else:
-        survey = open_collection(paths, progress=progress.part(0.0, 0.1))
+        survey = open_survey(paths, progress=progress.part(0.0, 0.1))
         crs, extent = survey.crs, survey.box
         wide = area.buffered_box(context / crs.horizontal_unit)
         files = survey.touching(wide)

@@ -31,7 +31,7 @@ from ...algorithms.crs.system import Crs
 from ...algorithms.las.crs_records import read_crs
 from ...algorithms.las.opening import open_las
 from ...algorithms.survey.area import Polygon
-from ...algorithms.survey.collection import find_files, open_collection
+from ...algorithms.survey.files import find_files, open_survey
 from .. import compat
 from ..i18n import tr
 
@@ -262,7 +262,7 @@ class CloudCrs:
                 crs = read_crs(open_las(path))
                 if crs != Crs():
                     return crs
-        return open_collection(paths).crs  # It says what is wrong if none can be read.
+        return open_survey(paths).crs  # It says what is wrong if none can be read.
 
 
 def features_of(

@@ -18,7 +18,7 @@ from qgis.core import (
 from ...algorithms.engine.raster_files import RASTERS as MODELS
 from ...algorithms.engine.raster_files import RasterFiles
 from ...algorithms.las.backends import WRITING_COPC, missing_packages
-from ...algorithms.survey.collection import is_one_file
+from ...algorithms.survey.files import is_one_file
 from .. import compat
 from ..i18n import mark, tr
 

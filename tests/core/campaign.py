@@ -44,7 +44,7 @@ from bare_earth.algorithms.las.extrabytes import ExtraDimension
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import inspect, read_cloud
 from bare_earth.algorithms.las.writing import write_changed, write_classified
-from bare_earth.algorithms.survey.collection import open_collection
+from bare_earth.algorithms.survey.files import open_survey
 from bare_earth.algorithms.survey.vector_files import read_boundary, read_lines
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
 from bare_earth.algorithms.survey.window import read_window
@@ -100,7 +100,7 @@ def a_run(source, random):
 def vpc_actions(source):
     """Yield what may be done with a list of files."""
     yield lambda: read_vpc(source)
-    yield lambda: open_collection([source])
+    yield lambda: open_survey([source])
     yield lambda: classify_tiles([source], source.with_name("out"), METHOD)
 
 

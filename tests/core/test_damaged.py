@@ -29,7 +29,7 @@ from bare_earth.algorithms.las.laszip import Compression
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import inspect, read_cloud, read_parts
 from bare_earth.algorithms.las.writing import write_changed, write_classified
-from bare_earth.algorithms.survey.collection import open_collection
+from bare_earth.algorithms.survey.files import open_survey
 from bare_earth.algorithms.survey.vector_files import read_boundary, read_lines
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
 from benchmarks.data import FOLDER
@@ -431,7 +431,7 @@ def test_an_extent_that_the_points_cannot_have(las, place, value):
     ends = [(at, x) for at, x in zip(range(179, 211, 8), (4e5, 4e5 - 10, 5e6 + 10, 5e6))]
     sound = damage(las.make("a.las"), "d", *ends)
     odd = damage(las.make("b.las"), "d", *ends, (place, value))
-    found = open_collection([sound, odd])
+    found = open_survey([sound, odd])
     assert [each.path for each in found.tiles] == [sound]
     assert "does not state the extent" in found.broken[0].reason
     with pytest.raises(BareEarthError, match="does not state the extent"):
@@ -458,7 +458,7 @@ def test_virtual_point_clouds_that_name_what_cannot_be(tmp_path, change):
     path = tmp_path / "a.vpc"
     path.write_text(json.dumps({"type": "FeatureCollection", "features": [feature]}))
     with pytest.raises(BareEarthError) as caught:
-        open_collection([path])
+        open_survey([path])
     assert "\n" not in str(caught.value) and str(caught.value).endswith(".")
 
 
@@ -489,7 +489,7 @@ def test_many_shapes_are_read_in_a_time_that_grows_with_their_number(tmp_path):
 def test_a_pipe_is_not_waited_for(tmp_path, name):
     path = tmp_path / name
     os.mkfifo(path)
-    readers = {".vpc": read_vpc, ".txt": lambda each: open_collection([each])}
+    readers = {".vpc": read_vpc, ".txt": lambda each: open_survey([each])}
     readers[".geojson"] = read_boundary
     with pytest.raises(BareEarthError, match="is a pipe or a device"):
         readers.get(path.suffix, read_cloud)(path)

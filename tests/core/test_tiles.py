@@ -22,12 +22,12 @@ from bare_earth.algorithms.engine import file_points as file_points_module
 from bare_earth.algorithms.engine import jobs as jobs_module
 from bare_earth.algorithms.engine import labelling as labelling_module
 from bare_earth.algorithms.engine import tile_run as tile_run_module
+from bare_earth.algorithms.engine.block_grid import BlockGrid, BlockIndex, grouped
 from bare_earth.algorithms.engine.blocks import BRIDGE, GROUND, LOW, Blocks
 from bare_earth.algorithms.engine.ground import label_ground
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
 from bare_earth.algorithms.engine.options import TileInput, TileMethod, TileOutput
-from bare_earth.algorithms.engine.survey import BlockIndex, Survey, grouped
 from bare_earth.algorithms.engine.workers import Local, Processes, Threads
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
@@ -38,7 +38,7 @@ from bare_earth.algorithms.las import copc_octree
 from bare_earth.algorithms.las import reading as reading_module
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
-from bare_earth.algorithms.survey.collection import open_collection
+from bare_earth.algorithms.survey.files import open_survey
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.survey.tally import Tally
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
@@ -208,14 +208,14 @@ def test_copc_tiles_larger_than_their_share_of_memory_give_the_same_bytes(
 
 
 def test_blocks_are_read_in_groups_that_fit_into_memory(six):
-    collection = open_collection([six])
-    survey = Survey(survey_frame(collection.crs), Blocks(20.0, 5.0))
+    survey = open_survey([six])
+    grid = BlockGrid(survey_frame(survey.crs), Blocks(20.0, 5.0))
     places = [BlockIndex(column, row) for row in range(6) for column in range(15)]
-    many = grouped(survey, collection, places, 1, 1 << 40)
+    many = grouped(grid, survey, places, 1, 1 << 40)
     assert len(many) == 4 * 2  # squares of 4 x 4; with 8 x 8 there would be too few
     assert sorted(place for group in many for place in group) == sorted(places)
-    assert len(grouped(survey, collection, places, 1, 0)) == 90
-    assert len(grouped(survey, collection, places, 100, 1 << 40)) == 90
+    assert len(grouped(grid, survey, places, 1, 0)) == 90
+    assert len(grouped(grid, survey, places, 100, 1 << 40)) == 90
 
 
 def test_copc_files_of_which_only_parts_are_read_give_the_same(tmp_path, out):
@@ -248,7 +248,7 @@ def test_the_results_are_listed_in_a_virtual_point_cloud(six, out, tmp_path):
 def test_the_format_can_be_chosen(format, six, out):
     classify_tiles([six], out, FAST, output=TileOutput(format=format))
     assert {path.name for path in out.glob("*.la[sz]")} == {f"{n}.{format}" for n in range(6)}
-    assert {tile.is_copc for tile in open_collection([out]).tiles} == {format == "copc.laz"}
+    assert {tile.is_copc for tile in open_survey([out]).tiles} == {format == "copc.laz"}
 
 
 def test_outputs_that_would_do_harm_are_refused(six, out, tmp_path):

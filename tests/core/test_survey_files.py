@@ -4,7 +4,7 @@ import struct
 import pytest
 
 from bare_earth.algorithms.core.errors import BareEarthError
-from bare_earth.algorithms.survey.collection import find_files, open_collection
+from bare_earth.algorithms.survey.files import find_files, open_survey
 from bare_earth.algorithms.survey.vpc import write_vpc
 
 FEET = 'PROJCS["feet",GEOGCS["g",UNIT["degree",0.0174]],UNIT["US survey foot",0.30480060960]]'
@@ -55,8 +55,8 @@ def test_every_kind_of_source_is_taken_and_each_file_once(las):
     listed = las.folder / "list.txt"
     listed.write_text('# a list\n\nc.las\n"d.las"\n  a.las\n', encoding="utf-8-sig")
     sources = [las.folder / "two.vpc", str(listed), files[3], las.folder / "." / "d.las"]
-    collection = open_collection(sources)
-    assert [each.path.resolve() for each in collection.tiles] == files
+    survey = open_survey(sources)
+    assert [each.path.resolve() for each in survey.tiles] == files
     assert find_files(las.folder) == files
 
 
@@ -72,14 +72,14 @@ def test_links_to_the_same_file_count_once(las):
 
 def test_a_tile_is_what_the_header_says(las):
     path = tile(las, "a.laz", 300, 500, count=77, extra=2)
-    collection = open_collection([path])
-    (found,) = collection.tiles
+    survey = open_survey([path])
+    (found,) = survey.tiles
     assert (found.path, found.count, found.box) == (path, 77, (300, 500, 400, 600))
     assert (found.minimum[2], found.maximum[2]) == (1, 9)
     assert (found.scale, found.offset) == (las.SCALE, las.OFFSET)
     assert (found.point_format, found.record_length) == (6, 32)
     assert (found.is_compressed, found.is_copc) == (True, False)
-    assert collection.crs.name == "site"
+    assert survey.crs.name == "site"
 
 
 def test_a_broken_file_stops_nothing_and_is_told(las):
@@ -89,9 +89,9 @@ def test_a_broken_file_stops_nothing_and_is_told(las):
     tile(las, "nowhere.las", float("nan"))
     tile(las, "zero.las", side=0.0)
     tile(las, "empty.las", count=0)
-    collection = open_collection([las.folder, las.folder / "missing.laz"])
-    assert [each.path for each in collection.tiles] == [good]
-    reasons = {each.path.name: each.reason for each in collection.broken}
+    survey = open_survey([las.folder, las.folder / "missing.laz"])
+    assert [each.path for each in survey.tiles] == [good]
+    reasons = {each.path.name: each.reason for each in survey.broken}
     assert "damaged or cut off" in reasons["cut.las"]
     assert "not a LAS or LAZ file" in reasons["other.laz"]
     assert "does not state the extent" in reasons["nowhere.las"]
@@ -105,9 +105,9 @@ def test_nothing_that_can_be_read_is_an_error(las):
     for number in range(2):
         (las.folder / f"{number}.las").write_bytes(b"PK")
     with pytest.raises(BareEarthError, match=r"None of the 2 files .* not a LAS or LAZ file"):
-        open_collection([las.folder])
+        open_survey([las.folder])
     with pytest.raises(BareEarthError, match=r"0\.las is not a LAS"):
-        open_collection([las.folder / "0.las"])
+        open_survey([las.folder / "0.las"])
 
 
 def test_sources_that_are_none_are_told(las):
@@ -140,7 +140,7 @@ def test_tiles_in_different_crs_are_refused(las, other, told):
     tile(las, "a.las", wkt=metres("site", 25832))
     tile(las, "b.las", 100, wkt=other)
     with pytest.raises(BareEarthError, match="not in the same CRS") as error:
-        open_collection([las.folder])
+        open_survey([las.folder])
     assert told is None or told in str(error.value)
     assert "site in metre, height metre: a.las" in str(error.value)
 
@@ -149,7 +149,7 @@ def test_one_crs_written_in_two_ways_is_one(las):
     tile(las, "a.las", wkt=metres("WGS 84 / UTM zone 32N", 32632))
     tile(las, "b.las", 100, wkt=metres("WGS_84_UTM_zone_32N"))
     heard = las.Heard()
-    assert len(open_collection([las.folder], progress=heard).tiles) == 2
+    assert len(open_survey([las.folder], progress=heard).tiles) == 2
     assert heard.warnings == []
 
 
@@ -158,12 +158,12 @@ def test_a_missing_crs_is_taken_from_the_others_if_these_are_metres(las):
     tile(las, "a.las")
     for number in range(5):
         tile(las, f"b{number}.las", 100 * number + 100, wkt="")
-    assert open_collection([las.folder], progress=heard).crs.name == "site"
+    assert open_survey([las.folder], progress=heard).crs.name == "site"
     (warning,) = heard.warnings
     assert warning.startswith("b0.las, b1.las, b2.las and 2 more do not say the CRS")
     tile(las, "a.las", wkt=FEET)
     with pytest.raises(BareEarthError, match=r"none stated: b0\.las"):
-        open_collection([las.folder])
+        open_survey([las.folder])
 
 
 def test_what_is_odd_about_all_files_is_told_once(las):
@@ -172,7 +172,7 @@ def test_what_is_odd_about_all_files_is_told_once(las):
     for number in range(4):
         tile(las, f"{number}.las", 100 * number, wkt=wkt)
     heard = las.Heard()
-    open_collection([las.folder], progress=heard)
+    open_survey([las.folder], progress=heard)
     assert len(heard.warnings) == 1
     assert heard.warnings[0].endswith("(in 4 files)")
     assert heard.fractions[-1] == 1
@@ -182,7 +182,7 @@ def test_the_same_tile_twice_is_told(las):
     tile(las, "a.las")
     tile(las, "a.laz")
     heard = las.Heard()
-    open_collection([las.folder], progress=heard)
+    open_survey([las.folder], progress=heard)
     assert any("a.las and a.laz have the same extent" in each for each in heard.warnings)
 
 
@@ -191,11 +191,11 @@ def test_the_tiles_that_touch_a_box_are_found(las):
         for column in range(4):
             tile(las, f"{row}{column}.las", 100 * column, 100 * row)
     tile(las, "far.las", 450, 0, 50)
-    collection = open_collection([las.folder])
-    assert collection.box == pytest.approx((0, 0, 500, 400), abs=0.011)
+    survey = open_survey([las.folder])
+    assert survey.box == pytest.approx((0, 0, 500, 400), abs=0.011)
 
     def touching(*box):
-        return [each.path.stem for each in collection.touching(box)]
+        return [each.path.stem for each in survey.touching(box)]
 
     assert touching(0, 0, 99, 99) == ["00"]
     assert touching(0, 0, 100, 100) == ["00", "01", "10", "11"]
@@ -210,9 +210,9 @@ def test_files_outside_of_the_folder_of_their_list_are_told(las):
     vpc = las.folder / "sub" / "all.vpc"
     write_vpc(vpc, [inside, outside])
     heard = las.Heard()
-    assert len(open_collection([vpc], progress=heard).tiles) == 2
+    assert len(open_survey([vpc], progress=heard).tiles) == 2
     assert [each for each in heard.warnings if f"The first is {outside.resolve()}." in each]
     write_vpc(las.folder / "all.vpc", [inside, outside])
     heard = las.Heard()
-    open_collection([las.folder / "all.vpc"], progress=heard)
+    open_survey([las.folder / "all.vpc"], progress=heard)
     assert not any("outside" in each for each in heard.warnings)

@@ -38,7 +38,7 @@ class BrokenTile:
 
 
 @dataclass(frozen=True)
-class Collection:
+class Survey:
     """The files of a survey, sorted by their paths.
 
     Attributes
@@ -77,9 +77,9 @@ class Collection:
         return [self.tiles[each] for each in np.flatnonzero(touches)]
 
 
-def open_collection(
+def open_survey(
     sources: Iterable[Path], recursive: bool = False, progress: Progress = SILENT
-) -> Collection:
+) -> Survey:
     """Find the files of a survey, and read their headers.
 
     Parameters
@@ -120,7 +120,7 @@ def open_collection(
     _tell(heard, progress)
     crs = _common_crs(tiles, stated, progress)
     _tell_of_twins(tiles, progress)
-    return Collection(tuple(tiles), tuple(broken), crs)
+    return Survey(tuple(tiles), tuple(broken), crs)
 
 
 def find_files(
@@ -131,7 +131,7 @@ def find_files(
     Parameters
     ----------
     sources, recursive
-        As for `open_collection`.
+        As for `open_survey`.
     progress : Progress
         Told of virtual point clouds that list files outside of their folders.
 

@@ -18,7 +18,7 @@ from ..core.points import Box, Frame
 from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
 from ..las.reading import read_cloud
-from ..survey.collection import Collection
+from ..survey.files import Survey
 from .blocks import Blocks
 from .leaf_index import code_of, row_and_column
 
@@ -42,8 +42,8 @@ class BlockIndex(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Survey:
-    """What every job must know, whoever runs it.
+class BlockGrid:
+    """The blocks of a survey and where they lie. Every job gets it, so it holds no list of files.
 
     Attributes
     ----------
@@ -91,7 +91,7 @@ def code(place: BlockIndex) -> int:
     return int(code_of(np.int64(place.row), np.int64(place.column)))
 
 
-def places_of(survey: Survey, tile: LasFile) -> list[BlockIndex]:
+def places_of(grid: BlockGrid, tile: LasFile) -> list[BlockIndex]:
     """Return the blocks that may hold points of a tile, from south to north.
 
     Raises
@@ -99,29 +99,29 @@ def places_of(survey: Survey, tile: LasFile) -> list[BlockIndex]:
     BareEarthError
         If its points lie far apart and it cannot be read.
     """
-    columns, rows = survey.places_in(tile.outer_box)
+    columns, rows = grid.places_in(tile.outer_box)
     if len(columns) * len(rows) <= _MOST_PLACES:
         return [BlockIndex(column, row) for row, column in itertools.product(rows, columns)]
-    row, column = row_and_column(np.unique(survey.codes(read_cloud(tile.path))))
+    row, column = row_and_column(np.unique(grid.codes(read_cloud(tile.path))))
     return [BlockIndex(*each) for each in zip(column.tolist(), row.tolist())]
 
 
-def sources_of(survey: Survey, collection: Collection, place: BlockIndex) -> list[Path]:
+def sources_of(grid: BlockGrid, survey: Survey, place: BlockIndex) -> list[Path]:
     """Return the files that may have points which a block needs."""
-    return [each.path for each in collection.touching(survey.window([place]))]
+    return [each.path for each in survey.touching(grid.window([place]))]
 
 
-def memory_of(survey: Survey, collection: Collection, places: Sequence[BlockIndex]) -> int:
+def memory_of(grid: BlockGrid, survey: Survey, places: Sequence[BlockIndex]) -> int:
     """Return about how many bytes it takes to filter some blocks, one after the other."""
-    count = points_in(collection, survey.window(places))
-    seen = min(count, survey.blocks.most_points)
-    return int(_BYTES_HELD * count) + survey.blocks.memory(seen)
+    count = points_in(survey, grid.window(places))
+    seen = min(count, grid.blocks.most_points)
+    return int(_BYTES_HELD * count) + grid.blocks.memory(seen)
 
 
-def points_in(collection: Collection, box: Box) -> float:
+def points_in(survey: Survey, box: Box) -> float:
     """Return about how many points lie in a box, as the headers of the files have it."""
     count = 0.0
-    for tile in collection.touching(box):
+    for tile in survey.touching(box):
         shares = (
             _share(tile.box[axis], tile.box[axis + 2], box[axis], box[axis + 2]) for axis in (0, 1)
         )
@@ -137,7 +137,7 @@ def _share(low: float, high: float, start: float, end: float) -> float:
 
 
 def grouped(
-    survey: Survey, collection: Collection, places: Sequence[BlockIndex], workers: int, memory: int
+    grid: BlockGrid, survey: Survey, places: Sequence[BlockIndex], workers: int, memory: int
 ) -> list[list[BlockIndex]]:
     """Return blocks in groups whose files are read together, from south to north.
 
@@ -155,7 +155,7 @@ def grouped(
         wider = list(_squares(places, width))
         if len(wider) < _GROUPS_A_WORKER * workers:
             break
-        if max(memory_of(survey, collection, group) for group in wider) > memory:
+        if max(memory_of(grid, survey, group) for group in wider) > memory:
             break
         groups, width = wider, 2 * width
     return groups
