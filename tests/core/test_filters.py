@@ -8,6 +8,7 @@ from runs import CancelAt
 
 from bare_earth.algorithms.core.errors import Cancelled
 from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.filters import METHODS, method_of
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
@@ -73,6 +74,16 @@ def test_a_raised_square_with_one_ramp_stays(method):
     found = METHODS[method].classify(scene.points, METHODS[method].parameters())
     assert found[scene.ground].mean() > 0.98
     assert found[~scene.ground].mean() < 0.05
+
+
+@pytest.mark.parametrize(
+    ("method", "seed"), [("tin-densification", 808), ("slope", 808), ("grid-minimum", 806)]
+)
+def test_a_table_mountain_stays(method, seed):
+    # Its cliffs drop all round, as the walls of a large building do, or the sides of a deck.
+    scene = make("mesa", seed=seed)
+    labels, _ = classify_cloud(scene.cloud(), METHODS[method].parameters())
+    assert (labels == 2)[scene.ground].mean() > 0.99
 
 
 @pytest.mark.parametrize("method", METHODS)

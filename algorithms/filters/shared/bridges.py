@@ -29,6 +29,9 @@ _LEAST_AREA, _LEAST_CELLS, _LEAST_SPAN, _LEAST_SPACINGS = 12.0, 4, 3.0, 2.0
 _LEVEL, _LEVEL_SLOPE = 0.25, 0.03
 # Cross-sections at this angle to the deck are across, and at least this share must be.
 _OBLIQUE, _MOSTLY = math.radians(30.0), 0.5
+# So many of them cross each cell of a deck, on average. On a table mountain a few meet no point on
+# the face of the cliff by chance.
+_CROSSING = 2.5
 # Metres of ground that must lie within some metres of an end, over this share of the deck's width.
 _GROUND, _END, _CARRIED = 4.0, 12.0, 0.5
 # Points so near to the surface of a deck in metres are on it.
@@ -88,6 +91,7 @@ def _decks(relief: Relief) -> tuple[np.ndarray, np.ndarray]:
     counts = np.bincount(label.ravel())
     is_large = (counts * relief.cell**2 >= _LEAST_AREA) & (counts >= _LEAST_CELLS)
     of_section = label.ravel()[sections.middles(relief)]
+    is_large &= np.bincount(of_section, sections.steps + 1, len(counts)) >= _CROSSING * counts
     sections = sections.take(np.argsort(of_section, kind="stable"))
     first = np.searchsorted(np.sort(of_section), np.arange(len(counts) + 1))
     for number, box in enumerate(ndimage.find_objects(label), start=1):

@@ -35,10 +35,11 @@ _OBJECT_SHARE = 0.65
 _WHOLE_SHARE, _CLASSIC_WHOLE_SHARE = 0.5, 0.4
 # Mean height of the drop over the width of the region: what is lower and wider is terrain.
 _LEAST_STEEPNESS = 0.15
-# A region is terrain if it is as wide (m) and has such a share of its drops on the face of a cliff.
+# Regions as wide (m) are terrain if they have such a share of their drops on the face of a cliff.
 # Points lie on such a face: of five steps across it, none makes up more than a share of their sum,
-# and none leads back by more than some metres. At the wall of a building one step does.
-_FACE_WIDTH, _FACE_SHARE = 10.0, 0.4
+# and none leads back by more than some metres. At the wall of a building one step does. Few plants
+# hide the walls of a large building.
+_FACE_WIDTHS, _FACE_SHARES = (10.0, 25.0), (0.4, 0.25)
 _LARGEST_STEP, _STEP_BACK = 0.7, 0.3
 # Rounds in which regions are looked at again that others hid.
 _ROUNDS = 3
@@ -418,7 +419,8 @@ class Regions:
 
     def _is_no_cliff(self) -> np.ndarray:
         """Return which regions are narrow, or have no faces round them."""
-        return (self.width < _FACE_WIDTH) | (self._border.share_of_faces() < _FACE_SHARE)
+        most = np.interp(self.width, _FACE_WIDTHS, _FACE_SHARES)
+        return (self.width < _FACE_WIDTHS[0]) | (self._border.share_of_faces() < most)
 
     def sunken(self, max_size: float) -> np.ndarray:
         """Return the cells of the regions whose border is a rise nearly all round: of pits."""
