@@ -6,6 +6,7 @@ import pytest
 from bare_earth.algorithms.filters.shared.allowance import Allowance
 from bare_earth.algorithms.filters.shared.gentle_regions import gentle_regions
 from bare_earth.algorithms.filters.shared.ground_cells import ground_cells
+from bare_earth.algorithms.filters.shared.roofs import flat_roofs
 
 
 def _ground(heights, objects=None, window=20.0, **allowance):
@@ -64,16 +65,62 @@ def test_a_building_in_a_corner_of_the_survey_is_not_ground():
     assert not found[roof].any() and found[~roof].all()
 
 
-@pytest.mark.parametrize("size, side", [(0.5, 28), (2.0, 7), (3.0, 4)])
-def test_what_is_left_within_a_roof_goes_with_it_up_to_200_square_metres(size, side):
+@pytest.mark.parametrize("size, side", [(0.5, 40), (2.0, 10), (3.0, 6)])
+def test_what_is_left_within_a_roof_goes_with_it_up_to_400_square_metres(size, side):
     for more in (0, 1):
         cells = side + more
         heights = np.zeros((cells + 46, cells + 46))
-        heights[15:-15, 15:-15] = 5.0
+        ridge = np.abs(np.arange(cells + 16) - (cells + 15) / 2.0)
+        heights[15:-15, 15:-15] = 7.0 - 0.1 * size * ridge
         rest = np.zeros(heights.shape, dtype=bool)
         rest[23:-23, 23:-23] = True
         ground = ground_cells(heights, size, (heights > 0) & ~rest, 3.0 * size)
         assert (ground[rest] == more).all()
+
+
+@pytest.mark.parametrize("beside, goes", [(0.0, True), (8.0, False)])
+def test_a_strip_along_the_wall_goes_with_its_roof_unless_the_ground_beside_is_higher(beside, goes):
+    heights = np.zeros((80, 80))
+    heights[:, 50:] = beside
+    # So uneven that nothing is followed along a plane.
+    heights[20:60, 20:50] = 5.0 + 0.2 * (np.indices((40, 30)).sum(axis=0) % 2)
+    objects = np.zeros(heights.shape, dtype=bool)
+    objects[20:60, 20:46] = True
+    ground = ground_cells(heights, 1.0, objects, 3.0)
+    assert (ground[22:58, 47:49] != goes).all()
+
+
+def _hall_on_a_slope(uphill=0.0):
+    """Return a slope with a level roof, its cells, and those that an opening cuts off.
+
+    Uphill the ground rises to a step of some height beside the roof, and lies half a metre below
+    it elsewhere: an opening leaves a strip of the roof there.
+    """
+    rows, columns = np.indices((140, 120)).astype(float)
+    roof = (rows >= 30) & (rows < 110) & (columns >= 30) & (columns < 90)
+    heights = 0.1 * rows
+    heights[rows >= 110] += uphill
+    heights[roof] = 11.5
+    return heights, roof, roof & (rows < 90)
+
+
+def test_a_level_roof_goes_on_to_the_ground_uphill():
+    heights, roof, cut_off = _hall_on_a_slope()
+    surveyed = np.ones(roof.shape, dtype=bool)
+    assert (flat_roofs(heights, cut_off, surveyed, 1.0)[roof]).all()
+    # There is no plane to follow on a rough surface, and it may be the tread of a terrace.
+    rough = heights + np.where(roof & (np.indices(roof.shape).sum(axis=0) % 2 > 0), 0.35, 0.0)
+    assert not flat_roofs(rough, cut_off, surveyed, 1.0).any()
+    assert not flat_roofs(*_hall_on_a_slope(uphill=3.0)[:1], cut_off, surveyed, 1.0).any()
+
+
+def test_a_roof_is_not_followed_to_the_border_of_the_survey_or_over_more_than_is_known():
+    heights, roof, cut_off = _hall_on_a_slope()
+    surveyed = np.ones(roof.shape, dtype=bool)
+    surveyed[110:] = False
+    assert not flat_roofs(heights, cut_off, surveyed, 1.0).any()
+    little = roof & (np.indices(roof.shape)[0] < 60)
+    assert not flat_roofs(heights, little, np.ones(roof.shape, dtype=bool), 1.0).any()
 
 
 def test_beyond_the_survey_a_roof_goes_on_where_gaps_are_judged():

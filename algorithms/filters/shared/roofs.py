@@ -1,0 +1,97 @@
+"""Flat roofs that are level with the ground uphill: an opening cuts off no more than a part."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...grids.morphology import within_square
+
+# Metres between the lowest and the highest of 3 x 3 cells of a flat surface, and square metres of
+# the smallest that is looked at.
+_FLAT, _LEAST_AREA = 0.4, 400.0
+# So many metres from a plane lies most of a roof (this share), and the rest of it is sought.
+_ON_PLANE, _MOSTLY, _NEAR_PLANE = 0.15, 0.9, 0.2
+# Cells round a roof that are looked at. At most this share of them is ground that is higher by so
+# many metres, or lies at the border of the survey: the tread of a terrace lies below the next one.
+_ROUND, _RISE, _RISING = 2, 0.3, 0.1
+# What was not cut off is no larger than what was: fields between ditches are level as well.
+_LARGEST_REST = 1.0
+
+
+def flat_roofs(
+    filled: np.ndarray, raised: np.ndarray, surveyed: np.ndarray, size: float
+) -> np.ndarray:
+    """Return the cells of flat roofs of which some are raised.
+
+    A large plane surface that is raised is followed to where it ends. On a slope the upper end of
+    a roof may be so low that no opening cuts it off, and what is cut off seems to pass gently into
+    the ground there.
+
+    Parameters
+    ----------
+    filled : numpy.ndarray of float32, shape (rows, columns)
+        Heights in metres without NaN.
+    raised : numpy.ndarray of bool, shape (rows, columns)
+        Cells that stand out.
+    surveyed : numpy.ndarray of bool, shape (rows, columns)
+        Cells with a point, and small gaps between them.
+    size : float
+        Side of a cell in metres.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (rows, columns)
+    """
+    from scipy import ndimage
+
+    lowest, highest = (within_square(each, filled, 1) for each in (np.minimum, np.maximum))
+    number, count = ndimage.label(raised & (highest - lowest <= _FLAT))
+    large = np.bincount(number.ravel(), minlength=count + 1) * size**2 >= _LEAST_AREA
+    large[0] = False
+    roofs = np.zeros(raised.shape, dtype=bool)
+    if not large.any():
+        return roofs
+    boxes = ndimage.find_objects(number)
+    inner = ndimage.binary_erosion(surveyed, np.ones((3, 3)))
+    for each in np.flatnonzero(large):
+        box = tuple(
+            slice(max(2 * side.start - side.stop, 0), 2 * side.stop - side.start)
+            for side in boxes[each - 1]
+        )
+        grids = (filled, raised, surveyed, inner)
+        roofs[box] |= _roof(number[box] == each, *(grid[box] for grid in grids))
+    return roofs
+
+
+def _roof(
+    part: np.ndarray,
+    filled: np.ndarray,
+    raised: np.ndarray,
+    surveyed: np.ndarray,
+    inner: np.ndarray,
+) -> np.ndarray:
+    """Return the cells of the roof of which a part is known; none if it is not that of a roof."""
+    from scipy import ndimage
+
+    above = _above_plane(filled, part)
+    none = np.zeros(part.shape, dtype=bool)
+    if np.mean(np.abs(above[part]) <= _ON_PLANE) < _MOSTLY:
+        return none
+    number, _ = ndimage.label(part | (surveyed & (np.abs(above) <= _NEAR_PLANE)))
+    whole = number == number[part][0]
+    around = within_square(np.maximum, whole, _ROUND) & ~whole
+    unlike = np.count_nonzero(around & ~raised & (above > _RISE))
+    unlike += np.count_nonzero(whole & ~inner)
+    if unlike > _RISING * np.count_nonzero(around):
+        return none
+    is_small = np.count_nonzero(whole & ~raised) <= _LARGEST_REST * np.count_nonzero(part)
+    return whole if is_small else none
+
+
+def _above_plane(heights: np.ndarray, which: np.ndarray) -> np.ndarray:
+    """Return how far heights (rows, columns) lie above the plane through some of them."""
+    row, column = np.nonzero(which)
+    places = np.column_stack((np.ones(len(row)), row, column))
+    plane, *_ = np.linalg.lstsq(places, heights[which].astype(np.float64), rcond=None)
+    rows, columns = np.ogrid[: heights.shape[0], : heights.shape[1]]
+    return heights - (plane[0] + plane[1] * rows + plane[2] * columns)
