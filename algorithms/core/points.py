@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -36,7 +37,13 @@ class Frame:
         return replace(self, origin=(east, north))
 
 
-class Points(NamedTuple):
+class _Columns(NamedTuple):
+    x: np.ndarray
+    y: np.ndarray
+    z: np.ndarray
+
+
+class Points(_Columns):
     """Coordinates in metres, relative to a local origin.
 
     The origin is a place of the CRS that does not depend on the survey: that of the block at hand
@@ -46,17 +53,29 @@ class Points(NamedTuple):
     Attributes
     ----------
     x, y, z : numpy.ndarray of float64, shape (n,)
-        Easting, northing and height in metres.
+        Easting, northing and height in metres. They do not change once the box was asked for.
     """
-
-    x: np.ndarray
-    y: np.ndarray
-    z: np.ndarray
 
     @property
     def count(self) -> int:  # type: ignore[override]
         """Number of points (`len` of a named tuple counts its fields)."""
         return len(self.x)
+
+    @cached_property
+    def box(self) -> Box:
+        """Smallest x and y, largest x and y, of at least one point."""
+        return (
+            float(self.x.min()),
+            float(self.y.min()),
+            float(self.x.max()),
+            float(self.y.max()),
+        )
+
+    @property
+    def sides(self) -> tuple[float, float]:
+        """Width and height of the box in metres."""
+        west, south, east, north = self.box
+        return east - west, north - south
 
     def take(self, which: np.ndarray | slice) -> Points:
         """Return the points that a boolean mask, an index array or a slice names."""

@@ -112,8 +112,8 @@ class FixedTerrain:
         ground, edges : numpy.ndarray of bool, shape (n + m,)
             Which of them are ground, and which of these lie on lines.
         """
-        low = np.array([points.x.min(), points.y.min()]) + corner - _BEYOND
-        high = np.array([points.x.max(), points.y.max()]) + corner + _BEYOND
+        low = np.array(points.box[:2]) + corner - _BEYOND
+        high = np.array(points.box[2:]) + corner + _BEYOND
         edges, inside = (
             each[((each[:, :2] >= low) & (each[:, :2] <= high)).all(axis=1)]
             for each in (self.edges, self.inside)

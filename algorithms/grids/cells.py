@@ -70,9 +70,8 @@ class Cells:
         BareEarthError
             If they would not fit into memory.
         """
-        first_row, first_column, last_row, last_column = (
-            int(np.floor((extreme + shift) / size))
-            for extreme in (points.y.min(), points.x.min(), points.y.max(), points.x.max())
+        first_column, first_row, last_column, last_row = (
+            math.floor((extreme + shift) / size) for extreme in points.box
         )
         rows, columns = last_row - first_row + 1, last_column - first_column + 1
         if rows * columns > _MOST_CELLS:
@@ -290,7 +289,7 @@ def spacing(points: Points, dense: float = 1.0, step: float = _SPACING_STEP) -> 
     step : float
         Metres of which it is a multiple, from a metre on.
     """
-    area = float(np.ptp(points.x)) * float(np.ptp(points.y))
+    area = math.prod(points.sides)
     if _SURELY * area <= dense**2 * points.count:
         return dense
     apart = _BLOCK / math.sqrt(usual_count(Cells.over(points, _BLOCK).counts()))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -213,7 +214,7 @@ def _outermost(points: Points, cells: Cells) -> np.ndarray:
 def _levels(points: Points, grid_size: float) -> list[tuple[np.ndarray, Cells]]:
     """Return which points to look at first, which then, and so on, and the cells they stand for."""
     levels: list[tuple[np.ndarray, Cells]] = []
-    spread = float(np.ptp(points.x)) * float(np.ptp(points.y))
+    spread = math.prod(points.sides)
     which, left = np.arange(points.count, dtype=np.int32), points
     for about in _LEVELS[::-1]:
         # Each cell of the grid is cut into whole cells.

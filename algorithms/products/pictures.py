@@ -68,12 +68,12 @@ class Relief:
         longest_side : int
             Pixels along the longer side, at most.
         """
-        width, height = np.ptp(points.x), np.ptp(points.y)
+        width, height = points.sides
         spacing = _SPACINGS * np.sqrt(width * height / points.count)
         cell = max(spacing, max(width, height) / longest_side) or 1.0
         shape = int(height / cell) + 1, int(width / cell) + 1
-        column = ((points.x - points.x.min()) / cell).astype(np.int64)
-        row = ((points.y.max() - points.y) / cell).astype(np.int64)
+        column = ((points.x - points.box[0]) / cell).astype(np.int64)
+        row = ((points.box[3] - points.y) / cell).astype(np.int64)
         place = row * shape[1] + column
         return cls(place, _shade(place, points.z, shape, cell), float(cell))
 

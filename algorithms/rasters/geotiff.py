@@ -131,7 +131,7 @@ class RasterGrid:
 
 def _covered(points: Points) -> float:
     """Return in which share of the squares over the extent of points there are any."""
-    extent = [np.ptp(each) // _SQUARE + 1.0 for each in (points.x, points.y)]
+    extent = [side // _SQUARE + 1.0 for side in points.sides]
     squares: set[complex] = set()
     for part in parts_of(points.count, _STEP):
         place = np.floor(points.x[part] / _SQUARE) + 1j * np.floor(points.y[part] / _SQUARE)

@@ -378,7 +378,7 @@ def _multiple(density: float, size: float) -> int:
 def _counting_cells(points: Points, parameters: GridMinimum) -> Cells:
     """Return cells to count the points in: those of the filter, unless they are far too small."""
     size = parameters.cell_size or PRESETS[parameters.preset].cell_size
-    if float(np.ptp(points.x)) * float(np.ptp(points.y)) > size**2 * points.count:
+    if math.prod(points.sides) > size**2 * points.count:
         size = max(_DENSITY_BLOCK, 4.0 * size)
     return Cells.over(points, size)
 

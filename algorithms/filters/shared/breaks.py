@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...core.points import Points
+from ...core.threads import in_threads
 from ...grids.cells import Cells, lower_at
 from ...grids.gradient import steepness
 from ...grids.inpaint import inpaint
@@ -109,8 +110,12 @@ def _level(
     step = int(np.ceil(_STEP_SPACINGS * spacing / cells.size))
     margin = _LEVEL + _STEEPEST * step * cells.size
     cell, z = cells.index[waiting], points.z[waiting]
-    low = within_square(np.minimum, _extreme(cells, points, seeds), step).ravel()[cell]
-    high = -within_square(np.minimum, _extreme(cells, points, seeds, -1.0), step).ravel()[cell]
+
+    def extreme(sign: float) -> np.ndarray:
+        nearest = within_square(np.minimum, _extreme(cells, points, seeds, sign), step)
+        return sign * nearest.ravel()[cell]
+
+    low, high = in_threads(extreme, (1.0, -1.0))
     candidates = np.flatnonzero((z >= low - margin) & (z <= high + margin))
     near = _near(cells, seeds, waiting[candidates], reach)
     rise, misfit = Sides(points.take(seeds[near]), reach).rises(

@@ -36,7 +36,7 @@ def tell_of_extent(points: Points, largest: float, name: str, progress: Progress
     progress : Progress
         Receives the warning.
     """
-    if min(np.ptp(points.x), np.ptp(points.y)) < largest:
+    if min(points.sides) < largest:
         progress.warning(
             f"In one direction the points reach less than {largest:g} m, the expected width of the"
             " largest object. An object at their border, or one that covers all of them, may be"

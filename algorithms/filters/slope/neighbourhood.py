@@ -104,7 +104,7 @@ class Neighbourhood:
         # Points of one such cell are within the radius of each other.
         side = self._radius * (1.0 - _ROUNDING) / math.sqrt(2.0)
         most = max(_CELLS_A_POINT * points.count, _MOST_CELLS)
-        if float(np.ptp(points.x)) * float(np.ptp(points.y)) < most * side**2:
+        if math.prod(points.sides) < most * side**2:
             cells = Cells.over(points, side)
             doubtful = np.flatnonzero(cells.counts().ravel()[cells.index] <= at_least)
         if not len(doubtful):
