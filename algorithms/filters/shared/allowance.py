@@ -78,7 +78,7 @@ class Allowance:
     hall_per_slope: float = 0.1
     border_area: float = 800.0
     border_height: float = 4.5
-    island_area: float = 400.0
+    island_area: float = 200.0
     rock_area: float = 200.0
     ramp_area: float = 100.0
     rise_counts: bool = True

@@ -34,11 +34,8 @@ _TOGETHER = 4
 _RADII = ((1, 1, 24), (2, 26, 48), (4, 52, 10_000))
 # Metres over which that slope is smoothed, and the most of it that counts.
 _SLOPE_SMOOTHING, _LARGEST_SLOPE = 5.0, 0.6
-# Share of the border of an island at which something raised lies beside it, and share of that at
-# which this is as high. Its other neighbours are lower: the tread of a terrace lies below the next.
-_ISLAND_RAISED, _ISLAND_SHARE, _ISLAND_RISES = 0.3, 0.5, 0.1
-# Metres that the rim of an island is higher than what is beside it, over a metre.
-_EDGE = 1.0
+# Share of the border of an island at which what is raised beside it is as high.
+_ISLAND_SHARE = 0.5
 # Of a plateau, all is cut off if a window cuts off so much: its uphill side is low.
 _CUT_SHARE = 0.3
 
@@ -136,8 +133,7 @@ def _islands(
     """Return the small patches within raised cells that are level with them."""
     from scipy import ndimage
 
-    edges = filled - within_square(np.minimum, filled, 1) > _EDGE * max(size, 1.0)
-    number, count = ndimage.label(~raised & ~edges)
+    number, count = ndimage.label(~raised)
     flat = number.ravel()
     small = np.bincount(flat, minlength=count + 1) * size**2 <= allowance.island_area
     # Nothing is known of what lies beyond the survey.
@@ -147,17 +143,13 @@ def _islands(
     small[0] = False
     up, heights = raised.ravel(), filled.ravel()
     cells = np.flatnonzero(small[flat])
-    border, level, pairs, rising = np.zeros((4, count + 1))
+    level, pairs = np.zeros((2, count + 1))
     for offset in (1, -1, raised.shape[1], -raised.shape[1]):
-        beside = cells[flat[cells + offset] != flat[cells]]
-        rise, is_up = heights[beside + offset] - heights[beside], up[beside + offset]
-        is_level = is_up & (np.abs(rise) <= allowance.gentle_step)
-        is_rising = ~is_up & (rise > allowance.gentle_step)
-        for each, counted in ((pairs, is_up), (level, is_level), (rising, is_rising)):
-            each += np.bincount(flat[beside], counted, count + 1)
-        border += np.bincount(flat[beside], minlength=count + 1)
-    small &= pairs >= _ISLAND_RAISED * border
-    small &= (level >= _ISLAND_SHARE * pairs) & (rising <= _ISLAND_RISES * pairs)
+        beside = cells[up[cells + offset]]
+        is_level = np.abs(heights[beside + offset] - heights[beside]) <= allowance.gentle_step
+        pairs += np.bincount(flat[beside], minlength=count + 1)
+        level += np.bincount(flat[beside], is_level, count + 1)
+    small &= level >= _ISLAND_SHARE * pairs
     return small[number]
 
 
