@@ -18,11 +18,9 @@ import numpy as np
 
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
+from ..grids.plane import plane_through
 from ..rasters.geotiff import NODATA, read_raster
 from ..rasters.writing import write_geotiff
-
-# Cells to which a plane is fitted, about.
-_PLANE_CELLS = 100_000
 
 
 @dataclass(frozen=True)
@@ -69,23 +67,12 @@ def local_relief(
     sigma = radius / 2 / cell_metres[1], radius / 2 / cell_metres[0]
     # Above their plane: at the edge, where surroundings lie on one side only, a slope would show;
     # and numbers near 0 keep their millimetres as float32.
-    filled = np.where(known, heights - _plane(heights, known), 0).astype(np.float32)
+    filled = np.where(known, heights - plane_through(heights, known), 0).astype(np.float32)
     # Cells without a height have no weight.
     total = gaussian_filter(filled, sigma, mode="constant")
     weight = gaussian_filter(known.astype(np.float32), sigma, mode="constant")
     mean = total / np.where(known, weight, 1)
     return np.where(known, filled - mean, np.nan).astype(np.float32)
-
-
-def _plane(heights: np.ndarray, known: np.ndarray) -> np.ndarray:
-    """Return the heights of the plane that fits best to the cells that are known."""
-    rows, columns = np.nonzero(known)
-    step = len(rows) // _PLANE_CELLS + 1
-    rows, columns = rows[::step], columns[::step]
-    places = np.column_stack([rows, columns, np.ones(len(rows))]).astype(float)
-    (down, right, level), *_ = np.linalg.lstsq(places, heights[rows, columns], rcond=None)
-    row, column = np.ogrid[: heights.shape[0], : heights.shape[1]]
-    return level + down * row + right * column
 
 
 def write_local_relief(

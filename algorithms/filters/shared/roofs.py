@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...grids.morphology import within_square
+from ...grids.plane import plane_through
 
 # Metres between the lowest and the highest of 3 x 3 cells of a flat surface, and square metres of
 # the smallest that is looked at.
@@ -73,7 +74,7 @@ def _roof(
     """Return the cells of the roof of which a part is known; none if it is not that of a roof."""
     from scipy import ndimage
 
-    above = _above_plane(filled, part)
+    above = filled - plane_through(filled, part)
     none = np.zeros(part.shape, dtype=bool)
     if np.mean(np.abs(above[part]) <= _ON_PLANE) < _MOSTLY:
         return none
@@ -86,12 +87,3 @@ def _roof(
         return none
     is_small = np.count_nonzero(whole & ~raised) <= _LARGEST_REST * np.count_nonzero(part)
     return whole if is_small else none
-
-
-def _above_plane(heights: np.ndarray, which: np.ndarray) -> np.ndarray:
-    """Return how far heights (rows, columns) lie above the plane through some of them."""
-    row, column = np.nonzero(which)
-    places = np.column_stack((np.ones(len(row)), row, column))
-    plane, *_ = np.linalg.lstsq(places, heights[which].astype(np.float64), rcond=None)
-    rows, columns = np.ogrid[: heights.shape[0], : heights.shape[1]]
-    return heights - (plane[0] + plane[1] * rows + plane[2] * columns)
