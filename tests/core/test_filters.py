@@ -73,6 +73,17 @@ def test_a_hall_goes_where_points_are_sparse(kind, seed, density):
         assert found[scene.ground].mean() > 0.98, name
 
 
+@pytest.mark.parametrize(
+    ("method", "seed"), [("tin-densification", 909), ("slope", 909), ("grid-minimum", 902)]
+)
+def test_a_complex_of_halls_goes_that_is_low_on_its_uphill_side(method, seed):
+    # Points on the walls hide a drop of 2 m between cells of a metre.
+    scene = make("complex_on_slope", seed=seed)
+    labels, _ = classify_cloud(scene.cloud(), METHODS[method].parameters())
+    assert (labels == 2)[scene.classes == 6].mean() < 0.25
+    assert (labels == 2)[scene.ground].mean() > 0.99
+
+
 @pytest.mark.parametrize("method", METHODS)
 def test_a_raised_square_with_one_ramp_stays(method):
     scene = make("plaza", seed=504)

@@ -27,7 +27,7 @@ from ..shared.ground_cells import ground_cells
 from ..shared.ground_limits import Tolerance
 from ..shared.near_ground import Candidates, near_ground
 from ..shared.near_surface import near_surface
-from ..shared.objects import Objects, Relief, covered, raised_objects
+from ..shared.objects import PLATEAU_HEIGHT, Objects, Relief, covered, raised_objects
 from ..shared.outliers import low_outliers, supported
 
 # Points that a cell should hold on average: with fewer, gaps break the rims.
@@ -427,10 +427,17 @@ def _tall_objects(
     half-way down a wall hide no rim; single cells far above the ground of their block go as well.
     """
     lowest = blocks.lowest(heights)
-    thresholds, size = parameters.height_thresholds, blocks.size
-    largest, first = parameters.max_object_size, blocks.first_block
-    classic = parameters.preset == CLASSIC
-    objects, plateaus = raised_objects(lowest, size, thresholds, largest, progress, first, classic)
+    thresholds, size, first = parameters.height_thresholds, blocks.size, blocks.first_block
+    objects, plateaus = raised_objects(
+        lowest,
+        size,
+        thresholds,
+        parameters.max_object_size,
+        progress,
+        first,
+        parameters.preset == CLASSIC,
+        PLATEAU_HEIGHT,
+    )
     surface = inpaint(np.where(objects, np.nan, lowest), _RELAXATIONS, first)
     rise = size * np.minimum(steepness(surface, size), _STEEPEST)
     highest = surface + min(thresholds) + rise

@@ -8,8 +8,7 @@ from ...core.points import Points
 from ...core.progress import Progress
 from ...grids.cell_blocks import CellBlocks
 from ...grids.cells import Cells, spacing
-from ...grids.inpaint import First
-from .objects import Objects, raised_objects
+from .objects import PLATEAU_HEIGHT, Objects, raised_objects
 from .outliers import lone_points, low_outliers
 
 _OUTLIER_SLOPE = 5.0
@@ -79,23 +78,21 @@ class LowestPoints:
         rim of a roof has a gap, or where little of the drop lies between two of them.
         """
         cells, heights = self._wide()
-        found = self._raised(heights, cells.size, cells.first, max_size, progress.part(0.0, 0.7))
-        if not self._classic:
+        part, classic = progress.part(0.0, 0.7), self._classic
+        found = raised_objects(
+            heights, cells.size, _OBJECT_HEIGHTS, max_size, part, cells.first, classic
+        )
+        if not classic:
             blocks = CellBlocks.over(cells, 2.0 * cells.size)
-            on_blocks = self._raised(
+            on_blocks = raised_objects(
                 blocks.lowest(heights),
                 blocks.size,
-                blocks.first_block,
+                _OBJECT_HEIGHTS,
                 max_size,
                 progress.part(0.7, 1.0),
+                blocks.first_block,
+                plateau_height=PLATEAU_HEIGHT,
             )
             plateaus = blocks.repeated(on_blocks.raised | on_blocks.plateaus, heights.shape)
             found = Objects(found.raised, (found.plateaus | plateaus) & ~found.raised)
         return Objects(*(cells.resampled(each, self.cells) for each in found))
-
-    def _raised(
-        self, heights: np.ndarray, size: float, first: First, max_size: float, progress: Progress
-    ) -> Objects:
-        return raised_objects(
-            heights, size, _OBJECT_HEIGHTS, max_size, progress, first, self._classic
-        )

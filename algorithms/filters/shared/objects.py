@@ -18,6 +18,9 @@ from ...grids.trend import Rises, Trend
 
 # East, north and the two diagonals: with their opposites, the eight neighbours of a cell.
 _DIRECTIONS = ((0, 1), (1, 0), (1, 1), (1, -1))
+# Least height in metres of the drops round a plateau, on cells so wide that most points on its walls
+# share a cell with the ground: a hall may stand that little above the ground uphill.
+PLATEAU_HEIGHT = 1.2
 # Distance in metres at which heights are compared, unless cells are larger: over less a wall hit
 # half-way up, or a gap filled between roof and ground, makes a staircase of low steps.
 _STEP = 1.0
@@ -72,6 +75,7 @@ def raised_objects(
     progress: Progress = SILENT,
     first: First = (0, 0),
     classic: bool = False,
+    plateau_height: float | None = None,
 ) -> Objects:
     """Find what stands out all round in a minimum grid.
 
@@ -92,6 +96,8 @@ def raised_objects(
         Row and column of the first cell in the grid of the CRS.
     classic : bool
         See `Regions.raised`. Plateaus are not looked for then.
+    plateau_height : float, optional
+        Least height in metres of a drop that bounds a plateau, for a last pass.
 
     Returns
     -------
@@ -108,6 +114,9 @@ def raised_objects(
         rest[found] = np.nan
         objects |= found
         progress((done + 1) / len(thresholds))
+    if plateau_height is not None and not classic:
+        regions = Relief(rest, size, inside, first).regions(plateau_height)
+        plateaus |= regions.plateaus(max_size)
     return Objects(objects, plateaus & ~objects)
 
 
