@@ -84,6 +84,14 @@ def test_a_complex_of_halls_goes_that_is_low_on_its_uphill_side(method, seed):
     assert (labels == 2)[scene.ground].mean() > 0.99
 
 
+@pytest.mark.parametrize(("method", "seed"), [("slope", 806), ("grid-minimum", 801)])
+def test_the_topmost_tread_of_a_terrace_stays(method, seed):
+    # It drops on one side, and the survey ends on the others.
+    scene = make("terraces", seed=seed)
+    labels, _ = classify_cloud(scene.cloud(), METHODS[method].parameters())
+    assert (labels == 2)[scene.ground].mean() > 0.95
+
+
 @pytest.mark.parametrize("method", METHODS)
 def test_a_raised_square_with_one_ramp_stays(method):
     scene = make("plaza", seed=504)

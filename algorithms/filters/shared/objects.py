@@ -18,8 +18,8 @@ from ...grids.trend import Rises, Trend
 
 # East, north and the two diagonals: with their opposites, the eight neighbours of a cell.
 _DIRECTIONS = ((0, 1), (1, 0), (1, 1), (1, -1))
-# Least height in metres of the drops round a plateau, on cells so wide that most points on its walls
-# share a cell with the ground: a hall may stand that little above the ground uphill.
+# Least height in metres of the drops round a plateau, on cells so wide that most points on its
+# walls share a cell with the ground: a hall may stand that little above the ground uphill.
 PLATEAU_HEIGHT = 1.2
 # Distance in metres at which heights are compared, unless cells are larger: over less a wall hit
 # half-way up, or a gap filled between roof and ground, makes a staircase of low steps.
@@ -33,9 +33,9 @@ _GROWING_PASSES = 4
 # Share of a pit's border that must be a rise.
 _PIT_SHARE = 0.9
 # Share of an object's border that must be a drop: as far as it is known, and of the whole with
-# what lies beyond the survey.
+# what lies beyond the survey. The one drop of a topmost tread winds: it is longer than half.
 _OBJECT_SHARE = 0.65
-_WHOLE_SHARE, _CLASSIC_WHOLE_SHARE = 0.5, 0.4
+_WHOLE_SHARE, _CLASSIC_WHOLE_SHARE = 0.55, 0.4
 # Mean height of the drop over the width of the region: what is lower and wider is terrain.
 _LEAST_STEEPNESS = 0.15
 # Regions as wide (m) are terrain if they have such a share of their drops on the face of a cliff.
@@ -403,8 +403,8 @@ class Regions:
     def raised(self, max_size: float, classic: bool = False) -> np.ndarray:
         """Return the cells of the regions whose border is mostly a drop, but no cliff.
 
-        Half of the whole border, what lies beyond the survey included, must be a drop: the topmost
-        tread of a terrace has one drop, and the border of the survey.
+        More than half of the border, what lies beyond the survey included, must be a drop: the
+        topmost tread of a terrace has one drop, and the border of the survey.
 
         Parameters
         ----------
