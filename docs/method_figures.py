@@ -18,7 +18,8 @@ from bare_earth.algorithms.filters.grid_minimum import filter as grid_minimum
 from bare_earth.algorithms.filters.shared.breaks import checked_seeds
 from bare_earth.algorithms.filters.shared.ground_limits import Tolerance, ground_limits
 from bare_earth.algorithms.filters.shared.lowest_points import LowestPoints
-from bare_earth.algorithms.filters.shared.objects import Relief, covered, raised_objects
+from bare_earth.algorithms.filters.shared.objects import covered, raised_objects
+from bare_earth.algorithms.filters.shared.relief_steps import Relief
 from bare_earth.algorithms.filters.slope import filter as slope_filter
 from bare_earth.algorithms.filters.tin_densification import filter as tin_densification
 from bare_earth.algorithms.filters.tin_densification.densification import (

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.filters.shared.objects import Relief, covered, raised_objects
+from bare_earth.algorithms.filters.shared.objects import covered, raised_objects
+from bare_earth.algorithms.filters.shared.relief_steps import Relief
 from bare_earth.algorithms.grids.trend import Trend, between_blocks
 
 

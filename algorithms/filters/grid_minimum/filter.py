@@ -27,8 +27,9 @@ from ..shared.ground_cells import ground_cells
 from ..shared.ground_limits import Tolerance
 from ..shared.near_ground import Candidates, near_ground
 from ..shared.near_surface import near_surface
-from ..shared.objects import PLATEAU_HEIGHT, Objects, Relief, covered, raised_objects
+from ..shared.objects import PLATEAU_HEIGHT, Objects, covered, raised_objects
 from ..shared.outliers import low_outliers, supported
+from ..shared.relief_steps import Relief
 
 # Points that a cell should hold on average: with fewer, gaps break the rims.
 _POINTS_PER_CELL = 1.0

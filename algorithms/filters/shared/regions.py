@@ -1,0 +1,168 @@
+"""Regions of a height grid, judged by how their borders drop or rise."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+# Share of a pit's border that must be a rise.
+_PIT_SHARE = 0.9
+# Share of an object's border that must be a drop: as far as it is known, and of the whole with
+# what lies beyond the survey. The one drop of a topmost tread winds: it is longer than half.
+_OBJECT_SHARE = 0.65
+_WHOLE_SHARE, _CLASSIC_WHOLE_SHARE = 0.55, 0.4
+# Mean height of the drop over the width of the region: what is lower and wider is terrain.
+_LEAST_STEEPNESS = 0.15
+# Regions as wide (m) are terrain if they have such a share of their drops on the face of a cliff.
+# Few plants hide the walls of a large building.
+_FACE_WIDTHS, _FACE_SHARES = (10.0, 25.0), (0.4, 0.25)
+# Rounds in which regions are looked at again that others hid.
+_ROUNDS = 3
+
+
+class Border(NamedTuple):
+    """The pairs of neighbouring cells that lie in different regions.
+
+    Attributes
+    ----------
+    count : int
+        One more than the largest number of a region.
+    first, second : numpy.ndarray of int32, shape (pairs,)
+        Region of either cell; 0 is the unknown.
+    sign : numpy.ndarray of int8, shape (pairs,)
+        1 where the second is higher by more than is allowed, -1 where it is lower, else 0.
+    rise : numpy.ndarray of float32, shape (pairs,)
+        Height of the second above the first in metres, beyond the trend.
+    on_face : numpy.ndarray of bool, shape (pairs,)
+        Whether the step between them is part of the face of a cliff.
+    """
+
+    count: int
+    first: np.ndarray
+    second: np.ndarray
+    sign: np.ndarray
+    rise: np.ndarray
+    on_face: np.ndarray
+
+    def length(self) -> np.ndarray:
+        """Return the length of each region's border in cells, if neighbours are one apart."""
+        all_ = np.ones(len(self.sign), dtype=bool)
+        # Each cell of a straight border has three neighbours beyond it.
+        return self._total(all_, all_) / 3.0
+
+    def share_of_faces(self) -> np.ndarray:
+        """Return the share of each region's drops that are part of the face of a cliff."""
+        down, up = self.sign == -1, self.sign == 1
+        on_face = self._total(down & self.on_face, up & self.on_face)
+        return on_face / np.maximum(self._total(down, up), 1)
+
+    def drops(
+        self, removed: np.ndarray, sign: int
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Sum up where each region drops (sign 1) or rises (-1) to those that are not removed.
+
+        Returns, for each region, the pairs of cells where it does, those where the neighbour is
+        known, and all; and the mean height of the drops in metres.
+        """
+        pairs = ~(removed[self.first] | removed[self.second])
+        known = pairs & (self.first > 0) & (self.second > 0)
+        down, up = known & (self.sign == -sign), known & (self.sign == sign)
+        drops = self._total(down, up)
+        height = self._total(down, up, np.abs(self.rise)) / np.maximum(drops, 1)
+        return drops, self._total(known, known), self._total(pairs, pairs), height
+
+    def _total(
+        self, first: np.ndarray, second: np.ndarray, weights: np.ndarray | None = None
+    ) -> np.ndarray:
+        """Count, or add up the weights of, some pairs for the region of either cell."""
+        return sum(
+            np.bincount(region[which], weights if weights is None else weights[which], self.count)
+            for region, which in ((self.first, first), (self.second, second))
+        )
+
+
+class Regions:
+    """The regions between rims.
+
+    Attributes
+    ----------
+    number : numpy.ndarray of int32, shape (rows, columns)
+        The region of each cell; 0 where nothing is known.
+    width : numpy.ndarray of float, shape (count,)
+        Width (shorter side) of each region in metres.
+    """
+
+    def __init__(self, number: np.ndarray, border: Border, size: float, step: int) -> None:
+        self.number = number
+        self._border = border
+        area = np.bincount(number.ravel(), minlength=border.count)
+        self.width = _shorter_side(area, border.length() / step) * size
+
+    def raised(self, max_size: float, classic: bool = False) -> np.ndarray:
+        """Return the cells of the regions whose border is mostly a drop, but no cliff.
+
+        More than half of the border, what lies beyond the survey included, must be a drop: the
+        topmost tread of a terrace has one drop, and the border of the survey.
+
+        Parameters
+        ----------
+        max_size : float
+            Largest width in metres.
+        classic : bool
+            True for the rules of other programs' presets: less than half suffices, and cliffs are
+            no different.
+
+        Returns
+        -------
+        numpy.ndarray of bool, shape (rows, columns)
+        """
+        share = _CLASSIC_WHOLE_SHARE if classic else _WHOLE_SHARE
+        fits = True if classic else self._is_no_cliff()
+        return self._bounded(max_size, 1, _OBJECT_SHARE, share, _LEAST_STEEPNESS, fits)
+
+    def plateaus(self, max_size: float) -> np.ndarray:
+        """Return the cells of the same regions and of those that are too low for their width."""
+        return self._bounded(max_size, 1, _OBJECT_SHARE, _WHOLE_SHARE, 0.0, self._is_no_cliff())
+
+    def _is_no_cliff(self) -> np.ndarray:
+        """Return which regions are narrow, or have no faces round them."""
+        most = np.interp(self.width, _FACE_WIDTHS, _FACE_SHARES)
+        return (self.width < _FACE_WIDTHS[0]) | (self._border.share_of_faces() < most)
+
+    def sunken(self, max_size: float) -> np.ndarray:
+        """Return the cells of the regions whose border is a rise nearly all round: of pits."""
+        return self._bounded(max_size, -1, _PIT_SHARE, _PIT_SHARE, 0.0, True)
+
+    def _bounded(
+        self,
+        max_size: float,
+        sign: int,
+        share: float,
+        least_share: float,
+        least_steepness: float,
+        fits: np.ndarray | bool,
+    ) -> np.ndarray:
+        """Return the cells of regions bounded by drops (1) or rises (-1).
+
+        What one round finds is the unknown to the next, which sees what it hid: a roof below a
+        tower, a pit within a pit.
+        """
+        fits = fits & (self.width <= max_size)
+        fits[0] = False
+        found = np.zeros(len(fits), dtype=bool)
+        for _ in range(_ROUNDS):
+            drops, known, pairs, height = self._border.drops(found, sign)
+            new = fits & ~found & (drops > 0) & (height >= least_steepness * self.width)
+            new &= (drops >= share * known) & (drops > least_share * pairs)
+            if not new.any():
+                break
+            found |= new
+        return found[self.number]
+
+
+def _shorter_side(area: np.ndarray, perimeter: np.ndarray) -> np.ndarray:
+    """Return the shorter side of rectangles; the square's for what is rounder than any."""
+    quarter = perimeter / 4.0
+    rest = quarter**2 - area
+    return np.where(rest < 0, np.sqrt(area), quarter - np.sqrt(np.maximum(rest, 0.0)))
