@@ -12,9 +12,10 @@ from ...grids.plane import plane_through
 _FLAT, _LEAST_AREA = 0.4, 400.0
 # So many metres from a plane lies most of a roof (this share), and the rest of it is sought.
 _ON_PLANE, _MOSTLY, _NEAR_PLANE = 0.15, 0.9, 0.2
-# Cells round a roof that are looked at. At most this share of them is higher by so many metres, or
-# lies at the border of the survey: the tread of a terrace lies below the next one.
-_ROUND, _RISE, _RISING = 2, 0.3, 0.1
+# Cells round a roof that are looked at. At most this share of them is ground that is higher by so
+# many metres, or lies at the border of the survey; and at most the larger share is as high if what
+# stands on the roof and beside it counts as well. The tread of a terrace lies below the next one.
+_ROUND, _RISE, _RISING, _ALL_RISING = 2, 0.3, 0.1, 0.4
 # What was not cut off is no larger than what was: fields between ditches are level as well.
 _LARGEST_REST = 1.0
 
@@ -81,9 +82,10 @@ def _roof(
     number, _ = ndimage.label(part | (surveyed & (np.abs(above) <= _NEAR_PLANE)))
     whole = number == number[part][0]
     around = within_square(np.maximum, whole, _ROUND) & ~whole
-    unlike = np.count_nonzero(around & (above > _RISE))
-    unlike += np.count_nonzero(whole & ~inner)
-    if unlike > _RISING * np.count_nonzero(around):
+    rising = around & (above > _RISE)
+    unlike = np.count_nonzero(rising & ~raised) + np.count_nonzero(whole & ~inner)
+    usual = np.count_nonzero(around)
+    if unlike > _RISING * usual or np.count_nonzero(rising) > _ALL_RISING * usual:
         return none
     is_small = np.count_nonzero(whole & ~raised) <= _LARGEST_REST * np.count_nonzero(part)
     return whole if is_small else none
