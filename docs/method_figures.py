@@ -17,9 +17,9 @@ from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters.grid_minimum import filter as grid_minimum
 from bare_earth.algorithms.filters.shared.breaks import checked_seeds
 from bare_earth.algorithms.filters.shared.ground_limits import Tolerance, ground_limits
+from bare_earth.algorithms.filters.shared.height_steps import HeightSteps
 from bare_earth.algorithms.filters.shared.lowest_points import LowestPoints
 from bare_earth.algorithms.filters.shared.objects import covered, raised_objects
-from bare_earth.algorithms.filters.shared.relief_steps import Relief
 from bare_earth.algorithms.filters.slope import filter as slope_filter
 from bare_earth.algorithms.filters.tin_densification import filter as tin_densification
 from bare_earth.algorithms.filters.tin_densification.densification import (
@@ -201,8 +201,8 @@ def grid_minimum_steps() -> None:
     cells, heights = survey.cells, survey.heights
     thresholds, largest = chosen(parameters.height_thresholds), chosen(parameters.max_object_size)
     last = thresholds[-1]
-    relief = Relief(heights, cells.size, covered(np.isfinite(heights)), cells.first)
-    regions, rims = relief.regions_and_rims(last, 1.0)
+    steps = HeightSteps(heights, cells.size, covered(np.isfinite(heights)), cells.first)
+    regions, rims = steps.regions_and_rims(last, 1.0)
     tall = raised_objects(heights, cells.size, thresholds, largest, first=cells.first).raised
     ground = grid_minimum.classify(points, parameters)
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from bare_earth.algorithms.filters.shared.height_steps import HeightSteps
 from bare_earth.algorithms.filters.shared.objects import covered, raised_objects
-from bare_earth.algorithms.filters.shared.relief_steps import Relief
 from bare_earth.algorithms.grids.trend import Trend, between_blocks
 
 
@@ -14,8 +14,8 @@ def plain(side: int = 60, slope: float = 0.0) -> np.ndarray:
     return 100.0 + slope * np.arange(side) + noise
 
 
-def relief(heights: np.ndarray) -> Relief:
-    return Relief(heights, 1.0, covered(np.isfinite(heights)))
+def steps(heights: np.ndarray) -> HeightSteps:
+    return HeightSteps(heights, 1.0, covered(np.isfinite(heights)))
 
 
 @pytest.mark.parametrize("slope", [0.0, 0.5])
@@ -100,7 +100,7 @@ def test_a_pit_is_sunken_and_a_channel_that_leads_out_is_not():
     heights[10:14, 10:14] -= 9.0
     heights[30:34, :40] -= 9.0
     heights[30:34, 40:] -= np.linspace(9.0, 0.0, 20)
-    pits = relief(heights).regions(2.0).sunken(10.0)
+    pits = steps(heights).regions(2.0).sunken(10.0)
     assert pits[10:14, 10:14].all()
     assert pits.sum() == 16
 
@@ -110,7 +110,7 @@ def test_touching_candidates_are_one_pit_however_uneven():
     depths = np.random.default_rng(5).uniform(5.0, 20.0, (4, 4))
     heights[10:14, 10:14] -= depths
     heights[40:, 40:] -= 9.0
-    pits = relief(heights).pits(heights < 97.0, 2.0, 10.0)
+    pits = steps(heights).pits(heights < 97.0, 2.0, 10.0)
     assert pits[10:14, 10:14].all()
     assert pits.sum() == 16
 
@@ -118,10 +118,10 @@ def test_touching_candidates_are_one_pit_however_uneven():
 def test_a_rim_is_the_higher_of_two_cells_that_differ_by_more_than_slope_and_threshold():
     heights = plain(slope=0.5)
     heights[:, 30:] += 2.0
-    rims = relief(heights).regions_and_rims(1.0, 1.0)[1]
+    rims = steps(heights).regions_and_rims(1.0, 1.0)[1]
     assert np.array_equal(np.flatnonzero(rims.all(axis=0)), [30])
     assert rims.sum() == 60
-    assert not relief(heights).regions_and_rims(3.0, 1.0)[1].any()
+    assert not steps(heights).regions_and_rims(3.0, 1.0)[1].any()
 
 
 def test_cells_level_with_the_ground_grow_back_and_others_do_not():
@@ -129,7 +129,7 @@ def test_cells_level_with_the_ground_grow_back_and_others_do_not():
     heights[20:24, 20:24] += 1.5
     kept = np.ones(heights.shape, dtype=bool)
     kept[18:26, 18:26] = False
-    grown = relief(np.where(kept, heights, np.nan)).regrown(kept, heights, 0.3)
+    grown = steps(np.where(kept, heights, np.nan)).regrown(kept, heights, 0.3)
     assert np.array_equal(np.argwhere(~grown), np.argwhere(heights > 101.0))
 
 
@@ -137,7 +137,7 @@ def test_level_cells_grow_back_four_cells_far_on_any_side_of_a_slope():
     heights = plain(slope=1.0)
     inside = np.zeros(heights.shape, dtype=bool)
     inside[10:50, 10:50] = True
-    grown = relief(np.where(inside, np.nan, heights)).regrown(~inside, heights, 0.3)
+    grown = steps(np.where(inside, np.nan, heights)).regrown(~inside, heights, 0.3)
     inside[14:46, 14:46] = False
     assert grown[inside].all()
     assert np.count_nonzero(~grown) == 32 * 32
@@ -153,7 +153,7 @@ def test_the_last_cells_are_judged_by_the_slope_of_the_terrain_there(rise, is_le
     kept[-1] = False
     if side == "last column":
         heights, kept = heights.T, kept.T
-    grown = relief(np.where(kept, heights, np.nan)).regrown(kept, heights, 0.3)
+    grown = steps(np.where(kept, heights, np.nan)).regrown(kept, heights, 0.3)
     assert (grown[~kept] == is_level).all()
 
 

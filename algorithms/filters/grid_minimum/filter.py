@@ -25,11 +25,11 @@ from ...grids.inpaint import inpaint
 from ..shared.doubts import tell_of_outliers
 from ..shared.ground_cells import ground_cells
 from ..shared.ground_limits import Tolerance
+from ..shared.height_steps import HeightSteps
 from ..shared.near_ground import Candidates, near_ground
 from ..shared.near_surface import near_surface
 from ..shared.objects import PLATEAU_HEIGHT, Objects, covered, raised_objects
 from ..shared.outliers import low_outliers, supported
-from ..shared.relief_steps import Relief
 
 # Points that a cell should hold on average: with fewer, gaps break the rims.
 _POINTS_PER_CELL = 1.0
@@ -411,8 +411,8 @@ def _noise(heights: np.ndarray, cells: Cells, blocks: CellBlocks, classic: bool)
         return noise
     lowest = blocks.lowest(heights)
     candidates = np.isfinite(blocks.lowest(np.where(below, heights, np.nan)))
-    relief = Relief(lowest, blocks.size, covered(np.isfinite(lowest)), blocks.first_block)
-    pits = relief.pits(candidates, _NOISE_DEPTH, _NOISE_WIDTH)
+    steps = HeightSteps(lowest, blocks.size, covered(np.isfinite(lowest)), blocks.first_block)
+    pits = steps.pits(candidates, _NOISE_DEPTH, _NOISE_WIDTH)
     if not classic:
         depth = blocks.lowest(around.interpolated(usual, heights.shape)) - lowest
         pits &= ~supported(lowest, blocks.size, pits, depth, blocks.first_block)
@@ -461,11 +461,11 @@ def _without_low_objects(
     """
     inside = covered(np.isfinite(heights))
     for done in range(_FINAL_PASSES):
-        relief = Relief(ground, cells.size, inside, cells.first)
-        regions, rims = relief.regions_and_rims(parameters.final_height, _RIM_ROUGHNESS)
+        steps = HeightSteps(ground, cells.size, inside, cells.first)
+        regions, rims = steps.regions_and_rims(parameters.final_height, _RIM_ROUGHNESS)
         raised = regions.raised(parameters.max_object_size, parameters.preset == CLASSIC)
         ground[raised | rims] = np.nan
         progress((done + 1) / (_FINAL_PASSES + 1))
-    kept = relief.regrown(np.isfinite(ground), heights, parameters.final_height)
+    kept = steps.regrown(np.isfinite(ground), heights, parameters.final_height)
     progress(1.0)
     return np.where(kept, heights, np.nan)

@@ -13,7 +13,7 @@ import numpy as np
 
 from ...core.progress import SILENT, Progress
 from ...grids.inpaint import First
-from .relief_steps import Relief
+from .height_steps import HeightSteps
 
 # Least height in metres of the drops round a plateau, on cells so wide that most points on its
 # walls share a cell with the ground: a hall may stand that little above the ground uphill.
@@ -77,7 +77,7 @@ def raised_objects(
     rest = heights.copy()
     objects, plateaus = np.zeros((2, *heights.shape), dtype=bool)
     for done, threshold in enumerate(thresholds):
-        regions = Relief(rest, size, inside, first).regions(threshold)
+        regions = HeightSteps(rest, size, inside, first).regions(threshold)
         found = regions.raised(max_size, classic)
         if not classic:
             plateaus |= regions.plateaus(max_size)
@@ -85,7 +85,7 @@ def raised_objects(
         objects |= found
         progress((done + 1) / len(thresholds))
     if plateau_height is not None and not classic:
-        regions = Relief(rest, size, inside, first).regions(plateau_height)
+        regions = HeightSteps(rest, size, inside, first).regions(plateau_height)
         plateaus |= regions.plateaus(max_size)
     return Objects(objects, plateaus & ~objects)
 

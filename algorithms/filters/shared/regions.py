@@ -26,7 +26,7 @@ class Border(NamedTuple):
 
     Attributes
     ----------
-    count : int
+    regions : int
         One more than the largest number of a region.
     first, second : numpy.ndarray of int32, shape (pairs,)
         Region of either cell; 0 is the unknown.
@@ -38,7 +38,7 @@ class Border(NamedTuple):
         Whether the step between them is part of the face of a cliff.
     """
 
-    count: int
+    regions: int
     first: np.ndarray
     second: np.ndarray
     sign: np.ndarray
@@ -76,10 +76,11 @@ class Border(NamedTuple):
         self, first: np.ndarray, second: np.ndarray, weights: np.ndarray | None = None
     ) -> np.ndarray:
         """Count, or add up the weights of, some pairs for the region of either cell."""
-        return sum(
-            np.bincount(region[which], weights if weights is None else weights[which], self.count)
-            for region, which in ((self.first, first), (self.second, second))
-        )
+        total = np.zeros(self.regions)
+        for region, which in ((self.first, first), (self.second, second)):
+            counted = weights if weights is None else weights[which]
+            total += np.bincount(region[which], counted, self.regions)
+        return total
 
 
 class Regions:
@@ -96,7 +97,7 @@ class Regions:
     def __init__(self, number: np.ndarray, border: Border, size: float, step: int) -> None:
         self.number = number
         self._border = border
-        area = np.bincount(number.ravel(), minlength=border.count)
+        area = np.bincount(number.ravel(), minlength=border.regions)
         self.width = _shorter_side(area, border.length() / step) * size
 
     def raised(self, max_size: float, classic: bool = False) -> np.ndarray:

@@ -29,7 +29,7 @@ _LARGEST_STEP, _STEP_BACK = 0.7, 0.3
 _RELAXATIONS = 2
 
 
-class Relief:
+class HeightSteps:
     """The steps of a height grid, as against what the trend of the terrain explains.
 
     Parameters
