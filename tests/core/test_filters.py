@@ -92,6 +92,16 @@ def test_the_topmost_tread_of_a_terrace_stays(method, seed):
     assert (labels == 2)[scene.ground].mean() > 0.95
 
 
+@pytest.mark.parametrize(
+    ("method", "seed"), [("tin-densification", 1106), ("slope", 1101), ("grid-minimum", 1101)]
+)
+def test_a_dyke_stays_where_points_are_sparse(method, seed):
+    # A third of the cells of a metre have no point: wider ones show the steps down its sides.
+    scene = make("dyke_and_ditch", seed=seed, density=1.0)
+    labels, _ = classify_cloud(scene.cloud(), METHODS[method].parameters())
+    assert (labels == 2)[scene.ground].mean() > 0.98
+
+
 @pytest.mark.parametrize("method", METHODS)
 def test_a_raised_square_with_one_ramp_stays(method):
     scene = make("plaza", seed=504)

@@ -10,18 +10,14 @@ from typing import Sequence
 
 import numpy as np
 
+from ...grids.inpaint import First
 from ...grids.trend import Trend
 from .allowance import Allowance
 from .landforms import RaisedCells, landforms
+from .slopes import on_slope
 
 # How often regions join the ground that others have joined before.
 _JOINING_PASSES = 4
-# Steps are alike if the least is at least this share of the largest; if they cross a cell without
-# a point, this larger share.
-_ALIKE, _ALIKE_ACROSS = 0.4, 0.55
-# Metres from which on a cell is so wide that one of four on a slope may have no point: what fills
-# it spreads the drop at a wall over two cells, not over three.
-_WIDE_CELL = 2.0
 # Metres over which the surface is smoothed to tell a step from the terrain's own rise.
 _TREND_SMOOTHING = 2.0
 # Share of the trend that the ground round must rise, so that a trend is that of the terrain.
@@ -43,6 +39,7 @@ def gentle_regions(
     trend: Trend | None,
     size: float,
     allowance: Allowance,
+    first: First = (0, 0),
 ) -> tuple[np.ndarray, np.ndarray]:
     """Find the raised cells whose region passes into the ground without an edge.
 
@@ -68,6 +65,8 @@ def gentle_regions(
         Side of a cell in metres.
     allowance : Allowance
         What is an edge, and how much of the border must be gentle.
+    first : tuple of int
+        Row and column of the first cell in the grid of the CRS.
 
     Returns
     -------
@@ -80,7 +79,10 @@ def gentle_regions(
         # A gap in a roof is not the ground beside it.
         raised = raised | (~known & (filled - surface > allowance.gentle_step))
     smooth = smoothed(surface, size, _TREND_SMOOTHING)
-    sides = [_steps(filled, known, raised, smooth, trend, axis, size, allowance) for axis in (0, 1)]
+    sides = [
+        _steps(filled, known, raised, smooth, trend, axis, size, allowance, first)
+        for axis in (0, 1)
+    ]
     one, other, sign = (np.concatenate(each) for each in zip(*sides))
     if allowance.judges_gaps:
         # What fills a gap in the survey, or beside a wall, slopes down gently from any roof.
@@ -232,6 +234,7 @@ def _steps(
     axis: int,
     size: float,
     allowance: Allowance,
+    first: First,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Compare neighbouring cells along an axis, of which one at least is raised.
 
@@ -263,34 +266,8 @@ def _steps(
         sign[stepped[alike]] = 0
     if allowance.follows_slopes:
         stepped = np.flatnonzero(sign)
-        sign[stepped[_on_slope(filled, known, one[stepped], axis, size)]] = 0
+        sign[stepped[on_slope(filled, known, one[stepped], axis, size, first)]] = 0
     return one, other, sign
-
-
-def _on_slope(
-    filled: np.ndarray, known: np.ndarray, one: np.ndarray, axis: int, size: float
-) -> np.ndarray:
-    """Return which steps from cells to the next ones are part of a slope: two more are alike.
-
-    Cells without a point do not count, but for one between wide cells: what fills them makes a
-    slope of any wall.
-    """
-    offset = filled.shape[1] if axis == 0 else 1
-    place, count = np.divmod(one, filled.shape[1])[axis], filled.shape[axis]
-    across = np.stack(
-        [one + offset * (np.clip(place + k, 0, count - 1) - place) for k in range(-2, 4)]
-    )
-    empty = ~known.ravel()[across]
-    rises = np.diff(filled.ravel()[across], axis=0)  # the third is that of the step
-    on = np.zeros(len(one), dtype=bool)
-    for first in range(3):
-        three, gaps = rises[first : first + 3], empty[first : first + 4]
-        on_slope = (three > 0).all(axis=0) | (three < 0).all(axis=0)
-        on_slope &= gaps.sum(axis=0) <= int(size >= _WIDE_CELL)
-        alike = np.where(gaps[1:3].any(axis=0), _ALIKE_ACROSS, _ALIKE)
-        three = np.abs(three)
-        on |= on_slope & (three.min(axis=0) >= alike * three.max(axis=0))
-    return on
 
 
 def smoothed(surface: np.ndarray, size: float, smoothing: float) -> np.ndarray:

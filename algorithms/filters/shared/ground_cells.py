@@ -120,7 +120,7 @@ def ground_cells(
     progress(0.85)
     trend = Trend(filled, size, first) if allowance.follows_slopes else None
     gentle, landforms = gentle_regions(
-        filled, known, surveyed, raised, surface, trend, size, allowance
+        filled, known, surveyed, raised, surface, trend, size, allowance, first
     )
     raised &= ~landforms & (objects | ~gentle)
     progress(1.0)

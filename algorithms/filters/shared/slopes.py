@@ -1,0 +1,94 @@
+"""Which steps of a height grid are part of a slope."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...grids.cell_blocks import CellBlocks
+from ...grids.inpaint import First
+
+# Steps are alike if the least is at least this share of the largest; if they cross a cell without
+# a point, or lie between blocks of cells, this larger share.
+_ALIKE, _ALIKE_ACROSS = 0.4, 0.55
+# Metres from which on a cell is so wide that one of four on a slope may have no point: what fills
+# it spreads the drop at a wall over two cells, not over three.
+_WIDE_CELL = 2.0
+# Cells along the side of the blocks that are looked at where narrow cells have no point.
+_BLOCK = 2
+
+
+def on_slope(
+    filled: np.ndarray,
+    known: np.ndarray,
+    one: np.ndarray,
+    axis: int,
+    size: float,
+    first: First = (0, 0),
+) -> np.ndarray:
+    """Return which steps from cells to the next ones are part of a slope: two more are alike.
+
+    Cells without a point do not count, but for one between wide cells: what fills them makes a
+    slope of any wall. Where narrow cells have no point, blocks of them are looked at as well.
+
+    Parameters
+    ----------
+    filled : numpy.ndarray of float, shape (rows, columns)
+        Heights in metres without NaN.
+    known : numpy.ndarray of bool, shape (rows, columns)
+        Cells with a point.
+    one : numpy.ndarray of intp, shape (steps,)
+        Cells from which the steps lead, as indices into the flattened grid.
+    axis : int
+        0 if the steps lead north, 1 if they lead east.
+    size : float
+        Side of a cell in metres.
+    first : tuple of int
+        Row and column of the first cell in the grid of the CRS.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (steps,)
+    """
+    on, beside_gap = _among_alike(filled, known, one, axis, size, _ALIKE)
+    left = np.flatnonzero(beside_gap & ~on)
+    if size >= _WIDE_CELL or not len(left):
+        return on
+    number, within = zip(*(divmod(each, _BLOCK) for each in first))
+    blocks = CellBlocks(_BLOCK * size, _BLOCK, within, number)
+    lowest = blocks.lowest(np.where(known, filled, np.nan))
+    is_known = np.isfinite(lowest)
+    lowest = np.where(is_known, lowest, blocks.lowest(filled))
+    cell = np.divmod(one[left], filled.shape[1])
+    row, column = ((each + lead) // _BLOCK for each, lead in zip(cell, within))
+    block = row * lowest.shape[1] + column
+    at_end = (cell[axis] + within[axis]) % _BLOCK == _BLOCK - 1
+    # A step within a block is part of what leads to it, or away from it.
+    before = np.where(at_end | ((row, column)[axis] == 0), 0, lowest.shape[1] if axis == 0 else 1)
+    for each in (block, block - before):
+        on[left] |= _among_alike(lowest, is_known, each, axis, blocks.size, _ALIKE_ACROSS)[0]
+    return on
+
+
+def _among_alike(
+    filled: np.ndarray, known: np.ndarray, one: np.ndarray, axis: int, size: float, least: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return which steps have two more that are alike, and which have a cell without a point near.
+
+    `least` is the share from which on steps are alike.
+    """
+    offset = filled.shape[1] if axis == 0 else 1
+    place, count = np.divmod(one, filled.shape[1])[axis], filled.shape[axis]
+    across = np.stack(
+        [one + offset * (np.clip(place + k, 0, count - 1) - place) for k in range(-2, 4)]
+    )
+    empty = ~known.ravel()[across]
+    rises = np.diff(filled.ravel()[across], axis=0)  # the third is that of the step
+    on = np.zeros(len(one), dtype=bool)
+    for first in range(3):
+        three, gaps = rises[first : first + 3], empty[first : first + 4]
+        one_way = (three > 0).all(axis=0) | (three < 0).all(axis=0)
+        one_way &= gaps.sum(axis=0) <= int(size >= _WIDE_CELL)
+        alike = np.where(gaps[1:3].any(axis=0), _ALIKE_ACROSS, least)
+        three = np.abs(three)
+        on |= one_way & (three.min(axis=0) >= alike * three.max(axis=0))
+    return on, empty.any(axis=0)
