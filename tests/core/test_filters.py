@@ -111,11 +111,18 @@ def test_a_raised_square_with_one_ramp_stays(method):
 
 
 @pytest.mark.parametrize(
-    ("method", "seed"), [("tin-densification", 808), ("slope", 808), ("grid-minimum", 806)]
+    ("method", "seed", "density"),
+    [
+        ("tin-densification", 808, 4.0),
+        ("slope", 808, 4.0),
+        ("grid-minimum", 806, 4.0),
+        ("tin-densification", 1106, 1.0),
+        ("slope", 1104, 1.0),
+    ],
 )
-def test_a_table_mountain_stays(method, seed):
+def test_a_table_mountain_stays(method, seed, density):
     # Its cliffs drop all round, as the walls of a large building do, or the sides of a deck.
-    scene = make("mesa", seed=seed)
+    scene = make("mesa", seed=seed, density=density)
     labels, _ = classify_cloud(scene.cloud(), METHODS[method].parameters())
     assert (labels == 2)[scene.ground].mean() > 0.99
 

@@ -34,8 +34,9 @@ class Border(NamedTuple):
         1 where the second is higher by more than is allowed, -1 where it is lower, else 0.
     rise : numpy.ndarray of float32, shape (pairs,)
         Height of the second above the first in metres, beyond the trend.
-    on_face : numpy.ndarray of bool, shape (pairs,)
-        Whether the step between them is part of the face of a cliff.
+    on_face : numpy.ndarray of int8, shape (pairs,)
+        1 where the step between them is part of the face of a cliff, 0 where it is not, -1 where
+        that cannot be told.
     """
 
     regions: int
@@ -52,10 +53,13 @@ class Border(NamedTuple):
         return self._total(all_, all_) / 3.0
 
     def share_of_faces(self) -> np.ndarray:
-        """Return the share of each region's drops that are part of the face of a cliff."""
-        down, up = self.sign == -1, self.sign == 1
-        on_face = self._total(down & self.on_face, up & self.on_face)
-        return on_face / np.maximum(self._total(down, up), 1)
+        """Return the share of each region's drops that are part of the face of a cliff.
+
+        Of those of which it can be told.
+        """
+        drops = [(self.sign == sign) & (self.on_face >= 0) for sign in (-1, 1)]
+        on_face = self._total(*(each & (self.on_face == 1) for each in drops))
+        return on_face / np.maximum(self._total(*drops), 1)
 
     def drops(
         self, removed: np.ndarray, sign: int
