@@ -22,6 +22,7 @@ from ...grids.inpaint import First, inpaint
 from ...grids.morphology import in_steps, opening, within_square
 from ...grids.trend import Trend
 from .allowance import Allowance
+from .enclosed import islands
 from .gentle_regions import gentle_regions, slope_at, smoothed
 from .objects import covered
 from .roofs import flat_roofs
@@ -34,8 +35,6 @@ _TOGETHER = 4
 _RADII = ((1, 1, 24), (2, 26, 48), (4, 52, 10_000))
 # Metres over which that slope is smoothed, and the most of it that counts.
 _SLOPE_SMOOTHING, _LARGEST_SLOPE = 5.0, 0.6
-# Share of the border of an island at which what is raised beside it is as high.
-_ISLAND_SHARE = 0.5
 # Of a plateau, all is cut off if a window cuts off so much: its uphill side is low.
 _CUT_SHARE = 0.3
 
@@ -114,7 +113,7 @@ def ground_cells(
             raised |= _of_cut_plateaus(numbers, raised)
         part(1.0)
     if allowance.island_area:
-        raised |= known & _islands(filled, raised, surveyed, size, allowance.for_cells(size))
+        raised |= known & islands(filled, raised, surveyed, size, allowance.for_cells(size))
         raised |= known & flat_roofs(filled, raised, surveyed, size)
     surface = inpaint(np.where(known & ~raised, heights, np.nan), first=first)
     progress(0.85)
@@ -125,32 +124,6 @@ def ground_cells(
     raised &= ~landforms & (objects | ~gentle)
     progress(1.0)
     return known & ~raised
-
-
-def _islands(
-    filled: np.ndarray, raised: np.ndarray, surveyed: np.ndarray, size: float, allowance: Allowance
-) -> np.ndarray:
-    """Return the small patches within raised cells that are level with them."""
-    from scipy import ndimage
-
-    number, count = ndimage.label(~raised)
-    flat = number.ravel()
-    small = np.bincount(flat, minlength=count + 1) * size**2 <= allowance.island_area
-    # Nothing is known of what lies beyond the survey.
-    small[number[~surveyed]] = False
-    for border in (number[[0, -1]], number[:, [0, -1]]):
-        small[border] = False
-    small[0] = False
-    up, heights = raised.ravel(), filled.ravel()
-    cells = np.flatnonzero(small[flat])
-    level, pairs = np.zeros((2, count + 1))
-    for offset in (1, -1, raised.shape[1], -raised.shape[1]):
-        beside = cells[up[cells + offset]]
-        is_level = np.abs(heights[beside + offset] - heights[beside]) <= allowance.gentle_step
-        pairs += np.bincount(flat[beside], minlength=count + 1)
-        level += np.bincount(flat[beside], is_level, count + 1)
-    small &= level >= _ISLAND_SHARE * pairs
-    return small[number]
 
 
 def _of_cut_plateaus(numbers: np.ndarray, raised: np.ndarray) -> np.ndarray:
