@@ -15,6 +15,7 @@ from bare_earth.algorithms.filters.slope.filter import SlopeFilter
 from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
 from bare_earth.algorithms.products.comparison import compare
 from benchmarks import data
+from benchmarks.generated import score_scene
 from benchmarks.scenes import make as make_scene
 from benchmarks.scenes.simple import scatter, surveyed, village
 
@@ -81,6 +82,23 @@ def test_a_complex_of_halls_goes_that_is_low_on_its_uphill_side(method, seed):
     scene = make("complex_on_slope", seed=seed)
     labels, _ = classify_cloud(scene.cloud(), METHODS[method].parameters())
     assert (labels == 2)[scene.classes == 6].mean() < 0.25
+    assert (labels == 2)[scene.ground].mean() > 0.99
+
+
+@pytest.mark.parametrize(
+    ("kind", "method", "seed"),
+    [
+        ("greenhouses", "tin-densification", 901),
+        ("greenhouses", "slope", 903),
+        ("complex_on_slope", "tin-densification", 906),
+        ("complex_on_slope", "grid-minimum", 901),
+    ],
+)
+def test_points_on_walls_between_roofs_do_not_raise_the_terrain(kind, method, seed):
+    # Of two walls that touch, single points half-way down are left, with roofs all round.
+    scene = make(kind, seed=seed)
+    labels, _ = classify_cloud(scene.cloud(), METHODS[method].parameters())
+    assert score_scene(scene, labels == 2, with_dtm=True).dtm_rmse < 0.25
     assert (labels == 2)[scene.ground].mean() > 0.99
 
 

@@ -8,6 +8,12 @@ from .allowance import Allowance
 
 # Share of the border of an island at which what is raised beside it is as high.
 _ISLAND_SHARE = 0.5
+# Cells of the largest pit.
+_PIT_CELLS = 10
+# The cells round a pit (so many on each side) are a roof if this share of the raised ones lies no
+# farther, in metres, from the middle between two neighbours than twice the bend. Of crowns hardly
+# any do.
+_AROUND, _BEND, _EVEN_SHARE = 3, 0.15, 0.4
 
 
 def islands(
@@ -32,23 +38,60 @@ def islands(
     -------
     numpy.ndarray of bool, shape (rows, columns)
     """
-    from scipy import ndimage
-
-    number, count = ndimage.label(~raised)
-    flat = number.ravel()
-    small = np.bincount(flat, minlength=count + 1) * size**2 <= allowance.island_area
-    # Nothing is known of what lies beyond the survey.
-    small[number[~surveyed]] = False
-    for border in (number[[0, -1]], number[:, [0, -1]]):
-        small[border] = False
-    small[0] = False
-    up, heights = raised.ravel(), filled.ravel()
+    number, cells_of, small = _patches(raised, surveyed)
+    small &= cells_of * size**2 <= allowance.island_area
+    flat, up, heights = number.ravel(), raised.ravel(), filled.ravel()
     cells = np.flatnonzero(small[flat])
-    level, pairs = np.zeros((2, count + 1))
+    level, pairs = np.zeros((2, len(small)))
     for offset in (1, -1, raised.shape[1], -raised.shape[1]):
         beside = cells[up[cells + offset]]
         is_level = np.abs(heights[beside + offset] - heights[beside]) <= allowance.gentle_step
-        pairs += np.bincount(flat[beside], minlength=count + 1)
-        level += np.bincount(flat[beside], is_level, count + 1)
+        pairs += np.bincount(flat[beside], minlength=len(small))
+        level += np.bincount(flat[beside], is_level, len(small))
     small &= level >= _ISLAND_SHARE * pairs
     return small[number]
+
+
+def pits_in_roofs(filled: np.ndarray, raised: np.ndarray, surveyed: np.ndarray) -> np.ndarray:
+    """Return the small patches within raised cells that are even.
+
+    Points there lie on walls between roofs, or on the ground that is seen through a hole.
+
+    Parameters
+    ----------
+    filled, raised, surveyed
+        As for `islands`.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (rows, columns)
+    """
+    number, cells_of, small = _patches(raised, surveyed)
+    pits = (small & (cells_of <= _PIT_CELLS))[number]
+    even = np.zeros(raised.shape, dtype=bool)
+    for to, z in ((even, filled), (even.T, filled.T)):
+        to[1:-1] |= np.abs(z[2:] + z[:-2] - 2.0 * z[1:-1]) <= 2.0 * _BEND
+    width = 2 * _AROUND + 1
+
+    def around_pits(cells: np.ndarray) -> np.ndarray:
+        windows = np.lib.stride_tricks.sliding_window_view(np.pad(cells, _AROUND), (width, width))
+        return np.count_nonzero(windows[pits], axis=(1, 2))
+
+    pits[pits] = around_pits(even & raised) >= _EVEN_SHARE * around_pits(raised)
+    return pits
+
+
+def _patches(raised: np.ndarray, surveyed: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the number of the patch of each cell, the cells of each, and which are enclosed.
+
+    Raised cells have number 0.
+    """
+    from scipy import ndimage
+
+    number, count = ndimage.label(~raised)
+    cells_of = np.bincount(number.ravel(), minlength=count + 1)
+    enclosed = np.ones(count + 1, dtype=bool)
+    # Nothing is known of what lies beyond the survey.
+    for each in (number[~surveyed], number[[0, -1]], number[:, [0, -1]], 0):
+        enclosed[each] = False
+    return number, cells_of, enclosed

@@ -22,7 +22,7 @@ from ...grids.inpaint import First, inpaint
 from ...grids.morphology import in_steps, opening, within_square
 from ...grids.trend import Trend
 from .allowance import Allowance
-from .enclosed import islands
+from .enclosed import islands, pits_in_roofs
 from .gentle_regions import gentle_regions, slope_at, smoothed
 from .objects import covered
 from .roofs import flat_roofs
@@ -37,6 +37,8 @@ _RADII = ((1, 1, 24), (2, 26, 48), (4, 52, 10_000))
 _SLOPE_SMOOTHING, _LARGEST_SLOPE = 5.0, 0.6
 # Of a plateau, all is cut off if a window cuts off so much: its uphill side is low.
 _CUT_SHARE = 0.3
+# Metres above the ground round it from which on a pit in a roof is no ground.
+_PIT_HEIGHT = 0.5
 
 
 def ground_cells(
@@ -122,6 +124,12 @@ def ground_cells(
         filled, known, surveyed, raised, surface, trend, size, allowance, first
     )
     raised &= ~landforms & (objects | ~gentle)
+    if allowance.island_area:
+        # Last, as the drops to pits tell that a roof is round them.
+        pits = known & pits_in_roofs(filled, raised, surveyed)
+        if pits.any():
+            surface = inpaint(np.where(known & ~raised & ~pits, heights, np.nan), first=first)
+            raised |= pits & (heights > surface + _PIT_HEIGHT)
     progress(1.0)
     return known & ~raised
 
