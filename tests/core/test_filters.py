@@ -86,6 +86,23 @@ def test_a_complex_of_halls_goes_that_is_low_on_its_uphill_side(method, seed):
 
 
 @pytest.mark.parametrize(
+    ("method", "seed", "density"),
+    [
+        ("tin-densification", 907, 1.0),
+        ("slope", 907, 1.0),
+        ("slope", 903, 2.0),
+        ("grid-minimum", 905, 1.0),
+    ],
+)
+def test_a_courtyard_stays_where_points_are_sparse(method, seed, density):
+    # Points half-way down its walls join it with the roof, which drops all round.
+    scene = make("city_blocks", seed=seed, density=density)
+    labels, _ = classify_cloud(scene.cloud(), METHODS[method].parameters())
+    assert (labels == 2)[scene.ground].mean() > 0.998
+    assert (labels == 2)[scene.classes == 6].mean() < 0.01
+
+
+@pytest.mark.parametrize(
     ("kind", "method", "seed"),
     [
         ("greenhouses", "tin-densification", 901),

@@ -1,4 +1,4 @@
-"""Small patches that are not raised, but enclosed by raised cells of a height grid."""
+"""Patches of a height grid that are enclosed by raised cells."""
 
 from __future__ import annotations
 
@@ -14,6 +14,10 @@ _PIT_CELLS = 10
 # farther, in metres, from the middle between two neighbours than twice the bend. Of crowns hardly
 # any do.
 _AROUND, _BEND, _EVEN_SHARE = 3, 0.15, 0.4
+
+# A courtyard has so many square metres, lies no more metres above the ground round the building,
+# and has walls of such a height in metres on so much of its border.
+_COURTYARD_AREA, _COURTYARD_HEIGHT, _WALL_HEIGHT, _WALL_SHARE = 100.0, 1.5, 2.0, 0.6
 
 
 def islands(
@@ -79,6 +83,39 @@ def pits_in_roofs(filled: np.ndarray, raised: np.ndarray, surveyed: np.ndarray) 
 
     pits[pits] = around_pits(even & raised) >= _EVEN_SHARE * around_pits(raised)
     return pits
+
+
+def courtyards(
+    filled: np.ndarray, raised: np.ndarray, surface: np.ndarray, size: float
+) -> np.ndarray:
+    """Return the wide patches of raised cells that are level with the ground, within walls.
+
+    Parameters
+    ----------
+    filled, raised, size
+        As for `islands`.
+    surface : numpy.ndarray of float, shape (rows, columns)
+        Height of the ground in metres, through what is not raised.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (rows, columns)
+    """
+    from scipy import ndimage
+
+    number, count = ndimage.label(raised & (filled <= surface + _COURTYARD_HEIGHT))
+    wide = np.bincount(number.ravel(), minlength=count + 1) * size**2 >= _COURTYARD_AREA
+    wide[0] = False
+    walls, pairs = np.zeros((2, count + 1))
+    for ahead, behind in ((np.s_[1:], np.s_[:-1]), (np.s_[:, 1:], np.s_[:, :-1])):
+        for here, there in ((ahead, behind), (behind, ahead)):
+            border = wide[number[here]] & (number[here] != number[there])
+            of = number[here][border]
+            wall = (filled[there] - filled[here] >= _WALL_HEIGHT)[border] & raised[there][border]
+            pairs += np.bincount(of, minlength=count + 1)
+            walls += np.bincount(of, wall, count + 1)
+    wide &= walls >= _WALL_SHARE * pairs
+    return wide[number]
 
 
 def _patches(raised: np.ndarray, surveyed: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
