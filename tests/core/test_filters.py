@@ -138,6 +138,28 @@ def test_a_dyke_stays_where_points_are_sparse(method, seed):
 
 
 @pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize(("density", "gap", "deep"), [(4.0, 10.0, 1.0), (1.0, 15.0, 2.0)])
+def test_land_between_parallel_ditches_stays(method, density, gap, deep):
+    # Each strip drops on both sides, as the roof of a long building does, and ends at the border.
+    x, y = scatter(150.0, density)
+    from_ditch = np.abs((0.8 * x + 0.6 * y) % gap - gap / 2.0)
+    z = surveyed(x, y, 50.0 + 0.01 * x - np.clip(deep + 0.5 - from_ditch, 0.0, deep))
+    found = METHODS[method].classify(Points(x, y, z), METHODS[method].parameters())
+    assert found.mean() > 0.98
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_caravans_in_rows_go(method):
+    # They stand as close as ditches lie, but higher than ditches are deep.
+    x, y = scatter(120.0, 4.0)
+    caravan = (x % 6.0 < 3.0) & (y % 12.0 < 8.0)
+    z = surveyed(x, y, 50.0 + 0.01 * x + np.where(caravan, 2.6, 0.0))
+    found = METHODS[method].classify(Points(x, y, z), METHODS[method].parameters())
+    assert found[caravan].mean() < 0.02
+    assert found[~caravan].mean() > 0.98
+
+
+@pytest.mark.parametrize("method", METHODS)
 def test_a_raised_square_with_one_ramp_stays(method):
     scene = make("plaza", seed=504)
     found = METHODS[method].classify(scene.points, METHODS[method].parameters())

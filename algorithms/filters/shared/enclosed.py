@@ -72,9 +72,7 @@ def pits_in_roofs(filled: np.ndarray, raised: np.ndarray, surveyed: np.ndarray) 
     """
     number, cells_of, small = _patches(raised, surveyed)
     pits = (small & (cells_of <= _PIT_CELLS))[number]
-    even = np.zeros(raised.shape, dtype=bool)
-    for to, z in ((even, filled), (even.T, filled.T)):
-        to[1:-1] |= np.abs(z[2:] + z[:-2] - 2.0 * z[1:-1]) <= 2.0 * _BEND
+    even = is_even(filled)
     width = 2 * _AROUND + 1
 
     def around_pits(cells: np.ndarray) -> np.ndarray:
@@ -83,6 +81,14 @@ def pits_in_roofs(filled: np.ndarray, raised: np.ndarray, surveyed: np.ndarray) 
 
     pits[pits] = around_pits(even & raised) >= _EVEN_SHARE * around_pits(raised)
     return pits
+
+
+def is_even(filled: np.ndarray) -> np.ndarray:
+    """Return which cells (rows, columns) lie between two neighbours at about their mean height."""
+    even = np.zeros(filled.shape, dtype=bool)
+    for to, z in ((even, filled), (even.T, filled.T)):
+        to[1:-1] |= np.abs(z[2:] + z[:-2] - 2.0 * z[1:-1]) <= 2.0 * _BEND
+    return even
 
 
 def courtyards(

@@ -22,6 +22,7 @@ from ...grids.inpaint import First, inpaint
 from ...grids.morphology import in_steps, opening, within_square
 from ...grids.trend import Trend
 from .allowance import Allowance
+from .between_ditches import between_ditches
 from .enclosed import courtyards, islands, pits_in_roofs
 from .gentle_regions import gentle_regions, slope_at, smoothed
 from .objects import covered
@@ -126,6 +127,7 @@ def ground_cells(
     raised &= ~landforms & (objects | ~gentle)
     if allowance.island_area:
         raised &= ~courtyards(filled, raised, surface, size)
+        raised &= ~between_ditches(filled, raised, surface, size)
         # Last, as the drops to pits tell that a roof is round them.
         pits = known & pits_in_roofs(filled, raised, surveyed)
         if pits.any():
