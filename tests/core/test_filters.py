@@ -160,6 +160,20 @@ def test_caravans_in_rows_go(method):
 
 
 @pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("density", [4.0, 1.5])
+def test_ramps_between_levels_stay(method, density):
+    # A ramp drops on both sides, and is level with the ground at its two ends only.
+    x, y = scatter(150.0, density)
+    up = 0.96 * x + 0.28 * y - 90.0
+    on_ramp = np.abs((0.96 * y - 0.28 * x) % 50.0 - 25.0) < 3.0
+    z = surveyed(x, y, 50.0 + np.where(on_ramp, np.clip(4.0 + up / 6.0, 0.0, 4.0), 4.0 * (up > 0)))
+    found = METHODS[method].classify(Points(x, y, z), METHODS[method].parameters())
+    inside = on_ramp & (up < 0.0) & (up > -24.0) & (y > 10.0)
+    assert found[inside].mean() > 0.96
+    assert found.mean() > 0.99
+
+
+@pytest.mark.parametrize("method", METHODS)
 def test_a_raised_square_with_one_ramp_stays(method):
     scene = make("plaza", seed=504)
     found = METHODS[method].classify(scene.points, METHODS[method].parameters())

@@ -148,6 +148,20 @@ def test_a_ramp_with_walls_is_ground_and_a_bridge_as_wide_is_not(angle):
     assert not _ground(bridge)[road & (bridge > 3.0)].any()
 
 
+@pytest.mark.parametrize("angle", [0.5, 1.2])
+def test_a_ramp_between_two_levels_is_ground_and_a_roof_that_leans_on_a_wall_is_not(angle):
+    rows, columns = np.indices((120, 120)) - 60.0
+    along = rows * np.cos(angle) + columns * np.sin(angle)
+    across = columns * np.cos(angle) - rows * np.sin(angle)
+    below = (along < 0.0) & (along > -28.0) & (np.abs(across) < 3.6)
+    levels = np.where(along < 0.0, 0.0, 4.5)
+    ramp = np.where(below, 4.5 + 4.5 / 28.0 * along, levels)
+    assert _ground(ramp)[below].mean() > 0.98
+    # As even and as wide, and level with the upper ground, but its lower end is in the air.
+    roof = np.where(below & (along > -14.0), 4.5 + 0.08 * along, levels)
+    assert not _ground(roof)[below & (along > -13.0) & (along < -2.0)].any()
+
+
 def test_a_dam_is_ground_where_cells_are_wide_and_some_of_its_sides_empty():
     rows, columns = np.indices((60, 60)) - 30.0
     dam = np.clip(11.0 - 1.7 * np.abs(columns), 0.0, 6.0)
@@ -187,8 +201,9 @@ def test_a_plateau_goes_as_a_whole_where_a_window_cuts_off_part_of_it():
 def test_a_spur_is_ground_and_a_hall_on_a_gentle_slope_is_not():
     rows, columns = np.indices((160, 160)) - 80.0
     spur = 0.7 * (columns - 0.5 * np.abs(rows))
-    assert _ground(spur, window=75.0, gentle_area=1e9)[20:-20, 20:-20].mean() > 0.99
-    cut = _ground(spur, window=75.0, gentle_area=1e9, hall_per_slope=0.0)
+    uncut = _ground(spur, window=75.0, gentle_area=1e9, link_area=np.inf)
+    assert uncut[20:-20, 20:-20].mean() > 0.99
+    cut = _ground(spur, window=75.0, gentle_area=1e9, link_area=np.inf, hall_per_slope=0.0)
     assert cut[20:-20, 20:-20].mean() < 0.9
     heights = 0.08 * columns
     hall = (np.abs(rows) < 35) & (np.abs(columns) < 35)

@@ -50,9 +50,9 @@ class Allowance:
     island_area : float
         What is left within a region, level with it and no larger in square metres, is part of it:
         an opening cuts off most of a wide roof on a slope, but not all.
-    rock_area, ramp_area : float
+    rock_area, ramp_area, link_area : float
         A region of so many square metres or more is terrain as well if it has the shape of a rock,
-        or of a ramp.
+        of a long ramp, or of a ramp between two levels.
     follows_slopes : bool
         Whether a step between cells is no edge where those before or after it are as high: a
         steep slope, or a cliff, of which points lie on the face; or where the terrain at large
@@ -81,6 +81,7 @@ class Allowance:
     island_area: float = 200.0
     rock_area: float = 200.0
     ramp_area: float = 100.0
+    link_area: float = 40.0
     rise_counts: bool = True
     follows_slopes: bool = True
     slopes_taken: int = 2
@@ -100,6 +101,7 @@ CLASSIC = Allowance(
     island_area=0.0,
     rock_area=np.inf,
     ramp_area=np.inf,
+    link_area=np.inf,
     rise_counts=False,
     follows_slopes=False,
     slopes_taken=1,

@@ -105,11 +105,12 @@ def gentle_regions(
     open_ = np.bincount(number, _unsurveyed(surveyed).ravel()[cells], count)
     heights = filled.ravel()[cells]
     above = heights - surface.ravel()[cells]
-    feet = np.concatenate([flat[0][flat[1] == -1] for flat, _, _ in borders])
-    foot = np.bincount(feet, minlength=count) * size
     row, column = np.divmod(cells, raised.shape[1])
     up_cells = RaisedCells(number, size * row, size * column, heights, above)
-    special = landforms(up_cells, area, foot, allowance.rock_area, allowance.ramp_area)
+    level = (sign == 0) & (up[one] != up[other])
+    feet = np.where(up[one], one, other)[level]
+    feet = np.searchsorted(cells, feet[seen[feet]])
+    special = landforms(up_cells, feet, size, allowance)
     above = np.bincount(number, above, count) * size**2 / area
     joined = _joined(borders, area, above, open_, special, allowance)
     result = np.zeros((2, up.size), dtype=bool)

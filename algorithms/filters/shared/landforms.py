@@ -6,6 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .allowance import Allowance
+
 # Standard deviation in metres of the heights of a rock. A roof is lower, or level: a band of so
 # many metres holds more than a share of it.
 _ROCK_DEVIATION, _BAND, _BAND_SHARE = 5.0, 3.0, 1.0 / 3.0
@@ -15,6 +17,12 @@ _RAMP_LENGTH, _RAMP_RISE, _RAMP_SHARE = 4.0, 2.0, 0.9
 # It begins on the ground, but for this share of its rise, and is level with it there along so much
 # of its width.
 _RAMP_START, _RAMP_FOOT = 0.25, 0.5
+# A ramp between two levels: slope (rise over run) and rise in metres at least; such a share of its
+# cells is within so many metres of a plane. Within a share of its length from each end it is level
+# with the ground along a share of its width.
+_LINK_SLOPE, _LINK_RISE = 0.06, 1.0
+_LINK_EVEN, _LINK_BAND = 0.8, 0.3
+_LINK_END, _LINK_FOOT = 0.3, 0.35
 
 
 class RaisedCells(NamedTuple):
@@ -38,7 +46,7 @@ class RaisedCells(NamedTuple):
 
 
 def landforms(
-    cells: RaisedCells, area: np.ndarray, foot: np.ndarray, rock_area: float, ramp_area: float
+    cells: RaisedCells, feet: np.ndarray, size: float, allowance: Allowance
 ) -> np.ndarray:
     """Return which raised regions are rocks or ramps.
 
@@ -46,25 +54,32 @@ def landforms(
     ----------
     cells : RaisedCells
         All cells of the regions.
-    area, foot : numpy.ndarray of float, shape (regions,)
-        Square metres, and metres of the border that are level with the ground.
-    rock_area, ramp_area : float
-        Square metres of the smallest rock, and of the smallest ramp.
+    feet : numpy.ndarray of intp, shape (sides,)
+        Which of the cells are level with the ground beside them, once for each such side.
+    size : float
+        Side of a cell in metres.
+    allowance : Allowance
+        How large they are at least.
 
     Returns
     -------
     numpy.ndarray of bool, shape (regions,)
     """
+    area = np.bincount(cells.region) * size**2
     result = np.zeros(len(area), dtype=bool)
-    large = np.flatnonzero(area >= min(rock_area, ramp_area))
+    least = allowance.rock_area, allowance.ramp_area, allowance.link_area
+    large = np.flatnonzero(area >= min(least))
     if not len(large):
         return result
     number = np.full(len(area), -1)
     number[large] = np.arange(len(large))
-    here = np.flatnonzero(number[cells.region] >= 0)
-    cells = RaisedCells(*(each[here] for each in cells))
-    regions = _Regions(cells._replace(region=number[cells.region]), area[large], foot[large])
-    result[large] = regions.rocks(rock_area) | regions.ramps(ramp_area)
+    cells = cells._replace(region=number[cells.region])
+    here = np.flatnonzero(cells.region >= 0)
+    feet = feet[cells.region[feet] >= 0]
+    inside, level = (RaisedCells(*(each[which] for each in cells)) for which in (here, feet))
+    regions = _Regions(inside, level, area[large], size)
+    found = (regions.rocks, regions.ramps, regions.links)
+    result[large] = np.any([find(smallest) for find, smallest in zip(found, least)], axis=0)
     return result
 
 
@@ -73,12 +88,18 @@ class _Regions:
 
     Parameters
     ----------
-    cells, area, foot
-        As for `landforms`.
+    cells, feet : RaisedCells
+        All cells of the regions, and those that are level with the ground, once for each side.
+    area : numpy.ndarray of float, shape (regions,)
+        Square metres.
+    size : float
+        Side of a cell in metres.
     """
 
-    def __init__(self, cells: RaisedCells, area: np.ndarray, foot: np.ndarray) -> None:
-        self._cells, self._area, self._foot = cells, area, foot
+    def __init__(
+        self, cells: RaisedCells, feet: RaisedCells, area: np.ndarray, size: float
+    ) -> None:
+        self._cells, self._feet, self._area, self._size = cells, feet, area, size
         self._count = np.bincount(cells.region, minlength=len(area))
 
     def _mean(self, values: np.ndarray) -> np.ndarray:
@@ -124,4 +145,36 @@ class _Regions:
         is_ramp = self._area >= least_area
         is_ramp &= (length >= _RAMP_LENGTH * width) & (rise >= _RAMP_RISE)
         is_ramp &= common**2 >= _RAMP_SHARE * along * self._mean(self._centred(above) * above)
-        return is_ramp & (np.abs(start) <= _RAMP_START * rise) & (self._foot >= _RAMP_FOOT * width)
+        foot = np.bincount(self._feet.region, minlength=len(self._area)) * self._size
+        return is_ramp & (np.abs(start) <= _RAMP_START * rise) & (foot >= _RAMP_FOOT * width)
+
+    def links(self, least_area: float) -> np.ndarray:
+        """Return which regions are even slopes that lead from the ground to higher ground.
+
+        Such is a ramp or a flight of stairs between two levels. A roof on a slope drops at one end
+        at least, and a bridge is level.
+        """
+        cells, feet = self._cells, self._feet
+        y, x, z = (self._centred(each) for each in (cells.north, cells.east, cells.heights))
+        pairs = ((y, y), (y, x), (x, x), (y, z), (x, z))
+        yy, xy, xx, yz, xz = (self._mean(one * other) for one, other in pairs)
+        determinant = np.maximum(yy * xx - xy**2, 1e-9)
+        north, east = (yz * xx - xz * xy) / determinant, (xz * yy - yz * xy) / determinant
+        is_even = np.abs(z - north[cells.region] * y - east[cells.region] * x) <= _LINK_BAND
+        slope = np.maximum(np.hypot(north, east), 1e-9)
+        # Metres along the slope, from the lowest cell on.
+        along, along_feet = (
+            (north[at] * to_north + east[at] * to_east) / slope[at]
+            for at, to_north, to_east, *_ in (cells, feet)
+        )
+        start, end = np.full((2, len(slope)), [[np.inf], [-np.inf]])
+        np.minimum.at(start, cells.region, along)
+        np.maximum.at(end, cells.region, along)
+        length = end - start + self._size
+        share = (along_feet - start[feet.region]) / length[feet.region]
+        is_link = (self._area >= least_area) & (slope >= _LINK_SLOPE)
+        is_link &= (slope * length >= _LINK_RISE) & (self._mean(is_even) >= _LINK_EVEN)
+        for at_end in (share <= _LINK_END, share >= 1.0 - _LINK_END):
+            foot = np.bincount(feet.region[at_end], minlength=len(slope)) * self._size
+            is_link &= foot >= _LINK_FOOT * self._area / length
+        return is_link
