@@ -58,16 +58,6 @@ def test_the_uppermost_terrace_in_a_corner_of_the_survey_is_ground():
     assert not _ground(heights, window=60.0, border_area=1e9).all()
 
 
-def test_a_terrace_that_the_border_of_the_survey_cuts_is_ground_from_400_square_metres_on():
-    rows, columns = np.indices((120, 120))
-    # 24 rows in the corner are 300 m2, 30 rows 465 m2.
-    for side, kept in ((24, False), (30, True)):
-        tread = rows + columns < side
-        found = _ground(4.0 * tread, window=60.0)
-        assert found[tread].all() if kept else not found[tread].any()
-        assert found[~tread].all()
-
-
 def test_a_building_in_a_corner_of_the_survey_is_not_ground():
     rows, columns = np.indices((120, 120))
     roof = (rows < 40) & (columns < 40)

@@ -76,7 +76,7 @@ class Allowance:
     usual_window: float = 24.0
     hall_height: float = 2.5
     hall_per_slope: float = 0.1
-    border_area: float = 400.0
+    border_area: float = 800.0
     border_height: float = 4.5
     island_area: float = 200.0
     rock_area: float = 200.0
