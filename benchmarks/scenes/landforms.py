@@ -184,6 +184,25 @@ def boulders(site: Site) -> Landscape:
     return Landscape(flat, trees=(single_trees(site, 80, 10.0),), plants=(meadow(site),))
 
 
+@kind(height=0.9)
+def field_banks(site: Site) -> Landscape:
+    """Meadows between earth banks 0.5 to 1.3 m high, bent as the borders of fields are."""
+    apart, bend = site.between(25.0, 40.0), waves(site.random, 3.0, 90.0)
+    tall = waves(site.random, 0.3, 60.0)
+    roll, rough = waves(site.random, 1.5, 90.0), waves(site.random, 0.04, 4.0)
+
+    def terrain(x, y):
+        height = site.settings.height * np.clip(1.0 + tall(x, y), 0.55, 1.45)
+        off = np.abs(np.mod(site.axes(x, y)[1] + bend(x, y), apart) - apart / 2)
+        ridge = height * 0.5 * (1.0 + np.cos(np.pi * np.clip(off / (1.8 * height), 0.0, 1.0)))
+        return 90.0 + site.settings.slope * x + roll(x, y) + rough(x, y) + ridge
+
+    return Landscape(
+        terrain, trees=(single_trees(site, 40, 8.0),),
+        plants=(meadow(site), undergrowth(site, 0.8, 0.4, 0.05)),
+    )  # fmt: skip
+
+
 def _terraced(site: Site, width: float, face: float, wild: float, vines: float) -> Landscape:
     """Return stairs of bent terraces, with a row of vines of a height on each tread."""
     bend, rough = waves(site.random, wild, 90.0), waves(site.random, 0.05, 4.0)
@@ -257,6 +276,6 @@ def steep_forest(site: Site) -> Landscape:
 
 
 KINDS: tuple[Kind, ...] = (
-    hills, quarry, open_cast, sea_cliff, gorge, sharp_ridge, mesa, dunes, boulders, terraces,
-    vineyard_terraces, paddy_fields, steep_forest,
+    hills, quarry, open_cast, sea_cliff, gorge, sharp_ridge, mesa, dunes, boulders, field_banks,
+    terraces, vineyard_terraces, paddy_fields, steep_forest,
 )  # fmt: skip

@@ -26,7 +26,7 @@ SCENES = {
     "plaza": 3.0, "city_blocks": 2.0, "sparse_village": 1.0, "embankment_and_cutting": 3.0,
     "bridge_over_road": 4.0, "bridge_over_railway": 10.0,
     "bridge_over_river": 2.0, "viaduct": 3.0, "ramps": 3.0, "dense_canopy": 3.0, "water_gaps": 3.0,
-    "multipath": 3.0, "drone_noisy": 8.0, "photogrammetry": 12.0,
+    "multipath": 3.0, "field_banks": 4.0, "drone_noisy": 8.0, "photogrammetry": 12.0,
 }  # fmt: skip
 # What else than the usual values changes the rules.
 PRESETS = [("tin-densification", "lidar360"), ("slope", "whitebox"), ("grid-minimum", "paper")]

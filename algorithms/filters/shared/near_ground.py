@@ -9,6 +9,7 @@ import numpy as np
 from ...core.points import Points
 from ...core.progress import SILENT, Progress
 from ...grids.cells import Cells, spacing
+from .banks import banks
 from .breaks import checked_seeds
 from .ground_limits import DENSE_SPACING, Tolerance, ground_limits
 from .near_surface import near_surface
@@ -78,6 +79,25 @@ def near_ground(
         waiting = candidates.lowest[candidates.free & ~candidates.ground]
         seeds, _ = checked_seeds(points, seeds, waiting, cells, max(apart, cells.size))
     progress(0.5)
-    limits = ground_limits(points, seeds, cells, apart, tolerance)
-    progress(0.6)
-    return near_surface(points, cells, limits, progress.part(0.6, 1.0))
+    return with_banks(points, seeds, cells, apart, tolerance, progress.part(0.5, 1.0))
+
+
+def with_banks(
+    points: Points,
+    vertices: np.ndarray,
+    cells: Cells,
+    spacing: float,
+    tolerance: Tolerance,
+    progress: Progress = SILENT,
+) -> np.ndarray:
+    """Return which points lie close to the surface through the ground, or on low banks beside it.
+
+    Parameters, returns
+        As for `ground_limits` and `near_ground`.
+    """
+    limits = ground_limits(points, vertices, cells, spacing, tolerance)
+    progress(0.2)
+    ground = near_surface(points, cells, limits, progress.part(0.2, 0.8))
+    ground |= banks(points, ground, cells, limits, spacing)
+    progress(1.0)
+    return ground

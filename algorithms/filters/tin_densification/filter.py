@@ -29,10 +29,10 @@ from ..shared.ground_limits import (
     DENSE_SPACING,
     NOISE_SPACING,
     Tolerance,
-    ground_limits,
     plain_limits,
 )
 from ..shared.lowest_points import LowestPoints
+from ..shared.near_ground import with_banks
 from ..shared.near_surface import near_surface
 from .densification import DensificationRules, densified, with_lower
 from .seeds import seeds_of_one_grid, seeds_of_two_grids
@@ -300,11 +300,12 @@ def classify(
     tolerance = Tolerance(
         resolved.ground_tolerance, resolved.slope_tolerance, resolved.ground_tolerance_below
     )
+    part = progress.part(0.8, 0.95)
     if is_classic:
         limits = plain_limits(points, vertices, cells, tolerance)
+        found = near_surface(points, cells, limits, part)
     else:
-        limits = ground_limits(points, vertices, cells, apart, tolerance)
-    found = near_surface(points, cells, limits, progress.part(0.8, 0.95))
+        found = with_banks(points, vertices, cells, apart, tolerance, part)
     return _key_points(points, found, resolved, progress.part(0.95, 1.0))
 
 

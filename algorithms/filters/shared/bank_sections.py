@@ -1,0 +1,210 @@
+"""What tells a low bank from plants, walls and cars: its cross-section, measured in strips."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+# Metres to both sides over which a cross-section is measured, and beside a bank over which the
+# ground is.
+_HALF, _BESIDE = 6.0, 2.0
+# Shares of the points of a step that stand out: where a bank is, and at its crest.
+_RAISED, _CREST = 0.5, 0.7
+# Metres: the highest bank, and its width where it is higher than the second.
+_HIGHEST, _FOOT_HEIGHT, _NARROWEST, _WIDEST = 1.6, 0.1, 1.0, 6.0
+# Standard deviation of the points from the cross-section in metres, or for each metre of height,
+# whichever is more; and for each unit of slope (rise over run), as the middle line is not exact.
+_SCATTER, _SCATTER_HEIGHT, _SCATTER_SLOPE = 0.06, 0.1, 0.12
+# The same at the crest: in metres, or times that of the ground beside the bank.
+_CREST_SCATTER, _CREST_FACTOR = 0.05, 2.0
+# On its gentler side a bank nowhere rises by more metres than that within half a metre.
+_RISE, _RISE_LENGTH = 0.6, 0.5
+# Points so many metres from the cross-section are of the bank.
+_NEAR = 0.15
+
+
+class Strip(NamedTuple):
+    """Points of squares, seen along the middle line of each; arrays of shape (n,).
+
+    Attributes
+    ----------
+    square : numpy.ndarray of int
+        Numbers from 0.
+    along, across, z : numpy.ndarray of float64
+        Metres.
+    stands_out : numpy.ndarray of bool
+        Not ground.
+    number : int
+        How many squares there are.
+    """
+
+    square: np.ndarray
+    along: np.ndarray
+    across: np.ndarray
+    z: np.ndarray
+    stands_out: np.ndarray
+    number: int
+
+    def take(self, which: np.ndarray) -> Strip:
+        """Return some points of the same squares."""
+        square, along, across, z, stands_out = (each[which] for each in self[:5])
+        return Strip(square, along, across, z, stands_out, self.number)
+
+    def total(self, weights: np.ndarray) -> np.ndarray:
+        """Return the sum of weights over each square."""
+        return np.bincount(self.square, weights, self.number)
+
+
+def on_banks(strip: Strip, length: float) -> np.ndarray:
+    """Return which points of squares lie on a bank.
+
+    Parameters
+    ----------
+    strip : Strip
+        The points.
+    length : float
+        Metres from one step of a cross-section to the next.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (n,)
+        All of them stand out.
+    """
+    sections = _sections(strip, length)
+    raised = sections.share >= _RAISED
+    body = raised.copy()
+    body[:, 1:] |= raised[:, :-1]
+    body[:, :-1] |= raised[:, 1:]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        is_bank = _is_bank(sections, raised, body, length)
+    step, square = sections.step, strip.square
+    near = _NEAR + _SCATTER_SLOPE * np.abs(sections.slope.ravel()[step])
+    on_body = strip.stands_out & body.ravel()[step] & (np.abs(sections.rest) <= near)
+    return is_bank[square] & on_body
+
+
+class _Sections(NamedTuple):
+    """Cross-sections of squares.
+
+    Attributes
+    ----------
+    step : numpy.ndarray of int, shape (n,)
+        The step of each point, in the flattened grids.
+    rest : numpy.ndarray of float64, shape (n,)
+        Metres of each point above the cross-section.
+    points : numpy.ndarray of float64, shape (squares, steps)
+        How many there are.
+    across, height, slope, scatter : numpy.ndarray of float64, shape (squares, steps)
+        Means in metres, rise over run, and the sum of the squares of `rest`.
+    share : numpy.ndarray of float64, shape (squares, steps)
+        Of the points, those that stand out.
+    """
+
+    step: np.ndarray
+    rest: np.ndarray
+    points: np.ndarray
+    across: np.ndarray
+    height: np.ndarray
+    slope: np.ndarray
+    scatter: np.ndarray
+    share: np.ndarray
+
+
+def _sections(strip: Strip, length: float) -> _Sections:
+    """Return the cross-section of each square in steps of some metres; NaN where there is none."""
+    half = int(_HALF / length)
+    steps = 2 * half + 1
+    step = np.clip(np.rint(strip.across / length).astype(np.int64) + half, 0, steps - 1)
+    step += strip.square * steps
+
+    def total(weights: np.ndarray | None = None) -> np.ndarray:
+        return np.bincount(step, weights, strip.number * steps)
+
+    count = total()
+    with np.errstate(invalid="ignore", divide="ignore"):
+        along, across, z = (total(each) / count for each in strip[1:4])
+        # The land may fall along the line.
+        beyond = strip.along - along[step]
+        fall = strip.total(beyond * strip.z) / strip.total(beyond * beyond)
+        height = (z - np.repeat(fall, steps) * along).reshape(-1, steps)
+        across = across.reshape(-1, steps)
+        slope = np.zeros(height.shape)
+        slope[:, 1:-1] = (height[:, 2:] - height[:, :-2]) / (across[:, 2:] - across[:, :-2])
+        slope = np.nan_to_num(slope)
+        share = (total(strip.stands_out) / count).reshape(height.shape)
+    rest = strip.z - fall[strip.square] * strip.along - height.ravel()[step]
+    rest -= slope.ravel()[step] * (strip.across - across.ravel()[step])
+    scatter = total(rest * rest).reshape(height.shape)
+    return _Sections(step, rest, count.reshape(height.shape), across, height, slope, scatter, share)
+
+
+def _is_bank(
+    sections: _Sections, raised: np.ndarray, body: np.ndarray, length: float
+) -> np.ndarray:
+    """Return which cross-sections are those of banks."""
+    steps = np.arange(raised.shape[1])
+    first = np.argmax(raised, axis=1)[:, None]
+    last = steps[-1] - np.argmax(raised[:, ::-1], axis=1)[:, None]
+    beside, known = round(_BESIDE / length), sections.points > 0
+    left = known & (steps < first) & (steps >= first - beside)
+    right = known & (steps > last) & (steps <= last + beside)
+    ground = sections.points * (1.0 - np.nan_to_num(sections.share))
+    left_height, right_height = (
+        np.sum(np.where(side, sections.height * ground, 0.0), axis=1)
+        / np.sum(np.where(side, ground, 0.0), axis=1)
+        for side in (left, right)
+    )
+    left_across, right_across = (
+        np.sum(np.where(side, sections.across, 0.0), axis=1) / np.count_nonzero(side, axis=1)
+        for side in (left, right)
+    )
+    fall = (right_height - left_height) / (right_across - left_across)
+    line = left_height[:, None] + fall[:, None] * (sections.across - left_across[:, None])
+    within = left | right | ((steps >= first) & (steps <= last))
+    foot = np.count_nonzero(within & (sections.height - line > _FOOT_HEIGHT), axis=1) * length
+    heights = np.where(raised, sections.height, -np.inf)
+    top = heights.max(axis=1) - np.minimum(left_height, right_height)
+    crest_share = np.where(raised & (sections.points >= 3), sections.share, 0.0).max(axis=1)
+    has_shape = (foot >= _NARROWEST) & (foot <= _WIDEST) & (top <= _HIGHEST)
+    has_shape &= (crest_share >= _CREST) & raised.any(axis=1)
+    has_shape &= _gentler_rise(sections, body, heights, length) <= _RISE / _RISE_LENGTH
+    return has_shape & _is_smooth(sections, body, heights, left | right, top)
+
+
+def _gentler_rise(
+    sections: _Sections, body: np.ndarray, heights: np.ndarray, length: float
+) -> np.ndarray:
+    """Return the steepest rise over run on the gentler side of the crest."""
+    apart = max(1, round(_RISE_LENGTH / length))
+    crest = np.argmax(heights, axis=1)[:, None]
+    start = np.arange(body.shape[1] - apart)
+    rise = sections.height[:, apart:] - sections.height[:, :-apart]
+    slope = np.abs(rise) / (sections.across[:, apart:] - sections.across[:, :-apart])
+    slope = np.where(body[:, apart:] & body[:, :-apart], np.nan_to_num(slope), 0.0)
+    before, beyond = start + apart - apart // 2 <= crest, start + apart // 2 >= crest
+    return np.minimum(
+        np.where(before, slope, 0).max(axis=1), np.where(beyond, slope, 0).max(axis=1)
+    )
+
+
+def _is_smooth(
+    sections: _Sections, body: np.ndarray, heights: np.ndarray, beside: np.ndarray, top: np.ndarray
+) -> np.ndarray:
+    """Return where points scatter no more from the cross-section than those of the ground do."""
+    count, scatter = sections.points, sections.scatter
+    total = np.sum(np.where(body, count, 0), axis=1)
+    slope = np.sum(np.where(body, np.abs(sections.slope) * count, 0.0), axis=1) / total
+    # A step with one point has no scatter.
+    freedom = np.sum(np.where(body, np.maximum(count - 1, 0), 0), axis=1)
+    whole = np.sqrt(np.sum(np.where(body, scatter, 0.0), axis=1) / freedom)
+    is_smooth = whole <= np.maximum(_SCATTER, _SCATTER_HEIGHT * top) + _SCATTER_SLOPE * slope
+    crest = np.argmax(np.where(count >= 3, heights, -np.inf), axis=1)[:, None]
+    at_crest = (np.take_along_axis(each, crest, axis=1)[:, 0] for each in (scatter, count))
+    squares, number = at_crest
+    bare = beside & (sections.share < 0.2)
+    ground = np.sqrt(
+        np.sum(np.where(bare, scatter, 0.0), axis=1) / np.sum(np.where(bare, count, 0), axis=1)
+    )
+    most = np.fmax(_CREST_SCATTER, _CREST_FACTOR * ground)
+    return is_smooth & (np.sqrt(squares / (number - 1)) <= most)
