@@ -18,6 +18,9 @@ _HIGHEST, _FOOT_HEIGHT, _NARROWEST, _WIDEST = 1.6, 0.1, 1.0, 6.0
 _SCATTER, _SCATTER_HEIGHT, _SCATTER_SLOPE = 0.06, 0.1, 0.12
 # The same at the crest: in metres, or times that of the ground beside the bank.
 _CREST_SCATTER, _CREST_FACTOR = 0.05, 2.0
+# Metres above the cross-section from which on points are plants, how often they are taken out, and
+# how many there are at most for each other point.
+_PLANT, _TRIMS, _MOST_PLANTS = 0.25, 2, 0.2
 # On its gentler side a bank nowhere rises by more metres than that within half a metre.
 _RISE, _RISE_LENGTH = 0.6, 0.5
 # Points so many metres from the cross-section are of the bank.
@@ -71,7 +74,10 @@ def on_banks(strip: Strip, length: float) -> np.ndarray:
     numpy.ndarray of bool, shape (n,)
         All of them stand out.
     """
-    sections = _sections(strip, length)
+    kept = np.ones(len(strip.square), dtype=bool)
+    for _ in range(_TRIMS):
+        kept &= ~strip.stands_out | (_sections(strip, kept, length).rest <= _PLANT)
+    sections = _sections(strip, kept, length)
     raised = sections.share >= _RAISED
     body = raised.copy()
     body[:, 1:] |= raised[:, :-1]
@@ -93,8 +99,8 @@ class _Sections(NamedTuple):
         The step of each point, in the flattened grids.
     rest : numpy.ndarray of float64, shape (n,)
         Metres of each point above the cross-section.
-    points : numpy.ndarray of float64, shape (squares, steps)
-        How many there are.
+    points, plants : numpy.ndarray of float64, shape (squares, steps)
+        How many were kept, and how many were not.
     across, height, slope, scatter : numpy.ndarray of float64, shape (squares, steps)
         Means in metres, rise over run, and the sum of the squares of `rest`.
     share : numpy.ndarray of float64, shape (squares, steps)
@@ -104,6 +110,7 @@ class _Sections(NamedTuple):
     step: np.ndarray
     rest: np.ndarray
     points: np.ndarray
+    plants: np.ndarray
     across: np.ndarray
     height: np.ndarray
     slope: np.ndarray
@@ -111,32 +118,33 @@ class _Sections(NamedTuple):
     share: np.ndarray
 
 
-def _sections(strip: Strip, length: float) -> _Sections:
-    """Return the cross-section of each square in steps of some metres; NaN where there is none."""
+def _sections(strip: Strip, kept: np.ndarray, length: float) -> _Sections:
+    """Return the cross-section of each square, of points that are kept; NaN where there is none."""
     half = int(_HALF / length)
     steps = 2 * half + 1
     step = np.clip(np.rint(strip.across / length).astype(np.int64) + half, 0, steps - 1)
     step += strip.square * steps
 
-    def total(weights: np.ndarray | None = None) -> np.ndarray:
+    def total(weights: np.ndarray) -> np.ndarray:
         return np.bincount(step, weights, strip.number * steps)
 
-    count = total()
+    count = total(kept)
     with np.errstate(invalid="ignore", divide="ignore"):
-        along, across, z = (total(each) / count for each in strip[1:4])
+        along, across, z = (total(np.where(kept, each, 0.0)) / count for each in strip[1:4])
         # The land may fall along the line.
-        beyond = strip.along - along[step]
+        beyond = np.where(kept, strip.along - along[step], 0.0)
         fall = strip.total(beyond * strip.z) / strip.total(beyond * beyond)
         height = (z - np.repeat(fall, steps) * along).reshape(-1, steps)
         across = across.reshape(-1, steps)
         slope = np.zeros(height.shape)
         slope[:, 1:-1] = (height[:, 2:] - height[:, :-2]) / (across[:, 2:] - across[:, :-2])
         slope = np.nan_to_num(slope)
-        share = (total(strip.stands_out) / count).reshape(height.shape)
+        share = (total(kept & strip.stands_out) / count).reshape(height.shape)
     rest = strip.z - fall[strip.square] * strip.along - height.ravel()[step]
     rest -= slope.ravel()[step] * (strip.across - across.ravel()[step])
-    scatter = total(rest * rest).reshape(height.shape)
-    return _Sections(step, rest, count.reshape(height.shape), across, height, slope, scatter, share)
+    scatter = total(np.where(kept, rest * rest, 0.0)).reshape(height.shape)
+    count, plants = (each.reshape(height.shape) for each in (count, total(~kept)))
+    return _Sections(step, rest, count, plants, across, height, slope, scatter, share)
 
 
 def _is_bank(
@@ -194,6 +202,7 @@ def _is_smooth(
     """Return where points scatter no more from the cross-section than those of the ground do."""
     count, scatter = sections.points, sections.scatter
     total = np.sum(np.where(body, count, 0), axis=1)
+    is_bare = np.sum(np.where(body, sections.plants, 0), axis=1) <= _MOST_PLANTS * total
     slope = np.sum(np.where(body, np.abs(sections.slope) * count, 0.0), axis=1) / total
     # A step with one point has no scatter.
     freedom = np.sum(np.where(body, np.maximum(count - 1, 0), 0), axis=1)
@@ -207,4 +216,4 @@ def _is_smooth(
         np.sum(np.where(bare, scatter, 0.0), axis=1) / np.sum(np.where(bare, count, 0), axis=1)
     )
     most = np.fmax(_CREST_SCATTER, _CREST_FACTOR * ground)
-    return is_smooth & (np.sqrt(squares / (number - 1)) <= most)
+    return is_smooth & is_bare & (np.sqrt(squares / (number - 1)) <= most)

@@ -16,6 +16,7 @@ from ...core.points import Points
 from ...core.progress import SILENT
 from ...core.threads import in_threads, over_parts
 from ...grids.cells import Cells
+from ...grids.cells import spacing as usual_spacing
 from .bank_sections import Strip, on_banks
 
 # Side in metres of a tile. A square is of two by two tiles, and squares overlap by one tile.
@@ -24,6 +25,8 @@ _TILE = 4.0
 _LOOK_UP = 1.8
 # In a square, so many points stand out at least, and as many as lie on so many square metres.
 _LEAST_POINTS, _LEAST_AREA = 8, 2.0
+# Where the share of others that stand out is so large within so many metres: others are plants.
+_SHARE, _AROUND = 0.15, 1.0
 # In metres, their standard deviation along the middle line is at least the first, across it at
 # most the second. Their variances have this ratio.
 _LEAST_LENGTH, _LARGEST_WIDTH, _LONG = 1.6, 1.6, 2.5
@@ -32,6 +35,8 @@ _LEAST_LENGTH, _LARGEST_WIDTH, _LONG = 1.6, 1.6, 2.5
 _SHARPEST, _FITS, _NEAR_LINE = 0.12, 2, 1.8
 # A cross-section is measured in steps of half the spacing, but of so many metres at least.
 _LEAST_STEP = 0.25
+# Metres between points: less is as good as that.
+_CLOSEST = 0.01
 _POINTS_AT_ONCE = 1 << 18
 _POINTS_A_PART = 1 << 16
 
@@ -62,8 +67,11 @@ def banks(
     if cells.size > _TILE:
         return found  # a square has too few points
     stands_out = _stands_out(points, ground, cells, limits)
+    # Under trees, points near the ground are farther apart than others.
+    spacing = usual_spacing(points.take(np.flatnonzero(ground | stands_out)), _CLOSEST)
     least = max(_LEAST_POINTS, _LEAST_AREA / spacing**2)
-    squares = _Squares.where(points.take(np.flatnonzero(stands_out)), least)
+    many = stands_out & _among_others(ground, stands_out, cells)
+    squares = _Squares.where(points.take(np.flatnonzero(many)), least)
     if not len(squares.row):
         return found
     step = max(_LEAST_STEP, 0.5 * spacing)
@@ -90,6 +98,22 @@ def _stands_out(points: Points, ground: np.ndarray, cells: Cells, limits: np.nda
 
     over_parts(judge, points.count, _POINTS_A_PART, SILENT)
     return stands_out
+
+
+def _among_others(ground: np.ndarray, stands_out: np.ndarray, cells: Cells) -> np.ndarray:
+    """Return which points are where not only a few stand out, as under trees."""
+    from scipy import ndimage
+
+    raised, level = (
+        np.bincount(cells.index[which], minlength=cells.rows * cells.columns)
+        for which in (stands_out, ground)
+    )
+    width = 2 * round(_AROUND / cells.size) + 1
+    raised, level = (
+        ndimage.uniform_filter(each.reshape(cells.shape).astype(np.float32), width)
+        for each in (raised, level)
+    )
+    return (raised >= _SHARE * (raised + level)).ravel()[cells.index]
 
 
 class _Squares(NamedTuple):
