@@ -137,6 +137,20 @@ class Cells:
             counts[: len(step)] += step
         return counts.reshape(self.shape)
 
+    def spacing(self, counts: np.ndarray, dense: float = 1.0, step: float = _SPACING_STEP) -> float:
+        """Return the usual distance between points, as `spacing`, from how many each cell holds.
+
+        Blocks of whole cells are taken.
+        """
+        side = max(1, round(_BLOCK / self.size))
+        for axis, (first, count) in enumerate(zip(self.first, self.shape)):
+            starts = np.unique((first + np.arange(count)) // side, return_index=True)[1]
+            counts = np.add.reduceat(counts, starts, axis=axis)
+        apart = side * self.size / math.sqrt(usual_count(counts))
+        if apart >= 1.0:
+            return max(dense, step * round(apart / step))
+        return max(dense, 2.0 ** (round(2.0 * math.log2(apart)) / 2.0))
+
     @cached_property
     def occupied(self) -> np.ndarray:
         """Whether each cell has a point; boolean, shape (rows, columns)."""
@@ -292,10 +306,8 @@ def spacing(points: Points, dense: float = 1.0, step: float = _SPACING_STEP) -> 
     area = math.prod(points.sides)
     if _SURELY * area <= dense**2 * points.count:
         return dense
-    apart = _BLOCK / math.sqrt(usual_count(Cells.over(points, _BLOCK).counts()))
-    if apart >= 1.0:
-        return max(dense, step * round(apart / step))
-    return max(dense, 2.0 ** (round(2.0 * math.log2(apart)) / 2.0))
+    blocks = Cells.over(points, _BLOCK)
+    return blocks.spacing(blocks.counts(), dense, step)
 
 
 def usual_count(counts: np.ndarray) -> float:

@@ -16,7 +16,6 @@ from ...core.points import Points
 from ...core.progress import SILENT
 from ...core.threads import in_threads, over_parts
 from ...grids.cells import Cells
-from ...grids.cells import spacing as usual_spacing
 from .bank_sections import Strip, on_banks
 
 # Side in metres of a tile. A square is of two by two tiles, and squares overlap by one tile.
@@ -41,9 +40,7 @@ _POINTS_AT_ONCE = 1 << 18
 _POINTS_A_PART = 1 << 16
 
 
-def banks(
-    points: Points, ground: np.ndarray, cells: Cells, limits: np.ndarray, spacing: float
-) -> np.ndarray:
+def banks(points: Points, ground: np.ndarray, cells: Cells, limits: np.ndarray) -> np.ndarray:
     """Return which other points lie on low banks.
 
     Parameters
@@ -56,8 +53,6 @@ def banks(
         A grid over the points.
     limits : numpy.ndarray of float64, shape (rows, columns, 2)
         Heights in metres between which the ground of each cell lies.
-    spacing : float
-        Usual distance between points in metres.
 
     Returns
     -------
@@ -67,10 +62,14 @@ def banks(
     if cells.size > _TILE:
         return found  # a square has too few points
     stands_out = _stands_out(points, ground, cells, limits)
+    raised, level = (
+        np.bincount(cells.index[which], minlength=cells.rows * cells.columns).reshape(cells.shape)
+        for which in (stands_out, ground)
+    )
     # Under trees, points near the ground are farther apart than others.
-    spacing = usual_spacing(points.take(np.flatnonzero(ground | stands_out)), _CLOSEST)
+    spacing = cells.spacing(raised + level, _CLOSEST)
     least = max(_LEAST_POINTS, _LEAST_AREA / spacing**2)
-    many = stands_out & _among_others(ground, stands_out, cells)
+    many = stands_out & _among_others(raised, level, cells)
     squares = _Squares.where(points.take(np.flatnonzero(many)), least)
     if not len(squares.row):
         return found
@@ -100,18 +99,13 @@ def _stands_out(points: Points, ground: np.ndarray, cells: Cells, limits: np.nda
     return stands_out
 
 
-def _among_others(ground: np.ndarray, stands_out: np.ndarray, cells: Cells) -> np.ndarray:
-    """Return which points are where not only a few stand out, as under trees."""
+def _among_others(raised: np.ndarray, level: np.ndarray, cells: Cells) -> np.ndarray:
+    """Return which points are where more than a few stand out, unlike under trees."""
     from scipy import ndimage
 
-    raised, level = (
-        np.bincount(cells.index[which], minlength=cells.rows * cells.columns)
-        for which in (stands_out, ground)
-    )
     width = 2 * round(_AROUND / cells.size) + 1
     raised, level = (
-        ndimage.uniform_filter(each.reshape(cells.shape).astype(np.float32), width)
-        for each in (raised, level)
+        ndimage.uniform_filter(each.astype(np.float32), width) for each in (raised, level)
     )
     return (raised >= _SHARE * (raised + level)).ravel()[cells.index]
 

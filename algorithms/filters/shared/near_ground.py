@@ -98,6 +98,6 @@ def with_banks(
     limits = ground_limits(points, vertices, cells, spacing, tolerance)
     progress(0.2)
     ground = near_surface(points, cells, limits, progress.part(0.2, 0.8))
-    ground |= banks(points, ground, cells, limits, spacing)
+    ground |= banks(points, ground, cells, limits)
     progress(1.0)
     return ground
