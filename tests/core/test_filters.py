@@ -59,8 +59,8 @@ def test_progress_never_goes_back(parameters, las):
     ("kind", "seed", "density"),
     [
         ("hall_stepped", 4, 0.25),
-        ("hall_slope_10", 4, 1.0),
-        ("hall_slope_10", 502, 1.0),
+        pytest.param("hall_slope_10", 4, 1.0, marks=pytest.mark.long),
+        pytest.param("hall_slope_10", 502, 1.0, marks=pytest.mark.long),
         ("hall_slope_10", 811, 1.0),
     ],
 )
@@ -88,9 +88,9 @@ def test_a_complex_of_halls_goes_that_is_low_on_its_uphill_side(method, seed):
 @pytest.mark.parametrize(
     ("method", "seed", "density"),
     [
-        ("tin-densification", 907, 1.0),
+        pytest.param("tin-densification", 907, 1.0, marks=pytest.mark.long),
         ("slope", 907, 1.0),
-        ("slope", 903, 2.0),
+        pytest.param("slope", 903, 2.0, marks=pytest.mark.long),
         ("grid-minimum", 905, 1.0),
     ],
 )
@@ -107,8 +107,8 @@ def test_a_courtyard_stays_where_points_are_sparse(method, seed, density):
     [
         ("greenhouses", "tin-densification", 901),
         ("greenhouses", "slope", 903),
-        ("complex_on_slope", "tin-densification", 906),
-        ("complex_on_slope", "grid-minimum", 901),
+        pytest.param("complex_on_slope", "tin-densification", 906, marks=pytest.mark.long),
+        pytest.param("complex_on_slope", "grid-minimum", 901, marks=pytest.mark.long),
     ],
 )
 def test_points_on_walls_between_roofs_do_not_raise_the_terrain(kind, method, seed):

@@ -289,6 +289,7 @@ def test_figures_come_back_from_json(tmp_path):
     assert list(map(tuple, again.profiles["slope"].heaviest)) == found.profiles["slope"].heaviest
 
 
+@pytest.mark.long
 def test_peers_that_are_there_write_every_point(survey, tmp_path):
     peers = [each for each in contestants.contestants() if each.is_peer and not each.missing]
     if not peers:
