@@ -6,12 +6,18 @@ import pytest
 from bare_earth.algorithms.filters.shared.allowance import Allowance
 from bare_earth.algorithms.filters.shared.gentle_regions import gentle_regions
 from bare_earth.algorithms.filters.shared.ground_cells import ground_cells
+from bare_earth.algorithms.filters.shared.objects import Objects
 from bare_earth.algorithms.filters.shared.roofs import flat_roofs
+
+
+def objects_of(raised):
+    none = np.zeros(raised.shape, dtype=bool)
+    return Objects(raised, none, none)
 
 
 def _ground(heights, objects=None, window=20.0, **allowance):
     objects = np.zeros(heights.shape, dtype=bool) if objects is None else objects
-    return ground_cells(heights, 1.0, objects, window, Allowance(**allowance))
+    return ground_cells(heights, 1.0, objects_of(objects), window, Allowance(**allowance))
 
 
 def test_a_slope_is_ground_and_a_house_on_it_is_not():
@@ -75,7 +81,7 @@ def test_what_is_left_within_a_roof_goes_with_it_up_to_200_square_metres(size, s
         heights[15:-15, 15:-15] = 9.0 - 0.1 * size * ridge
         rest = np.zeros(heights.shape, dtype=bool)
         rest[23:-23, 23:-23] = True
-        ground = ground_cells(heights, size, (heights > 0) & ~rest, 3.0 * size)
+        ground = ground_cells(heights, size, objects_of((heights > 0) & ~rest), 3.0 * size)
         # A window may cut off the ridge.
         assert ground[rest].mean() > 0.9 if more else not ground[rest].any()
 
@@ -167,7 +173,7 @@ def test_a_dam_is_ground_where_cells_are_wide_and_some_of_its_sides_empty():
     dam = np.clip(11.0 - 1.7 * np.abs(columns), 0.0, 6.0)
     dam[np.abs(columns) == 4 + rows % 3] = np.nan
     none = np.zeros(dam.shape, dtype=bool)
-    ground = ground_cells(dam, 2.4, none, 60.0)
+    ground = ground_cells(dam, 2.4, objects_of(none), 60.0)
     assert ground[np.isfinite(dam)].all()
 
 
@@ -191,7 +197,7 @@ def test_a_plateau_goes_as_a_whole_where_a_window_cuts_off_part_of_it():
     heights[roof] = 0.08 * 120 + 1.5
     none = np.zeros(heights.shape, dtype=bool)
     with_plateau, without = (
-        ground_cells(heights, 1.0, none, 75.0, plateaus=each) for each in (roof, None)
+        ground_cells(heights, 1.0, Objects(none, each, none), 75.0) for each in (roof, none)
     )
     assert without[roof].any()
     assert not with_plateau[roof].any()
@@ -232,3 +238,18 @@ def test_low_bumps_are_ground_on_a_slope_and_not_in_the_plain():
 
 def test_a_grid_of_one_row_is_classified():
     assert _ground(np.zeros((1, 30))).all()
+
+
+def test_a_mountain_stays_and_a_tree_on_it_goes():
+    heights = np.full((100, 100), 20.0)
+    mountain = np.zeros(heights.shape, dtype=bool)
+    mountain[40:60, 40:60] = True
+    heights[mountain] = 40.0
+    heights[48:52, 48:52] += 12.0
+    none = np.zeros(heights.shape, dtype=bool)
+    found, without = (
+        ground_cells(heights, 1.0, Objects(none, none, each), 30.0) for each in (mountain, none)
+    )
+    assert not without[mountain].any()
+    assert not found[48:52, 48:52].any()
+    assert found.sum() == heights.size - 16

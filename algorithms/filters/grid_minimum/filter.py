@@ -291,16 +291,13 @@ class _Grids(NamedTuple):
     ----------
     heights, ground : numpy.ndarray of float64
         Lowest heights without noise, and those of the ground; NaN where there is none.
-    tall : numpy.ndarray of bool
+    objects : Objects
         What the passes of the height thresholds find.
-    plateaus : numpy.ndarray of bool
-        What is as well bounded, but low for its width.
     """
 
     heights: np.ndarray
     ground: np.ndarray
-    tall: np.ndarray
-    plateaus: np.ndarray
+    objects: Objects
 
 
 def _by_rims(cells: Cells, z: np.ndarray, parameters: GridMinimum, progress: Progress) -> _Grids:
@@ -315,10 +312,10 @@ def _by_rims(cells: Cells, z: np.ndarray, parameters: GridMinimum, progress: Pro
         heights[low_outliers(heights, cells.size, slope, cells.first)] = np.nan
     tell_of_outliers(count, heights, progress)
     progress(0.2)
-    tall, plateaus = _tall_objects(heights, blocks, parameters, progress.part(0.2, 0.6))
-    ground = np.where(tall, np.nan, heights)
+    objects = _tall_objects(heights, blocks, parameters, progress.part(0.2, 0.6))
+    ground = np.where(objects.raised, np.nan, heights)
     ground = _without_low_objects(ground, heights, cells, parameters, progress.part(0.6, 1.0))
-    return _Grids(heights, ground, tall, plateaus)
+    return _Grids(heights, ground, objects)
 
 
 def _candidates(
@@ -333,12 +330,11 @@ def _candidates(
     ground = ground_cells(
         heights,
         cells.size,
-        grids.tall,
+        grids.objects,
         widest / 2.0,
         progress=progress,
         first=cells.first,
         suspects=np.isnan(grids.ground),
-        plateaus=grids.plateaus,
     )
     known = np.isfinite(heights)
     if cells.size <= _FINE_CELL:
@@ -429,7 +425,7 @@ def _tall_objects(
     """
     lowest = blocks.lowest(heights)
     thresholds, size, first = parameters.height_thresholds, blocks.size, blocks.first_block
-    objects, plateaus = raised_objects(
+    objects = raised_objects(
         lowest,
         size,
         thresholds,
@@ -439,12 +435,12 @@ def _tall_objects(
         parameters.preset == CLASSIC,
         PLATEAU_HEIGHT,
     )
-    surface = inpaint(np.where(objects, np.nan, lowest), _RELAXATIONS, first)
+    surface = inpaint(np.where(objects.raised, np.nan, lowest), _RELAXATIONS, first)
     rise = size * np.minimum(steepness(surface, size), _STEEPEST)
     highest = surface + min(thresholds) + rise
     above = heights > blocks.interpolated(highest, heights.shape)
-    objects, plateaus = (blocks.repeated(each, heights.shape) for each in (objects, plateaus))
-    return Objects(above | objects, plateaus)
+    objects = Objects(*(blocks.repeated(each, heights.shape) for each in objects))
+    return objects._replace(raised=above | objects.raised)
 
 
 def _without_low_objects(

@@ -28,6 +28,9 @@ _OPEN_SHARE = 0.45
 # What is as small (m2) and stands as high (m) as a house must have such a share of its border
 # gentle: on a slope one side of a roof may be level with the ground.
 _HOUSE_AREA, _HOUSE_HEIGHT, _HOUSE_SHARE = 400.0, 2.5, 0.5
+# What is as large (m2), with such a share on a mountain, is part of it: its faces are beside it,
+# and trees are smaller.
+_MOUNTAIN_AREA, _MOUNTAIN_SHARE = 100.0, 0.3
 
 
 def gentle_regions(
@@ -40,12 +43,13 @@ def gentle_regions(
     size: float,
     allowance: Allowance,
     first: First = (0, 0),
+    mountains: np.ndarray | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Find the raised cells whose region passes into the ground without an edge.
 
     A region is what hangs together without a step. Its border is gentle where it touches the
-    ground without a step, and sharp where it drops to anything. Rocks and ramps are ground
-    whatever their border.
+    ground without a step, and sharp where it drops to anything. Rocks, ramps and mountains are
+    ground whatever their border.
 
     Parameters
     ----------
@@ -67,6 +71,8 @@ def gentle_regions(
         What is an edge, and how much of the border must be gentle.
     first : tuple of int
         Row and column of the first cell in the grid of the CRS.
+    mountains : numpy.ndarray of bool, shape (rows, columns), optional
+        Cells of what has faces of cliffs all round.
 
     Returns
     -------
@@ -112,7 +118,11 @@ def gentle_regions(
     feet = np.searchsorted(cells, feet[seen[feet]])
     special = landforms(up_cells, feet, size, allowance)
     above = np.bincount(number, above, count) * size**2 / area
-    joined = _joined(borders, area, above, open_, special, allowance)
+    terrain = special
+    if mountains is not None:
+        on_mountains = np.bincount(number, mountains.ravel()[cells], count) * size**2
+        terrain = special | ((area >= _MOUNTAIN_AREA) & (on_mountains >= _MOUNTAIN_SHARE * area))
+    joined = _joined(borders, area, above, open_, terrain, allowance)
     result = np.zeros((2, up.size), dtype=bool)
     for which, grid in zip((joined, special), result):
         grid[cells] = which[number]
@@ -169,7 +179,7 @@ def _joined(
     area: np.ndarray,
     above: np.ndarray,
     open_: np.ndarray,
-    landforms: np.ndarray,
+    terrain: np.ndarray,
     allowance: Allowance,
 ) -> np.ndarray:
     """Return which regions pass into the ground, or into others that do.
@@ -184,7 +194,7 @@ def _joined(
         Mean height above the ground in metres.
     open_ : numpy.ndarray of float, shape (regions,)
         Sides of cells at the border of the survey.
-    landforms : numpy.ndarray of bool, shape (regions,)
+    terrain : numpy.ndarray of bool, shape (regions,)
         Which are ground whatever their border.
     allowance : Allowance
         Which share of the border must be gentle.
@@ -205,7 +215,7 @@ def _joined(
         np.log((_HOUSE_AREA, allowance.wide_area)),
         (allowance.gentle_share, allowance.wide_share),
     )
-    joined = landforms.copy()
+    joined = terrain.copy()
     for _ in range(_JOINING_PASSES):
         ground = np.append(joined, True)  # the last one is what is not raised
         level, rising = np.zeros((2, count))

@@ -25,7 +25,7 @@ from .allowance import Allowance
 from .between_ditches import between_ditches
 from .enclosed import courtyards, islands, pits_in_roofs
 from .gentle_regions import gentle_regions, slope_at, smoothed
-from .objects import covered
+from .objects import Objects, covered
 from .roofs import flat_roofs
 
 # A first, strict opening (rise over run) gives the surface from which the terrain's slope is taken.
@@ -45,13 +45,12 @@ _PIT_HEIGHT = 0.5
 def ground_cells(
     heights: np.ndarray,
     size: float,
-    objects: np.ndarray,
+    objects: Objects,
     largest_window: float,
     allowance: Allowance = Allowance(),
     progress: Progress = SILENT,
     first: First = (0, 0),
     suspects: np.ndarray | None = None,
-    plateaus: np.ndarray | None = None,
 ) -> np.ndarray:
     """Return which cells of a minimum grid are ground.
 
@@ -61,8 +60,9 @@ def ground_cells(
         Lowest height of each cell in metres, without low outliers; NaN where there is none.
     size : float
         Side of a cell in metres.
-    objects : numpy.ndarray of bool, shape (rows, columns)
-        Cells that are known to be objects.
+    objects : Objects
+        What stands out all round. A plateau is an object if a window cuts off part of it, and a
+        mountain is ground whatever a window cuts off.
     largest_window : float
         Radius in metres of the largest window.
     allowance : Allowance
@@ -74,8 +74,6 @@ def ground_cells(
     suspects : numpy.ndarray of bool, shape (rows, columns), optional
         Cells that stand out by another rule: like those that an opening cut off, they are ground
         if they pass gently into it.
-    plateaus : numpy.ndarray of bool, shape (rows, columns), optional
-        Cells of what drops all round, but little: objects if a window cuts off part of them.
 
     Returns
     -------
@@ -101,19 +99,18 @@ def ground_cells(
         each[lead[0][0] :, lead[1][0] :].copy()
         for each in _standing_out(padded, size, largest_window, allowance, part)
     )
-    which, raised = np.flatnonzero(limit > 0.0), strict | objects
-    numbers = None if plateaus is None else ndimage.label(plateaus)[0]
+    which, raised = np.flatnonzero(limit > 0.0), strict | objects.raised
+    numbers = ndimage.label(objects.plateaus)[0]
     for part in progress.part(0.5, 0.8).shares(*[1.0] * allowance.slopes_taken):
         # The rim of a roof that is left makes a slope of its own, until what is round it is gone.
         surface = inpaint(np.where(known & ~raised, heights, np.nan), first=first)
         smooth = smoothed(surface, size, _SLOPE_SMOOTHING)
         slope = np.hypot(*(slope_at(smooth, axis, which, size) for axis in (0, 1)))
-        raised = objects.copy()
+        raised = objects.raised.copy()
         raised.ravel()[which] |= np.minimum(slope, _LARGEST_SLOPE) < limit.ravel()[which]
         if suspects is not None:
             raised |= suspects & known
-        if numbers is not None:
-            raised |= _of_cut_plateaus(numbers, raised)
+        raised |= _of_cut_plateaus(numbers, raised)
         part(1.0)
     if allowance.island_area:
         raised |= known & islands(filled, raised, surveyed, size, allowance.for_cells(size))
@@ -122,9 +119,9 @@ def ground_cells(
     progress(0.85)
     trend = Trend(filled, size, first) if allowance.follows_slopes else None
     gentle, landforms = gentle_regions(
-        filled, known, surveyed, raised, surface, trend, size, allowance, first
+        filled, known, surveyed, raised, surface, trend, size, allowance, first, objects.mountains
     )
-    raised &= ~landforms & (objects | ~gentle)
+    raised &= ~landforms & (objects.raised | ~gentle)
     if allowance.island_area:
         raised &= ~courtyards(filled, raised, surface, size)
         raised &= ~between_ditches(filled, raised, surface, size)

@@ -94,5 +94,10 @@ class LowestPoints:
                 plateau_height=PLATEAU_HEIGHT,
             )
             plateaus = blocks.repeated(on_blocks.raised | on_blocks.plateaus, heights.shape)
-            found = Objects(found.raised, (found.plateaus | plateaus) & ~found.raised)
+            mountains = blocks.repeated(on_blocks.mountains, heights.shape)
+            found = Objects(
+                found.raised,
+                (found.plateaus | plateaus) & ~found.raised,
+                (found.mountains | mountains) & ~found.raised,
+            )
         return Objects(*(cells.resampled(each, self.cells) for each in found))

@@ -31,10 +31,13 @@ class Objects(NamedTuple):
         Cells of objects.
     plateaus : numpy.ndarray of bool
         Cells of what is too low for its width to be one for that alone: a roof, or a mound.
+    mountains : numpy.ndarray of bool
+        Cells of what has faces of cliffs all round: a table mountain, or a stack in the sea.
     """
 
     raised: np.ndarray
     plateaus: np.ndarray
+    mountains: np.ndarray
 
 
 def raised_objects(
@@ -75,19 +78,20 @@ def raised_objects(
     """
     inside = covered(np.isfinite(heights))
     rest = heights.copy()
-    objects, plateaus = np.zeros((2, *heights.shape), dtype=bool)
+    objects, plateaus, mountains = np.zeros((3, *heights.shape), dtype=bool)
     for done, threshold in enumerate(thresholds):
         regions = HeightSteps(rest, size, inside, first).regions(threshold)
         found = regions.raised(max_size, classic)
         if not classic:
             plateaus |= regions.plateaus(max_size)
+            mountains |= regions.mountains(max_size)
         rest[found] = np.nan
         objects |= found
         progress((done + 1) / len(thresholds))
     if plateau_height is not None and not classic:
         regions = HeightSteps(rest, size, inside, first).regions(plateau_height)
         plateaus |= regions.plateaus(max_size)
-    return Objects(objects, plateaus & ~objects)
+    return Objects(objects, plateaus & ~objects, mountains & ~objects)
 
 
 def covered(known: np.ndarray) -> np.ndarray:

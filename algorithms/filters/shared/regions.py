@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -17,6 +18,8 @@ _LEAST_STEEPNESS = 0.15
 # Regions as wide (m) are terrain if they have such a share of their drops on the face of a cliff.
 # Few plants hide the walls of a large building.
 _FACE_WIDTHS, _FACE_SHARES = (10.0, 25.0), (0.4, 0.25)
+# With such a share they are table mountains or stacks, if it can be told of so many drops.
+_MOUNTAIN_SHARE, _TOLD_SHARE = 0.4, 0.5
 # Rounds in which regions are looked at again that others hid.
 _ROUNDS = 3
 
@@ -52,14 +55,15 @@ class Border(NamedTuple):
         # Each cell of a straight border has three neighbours beyond it.
         return self._total(all_, all_) / 3.0
 
-    def share_of_faces(self) -> np.ndarray:
+    def faces(self) -> tuple[np.ndarray, np.ndarray]:
         """Return the share of each region's drops that are part of the face of a cliff.
 
-        Of those of which it can be told.
+        Of those of which it can be told; and the share of these.
         """
-        drops = [(self.sign == sign) & (self.on_face >= 0) for sign in (-1, 1)]
+        drops = [self.sign == sign for sign in (-1, 1)]
+        told = self._total(*(each & (self.on_face >= 0) for each in drops))
         on_face = self._total(*(each & (self.on_face == 1) for each in drops))
-        return on_face / np.maximum(self._total(*drops), 1)
+        return on_face / np.maximum(told, 1), told / np.maximum(self._total(*drops), 1)
 
     def drops(
         self, removed: np.ndarray, sign: int
@@ -130,10 +134,21 @@ class Regions:
         """Return the cells of the same regions and of those that are too low for their width."""
         return self._bounded(max_size, 1, _OBJECT_SHARE, _WHOLE_SHARE, 0.0, self._is_no_cliff())
 
+    @cached_property
+    def _faces(self) -> tuple[np.ndarray, np.ndarray]:
+        return self._border.faces()
+
     def _is_no_cliff(self) -> np.ndarray:
         """Return which regions are narrow, or have no faces round them."""
         most = np.interp(self.width, _FACE_WIDTHS, _FACE_SHARES)
-        return (self.width < _FACE_WIDTHS[0]) | (self._border.share_of_faces() < most)
+        return (self.width < _FACE_WIDTHS[0]) | (self._faces[0] < most)
+
+    def mountains(self, max_size: float) -> np.ndarray:
+        """Return the cells of the regions that drop all round, and on faces of cliffs."""
+        on_face, told = self._faces
+        fits = (self.width >= _FACE_WIDTHS[0]) & (told >= _TOLD_SHARE)
+        fits &= on_face >= _MOUNTAIN_SHARE
+        return self._bounded(max_size, 1, _OBJECT_SHARE, _WHOLE_SHARE, 0.0, fits)
 
     def sunken(self, max_size: float) -> np.ndarray:
         """Return the cells of the regions whose border is a rise nearly all round: of pits."""

@@ -320,7 +320,7 @@ def _on_many_scales(points: Points, parameters: SlopeFilter, progress: Progress)
     tell_of_outliers(len(survey.lowest), heights, progress)
     steep = _objects(heights, cells, parameters, progress.part(0.25, 0.4))
     widest = parameters.max_building_size
-    tall, plateaus = survey.objects(widest, progress.part(0.4, 0.5))
+    tall = survey.objects(widest, progress.part(0.4, 0.5))
     ground = ground_cells(
         heights,
         cells.size,
@@ -329,14 +329,13 @@ def _on_many_scales(points: Points, parameters: SlopeFilter, progress: Progress)
         progress=progress.part(0.5, 0.75),
         first=cells.first,
         suspects=steep,
-        plateaus=plateaus,
     )
     if not ground.any():
         raise BareEarthError(
             "No point can be taken for ground with certainty. Check the thresholds and the"
             " selection of points."
         )
-    free = np.isfinite(heights) & ~tall
+    free = np.isfinite(heights) & ~tall.raised
     candidates = Candidates.of_cells(survey.lowest, survey.cell, ground, free)
     tolerance = Tolerance(parameters.ground_tolerance, parameters.slope_tolerance)
     return near_ground(points, cells, candidates, tolerance, progress.part(0.75, 1.0))

@@ -90,17 +90,10 @@ def _judged(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return which lowest points are ground, and which are neither objects nor low outliers."""
     cells, heights = survey.cells, survey.heights
-    objects, plateaus = survey.objects(max_size, progress.part(0.0, 0.4))
+    objects = survey.objects(max_size, progress.part(0.0, 0.4))
     part = progress.part(0.4, 1.0)
     ground = ground_cells(
-        heights,
-        cells.size,
-        objects,
-        max_size / 2.0,
-        allowance,
-        part,
-        cells.first,
-        plateaus=plateaus,
+        heights, cells.size, objects, max_size / 2.0, allowance, part, cells.first
     )
-    is_open = np.isfinite(heights) & ~objects
+    is_open = np.isfinite(heights) & ~objects.raised
     return ground.ravel()[survey.cell], is_open.ravel()[survey.cell]
