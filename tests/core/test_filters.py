@@ -210,6 +210,28 @@ def test_a_stack_in_the_sea_stays(method):
 
 
 @pytest.mark.parametrize("method", METHODS)
+def test_houses_with_steep_roofs_go(method):
+    # Where the walls are low, such a roof is as steep beside them as the face of a cliff is.
+    x, y = scatter(density=4.0)
+    height, roofs = np.zeros(len(x)), np.zeros(len(x), dtype=bool)
+    for east, north, turn in (
+        (25.0, 25.0, 0.3),
+        (25.0, 75.0, 0.8),
+        (75.0, 25.0, 1.2),
+        (75.0, 75.0, 0.0),
+    ):
+        along = (x - east) * np.cos(turn) + (y - north) * np.sin(turn)
+        across = (y - north) * np.cos(turn) - (x - east) * np.sin(turn)
+        house = (np.abs(along) < 9.0) & (np.abs(across) < 6.5)
+        height[house] = 2.5 + (6.5 - np.abs(across[house])) * np.tan(np.radians(50.0))
+        roofs |= house
+    points = Points(x, y, surveyed(x, y, height))
+    found = METHODS[method].classify(points, METHODS[method].parameters())
+    assert found[roofs].mean() < 0.01
+    assert found[~roofs].mean() > 0.99
+
+
+@pytest.mark.parametrize("method", METHODS)
 def test_low_plants_go_from_an_even_slope_and_from_a_dune(method):
     x, y = scatter(density=8.0)
     plants = np.arange(len(x)) % 12 == 0

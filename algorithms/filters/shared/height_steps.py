@@ -259,10 +259,10 @@ class HeightSteps:
                 joined[which] = regions[neighbour[which]]
         regions[cells] = joined
 
-    def _on_face(self, cells: np.ndarray, offset: int) -> np.ndarray:
-        """Return which steps from cells to neighbours are part of a face with points on it.
+    def _face_slopes(self, cells: np.ndarray, offset: int) -> np.ndarray:
+        """Return how steep a face is that steps from cells to neighbours are part of.
 
-        As `Border.on_face`: -1 beside cells without a point.
+        As `Border.face`: NaN beside cells without a point.
         """
         last = self._heights.size - 1
         across = [np.clip(cells + k * offset, 0, last) for k in range(-2, 4)]
@@ -270,18 +270,20 @@ class HeightSteps:
         z = np.stack([np.where(self._known[at], self._heights[at], np.nan) for at in across])
         rises = np.diff(z, axis=0)
         one_way = (rises.min(axis=0) > -_STEP_BACK) | (rises.max(axis=0) < _STEP_BACK)
-        on_face = one_way & (np.abs(rises).max(axis=0) <= _LARGEST_STEP * np.abs(z[-1] - z[0]))
-        return np.where(np.isfinite(z).all(axis=0), on_face, -1)
+        second, largest = np.sort(np.abs(rises), axis=0)[-2:]
+        is_face = one_way & (largest <= _LARGEST_STEP * np.abs(z[-1] - z[0]))
+        slope = np.where(is_face, second / (self._step * self._size), 0.0)
+        return np.where(np.isfinite(z).all(axis=0), slope, np.nan)
 
     def _border(self, regions: np.ndarray, count: int, steps: list[_Steps]) -> Border:
         parts = []
         for each in steps:
             cells = np.flatnonzero(regions[: -each.offset] != regions[each.offset :])
             rise, sign = self._rise(cells, each), each.sign[cells]
-            on_face = np.zeros(len(cells), dtype=np.int8)
+            face = np.zeros(len(cells), dtype=np.float32)
             stepped = np.flatnonzero(sign)
-            on_face[stepped] = self._on_face(cells[stepped], each.offset)
-            parts.append((regions[cells], regions[cells + each.offset], sign, rise, on_face))
+            face[stepped] = self._face_slopes(cells[stepped], each.offset)
+            parts.append((regions[cells], regions[cells + each.offset], sign, rise, face))
         return Border(count, *(np.concatenate(each) for each in zip(*parts)))
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +19,8 @@ _LEAST_STEEPNESS = 0.15
 _FACE_WIDTHS, _FACE_SHARES = (10.0, 25.0), (0.4, 0.25)
 # With such a share they are table mountains or stacks, if it can be told of so many drops.
 _MOUNTAIN_SHARE, _TOLD_SHARE = 0.4, 0.5
+# Their faces are steeper (rise over run) than steep roofs are, by their width in metres.
+_MOUNTAIN_WIDTHS, _MOUNTAIN_SLOPES = (20.0, 40.0), (2.0, 1.2)
 # Rounds in which regions are looked at again that others hid.
 _ROUNDS = 3
 
@@ -37,8 +38,9 @@ class Border(NamedTuple):
         1 where the second is higher by more than is allowed, -1 where it is lower, else 0.
     rise : numpy.ndarray of float32, shape (pairs,)
         Height of the second above the first in metres, beyond the trend.
-    on_face : numpy.ndarray of int8, shape (pairs,)
-        1 where the step between them is part of the face of a cliff, 0 where it is not, -1 where
+    face : numpy.ndarray of float32, shape (pairs,)
+        Slope (rise over run) of the face that the step between them is part of: that of the second
+        of its steps, for the first may be a wall below a roof. 0 where there is no face, NaN where
         that cannot be told.
     """
 
@@ -47,7 +49,7 @@ class Border(NamedTuple):
     second: np.ndarray
     sign: np.ndarray
     rise: np.ndarray
-    on_face: np.ndarray
+    face: np.ndarray
 
     def length(self) -> np.ndarray:
         """Return the length of each region's border in cells, if neighbours are one apart."""
@@ -55,15 +57,20 @@ class Border(NamedTuple):
         # Each cell of a straight border has three neighbours beyond it.
         return self._total(all_, all_) / 3.0
 
-    def faces(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return the share of each region's drops that are part of the face of a cliff.
+    def faces(self, slope: np.ndarray | float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+        """Return the share of each region's drops that are part of a face, steeper than a slope.
 
-        Of those of which it can be told; and the share of these.
+        Of those of which it can be told; and the share of these. The slope may be one for each
+        region.
         """
-        drops = [self.sign == sign for sign in (-1, 1)]
-        told = self._total(*(each & (self.on_face >= 0) for each in drops))
-        on_face = self._total(*(each & (self.on_face == 1) for each in drops))
-        return on_face / np.maximum(told, 1), told / np.maximum(self._total(*drops), 1)
+        slopes = np.broadcast_to(slope, self.regions)
+        first, second = (self.sign == sign for sign in (-1, 1))
+        told = ~np.isnan(self.face)
+        known = self._total(first & told, second & told)
+        on_face = self._total(
+            first & (self.face > slopes[self.first]), second & (self.face > slopes[self.second])
+        )
+        return on_face / np.maximum(known, 1), known / np.maximum(self._total(first, second), 1)
 
     def drops(
         self, removed: np.ndarray, sign: int
@@ -134,18 +141,15 @@ class Regions:
         """Return the cells of the same regions and of those that are too low for their width."""
         return self._bounded(max_size, 1, _OBJECT_SHARE, _WHOLE_SHARE, 0.0, self._is_no_cliff())
 
-    @cached_property
-    def _faces(self) -> tuple[np.ndarray, np.ndarray]:
-        return self._border.faces()
-
     def _is_no_cliff(self) -> np.ndarray:
         """Return which regions are narrow, or have no faces round them."""
         most = np.interp(self.width, _FACE_WIDTHS, _FACE_SHARES)
-        return (self.width < _FACE_WIDTHS[0]) | (self._faces[0] < most)
+        return (self.width < _FACE_WIDTHS[0]) | (self._border.faces()[0] < most)
 
     def mountains(self, max_size: float) -> np.ndarray:
         """Return the cells of the regions that drop all round, and on faces of cliffs."""
-        on_face, told = self._faces
+        slope = np.interp(self.width, _MOUNTAIN_WIDTHS, _MOUNTAIN_SLOPES)
+        on_face, told = self._border.faces(slope)
         fits = (self.width >= _FACE_WIDTHS[0]) & (told >= _TOLD_SHARE)
         fits &= on_face >= _MOUNTAIN_SHARE
         return self._bounded(max_size, 1, _OBJECT_SHARE, _WHOLE_SHARE, 0.0, fits)
