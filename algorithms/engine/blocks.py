@@ -22,10 +22,10 @@ from .memory import Cost
 
 _SIDE, _STEP, _REACHES = 2000.0, 100.0, 4.0
 # Metres from the multiples of the side to the borders of the blocks. The tiles of a survey mostly
-# end at whole kilometres, give or take some centimetres: a border there would cut off a strip
-# as narrow, which costs as much as its buffer. No coordinate lies on such a border, so that
-# rounding never decides.
-_START = -1.00005
+# begin at whole kilometres and end before the next: a border that leaves a narrow strip of them
+# costs as much as the buffer of that strip. No coordinate lies on such a border, so that rounding
+# never decides.
+_START = -0.00005
 _MOST_POINTS = 10_000_000
 # What the filters take.
 _COST = Cost()

@@ -16,13 +16,11 @@ from ..core.files import describe_write_error
 from ..core.points import Box, Frame
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud, survey_frame
-from .blocks import BlockPoints, Corner, Leaves, gathered
+from .blocks import BlockPoints, Blocks, Corner, Leaves, gathered
 from .leaf_index import LeafIndex, Sorted, smallest_integers
 
 _RECORD = np.dtype([("x", "<i4"), ("y", "<i4"), ("z", "<i4"), ("flags", "u1")])
 _KNOWN, _WANTED = 1, 2
-# Metres by which a leaf is taken to be larger than it is: its corners are rounded.
-_MARGIN = 1e-3
 # Points between two that are labelled, up to which one access to the file is cheaper than two.
 _GAP = 1 << 16
 # Points that are read at a time.
@@ -40,8 +38,8 @@ class DiskPoints:
     ----------
     target : Path
         The output, in whose folder the files are.
-    leaf_side : float
-        Metres; the points are sorted by squares of this side, part by part.
+    blocks : Blocks
+        The points are sorted by their leaves, part by part.
     kind : type
         Of what is kept of each point.
 
@@ -55,16 +53,16 @@ class DiskPoints:
         As `Store` says; `leaves` after `finish` only.
     """
 
-    def __init__(self, target: Path, leaf_side: float, kind: type = np.uint8) -> None:
+    def __init__(self, target: Path, blocks: Blocks, kind: type = np.uint8) -> None:
         self._kind = np.dtype(kind)
         self.count, self.has_known, self.leaves = 0, False, None
-        self._target, self._side = Path(target), leaf_side
+        self._target = Path(target)
+        self._side, self._start = blocks.leaf_side, blocks.start
         self._lock, self._files = threading.Lock(), contextlib.ExitStack()
         with self._told():
             self._records, self._labels = self._file(), self._file()
         self.cloud: PointCloud | None = None
         self._frame = Frame()
-        self._first = np.zeros(2, dtype=np.int64)
         # Of each part, where its points begin here, and which it has, as bits.
         self._parts: list[tuple[int, np.ndarray]] = []
         self._runs = LeafIndex()
@@ -99,13 +97,11 @@ class DiskPoints:
             Which take part, which are surely ground, and which are to be labelled.
         """
         if self.cloud is None:
-            self._first = np.array([part.x[0], part.y[0]], dtype=np.int64)
             names = ("x", "y", "z", "classification", "return_number", "number_of_returns")
             nothing = {name: getattr(part, name)[:0] for name in (*names, "withheld")}
             self.cloud = dataclasses.replace(part, **nothing)
             self._frame = survey_frame(part.crs)
-        found = self._sorted(part, selected)
-        which = np.flatnonzero(selected)[found.order]
+        which, found = self._sorted(part, selected)
         records = np.empty(len(which), dtype=_RECORD)
         for name in ("x", "y", "z"):
             records[name] = getattr(part, name)[which]
@@ -117,25 +113,18 @@ class DiskPoints:
         self._parts.append((self.count, np.packbits(selected)))
         self.count += len(which)
 
-    def _sorted(self, part: PointCloud, selected: np.ndarray) -> Sorted:
-        """Return the selected points sorted by leaves."""
-        x, y = (
-            np.floor((values[selected] - first) * (scale * part.crs.horizontal_unit / self._side))
-            for values, first, scale in zip((part.x, part.y), self._first, part.scale)
-        )
-        return Sorted.of(y, x)
+    def _sorted(self, part: PointCloud, selected: np.ndarray) -> tuple[np.ndarray, Sorted]:
+        """Return which points are selected, sorted by leaves, and how they were sorted."""
+        which = np.flatnonzero(selected)
+        places = part.places(which, self._frame)
+        found = Sorted.of(*(np.floor((each - self._start) / self._side) for each in places[::-1]))
+        return which[found.order], found
 
     def finish(self) -> None:
         """End the points."""
-        cloud = self.cloud
         rows, columns, totals = self._runs.finish()
-        x, y = (
-            number * self._side + (first * scale + offset) * cloud.crs.horizontal_unit - _MARGIN
-            for number, first, scale, offset in zip(
-                (columns, rows), self._first, cloud.scale, cloud.offset
-            )
-        )
-        self.leaves = Leaves(x, y, self._side + 2.0 * _MARGIN, totals)
+        x, y = (number * self._side + self._start for number in (columns, rows))
+        self.leaves = Leaves(x, y, self._side, totals)
         with self._told():
             self._records.flush()
             self._labels.truncate(self.count * self._kind.itemsize)
@@ -193,10 +182,9 @@ class DiskPoints:
         """
         start, bits = self._parts[number]
         selected = np.unpackbits(bits, count=part.count).astype(bool)
-        order = self._sorted(part, selected).order
-        values = np.zeros(part.count, dtype=self._kind)
-        end = start + len(order)
-        values[np.flatnonzero(selected)[order]] = _read(self._labels, self._kind, start, end)
+        which, _ = self._sorted(part, selected)
+        values, end = np.zeros(part.count, dtype=self._kind), start + len(which)
+        values[which] = _read(self._labels, self._kind, start, end)
         return values
 
 

@@ -193,7 +193,7 @@ class FilePoints:
         self, steps: Sequence[tuple[Step, Any]], parts: Parts, progress: Progress
     ) -> list[Store]:
         stores = [
-            self._files.enter_context(DiskPoints(self._target, step.blocks.leaf_side, step.kind))
+            self._files.enter_context(DiskPoints(self._target, step.blocks, step.kind))
             for step, _ in steps
         ]
         for _, part in parts:

@@ -519,7 +519,9 @@ def test_one_block_is_worked_off_in_this_process(six, tmp_path, monkeypatch):
 
     monkeypatch.setattr(Processes, "start", refuse)
     local = Local(Resources(threads=2))
-    assert classify_tiles([six], tmp_path / "one", FAST, workers=local).done_count == 6
+    blocks = Blocks(200.0, 5.0, start=-20.0)
+    done = classify_tiles([six], tmp_path / "one", FAST, workers=local, blocks=blocks).done_count
+    assert done == 6
     with pytest.raises(OSError, match="no other process"):
         classify_tiles([six], tmp_path / "many", FAST, workers=local, blocks=Blocks(20.0, 5.0))
 
