@@ -29,6 +29,7 @@ _PARTS = {
 }
 _STARTING, _REST = "starting Python", "the rest"
 SHARES = ("reading", "filtering", "writing", _STARTING, _REST)
+_NUMBER = re.compile(r"thread \((\d+)\)")
 # A thread in one of these waits for others.
 _WAITING = re.compile(r"\((threading|queue|selectors)\.py|concurrent/futures/")
 
@@ -65,12 +66,14 @@ def summed(stacks: Iterable[str], tile: str) -> Profile:
     """
     parts: Counter[str] = Counter()
     functions: Counter[str] = Counter()
+    stacks = list(stacks)
+    main = _main_thread(stacks)
     for line in stacks:
         stack, _, count = line.rpartition(" ")
         thread, *frames = stack.split(";")
         if not frames:
             continue
-        if thread.endswith("MainThread"):
+        if _number(thread) == main:
             parts[_part(frames)] += int(count)
         if not _WAITING.search(frames[-1]) and "importlib" not in frames[-1]:
             functions[_name(frames[-1])] += int(count)
@@ -81,6 +84,18 @@ def summed(stacks: Iterable[str], tile: str) -> Profile:
         {part: 100.0 * parts[part] / whole for part in SHARES},
         [(name, 100.0 * count / work) for name, count in functions.most_common(HEAVIEST)],
     )
+
+
+def _main_thread(stacks: Sequence[str]) -> str:
+    """Return the number of the main thread: py-spy does not always read its name."""
+    threads = [stack.split(";")[0] for stack in stacks]
+    named = [_number(thread) for thread in threads if thread.endswith("MainThread")]
+    return named[0] if named else min(map(_number, threads), key=int, default="")
+
+
+def _number(thread: str) -> str:
+    """Return the number in `thread (8): name`."""
+    return _NUMBER.search(thread)[1]
 
 
 def _part(frames: Sequence[str]) -> str:

@@ -255,6 +255,17 @@ def test_profile_tells_parts_and_functions():
     assert found.seconds == 2.0
 
 
+@pytest.mark.parametrize("name", ["", ": MainThread"])
+def test_main_thread_counts_while_it_has_no_name(name):
+    stacks = [
+        "thread (7);_find_and_load (<frozen importlib._bootstrap>:1) 5",
+        f"thread (7){name};read_cloud (bare_earth/algorithms/las/reading.py:1) 15",
+        "thread (10): Worker;run (x.py:1) 70",
+    ]
+    shares = profiling.summed(stacks, "a tile").shares
+    assert (shares["starting Python"], shares["reading"]) == (25.0, 75.0)
+
+
 @pytest.mark.long
 def test_page_is_written_of_a_run_and_again_of_its_figures(tmp_path, monkeypatch, capsys):
     pytest.importorskip("matplotlib")
@@ -279,7 +290,7 @@ def test_page_is_written_of_a_run_and_again_of_its_figures(tmp_path, monkeypatch
 
 def test_figures_come_back_from_json(tmp_path):
     found = made_up({1: {"floor": 2.0, "slope": 3.0}})
-    found.profiles["slope"] = profiling.summed(["t: MainThread;a (b.py:1) 4"], "1 million")
+    found.profiles["slope"] = profiling.summed(["thread (7): MainThread;a (b.py:1) 4"], "1 million")
     results.save(found, tmp_path / "a.json")
     again = results.load(tmp_path / "a.json")
     assert again.runs == found.runs
