@@ -6,8 +6,6 @@ dike, a terrace, a plateau with a ramp.
 
 from __future__ import annotations
 
-from typing import Sequence
-
 import numpy as np
 
 from ...grids.inpaint import First
@@ -98,13 +96,7 @@ def gentle_regions(
     up = raised.ravel()
     inside = (sign == 0) & up[one] & up[other]
     region, count = _numbered(up, one[inside], other[inside])
-    borders = [
-        _border(region, up, from_, to, ((sign == 0) & seen[from_], drop, rise))
-        for from_, to, drop, rise in (
-            (one, other, sign == -1, sign == 1),
-            (other, one, sign == 1, sign == -1),
-        )
-    ]
+    borders = _borders(region, up, (one, other, sign), seen)
     cells = np.flatnonzero(up)
     number = region[cells]
     area = np.bincount(number, minlength=count) * size**2
@@ -113,8 +105,7 @@ def gentle_regions(
     above = heights - surface.ravel()[cells]
     row, column = np.divmod(cells, raised.shape[1])
     up_cells = RaisedCells(number, size * row, size * column, heights, above)
-    level = (sign == 0) & (up[one] != up[other])
-    feet = np.where(up[one], one, other)[level]
+    feet = np.where(up[one], one, other)[(sign == 0) & (up[one] != up[other])]
     feet = np.searchsorted(cells, feet[seen[feet]])
     special = landforms(up_cells, feet, size, allowance)
     above = np.bincount(number, above, count) * size**2 / area
@@ -162,16 +153,25 @@ def _unsurveyed(surveyed: np.ndarray) -> np.ndarray:
 _Pairs = tuple[np.ndarray, np.ndarray]
 
 
-def _border(
+def _borders(
     region: np.ndarray,
     up: np.ndarray,
-    from_: np.ndarray,
-    to: np.ndarray,
-    kinds: Sequence[np.ndarray],
-) -> list[_Pairs]:
-    """Return, for each kind of step, the pairs of regions that it leads from and to."""
-    differ = up[from_] & (region[from_] != region[to])
-    return [(region[from_[differ & each]], region[to[differ & each]]) for each in kinds]
+    steps: tuple[np.ndarray, np.ndarray, np.ndarray],
+    seen: np.ndarray,
+) -> list[list[_Pairs]]:
+    """Return the pairs of regions that level steps, drops and rises lead from and to.
+
+    Those of either direction apart.
+    """
+    one, other, sign = steps
+    borders = []
+    for from_, to, drop in ((one, other, -1), (other, one, 1)):
+        differ = up[from_] & (region[from_] != region[to])
+        kinds = (sign == 0) & seen[from_], sign == drop, sign == -drop
+        borders.append(
+            [(region[from_[differ & each]], region[to[differ & each]]) for each in kinds]
+        )
+    return borders
 
 
 def _joined(

@@ -84,21 +84,13 @@ def ground_cells(
 
     known = np.isfinite(heights)
     surveyed = covered(known)
-    filled = inpaint(heights, first=first).astype(np.float32)
-    if allowance.judges_gaps and not surveyed.all():
-        # Beyond the survey a roof at its border must not grow wider than it is.
-        nearest = ndimage.distance_transform_edt(
-            ~surveyed, return_distances=False, return_indices=True
-        )
-        filled = filled[tuple(nearest)]
+    filled = _filled(heights, surveyed, allowance, first)
     # Cells are taken together in fours, wherever the grid starts.
-    lead = tuple((each % _TOGETHER, 0) for each in first)
+    south, west = (each % _TOGETHER for each in first)
+    padded = np.pad(filled, ((south, 0), (west, 0)), mode="edge")
     part = progress.part(0.0, 0.5)
-    padded = np.pad(filled, lead, mode="edge")
-    strict, limit = (
-        each[lead[0][0] :, lead[1][0] :].copy()
-        for each in _standing_out(padded, size, largest_window, allowance, part)
-    )
+    found = _standing_out(padded, size, largest_window, allowance, part)
+    strict, limit = (each[south:, west:].copy() for each in found)
     which, raised = np.flatnonzero(limit > 0.0), strict | objects.raised
     numbers = ndimage.label(objects.plateaus)[0]
     for part in progress.part(0.5, 0.8).shares(*[1.0] * allowance.slopes_taken):
@@ -132,6 +124,20 @@ def ground_cells(
             raised |= pits & (heights > surface + _PIT_HEIGHT)
     progress(1.0)
     return known & ~raised
+
+
+def _filled(
+    heights: np.ndarray, surveyed: np.ndarray, allowance: Allowance, first: First
+) -> np.ndarray:
+    """Return the heights as float32, and those of gaps from what is round them."""
+    from scipy import ndimage
+
+    filled = inpaint(heights, first=first).astype(np.float32)
+    if not allowance.judges_gaps or surveyed.all():
+        return filled
+    # Beyond the survey a roof at its border must not grow wider than it is.
+    nearest = ndimage.distance_transform_edt(~surveyed, return_distances=False, return_indices=True)
+    return filled[tuple(nearest)]
 
 
 def _of_cut_plateaus(numbers: np.ndarray, raised: np.ndarray) -> np.ndarray:
