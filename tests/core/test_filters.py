@@ -86,6 +86,29 @@ def test_a_complex_of_halls_goes_that_is_low_on_its_uphill_side(method, seed):
 
 
 @pytest.mark.parametrize(
+    ("method", "seed"),
+    [
+        ("tin-densification", 907),
+        pytest.param("slope", 3002, marks=pytest.mark.long),
+        pytest.param("grid-minimum", 1007, marks=pytest.mark.long),
+    ],
+)
+def test_a_complex_of_halls_goes_whose_roof_meets_the_ground_uphill(method, seed):
+    # No drop bounds the roof there, so that it is one region with the ground.
+    scene = make("complex_on_slope", seed=seed)
+    labels, _ = classify_cloud(scene.cloud(), METHODS[method].parameters())
+    assert (labels == 2)[scene.classes == 6].mean() < 0.1
+    assert (labels == 2)[scene.ground].mean() > 0.99
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_raised_square_stays_where_points_of_its_ramp_are_sparse(method):
+    scene = make("plaza", seed=4001, density=1.0)
+    labels, _ = classify_cloud(scene.cloud(), METHODS[method].parameters())
+    assert (labels == 2)[scene.ground].mean() > 0.99
+
+
+@pytest.mark.parametrize(
     ("method", "seed", "density"),
     [
         pytest.param("tin-densification", 907, 1.0, marks=pytest.mark.long),

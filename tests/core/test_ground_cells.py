@@ -12,7 +12,7 @@ from bare_earth.algorithms.filters.shared.roofs import flat_roofs
 
 def objects_of(raised):
     none = np.zeros(raised.shape, dtype=bool)
-    return Objects(raised, none, none)
+    return Objects(raised, none, none, none)
 
 
 def _ground(heights, objects=None, window=20.0, **allowance):
@@ -197,7 +197,7 @@ def test_a_plateau_goes_as_a_whole_where_a_window_cuts_off_part_of_it():
     heights[roof] = 0.08 * 120 + 1.5
     none = np.zeros(heights.shape, dtype=bool)
     with_plateau, without = (
-        ground_cells(heights, 1.0, Objects(none, each, none), 75.0) for each in (roof, none)
+        ground_cells(heights, 1.0, Objects(none, each, none, none), 75.0) for each in (roof, none)
     )
     assert without[roof].any()
     assert not with_plateau[roof].any()
@@ -248,7 +248,8 @@ def test_a_mountain_stays_and_a_tree_on_it_goes():
     heights[48:52, 48:52] += 12.0
     none = np.zeros(heights.shape, dtype=bool)
     found, without = (
-        ground_cells(heights, 1.0, Objects(none, none, each), 30.0) for each in (mountain, none)
+        ground_cells(heights, 1.0, Objects(none, none, each, none), 30.0)
+        for each in (mountain, none)
     )
     assert not without[mountain].any()
     assert not found[48:52, 48:52].any()

@@ -55,7 +55,7 @@ class HeightSteps:
         self._heights = np.pad(surface, self._step, constant_values=np.nan).ravel()
         self._known = np.pad(np.isfinite(heights), self._step).ravel()
 
-    def regions(self, threshold: float) -> Regions:
+    def regions(self, threshold: float, neck: int = 1) -> Regions:
         """Return the regions between the rims of a threshold.
 
         Rim cells belong to the region that they are level with, like the edge of a roof; those
@@ -67,8 +67,10 @@ class HeightSteps:
             By how many metres a cell must be higher than one of its eight neighbours to be a rim,
             on level and even ground; the rise of the terrain between the two and its usual
             unevenness are added.
+        neck : int
+            Regions are cut where they hang together by fewer cells than this odd number.
         """
-        return self._regions(*self._steps(threshold))
+        return self._regions(*self._steps(threshold), neck)
 
     def regions_and_rims(
         self, threshold: float, roughness_factor: float
@@ -80,10 +82,12 @@ class HeightSteps:
         steps, large = self._steps(threshold, (1.0, roughness_factor))
         return self._regions(steps), self._unframed(self._rims(large))
 
-    def _regions(self, steps: list[_Steps]) -> Regions:
+    def _regions(self, steps: list[_Steps], neck: int = 1) -> Regions:
         from scipy import ndimage
 
         rim = self._rims(steps)
+        if neck > 1:
+            rim = self._inside & ~ndimage.binary_opening(~rim, np.ones((neck, neck)))
         regions, count = ndimage.label(self._inside & ~rim)
         flat = regions.ravel()
         cells = np.flatnonzero(rim)

@@ -93,11 +93,12 @@ class LowestPoints:
                 blocks.first_block,
                 plateau_height=PLATEAU_HEIGHT,
             )
-            plateaus = blocks.repeated(on_blocks.raised | on_blocks.plateaus, heights.shape)
-            mountains = blocks.repeated(on_blocks.mountains, heights.shape)
+            wide = Objects(*(blocks.repeated(each, heights.shape) for each in on_blocks))
+            raised = found.raised | wide.halls
             found = Objects(
-                found.raised,
-                (found.plateaus | plateaus) & ~found.raised,
-                (found.mountains | mountains) & ~found.raised,
+                raised,
+                (found.plateaus | wide.raised | wide.plateaus) & ~raised,
+                (found.mountains | wide.mountains) & ~raised,
+                wide.halls,
             )
         return Objects(*(cells.resampled(each, self.cells) for each in found))

@@ -13,6 +13,7 @@ import numpy as np
 
 from ...core.progress import SILENT, Progress
 from ...grids.inpaint import First
+from .halls import halls
 from .height_steps import HeightSteps
 
 # Least height in metres of the drops round a plateau, on cells so wide that most points on its
@@ -33,11 +34,14 @@ class Objects(NamedTuple):
         Cells of what is too low for its width to be one for that alone: a roof, or a mound.
     mountains : numpy.ndarray of bool
         Cells of what has faces of cliffs all round: a table mountain, or a stack in the sea.
+    halls : numpy.ndarray of bool
+        Cells of objects that are large halls.
     """
 
     raised: np.ndarray
     plateaus: np.ndarray
     mountains: np.ndarray
+    halls: np.ndarray
 
 
 def raised_objects(
@@ -70,7 +74,8 @@ def raised_objects(
     classic : bool
         See `Regions.raised`. Plateaus are not looked for then.
     plateau_height : float, optional
-        Least height in metres of a drop that bounds a plateau, for a last pass.
+        Least height in metres of a drop that bounds a plateau, for a last pass. Halls are looked
+        for as well then.
 
     Returns
     -------
@@ -78,7 +83,7 @@ def raised_objects(
     """
     inside = covered(np.isfinite(heights))
     rest = heights.copy()
-    objects, plateaus, mountains = np.zeros((3, *heights.shape), dtype=bool)
+    objects, plateaus, mountains, found = np.zeros((4, *heights.shape), dtype=bool)
     for done, threshold in enumerate(thresholds):
         regions = HeightSteps(rest, size, inside, first).regions(threshold)
         found = regions.raised(max_size, classic)
@@ -89,9 +94,11 @@ def raised_objects(
         objects |= found
         progress((done + 1) / len(thresholds))
     if plateau_height is not None and not classic:
-        regions = HeightSteps(rest, size, inside, first).regions(plateau_height)
-        plateaus |= regions.plateaus(max_size)
-    return Objects(objects, plateaus & ~objects, mountains & ~objects)
+        steps = HeightSteps(rest, size, inside, first)
+        plateaus |= steps.regions(plateau_height).plateaus(max_size)
+        found = halls(steps, heights, objects | plateaus, max_size, size, first)
+        objects |= found
+    return Objects(objects, plateaus & ~objects, mountains & ~objects, found)
 
 
 def covered(known: np.ndarray) -> np.ndarray:

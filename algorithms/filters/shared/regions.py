@@ -137,9 +137,13 @@ class Regions:
         fits = True if classic else self._is_no_cliff()
         return self._bounded(max_size, 1, _OBJECT_SHARE, share, _LEAST_STEEPNESS, fits)
 
-    def plateaus(self, max_size: float) -> np.ndarray:
-        """Return the cells of the same regions and of those that are too low for their width."""
-        return self._bounded(max_size, 1, _OBJECT_SHARE, _WHOLE_SHARE, 0.0, self._is_no_cliff())
+    def plateaus(self, max_size: float, least_size: float = 0.0) -> np.ndarray:
+        """Return the cells of the same regions and of those that are too low for their width.
+
+        None is narrower than `least_size` metres.
+        """
+        fits = self._is_no_cliff() & (self.width >= least_size)
+        return self._bounded(max_size, 1, _OBJECT_SHARE, _WHOLE_SHARE, 0.0, fits)
 
     def _is_no_cliff(self) -> np.ndarray:
         """Return which regions are narrow, or have no faces round them."""
