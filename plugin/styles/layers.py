@@ -12,6 +12,7 @@ from qgis.core import (
     QgsProcessingFeedback,
     QgsProcessingLayerPostProcessorInterface,
     QgsRasterLayer,
+    QgsSettings,
 )
 
 from ..i18n import mark, tr
@@ -168,18 +169,30 @@ _HEIGHT = "bare_earth/height"
 
 
 def _moved(node: Any, name: str, height: int) -> Any:
-    """Move a layer into a group, made beside it if it is not there, and return its new node."""
-    parent = node.parent()
-    if parent.name() == name:
-        return node
-    group = parent.findGroup(name) or parent.insertGroup(0, name)
+    """Move a layer to its place in a group of the project, made if needed; return its new node."""
+    group = _group_of(node, name)
     copy = node.clone()
-    group.insertChildNode(_place_in(group, height), copy)
-    parent.removeChildNode(node)
+    group.insertChildNode(_place_in(group, node, height), copy)
+    node.parent().removeChildNode(node)
     return copy
 
 
-def _place_in(group: QgsLayerTreeGroup, height: int) -> int:
-    layers: Iterable[QgsMapLayer] = (each.layer() for each in group.findLayers())
-    heights = [int(each.customProperty(_HEIGHT, 0)) for each in layers]
-    return sum(each > height for each in heights)
+def _group_of(node: Any, name: str) -> QgsLayerTreeGroup:
+    """Return the group with this name: on top of the tree, or of the group that users chose."""
+    home = node
+    while home.parent() is not None:
+        home = home.parent()
+    chosen = QgsSettings().value("Processing/Configuration/RESULTS_GROUP_NAME", "")
+    home = home.findGroup(chosen) if chosen and home.findGroup(chosen) else home
+    return home.findGroup(name) or home.insertGroup(0, name)
+
+
+def _place_in(group: QgsLayerTreeGroup, node: Any, height: int) -> int:
+    """Return the place of the first layer that lies below, or -1, for the end.
+
+    QGIS puts a new layer above the current one, so the node may stand in the group, out of order.
+    """
+    for place, child in enumerate(group.children()):
+        if child != node and int(child.layer().customProperty(_HEIGHT, 0)) < height:
+            return place
+    return -1
