@@ -12,7 +12,7 @@ from ..core.files import check_output, replacing, temporary_folder
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
 from ..filters import DEFAULT_METHOD, METHODS
-from ..products.contours import Contours, write_contours
+from ..products.contours import Contours, Interval, write_contours
 from ..products.local_relief import LocalRelief, write_local_relief
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import MapTerrain
@@ -90,15 +90,15 @@ class MapSummary(NamedTuple):
         Points, and those of the ground.
     class_counts : dict of int to int
         Points of each class of a single file; empty for many.
-    contour_interval : float
-        Height between contour lines; 0 where none were wanted.
+    contour_interval : Interval or None
+        Height between contour lines; None where none were wanted.
     """
 
     cloud: Path
     point_count: int
     ground_count: int
     class_counts: dict[int, int]
-    contour_interval: float = 0.0
+    contour_interval: Interval | None = None
 
     @property
     def lines(self) -> list[str]:

@@ -396,8 +396,8 @@
         <translation>Jede Stelle wird mit ihrer Umgebung bis zu dieser Entfernung verglichen. Wählen Sie etwa die Breite der Formen, die Sie sehen wollen; größere verschwinden.</translation>
     </message>
     <message>
-        <source>Each {:g}</source>
-        <translation>Alle {:g}</translation>
+        <source>Every {}</source>
+        <translation>Alle {}</translation>
     </message>
     <message>
         <source>Elevation raster</source>

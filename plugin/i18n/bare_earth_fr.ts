@@ -396,8 +396,8 @@
         <translation>Chaque lieu est comparé à son voisinage jusqu'à cette distance. Choisissez environ la largeur des formes que vous voulez voir ; les formes plus grandes disparaissent.</translation>
     </message>
     <message>
-        <source>Each {:g}</source>
-        <translation>Tous les {:g}</translation>
+        <source>Every {}</source>
+        <translation>Tous les {}</translation>
     </message>
     <message>
         <source>Elevation raster</source>

@@ -15,6 +15,8 @@ from qgis.core import (
     QgsSettings,
 )
 
+from ...algorithms.crs.system import unit_symbol
+from ...algorithms.products.contours import Interval
 from ..i18n import mark, tr
 from . import clouds, rasters, vectors
 
@@ -41,12 +43,15 @@ class Look(NamedTuple):
     hides : int
         Of layers that hide each other only the one with the highest of these is shown at first; 0
         for one that hides nothing.
+    shows : str
+        What the colours stand for, in the user's language; rasters say it themselves.
     """
 
     title: str
     height: int
     dress: Callable[[Any], None]
     hides: int = 0
+    shows: str = ""
 
 
 HILLSHADE = Look(mark("hillshade"), 0, rasters.hillshade)
@@ -74,12 +79,14 @@ def class_raster(values: Iterable[int], hides: int = CLOUD) -> Look:
     return Look(mark("classes"), 7, rasters.classes(clouds.categories_of(values)), hides)
 
 
-def heights(attribute: str, highest: float) -> Look:
-    """Return what a cloud is with such an attribute of heights, up to the highest."""
-    return Look(mark("height above ground"), 7, clouds.by_height(attribute, highest), CLOUD)
+def heights(attribute: str, highest: float, unit_size: float) -> Look:
+    """Return what a cloud is with such heights, up to the highest, in units of so many metres."""
+    dress = clouds.by_height(attribute, highest, unit_size)
+    shows = f"{tr('Height above ground')}, {unit_symbol(unit_size)}"
+    return Look(mark("height above ground"), 7, dress, CLOUD, shows)
 
 
-def contours(interval: float) -> Look:
+def contours(interval: Interval) -> Look:
     """Return what contour lines are."""
     return Look(mark("contour lines"), 8, vectors.contours(interval))
 
@@ -157,8 +164,11 @@ class _Show(QgsProcessingLayerPostProcessorInterface):
         if self._group:
             layer.setCustomProperty(_HEIGHT, self._look.height)
             node = _moved(node, self._group, self._look.height)
-        if isinstance(layer, QgsRasterLayer) and (shown := rasters.shown_by(layer)):
-            # In place of "Band 1 (Gray)".
+        shown = self._look.shows
+        if isinstance(layer, QgsRasterLayer):
+            shown = rasters.shown_by(layer)
+        if shown:
+            # In place of "Band 1 (Gray)", or the attribute.
             QgsMapLayerLegendUtils.setLegendNodeUserLabel(node, 0, shown)
             layer.legendChanged.emit()
         node.setItemVisibilityChecked(self._is_visible)
