@@ -105,9 +105,7 @@ class MapSummary(NamedTuple):
         """The report, as lines of text."""
         share = self.ground_count / max(self.point_count, 1)
         text = [f"Points    {self.point_count:>15,}"]
-        text.append(f"Ground    {self.ground_count:>15,}  ({share:.1%})")
-        text += [f"Class {value:>3} {count:>15,}" for value, count in self.class_counts.items()]
-        return text
+        return [*text, f"Ground    {self.ground_count:>15,}  ({share:.1%})"]
 
 
 def make_maps(

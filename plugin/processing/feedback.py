@@ -37,6 +37,10 @@ class FeedbackProgress(Progress):
         if fraction < 1.0 and self._feedback.isCanceled():
             raise Cancelled
 
+    def beyond(self) -> Progress:
+        """Return one for what follows the outputs: the bar stays at the end, Cancel ends it."""
+        return _Beyond(self._feedback)
+
     def info(self, text: str) -> None:
         """Write a line into the log."""
         self._feedback.pushInfo(text)
@@ -74,6 +78,15 @@ class FeedbackProgress(Progress):
             self.info(tr("The same without QGIS:"))
         for each in self._commands:
             self._feedback.pushCommandInfo(each)
+
+
+class _Beyond(Progress):
+    def __init__(self, feedback: QgsProcessingFeedback) -> None:
+        self._feedback = feedback
+
+    def report(self, fraction: float) -> None:
+        if self._feedback.isCanceled():
+            raise Cancelled
 
 
 def tell_of_unknown(

@@ -71,7 +71,7 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         if "CONTOURS" in results:
             self.show(results["CONTOURS"], contours(summary.contour_interval))
         if cloud:
-            results["OUTPUT"] = made
+            results["OUTPUT"], self.class_counts = made, summary.class_counts
             outputs.do_not_load(context, {cloud} - {made})
             look = request, context, progress, BELOW_TERRAIN
             show_classified(self, made, summary.class_counts, *look)

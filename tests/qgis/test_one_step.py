@@ -133,6 +133,20 @@ def test_every_output_may_be_left_out(scene, tmp_path):
     assert sorted(os.listdir(tmp_path)) == ["lines.geojson", scene.path.name]
 
 
+def test_the_log_tells_each_thing_once_and_ends_with_named_classes(tmp_path):
+    import processing
+
+    ground = write_scene(tmp_path / "scene.laz", epsg=None)
+    log = Log()
+    values = {"INPUT": str(tmp_path / "scene.laz"), **everything(tmp_path)}
+    processing.run(ALL_IN_ONE, values, feedback=log)
+    (units,) = (each for each in log.said if "taken as metres" in each)
+    assert units.startswith("scene.laz does not say its CRS")
+    counts = [each for each in log.said if "Class " in each]
+    assert counts[0].startswith(f"Class 2 (Ground): {np.count_nonzero(ground):,} points")
+    assert counts[1].startswith("Class 1 (")
+
+
 @pytest.mark.parametrize("how", ["folder", "input", "list"])
 def test_a_folder_is_one_survey(tmp_path, how):
     import processing
