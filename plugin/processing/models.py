@@ -5,14 +5,23 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from qgis.core import QgsProcessingContext, QgsProcessingFeedback, QgsProcessingModelAlgorithm
+from qgis.core import (
+    QgsProcessingContext,
+    QgsProcessingFeedback,
+    QgsProcessingModelAlgorithm,
+    QgsProcessingParameterEnum,
+)
 
 from ...algorithms.core.parameters import ParameterSet
+from ...algorithms.engine.options import TileMethod
 from ..i18n import tr
 from .base import BareEarthAlgorithm
+from .choices import ChoiceParameter, with_labels
 from .feedback import tell_of_unknown
+from .fields import help_of
 from .search_words import words_of
 
+_CHOICES = {each.name.upper(): each for each in TileMethod.declarations()}
 _FOLDER = Path(__file__).parents[1] / "models"
 
 
@@ -36,9 +45,13 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         # What it is made of is found once all providers are there: QGIS makes a new one to run.
         self.fromFile(str(file))
         self.about = self.helpContent().get("ALG_DESC", "")
-        for each in self.parameterDefinitions():
+        # Again all of them, for the order: choices show labels, as in other dialogs.
+        for each in [each.clone() for each in self.parameterDefinitions()]:
+            self.removeParameter(each.name())
+            # What a step says nothing of, the model does.
+            each.setHelp(tr(each.help() or self.helpContent().get(each.name(), "")))
             each.setDescription(tr(each.description()))
-            each.setHelp(tr(each.help()))
+            self.addParameter(_choice(each) if each.name() in _CHOICES else each)
         for each in self.outputDefinitions():
             each.setDescription(tr(each.description()))
 
@@ -81,6 +94,15 @@ class ShippedModel(QgsProcessingModelAlgorithm):
     def createInstance(self) -> ShippedModel:
         """Return another instance."""
         return ShippedModel(self._file)
+
+
+def _choice(drawn: QgsProcessingParameterEnum) -> ChoiceParameter:
+    """Return a field that was drawn as those of the other dialogs are."""
+    declared = _CHOICES[drawn.name()]
+    values, default = drawn.options(), drawn.defaultValue()
+    field = ChoiceParameter(drawn.name(), drawn.description(), values, False, default, False, True)
+    field.setHelp(help_of(declared))
+    return with_labels(field, [tr(declared.choices[each]) for each in values])
 
 
 def shipped_models() -> list[ShippedModel]:

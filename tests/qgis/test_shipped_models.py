@@ -129,9 +129,18 @@ def test_they_are_there_by_themselves(registry):
         page = model.helpUrl().rpartition("/docs/")[2]
         assert (ROOT / "docs" / page).is_file()
         for field in model.parameterDefinitions():
-            if not field.isDestination():
-                assert f"<b>{field.description()}</b>: " in model.shortHelpString()
-                assert len(field.help()) > 20
+            assert f"<b>{field.description()}</b>: " in model.shortHelpString()
+            assert len(field.help()) > 20
+
+
+def test_their_presets_have_labels_and_numbers(run, registry):
+    model = registry.createAlgorithmById("bareearth:terraincontours")
+    preset = model.parameterDefinition("PRESET")
+    assert preset.options()[3] == "steep" and preset.defaultValue() == "automatic"
+    assert preset.metadata()["labels"][3] == "Steep or rugged terrain"
+    assert "steep: Steep or rugged terrain" in preset.help()
+    for given in ("3", "steep"):
+        assert Path(run("terraincontours", PRESET=given)["ground:OUTPUT"]).exists()
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
