@@ -100,13 +100,6 @@ class MapSummary(NamedTuple):
     class_counts: dict[int, int]
     contour_interval: Interval | None = None
 
-    @property
-    def lines(self) -> list[str]:
-        """The report, as lines of text."""
-        share = self.ground_count / max(self.point_count, 1)
-        text = [f"Points    {self.point_count:>15,}"]
-        return [*text, f"Ground    {self.ground_count:>15,}  ({share:.1%})"]
-
 
 def make_maps(
     sources: Sequence[Path], files: MapFiles, request: MapRequest, progress: Progress = SILENT

@@ -54,6 +54,13 @@ class FeedbackProgress(Progress):
         """Write a line that stands out into the log."""
         self._feedback.pushWarning(text)
 
+    def share(self, ground: int, count: int, in_area: bool = False) -> None:
+        """Tell how many of the points are ground."""
+        text = tr("{ground:,} of {count:,} points are ground ({share:.1%}).")
+        if in_area:
+            text = tr("{ground:,} of {count:,} points in the area are ground ({share:.1%}).")
+        self.info(text.format(ground=ground, count=count, share=ground / max(count, 1)))
+
     def command(self, text: str) -> None:
         """Keep a command that does the same without QGIS, for the end of the log."""
         self._commands.append(text)

@@ -67,7 +67,7 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         made = str(cloud and summary.cloud)
         for each in terrain_commands(self._sources, made, results, chosen):
             progress.command(each)
-        progress.info("\n".join(summary.lines))
+        progress.share(summary.ground_count, summary.point_count)
         if "CONTOURS" in results:
             self.show(results["CONTOURS"], contours(summary.contour_interval))
         if cloud:

@@ -54,7 +54,7 @@ def test_a_file_becomes_all_maps(scene, tmp_path):
     lines = opened[0]
     heights = sorted({each.GetField("ELEV") for each in lines})
     assert heights == [100.5 + 0.5 * step for step in range(11)] and lines.GetSpatialRef()
-    assert f"Ground    {scene.ground_count:>15,}" in log.text
+    assert f"{scene.ground_count:,} of {scene.count:,} points are ground" in log.text
     assert not [each for each in os.listdir(tmp_path) if each.startswith(".") or "aux" in each]
 
 
