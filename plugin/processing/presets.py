@@ -21,7 +21,7 @@ def presets_of(sets: Sequence[type[ParameterSet]]) -> str:
     is_short = TileMethod in sets
     methods = [each for each in METHODS.values() if each.parameters in sets or is_short]
     # In short there are neither fields for the values, nor the presets of one method alone.
-    offered = next((each.choices for each in TileMethod.declarations() if each.name == "preset"))
+    offered = next(each.choices for each in TileMethod.declarations() if each.name == "preset")
     tables = "".join(
         f"{tr(each.label)}:{_table(each, offered if is_short else each.presets)}"
         for each in methods

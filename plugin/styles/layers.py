@@ -69,14 +69,17 @@ RASTERS = {
 }  # fmt: skip
 
 
-def classes(values: Iterable[int], title: str = mark("classes"), hides: int = CLOUD) -> Look:
+CLASSES = mark("classes")
+
+
+def classes(values: Iterable[int], title: str = CLASSES, hides: int = CLOUD) -> Look:
     """Return what a cloud of such classes is."""
     return Look(title, 7, clouds.by_class(values), hides)
 
 
 def class_raster(values: Iterable[int], hides: int = CLOUD) -> Look:
     """Return what a raster of such classes is."""
-    return Look(mark("classes"), 7, rasters.classes(clouds.categories_of(values)), hides)
+    return Look(CLASSES, 7, rasters.classes(clouds.categories_of(values)), hides)
 
 
 def heights(attribute: str, highest: float, unit_size: float) -> Look:
@@ -135,6 +138,13 @@ def arrange(
         details.setPostProcessor(processor)
 
 
+def looks_of(context: QgsProcessingContext) -> dict[str, Look]:
+    """Return what the layers are that steps of a model have arranged, by their paths."""
+    loaded = context.layersToLoadOnCompletion()
+    shows = {path: details.postProcessor() for path, details in loaded.items()}
+    return {path: each.look for path, each in shows.items() if isinstance(each, _Show)}
+
+
 def free_name(context: QgsProcessingContext, name: str) -> str:
     """Return a name that no group of the project has yet; asked for in the main thread."""
     if context.project() is None:
@@ -149,22 +159,22 @@ class _Show(QgsProcessingLayerPostProcessorInterface):
 
     def __init__(self, look: Look, group: str, is_visible: bool) -> None:
         super().__init__()
-        self._look, self._group, self._is_visible = look, group, is_visible
+        self.look, self._group, self._is_visible = look, group, is_visible
 
     def postProcessLayer(
         self, layer: QgsMapLayer, context: QgsProcessingContext, feedback: QgsProcessingFeedback
     ) -> None:
         """Do so; called by QGIS in the main thread."""
-        self._look.dress(layer)
+        self.look.dress(layer)
         layer.triggerRepaint()
         project = context.project() or layer.project()
         node = project.layerTreeRoot().findLayer(layer.id()) if project else None
         if node is None:
             return
         if self._group:
-            layer.setCustomProperty(_HEIGHT, self._look.height)
-            node = _moved(node, self._group, self._look.height)
-        shown = self._look.shows
+            layer.setCustomProperty(_HEIGHT, self.look.height)
+            node = _moved(node, self._group, self.look.height)
+        shown = self.look.shows
         if isinstance(layer, QgsRasterLayer):
             shown = rasters.shown_by(layer)
         if shown:
@@ -172,7 +182,7 @@ class _Show(QgsProcessingLayerPostProcessorInterface):
             QgsMapLayerLegendUtils.setLegendNodeUserLabel(node, 0, shown)
             layer.legendChanged.emit()
         node.setItemVisibilityChecked(self._is_visible)
-        node.setExpanded(self._is_visible and self._look is not HILLSHADE)
+        node.setExpanded(self._is_visible and self.look is not HILLSHADE)
 
 
 _HEIGHT = "bare_earth/height"
