@@ -57,20 +57,21 @@ def is_null(value: Any) -> bool:
 
 
 def can_load(path: str) -> bool:
-    """Return whether this build of QGIS can show a point cloud file as a layer."""
+    """Return whether this build of QGIS can show a point cloud file, or a .vpc, as a layer."""
     providers = QgsProviderRegistry.instance().providerList()
+    if path.lower().endswith(".vpc"):  # from 3.32 on
+        return "vpc" in providers
     return "pdal" in providers or (path.lower().endswith(".copc.laz") and "copc" in providers)
 
 
-def load_virtual_point_cloud(path: str, name: str, context: QgsProcessingContext) -> bool:
-    """Show a .vpc file as a layer in the end; return whether this QGIS can (from 3.32 on)."""
-    if "vpc" not in QgsProviderRegistry.instance().providerList() or context.project() is None:
-        return False
+def load_virtual_point_cloud(path: str, name: str, context: QgsProcessingContext) -> None:
+    """Show a .vpc file as a layer in the end."""
+    if context.project() is None:
+        return
     details = QgsProcessingContext.LayerDetails(
         name, context.project(), name, QgsProcessingUtils.LayerHint.PointCloud
     )
     context.addLayerToLoadOnCompletion(path, details)
-    return True
 
 
 def point_cloud_output(

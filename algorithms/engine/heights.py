@@ -58,6 +58,8 @@ class HeightSummary:
         The lowest and the highest height, in the vertical unit of the CRS.
     unit : str
         Name of that unit.
+    unit_size : float
+        Metres in it.
     """
 
     name: str
@@ -66,6 +68,7 @@ class HeightSummary:
     minimum: float
     maximum: float
     unit: str
+    unit_size: float = 1.0
 
     @property
     def text(self) -> str:
@@ -142,7 +145,7 @@ class HeightsOfPoints(PointResult):
         self.heights = room(np.float64 if self._as_z else np.float32)
         self._kept = room(bool) if step.ground_only else None
         self._lowest, self._highest = np.inf, -np.inf
-        self._ground_count, self._unit = 0, ""
+        self._ground_count, self._unit = 0, 1.0
 
     def add(self, where: slice, part: PointCloud, values: np.ndarray) -> None:
         """Keep heights in metres in the vertical unit, without the noise of rounding."""
@@ -153,7 +156,7 @@ class HeightsOfPoints(PointResult):
         if self._kept is not None:
             self._kept[where] = ground
         self._ground_count += int(np.count_nonzero(ground))
-        self._unit = unit_name(part.crs.vertical_unit)
+        self._unit = part.crs.vertical_unit
         self._lowest = min(self._lowest, float(np.fmin.reduce(heights, initial=np.inf)))
         self._highest = max(self._highest, float(np.fmax.reduce(heights, initial=-np.inf)))
 
@@ -175,7 +178,8 @@ class HeightsOfPoints(PointResult):
         if self._lowest > self._highest:
             extremes = np.nan, np.nan
         written = len(self.heights) if self._kept is None else self._ground_count
-        return HeightSummary(name, written, self._ground_count, *extremes, self._unit)
+        unit = unit_name(self._unit), self._unit
+        return HeightSummary(name, written, self._ground_count, *extremes, *unit)
 
 
 def _z_of(cloud: PointCloud, heights: np.ndarray) -> np.ndarray:

@@ -65,6 +65,13 @@ def _canopy(
     return _heights(canopy_height(surface, terrain), grid, model)
 
 
+def _sure(
+    sure: np.ndarray, terrain: np.ndarray, grid: RasterGrid, model: TerrainModel
+) -> np.ndarray:
+    """Return the confidence where there is a terrain to be sure of."""
+    return plain(np.where(np.isnan(terrain), np.nan, sure), grid, model)
+
+
 def _shade(heights: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.ndarray:
     altitude = model.hillshade_altitude
     if model.hillshade_light == "multidirectional":
@@ -109,8 +116,8 @@ RASTERS = {
         "The probability, 0 to 1, that the terrain model is right: low under dense trees, across"
         " gaps and at breaks.",
         "Confidence, 0 to 1",
-        ("confidence",),
-        plain,
+        ("confidence", "terrain"),
+        _sure,
     ),
 }
 

@@ -12,7 +12,7 @@ from ..core.files import check_output, replacing, temporary_folder
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
 from ..filters import DEFAULT_METHOD, METHODS
-from ..products.contours import Contours, write_contours
+from ..products.contours import Contours, Interval, write_contours
 from ..products.local_relief import LocalRelief, write_local_relief
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import MapTerrain
@@ -90,24 +90,15 @@ class MapSummary(NamedTuple):
         Points, and those of the ground.
     class_counts : dict of int to int
         Points of each class of a single file; empty for many.
-    contour_interval : float
-        Height between contour lines; 0 where none were wanted.
+    contour_interval : Interval or None
+        Height between contour lines; None where none were wanted.
     """
 
     cloud: Path
     point_count: int
     ground_count: int
     class_counts: dict[int, int]
-    contour_interval: float = 0.0
-
-    @property
-    def lines(self) -> list[str]:
-        """The report, as lines of text."""
-        share = self.ground_count / max(self.point_count, 1)
-        text = [f"Points    {self.point_count:>15,}"]
-        text.append(f"Ground    {self.ground_count:>15,}  ({share:.1%})")
-        text += [f"Class {value:>3} {count:>15,}" for value, count in self.class_counts.items()]
-        return text
+    contour_interval: Interval | None = None
 
 
 def make_maps(

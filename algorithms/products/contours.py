@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from ..core.errors import BareEarthError
 from ..core.files import replace_with_files_of, temporary_folder
@@ -60,9 +60,32 @@ class Contours(ParameterSet):
         return min((step * power for step in _STEPS), key=lambda each: abs(each - wanted))
 
 
+class Interval(NamedTuple):
+    """The height between contour lines.
+
+    Attributes
+    ----------
+    height : float
+        In the unit of the raster.
+    unit : str
+        Symbol of that unit; empty if the raster does not say it.
+    """
+
+    height: float
+    unit: str = ""
+
+    def text(self, lines: int = 1) -> str:
+        """Return the height between so many lines, with its unit.
+
+        >>> Interval(2.0, "m").text(5)
+        '10 m'
+        """
+        return f"{lines * self.height:g} {self.unit}".rstrip()
+
+
 def write_contours(
     source: Path, target: Path, contours: Contours = Contours(), progress: Progress = SILENT
-) -> float:
+) -> Interval:
     """Write the contour lines of a raster, each with its height in the field ELEV.
 
     Parameters
@@ -78,8 +101,8 @@ def write_contours(
 
     Returns
     -------
-    float
-        The interval between them.
+    Interval
+        The height between them.
 
     Raises
     ------
@@ -94,12 +117,15 @@ def write_contours(
     if target.suffix.lower() not in _DRIVERS:
         raise BareEarthError(f"{target} is not one of {', '.join(_DRIVERS)}. Name it so.")
     raster = gdal.Open(str(source))
-    interval = contours.interval(*raster.GetRasterBand(1).ComputeRasterMinMax(False))
+    band = raster.GetRasterBand(1)
+    # As `write_geotiff` names the bands of terrain models.
+    unit = band.GetDescription().partition(", ")[2]
+    interval = Interval(contours.interval(*band.ComputeRasterMinMax(False)), unit)
     with temporary_folder(target.parent) as folder:
         with GdalErrors(gdal, "write") as errors:
-            count = _draw(raster, folder / target.name, interval)
+            count = _draw(raster, folder / target.name, interval.height)
             errors.check(target)
-        progress.info(f"{count:,} contour lines, each {interval:g} of height")
+        progress.info(f"{count:,} contour lines, one every {interval.text()}")
         progress(1.0)
         suffix = target.suffix.lower()
         beside = [f"{target.stem}{each}" for each in _BESIDE.get(suffix, ())]

@@ -97,7 +97,8 @@ def write_local_relief(
     BareEarthError
         If the raster cannot be read, or the output cannot be written.
     """
-    raster = read_raster(source, progress=progress)
+    # Silent: the units were told of the points.
+    raster = read_raster(source)
     progress(0.3)
     relief = local_relief(raster.heights, raster.cell_metres, parameters.relief_radius)
     progress(0.9)

@@ -87,8 +87,9 @@ class GroundClasses(ParameterSet):
             raise BareEarthError(
                 f"All ground points of {path} (class {wanted}) are withheld. Clear that flag first."
             )
-        present = ", ".join(str(each) for each in np.flatnonzero(tally.classes))
+        classes = np.flatnonzero(tally.classes)
+        present = ("classes " if classes[1:].size else "class ") + ", ".join(map(str, classes))
         raise BareEarthError(
-            f"{path} has no ground points: none is of class {wanted}, all are of the classes"
+            f"{path} has no ground points: none is of class {wanted}, all are of"
             f" {present}. Classify its ground first, or choose other ground classes."
         )

@@ -16,6 +16,10 @@
         <translation>1 bis 255</translation>
     </message>
     <message>
+        <source>&lt;b&gt;Values of the presets&lt;/b&gt;</source>
+        <translation>&lt;b&gt;Werte der Voreinstellungen&lt;/b&gt;</translation>
+    </message>
+    <message>
         <source>&lt;b&gt;Values of the presets&lt;/b&gt; for fields that are left empty</source>
         <translation>&lt;b&gt;Werte der Voreinstellungen&lt;/b&gt; für Felder, die leer bleiben</translation>
     </message>
@@ -396,16 +400,16 @@
         <translation>Jede Stelle wird mit ihrer Umgebung bis zu dieser Entfernung verglichen. Wählen Sie etwa die Breite der Formen, die Sie sehen wollen; größere verschwinden.</translation>
     </message>
     <message>
-        <source>Each {:g}</source>
-        <translation>Alle {:g}</translation>
-    </message>
-    <message>
         <source>Elevation raster</source>
         <translation>Höhenraster</translation>
     </message>
     <message>
         <source>Error map</source>
         <translation>Fehlerkarte</translation>
+    </message>
+    <message>
+        <source>Every {}</source>
+        <translation>Alle {}</translation>
     </message>
     <message>
         <source>Extent</source>

@@ -16,6 +16,10 @@
         <translation>1 à 255</translation>
     </message>
     <message>
+        <source>&lt;b&gt;Values of the presets&lt;/b&gt;</source>
+        <translation>&lt;b&gt;Valeurs des préréglages&lt;/b&gt;</translation>
+    </message>
+    <message>
         <source>&lt;b&gt;Values of the presets&lt;/b&gt; for fields that are left empty</source>
         <translation>&lt;b&gt;Valeurs des préréglages&lt;/b&gt; pour les champs laissés vides</translation>
     </message>
@@ -396,16 +400,16 @@
         <translation>Chaque lieu est comparé à son voisinage jusqu'à cette distance. Choisissez environ la largeur des formes que vous voulez voir ; les formes plus grandes disparaissent.</translation>
     </message>
     <message>
-        <source>Each {:g}</source>
-        <translation>Tous les {:g}</translation>
-    </message>
-    <message>
         <source>Elevation raster</source>
         <translation>Raster d'altitudes</translation>
     </message>
     <message>
         <source>Error map</source>
         <translation>Carte des erreurs</translation>
+    </message>
+    <message>
+        <source>Every {}</source>
+        <translation>Tous les {}</translation>
     </message>
     <message>
         <source>Extent</source>

@@ -108,11 +108,8 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         progress.command(" ".join([command, *area_options(self._limits["area"], progress)]))
         request = ClassifyRequest.of(chosen, rasters=raster_files(paths), **self._limits)
         summary = classify_file(self._source, Path(output), request, progress)
-        ground, count = summary.area_ground_count, summary.area_count
-        text = tr("{ground:,} of {count:,} points are ground ({share:.1%}).")
-        if self._limits["area"]:
-            text = tr("{ground:,} of {count:,} points in the area are ground ({share:.1%}).")
-        progress.info(text.format(ground=ground, count=count, share=ground / count))
+        counts = summary.area_ground_count, summary.area_count
+        progress.share(*counts, in_area=bool(self._limits["area"]))
         show_classified(self, output, summary.class_counts, request, context, progress)
         self.class_counts = summary.class_counts
         return {

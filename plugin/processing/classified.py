@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Iterable
 
 from qgis.core import QgsProcessingContext, QgsProcessingUtils
 
+from ...algorithms.core.errors import Cancelled
 from .. import compat
 from ..i18n import tr
 from ..styles import clouds, layers
@@ -53,20 +54,23 @@ def show_classified(
         # Seen from afar it is outlines, through which the terrain is to be seen.
         hides = 0
     algorithm.show(cloud, layers.classes(classes, hides=hides))
-    if is_virtual:
-        compat.load_virtual_point_cloud(cloud, "", context)
-        return
     if compat.can_load(cloud):
+        if is_virtual:
+            compat.load_virtual_point_cloud(cloud, "", context)
         return
     progress.info(tr("This QGIS cannot show such a file as a layer. It is at {}.").format(cloud))
-    if not context.layersToLoadOnCompletion():
+    if is_virtual or not context.layersToLoadOnCompletion():
         return
     # Reads files, which takes packages that QGIS may lack when it starts.
     from ...algorithms.products.class_raster import write_class_raster
 
     path = QgsProcessingUtils.generateTempFilename("classes.tif")
     cell_size = request.terrain.dtm_cell_size
-    write_class_raster(Path(cloud), Path(path), cell_size, ground_class, progress)
+    try:
+        write_class_raster(Path(cloud), Path(path), cell_size, ground_class, progress.beyond())
+    except Cancelled:
+        # All that was asked for is there.
+        return
     hint = QgsProcessingUtils.LayerHint.Raster
     details = QgsProcessingContext.LayerDetails("classes", context.project(), "classes", hint)
     context.addLayerToLoadOnCompletion(path, details)

@@ -37,6 +37,10 @@ class FeedbackProgress(Progress):
         if fraction < 1.0 and self._feedback.isCanceled():
             raise Cancelled
 
+    def beyond(self) -> Progress:
+        """Return one for what follows the outputs: the bar stays at the end, Cancel ends it."""
+        return _Beyond(self._feedback)
+
     def info(self, text: str) -> None:
         """Write a line into the log."""
         self._feedback.pushInfo(text)
@@ -49,6 +53,13 @@ class FeedbackProgress(Progress):
     def warning(self, text: str) -> None:
         """Write a line that stands out into the log."""
         self._feedback.pushWarning(text)
+
+    def share(self, ground: int, count: int, in_area: bool = False) -> None:
+        """Tell how many of the points are ground."""
+        text = tr("{ground:,} of {count:,} points are ground ({share:.1%}).")
+        if in_area:
+            text = tr("{ground:,} of {count:,} points in the area are ground ({share:.1%}).")
+        self.info(text.format(ground=ground, count=count, share=ground / max(count, 1)))
 
     def command(self, text: str) -> None:
         """Keep a command that does the same without QGIS, for the end of the log."""
@@ -74,6 +85,15 @@ class FeedbackProgress(Progress):
             self.info(tr("The same without QGIS:"))
         for each in self._commands:
             self._feedback.pushCommandInfo(each)
+
+
+class _Beyond(Progress):
+    def __init__(self, feedback: QgsProcessingFeedback) -> None:
+        self._feedback = feedback
+
+    def report(self, fraction: float) -> None:
+        if self._feedback.isCanceled():
+            raise Cancelled
 
 
 def tell_of_unknown(

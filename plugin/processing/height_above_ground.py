@@ -55,5 +55,5 @@ class HeightAboveGroundAlgorithm(ProductAlgorithm):
             )
         )
         attribute = "Z" if chosen[1].output_as == "z" else HEIGHT_DIMENSION
-        self.show(output, layers.heights(attribute, summary.maximum))
+        self.show(output, layers.heights(attribute, summary.maximum, summary.unit_size))
         return {"OUTPUT": output, **self.numbers_of(summary)}

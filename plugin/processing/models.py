@@ -5,14 +5,29 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from qgis.core import QgsProcessingContext, QgsProcessingFeedback, QgsProcessingModelAlgorithm
+from qgis.core import (
+    QgsProcessingContext,
+    QgsProcessingFeedback,
+    QgsProcessingModelAlgorithm,
+    QgsProcessingParameterEnum,
+)
 
 from ...algorithms.core.parameters import ParameterSet
+from ...algorithms.engine.options import TileMethod
+from ...algorithms.products.contours import Interval
 from ..i18n import tr
+from ..styles import layers, rasters
 from .base import BareEarthAlgorithm
+from .choices import ChoiceParameter, with_labels
 from .feedback import tell_of_unknown
+from .fields import help_of
+from .inputs import name_of
+from .outputs import do_not_load
 from .search_words import words_of
 
+_CHOICES = {each.name.upper(): each for each in TileMethod.declarations()}
+# Outputs that the models have, if they make such a thing.
+_CLASSIFIED, _LINES = "ground:OUTPUT", "contours:OUTPUT"
 _FOLDER = Path(__file__).parents[1] / "models"
 
 
@@ -36,9 +51,13 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         # What it is made of is found once all providers are there: QGIS makes a new one to run.
         self.fromFile(str(file))
         self.about = self.helpContent().get("ALG_DESC", "")
-        for each in self.parameterDefinitions():
+        # Again all of them, for the order: choices show labels, as in other dialogs.
+        for each in [each.clone() for each in self.parameterDefinitions()]:
+            self.removeParameter(each.name())
+            # What a step says nothing of, the model does.
+            each.setHelp(tr(each.help() or self.helpContent().get(each.name(), "")))
             each.setDescription(tr(each.description()))
-            each.setHelp(tr(each.help()))
+            self.addParameter(_choice(each) if each.name() in _CHOICES else each)
         for each in self.outputDefinitions():
             each.setDescription(tr(each.description()))
 
@@ -66,6 +85,18 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         """Return no declared parameters: the fields are those that were drawn."""
         return ()
 
+    def prepareAlgorithm(
+        self,
+        parameters: dict[str, Any],
+        context: QgsProcessingContext,
+        feedback: QgsProcessingFeedback,
+    ) -> bool:
+        """Name the layers and their group after the input."""
+        self._subject = name_of(Path(self.parameterAsFile(parameters, "INPUT", context)))
+        title = self.displayName().partition(": ")[2]
+        self._group = layers.free_name(context, f"{self._subject}: {title}")
+        return super().prepareAlgorithm(parameters, context, feedback)
+
     def processAlgorithm(
         self,
         parameters: dict[str, Any],
@@ -76,11 +107,49 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         defaults = {each.name(): each.defaultValue() for each in self.parameterDefinitions()}
         tell_of_unknown(self, parameters, feedback)
         given = {**defaults, **parameters}
-        return super().processAlgorithm(given, context, feedback)
+        results = super().processAlgorithm(given, context, feedback)
+        self._arrange(given, results, context)
+        return results
+
+    def _arrange(
+        self, given: dict[str, Any], results: dict[str, Any], context: QgsProcessingContext
+    ) -> None:
+        """See to names, colours and places of the layers: QGIS names them OUTPUT, DTM and so on."""
+        looks = layers.looks_of(context)
+        # In place of clouds that QGIS cannot show; those of steps in between are not asked for.
+        extra = [path for path, look in looks.items() if look.title == layers.CLASSES]
+        if _CLASSIFIED not in results:
+            do_not_load(context, extra)
+            looks = layers.looks_of(context)
+        if context.willLoadLayerOnCompletion(results.get(_LINES, "")):
+            terrain = results.get("ground:DTM")
+            unit = rasters.unit_of(terrain) if terrain else ""
+            interval = Interval(float(given["INTERVAL"]), unit)
+            looks[results[_LINES]] = layers.contours(interval)
+            # Lines of the terrain, which is to be seen below them.
+            for path in {*extra, str(results.get(_CLASSIFIED))} & set(looks):
+                looks[path] = looks[path]._replace(hides=layers.BELOW_TERRAIN)
+        labels = {path: context.layerToLoadOnCompletionDetails(path).name for path in looks}
+        titles = [look.title for look in looks.values()]
+        for name in filter(self.parameterDefinition, results):
+            path = results[name]
+            if path in looks and titles.count(looks[path].title) > 1:
+                title = self.parameterDefinition(name).description()
+                looks[path] = looks[path]._replace(title=title)
+        layers.arrange(context, looks, labels, self._subject, self._group)
 
     def createInstance(self) -> ShippedModel:
         """Return another instance."""
         return ShippedModel(self._file)
+
+
+def _choice(drawn: QgsProcessingParameterEnum) -> ChoiceParameter:
+    """Return a field that was drawn as those of the other dialogs are."""
+    declared = _CHOICES[drawn.name()]
+    values, default = drawn.options(), drawn.defaultValue()
+    field = ChoiceParameter(drawn.name(), drawn.description(), values, False, default, False, True)
+    field.setHelp(help_of(declared))
+    return with_labels(field, [tr(declared.choices[each]) for each in values])
 
 
 def shipped_models() -> list[ShippedModel]:

@@ -67,11 +67,11 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         made = str(cloud and summary.cloud)
         for each in terrain_commands(self._sources, made, results, chosen):
             progress.command(each)
-        progress.info("\n".join(summary.lines))
+        progress.share(summary.ground_count, summary.point_count)
         if "CONTOURS" in results:
             self.show(results["CONTOURS"], contours(summary.contour_interval))
         if cloud:
-            results["OUTPUT"] = made
+            results["OUTPUT"], self.class_counts = made, summary.class_counts
             outputs.do_not_load(context, {cloud} - {made})
             look = request, context, progress, BELOW_TERRAIN
             show_classified(self, made, summary.class_counts, *look)

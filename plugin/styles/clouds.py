@@ -34,7 +34,7 @@ _METRES, _LEAST_MM, _MOST_MM = 0.6, 0.8, 2.0
 _SCREEN_ERROR = 0.15
 # By the LAS specification, with no meaning yet; and of those a rare one.
 _RESERVED = (0, 8, 12, 16)
-# The top of the colours of heights, where it is not known up to which nearly all points are.
+# Metres up to which heights are coloured, where it is not known up to which nearly all points are.
 _MOST_HEIGHT = 40.0
 _NEARLY_ALL, _STEP = 0.998, 0.5
 
@@ -86,7 +86,9 @@ def by_class(classes: Iterable[int]) -> Callable[[QgsPointCloudLayer], None]:
     return dress
 
 
-def by_height(attribute: str, highest: float) -> Callable[[QgsPointCloudLayer], None]:
+def by_height(
+    attribute: str, highest: float, unit_size: float = 1.0
+) -> Callable[[QgsPointCloudLayer], None]:
     """Return what colours a cloud by heights above ground, in the unit of the CRS.
 
     Parameters
@@ -96,13 +98,16 @@ def by_height(attribute: str, highest: float) -> Callable[[QgsPointCloudLayer], 
     highest : float
         The highest of them. Birds are left out of the colours: in a COPC file, for its uppermost
         node holds some points from everywhere.
+    unit_size : float
+        Metres in that unit.
     """
+    most = min(highest, _MOST_HEIGHT / unit_size)
 
     def dress(layer: QgsPointCloudLayer) -> None:
         renderer = QgsPointCloudAttributeByRampRenderer()
         renderer.setAttribute(attribute)
         is_copc = layer.dataProvider() is not None and layer.dataProvider().name() == "copc"
-        high = _usual_height(layer.source(), attribute) if is_copc else min(highest, _MOST_HEIGHT)
+        high = _usual_height(layer.source(), attribute) if is_copc else most
         # In steps, for the legend.
         high = max(math.ceil(high / _STEP) * _STEP, _STEP)
         renderer.setMinimum(0.0)

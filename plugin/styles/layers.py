@@ -12,8 +12,11 @@ from qgis.core import (
     QgsProcessingFeedback,
     QgsProcessingLayerPostProcessorInterface,
     QgsRasterLayer,
+    QgsSettings,
 )
 
+from ...algorithms.crs.system import unit_symbol
+from ...algorithms.products.contours import Interval
 from ..i18n import mark, tr
 from . import clouds, rasters, vectors
 
@@ -40,12 +43,15 @@ class Look(NamedTuple):
     hides : int
         Of layers that hide each other only the one with the highest of these is shown at first; 0
         for one that hides nothing.
+    shows : str
+        What the colours stand for, in the user's language; rasters say it themselves.
     """
 
     title: str
     height: int
     dress: Callable[[Any], None]
     hides: int = 0
+    shows: str = ""
 
 
 HILLSHADE = Look(mark("hillshade"), 0, rasters.hillshade)
@@ -63,22 +69,27 @@ RASTERS = {
 }  # fmt: skip
 
 
-def classes(values: Iterable[int], title: str = mark("classes"), hides: int = CLOUD) -> Look:
+CLASSES = mark("classes")
+
+
+def classes(values: Iterable[int], title: str = CLASSES, hides: int = CLOUD) -> Look:
     """Return what a cloud of such classes is."""
     return Look(title, 7, clouds.by_class(values), hides)
 
 
 def class_raster(values: Iterable[int], hides: int = CLOUD) -> Look:
     """Return what a raster of such classes is."""
-    return Look(mark("classes"), 7, rasters.classes(clouds.categories_of(values)), hides)
+    return Look(CLASSES, 7, rasters.classes(clouds.categories_of(values)), hides)
 
 
-def heights(attribute: str, highest: float) -> Look:
-    """Return what a cloud is with such an attribute of heights, up to the highest."""
-    return Look(mark("height above ground"), 7, clouds.by_height(attribute, highest), CLOUD)
+def heights(attribute: str, highest: float, unit_size: float) -> Look:
+    """Return what a cloud is with such heights, up to the highest, in units of so many metres."""
+    dress = clouds.by_height(attribute, highest, unit_size)
+    shows = f"{tr('Height above ground')}, {unit_symbol(unit_size)}"
+    return Look(mark("height above ground"), 7, dress, CLOUD, shows)
 
 
-def contours(interval: float) -> Look:
+def contours(interval: Interval) -> Look:
     """Return what contour lines are."""
     return Look(mark("contour lines"), 8, vectors.contours(interval))
 
@@ -127,6 +138,13 @@ def arrange(
         details.setPostProcessor(processor)
 
 
+def looks_of(context: QgsProcessingContext) -> dict[str, Look]:
+    """Return what the layers are that steps of a model have arranged, by their paths."""
+    loaded = context.layersToLoadOnCompletion()
+    shows = {path: details.postProcessor() for path, details in loaded.items()}
+    return {path: each.look for path, each in shows.items() if isinstance(each, _Show)}
+
+
 def free_name(context: QgsProcessingContext, name: str) -> str:
     """Return a name that no group of the project has yet; asked for in the main thread."""
     if context.project() is None:
@@ -141,45 +159,60 @@ class _Show(QgsProcessingLayerPostProcessorInterface):
 
     def __init__(self, look: Look, group: str, is_visible: bool) -> None:
         super().__init__()
-        self._look, self._group, self._is_visible = look, group, is_visible
+        self.look, self._group, self._is_visible = look, group, is_visible
 
     def postProcessLayer(
         self, layer: QgsMapLayer, context: QgsProcessingContext, feedback: QgsProcessingFeedback
     ) -> None:
         """Do so; called by QGIS in the main thread."""
-        self._look.dress(layer)
+        self.look.dress(layer)
         layer.triggerRepaint()
         project = context.project() or layer.project()
         node = project.layerTreeRoot().findLayer(layer.id()) if project else None
         if node is None:
             return
         if self._group:
-            layer.setCustomProperty(_HEIGHT, self._look.height)
-            node = _moved(node, self._group, self._look.height)
-        if isinstance(layer, QgsRasterLayer) and (shown := rasters.shown_by(layer)):
-            # In place of "Band 1 (Gray)".
+            layer.setCustomProperty(_HEIGHT, self.look.height)
+            node = _moved(node, self._group, self.look.height)
+        shown = self.look.shows
+        if isinstance(layer, QgsRasterLayer):
+            shown = rasters.shown_by(layer)
+        if shown:
+            # In place of "Band 1 (Gray)", or the attribute.
             QgsMapLayerLegendUtils.setLegendNodeUserLabel(node, 0, shown)
             layer.legendChanged.emit()
         node.setItemVisibilityChecked(self._is_visible)
-        node.setExpanded(self._is_visible and self._look is not HILLSHADE)
+        node.setExpanded(self._is_visible and self.look is not HILLSHADE)
 
 
 _HEIGHT = "bare_earth/height"
 
 
 def _moved(node: Any, name: str, height: int) -> Any:
-    """Move a layer into a group, made beside it if it is not there, and return its new node."""
-    parent = node.parent()
-    if parent.name() == name:
-        return node
-    group = parent.findGroup(name) or parent.insertGroup(0, name)
+    """Move a layer to its place in a group of the project, made if needed; return its new node."""
+    group = _group_of(node, name)
     copy = node.clone()
-    group.insertChildNode(_place_in(group, height), copy)
-    parent.removeChildNode(node)
+    group.insertChildNode(_place_in(group, node, height), copy)
+    node.parent().removeChildNode(node)
     return copy
 
 
-def _place_in(group: QgsLayerTreeGroup, height: int) -> int:
-    layers: Iterable[QgsMapLayer] = (each.layer() for each in group.findLayers())
-    heights = [int(each.customProperty(_HEIGHT, 0)) for each in layers]
-    return sum(each > height for each in heights)
+def _group_of(node: Any, name: str) -> QgsLayerTreeGroup:
+    """Return the group with this name: on top of the tree, or of the group that users chose."""
+    home = node
+    while home.parent() is not None:
+        home = home.parent()
+    chosen = QgsSettings().value("Processing/Configuration/RESULTS_GROUP_NAME", "")
+    home = home.findGroup(chosen) if chosen and home.findGroup(chosen) else home
+    return home.findGroup(name) or home.insertGroup(0, name)
+
+
+def _place_in(group: QgsLayerTreeGroup, node: Any, height: int) -> int:
+    """Return the place of the first layer that lies below, or -1, for the end.
+
+    QGIS puts a new layer above the current one, so the node may stand in the group, out of order.
+    """
+    for place, child in enumerate(group.children()):
+        if child != node and int(child.layer().customProperty(_HEIGHT, 0)) < height:
+            return place
+    return -1

@@ -46,6 +46,12 @@ def shown_by(layer: QgsRasterLayer) -> str:
     return ", ".join(tr(each) if each in SHOWN else each for each in said.split(", "))
 
 
+def unit_of(path: str) -> str:
+    """Return the symbol of the unit that a raster of ours says its heights have."""
+    raster = gdal.Open(path)
+    return raster.GetRasterBand(1).GetDescription().partition(", ")[2]
+
+
 def terrain(layer: QgsRasterLayer) -> None:
     """Colour heights from low to high; what lies below, the hillshade, shines through."""
     _spread(layer, ramps.TERRAIN, *_cut(layer))

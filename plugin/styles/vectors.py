@@ -6,22 +6,22 @@ from typing import Callable
 
 from qgis.core import QgsLineSymbol, QgsRuleBasedRenderer, QgsVectorLayer
 
-from ...algorithms.products.contours import INDEX
+from ...algorithms.products.contours import INDEX, Interval
 from ..i18n import tr
 
 _THIN = {"line_color": "110,72,36,160", "line_width": "0.2"}
 _THICK = {"line_color": "110,72,36,220", "line_width": "0.35"}
 
 
-def contours(interval: float) -> Callable[[QgsVectorLayer], None]:
+def contours(interval: Interval) -> Callable[[QgsVectorLayer], None]:
     """Return what draws contour lines in brown, each fifth of them thicker."""
 
     def dress(layer: QgsVectorLayer) -> None:
         root = QgsRuleBasedRenderer.Rule(None)
-        rule = f'round("ELEV" / {interval!r}) % {INDEX} = 0'
-        for properties, step in ((_THICK, INDEX * interval), (_THIN, interval)):
+        rule = f'round("ELEV" / {interval.height!r}) % {INDEX} = 0'
+        for properties, lines in ((_THICK, INDEX), (_THIN, 1)):
             symbol = QgsLineSymbol.createSimple(properties)
-            words = tr("Each {:g}").format(step)
+            words = tr("Every {}").format(interval.text(lines))
             each = QgsRuleBasedRenderer.Rule(symbol, 0, 0, rule, words)
             root.appendChild(each)
             rule = "ELSE"

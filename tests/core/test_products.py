@@ -174,7 +174,7 @@ def test_a_single_ground_point_is_enough(tmp_path):
 def test_no_ground_is_told(tmp_path):
     scene(tmp_path / "in.las")
     ground = GroundClasses(ground_classes=(9,))
-    with pytest.raises(BareEarthError, match=r"none is of class 9, all are of the classes 2, 6, 7"):
+    with pytest.raises(BareEarthError, match=r"none is of class 9, all are of classes 2, 6, 7"):
         write_height_above_ground(tmp_path / "in.las", tmp_path / "out.las", ground)
     with pytest.raises(BareEarthError, match="Classify its ground first"):
         write_key_points(tmp_path / "in.las", tmp_path / "out.las", ground=ground)

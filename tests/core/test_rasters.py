@@ -223,6 +223,16 @@ def test_confidence_is_low_across_gaps_and_high_where_ground_is_dense(tmp_path):
     assert np.nanmin(found) >= 0.0 and np.nanmax(found) <= 1.0
 
 
+def test_confidence_has_no_data_where_the_terrain_has_none(tmp_path):
+    along, off = np.mgrid[0:200.0, 0:60.0].reshape(2, -1)
+    stripe = _cloud((along + off) / 2, (along - off) / 2, np.zeros(len(along)))
+    files = ("dtm", "confidence")
+    terrain, _, _, _ = _made(stripe, tmp_path, files=files[:1], cell=1.0)
+    found, _, _, _ = _made(stripe, tmp_path, files=files[1:], cell=1.0)
+    assert 0.3 < np.isnan(terrain).mean() < 0.7
+    assert np.array_equal(np.isnan(found), np.isnan(terrain))
+
+
 def test_the_file_is_cloud_optimised(tmp_path):
     _made(CLOUDS["dense"], tmp_path, cell=0.3)
     with rasterio.open(tmp_path / "dtm.tif") as raster:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bare_earth.algorithms.core.errors import BareEarthError
-from bare_earth.algorithms.products.contours import Contours
+from bare_earth.algorithms.products.contours import Contours, Interval
 from bare_earth.algorithms.products.local_relief import local_relief
 
 
@@ -34,6 +34,11 @@ def test_relief_does_not_see_cells_without_a_height():
 def test_the_interval_of_contours_is_a_round_number_for_about_twenty_lines(low, high, interval):
     assert Contours().interval(low, high) == pytest.approx(interval)
     assert Contours(contour_interval=0.3).interval(low, high) == 0.3
+
+
+def test_an_interval_tells_its_unit_if_it_has_one():
+    assert Interval(2.5, "US survey ft").text(5) == "12.5 US survey ft"
+    assert Interval(0.25).text() == "0.25"
 
 
 def test_an_interval_must_be_positive():

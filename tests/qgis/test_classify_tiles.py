@@ -58,6 +58,8 @@ def test_a_folder_is_classified_and_the_log_says_how_to_repeat_it(tiles, folder,
     assert "0.laz: 25,600 points" in log.text and "4 of 4 files are done" in log.text
     loaded = str(out / "classified.vpc") in context.layersToLoadOnCompletion()
     assert loaded == ("vpc" in QgsProviderRegistry.instance().providerList())
+    told = f"This QGIS cannot show such a file as a layer. It is at {out / 'classified.vpc'}."
+    assert (told in log.text) == (not loaded)
     if loaded:
         layer = QgsPointCloudLayer(results["OUTPUT_VPC"], "Classified", "vpc")
         assert layer.isValid() and layer.crs().authid() == "EPSG:25832"

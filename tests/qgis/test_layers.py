@@ -151,6 +151,28 @@ def test_in_a_thread_of_its_own(algorithm, parameters, scene, log):
     assert details[results["DTM"]].postProcessor() is not None
 
 
+@pytest.mark.skipif(COPC, reason="this QGIS shows the points themselves")
+def test_a_cancel_after_the_outputs_does_not_say_that_there_are_none(
+    parameters, algorithm, context, log, monkeypatch
+):
+    from bare_earth.algorithms.products import class_raster
+
+    parts = class_raster.read_parts
+
+    def cancelling(*arguments):
+        log.cancel()
+        return parts(*arguments)
+
+    monkeypatch.setattr(class_raster, "read_parts", cancelling)
+    project = QgsProject.instance()
+    parameters["DTM"] = QgsProcessingOutputLayerDefinition(parameters["DTM"], project)
+    results, done = algorithm.run(parameters, context, log)
+    assert log.isCanceled() and done and results["GROUND_COUNT"] > 0
+    assert "Cancelled" not in log.text
+    (path,) = context.layersToLoadOnCompletion()
+    assert path == results["DTM"]
+
+
 @needs_copc
 @pytest.mark.parametrize("output_as", ["dimension", "z"])
 def test_birds_do_not_make_the_colours_of_heights_pale(output_as, scene, context, tmp_path):

@@ -54,7 +54,7 @@ def test_a_file_becomes_all_maps(scene, tmp_path):
     lines = opened[0]
     heights = sorted({each.GetField("ELEV") for each in lines})
     assert heights == [100.5 + 0.5 * step for step in range(11)] and lines.GetSpatialRef()
-    assert f"Ground    {scene.ground_count:>15,}" in log.text
+    assert f"{scene.ground_count:,} of {scene.count:,} points are ground" in log.text
     assert not [each for each in os.listdir(tmp_path) if each.startswith(".") or "aux" in each]
 
 
@@ -131,6 +131,20 @@ def test_every_output_may_be_left_out(scene, tmp_path):
     results = processing.run(ALL_IN_ONE, {"INPUT": str(scene.path), "CONTOURS": lines})
     assert results["CONTOURS"] == lines
     assert sorted(os.listdir(tmp_path)) == ["lines.geojson", scene.path.name]
+
+
+def test_the_log_tells_each_thing_once_and_ends_with_named_classes(tmp_path):
+    import processing
+
+    ground = write_scene(tmp_path / "scene.laz", epsg=None)
+    log = Log()
+    values = {"INPUT": str(tmp_path / "scene.laz"), **everything(tmp_path)}
+    processing.run(ALL_IN_ONE, values, feedback=log)
+    (units,) = (each for each in log.said if "taken as metres" in each)
+    assert units.startswith("scene.laz does not say its CRS")
+    counts = [each for each in log.said if "Class " in each]
+    assert counts[0].startswith(f"Class 2 (Ground): {np.count_nonzero(ground):,} points")
+    assert counts[1].startswith("Class 1 (")
 
 
 @pytest.mark.parametrize("how", ["folder", "input", "list"])

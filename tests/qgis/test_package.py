@@ -352,6 +352,29 @@ def test_the_proxy_of_qgis_is_that_of_pip(qgis):
     assert answer == {"none": "", "proxy": "http://me:a%40b@proxy.invalid:3128"}
 
 
+def test_layers_are_in_order_in_a_window_whatever_layer_is_current(qgis, clouds, tmp_path):
+    answer = qgis.window(
+        """
+        import processing
+        for _ in range(2):
+            processing.runAndLoadResults(given["algorithm"], {
+                "INPUT": given["cloud"], "CONFIDENCE": "TEMPORARY_OUTPUT",
+                **dict.fromkeys(("DTM", "DSM", "CHM", "HILLSHADE"), "TEMPORARY_OUTPUT"),
+            })
+            wait(lambda: False, 0.5)
+        root = iface.layerTreeView().layerTreeModel().rootGroup()
+        answer["groups"] = [
+            [each.name(), [one.name() for one in each.children()]] for each in root.children()
+        ]
+        """,
+        cloud=clouds[0].path, algorithm="bareearth:pointcloudtoterrain",
+    )  # fmt: skip
+    titles = ("confidence", "canopy height", "surface model", "terrain model", "hillshade")
+    layers = [f"scene: {each}" for each in titles]
+    groups = {name: layers for name in ("scene: terrain", "scene: terrain (2)")}
+    assert dict(answer["groups"]) == groups and len(answer["groups"]) == 2
+
+
 @pytest.mark.parametrize("package_name", ["scipy", "numpy"])
 def test_where_numpy_or_scipy_is_missing_the_window_says_how_to_add_it(qgis, package_name):
     answer = qgis.window(

@@ -7,7 +7,14 @@ import laspy
 import numpy as np
 import pytest
 from osgeo import gdal
-from qgis.core import QgsProcessingModelAlgorithm, QgsProcessingProvider, QgsVectorLayer
+from qgis.core import (
+    QgsProcessingModelAlgorithm,
+    QgsProcessingOutputLayerDefinition,
+    QgsProcessingProvider,
+    QgsProject,
+    QgsProviderRegistry,
+    QgsVectorLayer,
+)
 from support import ROOT
 
 gdal.UseExceptions()
@@ -129,9 +136,64 @@ def test_they_are_there_by_themselves(registry):
         page = model.helpUrl().rpartition("/docs/")[2]
         assert (ROOT / "docs" / page).is_file()
         for field in model.parameterDefinitions():
-            if not field.isDestination():
-                assert f"<b>{field.description()}</b>: " in model.shortHelpString()
-                assert len(field.help()) > 20
+            assert f"<b>{field.description()}</b>: " in model.shortHelpString()
+            assert len(field.help()) > 20
+
+
+@pytest.mark.parametrize(
+    ("name", "group", "titles", "shown"),
+    [
+        (
+            "terraincontours", "terrain, hillshade and contours",
+            ["contour lines", "classes", "terrain model", "hillshade"],
+            ["contour lines", "terrain model", "hillshade"],
+        ),
+        (
+            "twomethods", "two methods compared",
+            ["errors", "Hillshade, TIN densification", "Hillshade, slope filter"],
+            ["errors", "Hillshade, TIN densification", "Hillshade, slope filter"],
+        ),
+    ],
+)  # fmt: skip
+def test_their_layers_are_a_group_with_names_and_colours(
+    name, group, titles, shown, scene, tmp_path, context
+):
+    import processing
+
+    project = QgsProject.instance()
+    outputs = {
+        key: QgsProcessingOutputLayerDefinition(str(tmp_path / file), project)
+        for key, file in OUTPUTS[name].items()
+        if not file.endswith("html")
+    }
+    outputs = {"INTERVAL": 0.5, "differences:REPORT": str(tmp_path / "r.html"), **outputs}
+    if name == "terraincontours":
+        outputs["ground:OUTPUT"] = str(tmp_path / "ground.copc.laz")
+        if "copc" in QgsProviderRegistry.instance().providerList():
+            path = outputs["ground:OUTPUT"]
+            outputs["ground:OUTPUT"] = QgsProcessingOutputLayerDefinition(path, project)
+    processing.runAndLoadResults(f"bareearth:{name}", {"INPUT": str(scene.path), **outputs})
+    (tree,) = project.layerTreeRoot().children()
+    assert tree.name() == f"scene: {group}"
+    layers = {each.name().partition(": ")[2]: each for each in tree.children()}
+    assert sorted(layers) == sorted(titles)
+    assert [each for each in layers if not each.startswith("Hill")] == [
+        each for each in titles if not each.startswith("Hill")
+    ]
+    assert {title for title, each in layers.items() if each.isVisible()} == set(shown)
+    if name == "terraincontours":
+        rules = layers["contour lines"].layer().renderer().rootRule().children()
+        assert [each.label() for each in rules] == ["Every 2.5 m", "Every 0.5 m"]
+
+
+def test_their_presets_have_labels_and_numbers(run, registry):
+    model = registry.createAlgorithmById("bareearth:terraincontours")
+    preset = model.parameterDefinition("PRESET")
+    assert preset.options()[3] == "steep" and preset.defaultValue() == "automatic"
+    assert preset.metadata()["labels"][3] == "Steep or rugged terrain"
+    assert "steep: Steep or rugged terrain" in preset.help()
+    for given in ("3", "steep"):
+        assert Path(run("terraincontours", PRESET=given)["ground:OUTPUT"]).exists()
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)

@@ -14,7 +14,7 @@ from qgis.core import (
 )
 from qgis.PyQt.QtCore import Qt
 from qgis.PyQt.QtGui import QPainter
-from support import ALGORITHM
+from support import ALGORITHM, write_scene
 
 from bare_earth.algorithms.engine.raster_files import RASTERS
 from bare_earth.plugin.styles import clouds, rasters
@@ -92,7 +92,9 @@ def test_heights_of_a_cloud_have_colours_from_the_ground_up():
     assert (renderer.minimum(), renderer.maximum()) == (0.0, 25.0)
     assert renderer.colorRampShader().colorRampItemList()
     clouds.by_height("Z", 900.0)(layer)  # a bird
-    assert layer.renderer().maximum() < 100.0
+    assert layer.renderer().maximum() == 40.0
+    clouds.by_height("Z", 900.0, 0.3048)(layer)
+    assert layer.renderer().maximum() == 131.5
 
 
 def test_the_colours_of_terrain_fit_its_range_without_the_extremes(tmp_path):
@@ -229,6 +231,37 @@ def test_legends_say_what_is_shown_and_its_unit(run, scene, tmp_path, monkeypatc
     monkeypatch.setattr(rasters, "tr", {"Height": "Höhe"}.get)
     layer = QgsRasterLayer(str(outputs["DTM"]))
     assert rasters.shown_by(layer) == "Höhe, m"
+
+
+def legend_of(name):
+    """Return the texts of a layer's legend, as a window has them."""
+    project = QgsProject.instance()
+    model = QgsLayerTreeModel(project.layerTreeRoot())
+    (layer,) = (each for each in project.mapLayers().values() if each.name().endswith(name))
+    nodes = model.layerLegendNodes(project.layerTreeRoot().findLayer(layer.id()))
+    return [each.data(Qt.ItemDataRole.DisplayRole) for each in nodes]
+
+
+def test_the_legend_of_contour_lines_says_the_unit(run, tmp_path):
+    write_scene(tmp_path / "feet.las", epsg=2264)
+    outputs = {each: tmp_path / each for each in ("CONTOURS.gpkg", "DTM.tif")}
+    outputs = {name.partition(".")[0]: path for name, path in outputs.items()}
+    values = {"INPUT": str(tmp_path / "feet.las"), "CONTOUR_INTERVAL": 2.5}
+    run("bareearth:pointcloudtoterrain", values, outputs)
+    assert legend_of("contour lines") == ["Every 12.5 US survey ft", "Every 2.5 US survey ft"]
+
+
+@pytest.mark.skipif(Qgis.QGIS_VERSION_INT < 32600, reason="shows no point clouds")
+@pytest.mark.parametrize(("epsg", "unit"), [(25832, "m"), (2264, "US survey ft")])
+def test_the_legend_of_heights_says_the_unit(run, tmp_path, epsg, unit):
+    import processing
+
+    write_scene(tmp_path / "scene.las", epsg=epsg)
+    ground = str(tmp_path / "ground.las")
+    processing.run(ALGORITHM, {"INPUT": str(tmp_path / "scene.las"), "OUTPUT": ground})
+    outputs = {"OUTPUT": tmp_path / "heights.copc.laz"}
+    run("bareearth:heightaboveground", {"INPUT": ground}, outputs)
+    assert legend_of("height above ground")[0] == f"Height above ground, {unit}"
 
 
 def test_all_that_bands_say_is_translated():
