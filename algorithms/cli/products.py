@@ -97,7 +97,7 @@ def _write(options: argparse.Namespace) -> int:
 
 def _add_terrain(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..engine.memory import Resources
-    from ..engine.options import TileInput
+    from ..engine.options import RasterOutput, TileInput
     from ..products.surface_model import SurfaceModel
     from ..products.terrain_model import TerrainModel
     from ..survey.ground_classes import GroundClasses
@@ -107,7 +107,9 @@ def _add_terrain(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> N
     add_constraints(parser)
     add_scheduler(parser)
     add_json(parser)
-    add_parameters(parser, GroundClasses, TerrainModel, SurfaceModel, TileInput, Resources)
+    add_parameters(
+        parser, GroundClasses, TerrainModel, SurfaceModel, TileInput, RasterOutput, Resources
+    )
 
 
 def _terrain(options: argparse.Namespace) -> int:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Iterable, Sequence
 
 from ..core.errors import BareEarthError
-from ..core.files import check_output, is_same_file, temporary_folder
+from ..core.files import check_output, is_same_file, split_name, temporary_folder
 from ..core.progress import SILENT, Progress
 from ..las.writing import check_writable
 from ..survey.files import Survey, open_survey
@@ -26,7 +26,6 @@ from .steps import PointStep
 from .tile_run import TileRun
 from .workers import Threads, Workers
 
-_COPC = ".copc.laz"
 # Where the files wait of which more is to be made.
 _WAITING = "waiting"
 
@@ -170,7 +169,7 @@ def write_files(
     steps[0].check_survey(survey.box)
     targets = _targets_of(survey, folder, request.tiles.format)
     if rasters is not None:
-        _check_rasters(rasters.files, folder, (vpc, *targets, *targets.values()))
+        _check_rasters(rasters, survey, folder, (vpc, *targets, *targets.values()))
     failures = {each.path.name: (each.path, each.reason) for each in survey.broken}
     inputs = {each.path.name: each.path for each in survey.tiles}
     waiting = [folders_of(folder)[1] / f"{_WAITING}-{each}" for each in range(len(steps) - 1)]
@@ -247,7 +246,10 @@ def rasters_of_files(
     """
     recursive = request.files.recursive
     survey = open_survey(sources, recursive, progress.part(0.0, 0.05))
-    request.rasters.check(tuple(each.path for each in survey.tiles))
+    per_file = request.raster_output.raster_per_file
+    request.rasters.check(tuple(each.path for each in survey.tiles), per_file)
+    if per_file:
+        _check_stems(survey)
     for each in survey.broken:
         progress.warning(f"{each.path} is left out. {each.reason}")
     beside = next(iter(request.rasters.wanted.values())).parent
@@ -286,13 +288,30 @@ def _check_survey(survey: Survey, folder: Path, vpc: Path, searched: Sequence[Pa
         check_output(vpc)
 
 
-def _check_rasters(rasters: RasterFiles, folder: Path, others: tuple[Path, ...]) -> None:
+def _check_rasters(
+    step: MakeRasters, survey: Survey, folder: Path, others: tuple[Path, ...]
+) -> None:
     """Refuse rasters that could not be written; the folder of the output may not be there yet."""
-    if folder.exists():
-        rasters.check(others)
-        return
-    elsewhere = {name: path for name, path in rasters.wanted.items() if path.parent != folder}
-    RasterFiles(**elsewhere).check(others)
+    rasters = step.files
+    if not folder.exists():
+        paths = rasters.wanted.items()
+        rasters = RasterFiles(**{name: path for name, path in paths if path.parent != folder})
+    rasters.check(others, step.per_file)
+    if step.per_file:
+        _check_stems(survey)
+
+
+def _check_stems(survey: Survey) -> None:
+    """Refuse files whose rasters would get the same name."""
+    stems: dict[str, Path] = {}
+    for tile in survey.tiles:
+        stem = split_name(tile.path)[0]
+        other = stems.setdefault(os.path.normcase(stem).lower(), tile.path)
+        if other is not tile.path:
+            raise BareEarthError(
+                f"The rasters of {other} and of {tile.path} would both become {stem}.tif. Rename"
+                " one of the files, or make one raster of all."
+            )
 
 
 def _targets_of(survey: Survey, folder: Path, format: str = "same") -> dict[Path, Path]:
@@ -301,8 +320,7 @@ def _targets_of(survey: Survey, folder: Path, format: str = "same") -> dict[Path
     for tile in (*survey.tiles, *survey.broken):
         name = tile.path.name
         if format != "same":
-            stem = name[: -len(_COPC)] if name.lower().endswith(_COPC) else tile.path.stem
-            name = f"{stem}.{format}"
+            name = f"{split_name(tile.path)[0]}.{format}"
         other = inputs.setdefault(os.path.normcase(name).lower(), tile.path)
         if other is not tile.path:
             raise BareEarthError(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from typing import Callable, Iterator, Sequence
 
 import numpy as np
@@ -40,11 +41,12 @@ class Mosaic:
         self._made, self._layer, self.window, self._cell = made, layer, window, cell
         self._gaps: Surface | None = None
 
-    def strips(self) -> list[tuple[int, int]]:
-        """Return the rows, from north, at which strips begin and end."""
-        rows = max(_CELLS_A_STRIP // self.window.columns // _ROWS, 1) * _ROWS
-        count = self.window.rows
-        return [(start, min(start + rows, count)) for start in range(0, count, rows)]
+    def columns(self, start: int, end: int) -> Mosaic:
+        """Return some columns of the layer."""
+        part, whole = copy.copy(self), self.window
+        part.window = CellWindow(whole.row, whole.column + start, whole.rows, end - start)
+        part._made = [each for each in self._made if _overlap(each.window, part.window)]
+        return part
 
     def rows(self, start: int, end: int) -> np.ndarray:
         """Return rows of the raster, from north to south; rows beyond it are NaN.
@@ -75,7 +77,7 @@ class Mosaic:
             Receives progress.
         """
         vertices = [points]
-        for start, end in self.strips():
+        for start, end in _strips(self.window):
             heights = self.rows(max(start - 1, 0), min(end + 1, self.window.rows))
             vertices.append(self._along_gaps(heights, max(start - 1, 0)))
             progress(end / self.window.rows)
@@ -100,16 +102,26 @@ class Mosaic:
 
 def _overlap(one: CellWindow, other: CellWindow) -> tuple[slice, slice] | None:
     """Return the cells of one window that are in another, as indices of the one."""
-    south, north = max(one.row, other.row), min(one.row + one.rows, other.row + other.rows)
-    west = max(one.column, other.column)
-    east = min(one.column + one.columns, other.column + other.columns)
-    if south >= north or west >= east:
+    both = one.within(other)
+    if both.rows <= 0 or both.columns <= 0:
         return None
-    return slice(south - one.row, north - one.row), slice(west - one.column, east - one.column)
+    row, column = both.row - one.row, both.column - one.column
+    return slice(row, row + both.rows), slice(column, column + both.columns)
+
+
+def _strips(window: CellWindow) -> list[tuple[int, int]]:
+    """Return the rows, from north, at which strips begin and end."""
+    rows = max(_CELLS_A_STRIP // window.columns // _ROWS, 1) * _ROWS
+    count = window.rows
+    return [(start, min(start + rows, count)) for start in range(0, count, rows)]
 
 
 def gathered_strips(
-    mosaics: Sequence[Mosaic], make: Callable[..., np.ndarray], margin: int, progress: Progress
+    mosaics: Sequence[Mosaic],
+    window: CellWindow,
+    make: Callable[..., np.ndarray],
+    margin: int,
+    progress: Progress,
 ) -> Iterator[np.ndarray]:
     """Yield what is made of the rows of mosaics, strip by strip from north to south.
 
@@ -117,15 +129,24 @@ def gathered_strips(
     ----------
     mosaics : sequence of Mosaic
         One or more, of the same cells.
+    window : CellWindow
+        Which of these cells to make.
     make : callable
         Takes rows of each of them and returns as many rows.
     margin : int
-        Rows beyond a strip that matter for it.
+        Rows and columns beyond a strip that matter for it.
     progress : Progress
         Receives progress.
     """
-    count = mosaics[0].window.rows
-    for start, end in mosaics[0].strips():
-        first, last = max(start - margin, 0), min(end + margin, count)
-        yield make(*(each.rows(first, last) for each in mosaics))[start - first : end - first]
-        progress(end / count)
+    whole = mosaics[0].window
+    north = whole.row + whole.rows - window.row - window.rows
+    left = window.column - whole.column
+    west, east = max(left - margin, 0), min(left + window.columns + margin, whole.columns)
+    parts = [each.columns(west, east) for each in mosaics]
+    columns = slice(left - west, left - west + window.columns)
+    for start, end in _strips(window):
+        start, end = north + start, north + end
+        first, last = max(start - margin, 0), min(end + margin, whole.rows)
+        made = make(*(each.rows(first, last) for each in parts))
+        yield made[start - first : end - first, columns]
+        progress((end - north) / window.rows)

@@ -71,3 +71,17 @@ class TileOutput(ParameterSet):
         help="Keeps the tiles that an earlier run finished, if they were made from the same files"
         " with the same parameters. All other tiles are classified again.",
     )
+
+
+@dataclass(frozen=True)
+class RasterOutput(ParameterSet):
+    """How the rasters of many files are cut."""
+
+    raster_per_file: bool = parameter(
+        False,
+        label="One raster for each file",
+        advanced=True,
+        help="Cuts each raster of many files into one GeoTIFF for each file. They get the names of"
+        " the files, in a folder with the name of the raster. A virtual raster (.vrt) beside this"
+        " folder shows them as one.",
+    )

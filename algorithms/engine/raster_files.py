@@ -8,7 +8,8 @@ from typing import Callable, NamedTuple
 
 import numpy as np
 
-from ..core.files import check_distinct
+from ..core.errors import BareEarthError
+from ..core.files import check_distinct, check_output
 from ..grids.hillshade import hillshade, multidirectional_hillshade
 from ..products.surface_model import canopy_height
 from ..products.terrain_model import TerrainModel
@@ -142,8 +143,15 @@ class RasterFiles:
         """The layers that those are made of, each once."""
         return tuple(dict.fromkeys(each for name in self.wanted for each in RASTERS[name].layers))
 
-    def check(self, others: tuple[Path, ...]) -> None:
+    def check(self, others: tuple[Path, ...], per_file: bool = False) -> None:
         """Refuse rasters that could not be written, or would replace another file of the run.
+
+        Parameters
+        ----------
+        others : tuple of Path
+            The other files of the run.
+        per_file : bool
+            Whether each of many files gets rasters of its own.
 
         Raises
         ------
@@ -154,3 +162,18 @@ class RasterFiles:
         check_distinct(paths)
         for each in paths:
             check_raster_output(each, others)
+            if per_file:
+                check_output(virtual_of(each), others)
+                folder = folder_of(each)
+                if folder.exists() and not folder.is_dir():
+                    raise BareEarthError(f"Cannot write into {folder}: it is a file. Rename it.")
+
+
+def folder_of(raster: Path) -> Path:
+    """Return the folder of the rasters of single files, which has the name of the raster."""
+    return raster.with_suffix("")
+
+
+def virtual_of(raster: Path) -> Path:
+    """Return the virtual raster that joins the rasters of single files."""
+    return raster.with_suffix(".vrt")

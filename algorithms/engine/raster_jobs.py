@@ -10,7 +10,7 @@ from typing import Any, Iterator, Mapping, Sequence
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import replacing
+from ..core.files import replacing, split_name
 from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
 from ..las.cloud import survey_frame
@@ -165,8 +165,12 @@ def make_rasters(
         if queue.lost:
             raise BareEarthError(f"The rasters cannot be made. {queue.lost[0]}")
         made = [each for file in files.values() for each in _kept_in(file)]
+        last = progress.part(0.8, 1.0)
+        per_file = (
+            {split_name(each.path)[0]: each.box for each in survey.tiles} if step.per_file else None
+        )
         with contextlib.ExitStack() as outputs:
-            return write_rasters(made, grid.frame, step, outputs, progress.part(0.8, 1.0))
+            return write_rasters(made, grid.frame, step, outputs, last, per_file)
     finally:
         for file in files.values():
             file.unlink(missing_ok=True)

@@ -6,12 +6,13 @@ import contextlib
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import Callable, Iterable, Sequence
+from typing import Callable, Iterable, Mapping, Sequence
 
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.points import Frame
+from ..core.files import new_folder, replacing
+from ..core.points import Box, Frame
 from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
 from ..grids.dense_surface import VERTICES_A_SIDE
@@ -20,7 +21,8 @@ from ..products.raster_block import LAYERS, BlockRasters, RasterStep
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import TerrainModel
 from ..rasters.geotiff import RasterGrid
-from ..rasters.writing import Rows, replacing_raster, write_geotiff
+from ..rasters.virtual import write_virtual
+from ..rasters.writing import Band, Rows, replacing_raster, write_geotiff
 from ..survey.ground_classes import GroundClasses, GroundTally
 from ..survey.selection import NOISE
 from .blocks import Block, Blocks, Store
@@ -28,7 +30,7 @@ from .constraints import NO_CONSTRAINTS, Constraints, FixedTerrain, fixed_terrai
 from .ground import over_blocks
 from .memory import Cost, Resources
 from .mosaic import Mosaic, gathered_strips
-from .raster_files import RASTERS, RasterFiles
+from .raster_files import RASTERS, Raster, RasterFiles, folder_of, virtual_of
 from .steps import Marks, Step
 
 _MOST_CELLS = 4_000_000_000
@@ -91,8 +93,10 @@ class MakeRasters(Step):
         Whether the rasters reach as far as the ground does, not as all points but noise.
     constraints : Constraints
         Breaklines, water, and where there is no ground.
+    per_file : bool
+        Whether each of many files gets rasters of its own.
     fixed : FixedTerrain or None
-        The vertices that follow from them; `seeing` finds these.
+        The vertices that follow from the constraints; `seeing` finds these.
     """
 
     files: RasterFiles = field(default_factory=RasterFiles)
@@ -101,6 +105,7 @@ class MakeRasters(Step):
     ground: GroundClasses = field(default_factory=GroundClasses)
     covers_ground: bool = False
     constraints: Constraints = NO_CONSTRAINTS
+    per_file: bool = False
     fixed: FixedTerrain | None = None
 
     tally = RasterTally
@@ -216,6 +221,7 @@ def write_rasters(
     step: MakeRasters,
     outputs: contextlib.ExitStack,
     progress: Progress = SILENT,
+    files: Mapping[str, Box] | None = None,
 ) -> RasterSize:
     """Write the rasters of a survey; they get their names when `outputs` is closed.
 
@@ -231,31 +237,74 @@ def write_rasters(
         Takes in the files.
     progress : Progress
         Receives progress and messages.
+    files : mapping of str to Box, optional
+        Names of the files that get rasters of their own, with their extents in units of the CRS.
 
     Raises
     ------
     BareEarthError
         If there is no point to make the rasters of, or one of them cannot be written.
     """
-    cell, files = step.model.dtm_cell_size, step.files.wanted
+    cell, wanted = step.model.dtm_cell_size, step.files.wanted
     window = _window_of(made, cell)
-    grid = _grid_of(window, cell, frame)
     mosaics = {}
     for name in step.files.layers:
         mosaics[name] = Mosaic(made, name, window, cell)
         loose = [each.loose[name] for each in made if name in each.loose]
         if loose and step.surface.max_edge is None:
             mosaics[name].fill_gaps(np.concatenate(loose), progress.part(0.0, 0.3))
-    parts = progress.part(0.3, 1.0).shares(*[1.0] * len(files))
-    for (name, path), part in zip(files.items(), parts):
+    parts = progress.part(0.3, 1.0).shares(*[1.0] * len(wanted))
+    for (name, path), part in zip(wanted.items(), parts):
         raster = RASTERS[name]
-        make = partial(raster.make, grid=grid, model=step.model)
         layers = [mosaics[each] for each in raster.layers]
-        rows = Rows(window.shape, raster.kind, gathered_strips(layers, make, raster.margin, part))
-        temporary = outputs.enter_context(replacing_raster(path))
-        write_geotiff(temporary, rows, grid, raster.nodata, progress, raster.shows)
+        write = partial(_write, raster, layers, frame, step, outputs)
+        if files is None:
+            write(path, window, part)
+        else:
+            windows = _windows_of(files, window, cell, frame)
+            shares = part.shares(*[1.0] * len(windows))
+            folder = outputs.enter_context(new_folder(folder_of(path)))
+            names = [folder / f"{each}.tif" for each in windows]
+            grids = dict(zip(names, map(write, names, windows.values(), shares)))
+            virtual, grid = virtual_of(path), _grid_of(window, cell, frame)
+            temporary = outputs.enter_context(replacing(virtual))
+            band = Band.of(grid, raster.nodata, raster.shows)
+            write_virtual(temporary, virtual.parent, grid, grids, raster.kind, band)
     counts = np.sum([each.counts for each in made], axis=0)
     return RasterSize(int(counts[0]), int(counts[1]), window.columns, window.rows)
+
+
+def _write(
+    raster: Raster,
+    layers: Sequence[Mosaic],
+    frame: Frame,
+    step: MakeRasters,
+    outputs: contextlib.ExitStack,
+    path: Path,
+    window: CellWindow,
+    progress: Progress,
+) -> RasterGrid:
+    """Write some cells of a raster; return where they lie."""
+    grid = _grid_of(window, step.model.dtm_cell_size, frame)
+    make = partial(raster.make, grid=grid, model=step.model)
+    strips = gathered_strips(layers, window, make, raster.margin, progress)
+    temporary = outputs.enter_context(replacing_raster(path))
+    rows = Rows(window.shape, raster.kind, strips)
+    write_geotiff(temporary, rows, grid, raster.nodata, progress, raster.shows)
+    return grid
+
+
+def _windows_of(
+    files: Mapping[str, Box], whole: CellWindow, cell: float, frame: Frame
+) -> dict[str, CellWindow]:
+    """Return the cells of each file, without files that lie outside of all cells."""
+    windows = {}
+    for name, box in files.items():
+        west, south, east, north = (each * frame.horizontal_unit for each in box)
+        window = CellWindow.around((west, south, east, north), cell).within(whole)
+        if min(window.shape) > 0:
+            windows[name] = window
+    return windows
 
 
 def _window_of(made: Sequence[BlockRasters], cell: float) -> CellWindow:

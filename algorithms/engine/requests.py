@@ -21,7 +21,7 @@ from .heights import HeightOutput, MeasureHeights
 from .key_points import FindKeyPoints, KeyPointMark
 from .labelling import LabelGround
 from .memory import Resources
-from .options import TileInput, TileMethod, TileOutput
+from .options import RasterOutput, TileInput, TileMethod, TileOutput
 from .output import Output
 from .raster_files import RasterFiles
 from .rasters import MakeRasters
@@ -88,6 +88,8 @@ class ClassifyRequest(Request):
         Their cell size and light, and which points make the surface.
     constraints : Constraints
         Breaklines, water, and where there is no ground, for the rasters.
+    raster_output : RasterOutput
+        Whether each of many files gets its own rasters.
     """
 
     parameters: ParameterSet = field(default_factory=METHODS[DEFAULT_METHOD].parameters)
@@ -99,6 +101,7 @@ class ClassifyRequest(Request):
     terrain: TerrainModel = field(default_factory=TerrainModel)
     surface: SurfaceModel = field(default_factory=SurfaceModel)
     constraints: Constraints = NO_CONSTRAINTS
+    raster_output: RasterOutput = field(default_factory=RasterOutput)
 
     def __post_init__(self) -> None:
         self.output.check_area(self.area is not None)
@@ -124,8 +127,9 @@ class ClassifyRequest(Request):
         """What makes the rasters of the classified points."""
         covers_ground = not any(LAYERS[each].of_all for each in self.rasters.layers)
         return MakeRasters(
-            self.rasters, self.terrain, self.surface, self._ground, covers_ground, self.constraints
-        )
+            self.rasters, self.terrain, self.surface, self._ground, covers_ground, self.constraints,
+            self.raster_output.raster_per_file,
+        )  # fmt: skip
 
     @property
     def height_step(self) -> MeasureHeights:
@@ -192,6 +196,8 @@ class TerrainRequest(Request):
         Cell size, light, gaps, and which points make the surface.
     constraints : Constraints
         Breaklines, water, and where there is no ground.
+    raster_output : RasterOutput
+        Whether each of many files gets its own rasters.
     """
 
     rasters: RasterFiles = field(default_factory=RasterFiles)
@@ -199,10 +205,12 @@ class TerrainRequest(Request):
     terrain: TerrainModel = field(default_factory=TerrainModel)
     surface: SurfaceModel = field(default_factory=SurfaceModel)
     constraints: Constraints = NO_CONSTRAINTS
+    raster_output: RasterOutput = field(default_factory=RasterOutput)
 
     @property
     def raster_step(self) -> MakeRasters:
         """What makes the rasters."""
         return MakeRasters(
-            self.rasters, self.terrain, self.surface, self.ground, constraints=self.constraints
-        )
+            self.rasters, self.terrain, self.surface, self.ground, constraints=self.constraints,
+            per_file=self.raster_output.raster_per_file,
+        )  # fmt: skip

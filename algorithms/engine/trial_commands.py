@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Sequence
 
 from ..core.commands import shell_line
+from ..core.files import split_name
 from ..products.trial_page import Commands
 from ..survey.files import is_one_file
 from .options import TileMethod
@@ -44,14 +45,6 @@ def commands_for(paths: Sequence[Path], setting: Setting) -> Commands:
 
 def _output(first: Path, setting: Setting, is_one: bool) -> Path:
     """Return a name beside the input: of a file for one file, of a folder for many."""
-    name, suffix = _split(first.name)
+    name, suffix = split_name(first)
     added = setting.name.replace(":", "_")
     return first.with_name(f"{name}_{added}{suffix if is_one else ''}")
-
-
-def _split(name: str) -> tuple[str, str]:
-    """Return the name of an input without its suffix, and the suffix."""
-    for suffix in (".copc.laz", ".laz", ".las", ".vpc", ".txt"):
-        if name.lower().endswith(suffix):
-            return name[: -len(suffix)], name[-len(suffix) :]
-    return name, ""
