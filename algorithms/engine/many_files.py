@@ -23,7 +23,7 @@ from .rasters import MakeRasters, RasterSize
 from .record import folders_of
 from .requests import ClassifyRequest, Request, TerrainRequest
 from .steps import PointStep
-from .tile_run import TileRun
+from .tile_run import TileRun, tasks_of
 from .workers import Threads, Workers
 
 # Where the files wait of which more is to be made.
@@ -146,7 +146,7 @@ def write_files(
     vpc : Path, optional
         The virtual point cloud of the results; in the folder if not given.
     rasters : MakeRasters, optional
-        Rasters to make of what the first step wrote.
+        Rasters to make of what the last step wrote.
 
     Raises
     ------
@@ -174,22 +174,26 @@ def write_files(
     inputs = {each.path.name: each.path for each in survey.tiles}
     waiting = [folders_of(folder)[1] / f"{_WAITING}-{each}" for each in range(len(steps) - 1)]
     parts = progress.part(0.02, 0.98).shares(*[1.0] * len(steps))
-    for number, (step, place, part) in enumerate(zip(steps, (*waiting, folder), parts)):
+    places = [*waiting, folder]
+    formats = [*["same"] * len(waiting), request.tiles.format]
+    of_steps = [_targets_of(survey, *each) for each in zip(places, formats)]
+    tasks = tasks_of(survey, steps, of_steps, request.tiles.resume)
+    for number, (step, place, task, part) in enumerate(zip(steps, places, tasks, parts)):
         is_last = place is folder
-        targets = _targets_of(survey, place, request.tiles.format if is_last else "same")
-        run = TileRun(survey, place, targets, step, part)
-        run.work(workers, request.tiles.resume, None if number else rasters)
+        targets = _targets_of(survey, place, formats[number])
+        run = TileRun(survey, place, targets, step, part, task)
+        run.work(workers, request.tiles.resume, rasters if is_last else None)
         for path, reason in run.failures.items():
             failures[path.name] = inputs[path.name], reason
         if not number:
             empty_count = run.empty_count
-            if run.done or empty_count:
+            if (run.done or empty_count) and not tasks[-1].kept:
                 step.tell_of_survey(run.done, progress)
-        if not run.done:
-            break
-        if not is_last:
+        if not is_last and run.done:
             done = [place / each.name for each in run.done]
             survey = open_survey(done, progress=SILENT)
+        elif not run.done and not tasks[-1].kept:
+            break
     reasons = {str(path): reason for path, reason in sorted(failures.values())}
     for path, reason in reasons.items():
         progress.warning(f"{path} is left out. {reason}")

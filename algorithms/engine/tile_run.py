@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import shutil
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, Iterable, NamedTuple, Sequence
 
 from ..core.errors import BareEarthError
 from ..core.files import alone_in, describe_write_error
-from ..core.progress import Progress
+from ..core.progress import SILENT, Progress
 from ..core.temporary import remove_leftovers
 from ..las.cloud import survey_frame
 from ..las.lasfile import LasFile
@@ -32,6 +33,25 @@ class _Needs(NamedTuple):
     sources: list[Path]
 
 
+@dataclass(frozen=True)
+class Task:
+    """Which files of a survey one of several steps has to do.
+
+    Attributes
+    ----------
+    only : frozenset of str, or None
+        Their names; all, if it is None.
+    records : dict of str to Record
+        From what the outputs are made, by the names of the files, if not from the files themselves.
+    kept : list
+        What became of the files that an earlier run finished.
+    """
+
+    only: frozenset[str] | None = None
+    records: dict[str, Record] = field(default_factory=dict)
+    kept: list[Any] = field(default_factory=list)
+
+
 class TileRun:
     """Writes the files of a survey into a folder, with what a step finds of their points.
 
@@ -47,6 +67,8 @@ class TileRun:
         What is to be found.
     progress : Progress
         Receives progress, and a line on each finished file.
+    task : Task
+        Which files are to be done.
 
     Attributes
     ----------
@@ -67,12 +89,13 @@ class TileRun:
         targets: dict[Path, Path],
         step: PointStep,
         progress: Progress,
+        task: Task = Task(),
     ) -> None:
         self.done: list[Any] = []
         self.kept_count, self.empty_count, self.failures = 0, 0, {}
         self._grid = BlockGrid(survey_frame(survey.crs), step.blocks)
         self._survey, self._folder, self._targets = survey, folder, targets
-        self._step, self._progress = step, progress
+        self._step, self._progress, self._task = step, progress, task
         self._sources: dict[BlockIndex, list[Path]] = {}
         # As they are before any of them is read.
         self._states = {each.path: state_of(each.path) for each in survey.tiles}
@@ -83,7 +106,8 @@ class TileRun:
                 continue
             try:
                 step.check_tile(tile)
-                self._todo.append(self._needs(tile))
+                if task.only is None or tile.path.name in task.only:
+                    self._todo.append(self._needs(tile))
             except BareEarthError as error:
                 self.failures[tile.path] = str(error)
             progress(0.02 * number / len(survey.tiles))
@@ -143,18 +167,27 @@ class TileRun:
         sources = sorted({path for place in places for path in self._sources[place]})
         return _Needs(tile, places, sources)
 
-    def _made_of(self, needs: _Needs) -> Record:
+    @property
+    def sources(self) -> dict[Path, list[Path]]:
+        """The files whose points matter for each file that is to be done."""
+        return {needs.tile.path: needs.sources for needs in self._todo}
+
+    def record(self, tile: Path, sources: Iterable[Path]) -> Record:
+        """Return from what the output of a file is made, given the files that matter for it."""
+        states = map(self._states.__getitem__, sources)
+        return made_of(self._grid, self._step, tile, states, self._targets[tile])
+
+    def _record(self, needs: _Needs) -> Record:
         path = needs.tile.path
-        sources = map(self._states.__getitem__, needs.sources)
-        return made_of(self._grid, self._step, path, sources, self._targets[path])
+        return self._task.records.get(path.name) or self.record(path, needs.sources)
 
     def _keep_done(self, resume: bool) -> list[Any]:
         """Take out the tiles that are done; return what became of them."""
-        kept, todo, changed = [], [], 0
+        kept, todo, changed = [*self._task.kept], [], 0
         for needs in self._todo:
             target = self._targets[needs.tile.path]
             before = read_record(target) if resume else None
-            if before is not None and before[0] == self._made_of(needs):
+            if before is not None and before[0] == self._record(needs):
                 kept.append(self._step.summary_type(**before[1]))
                 continue
             changed += before is not None
@@ -187,7 +220,7 @@ class TileRun:
                 self._targets[needs.tile.path],
                 tuple(needs.places),
                 tuple(files[each] for each in needs.places),
-                self._made_of(needs),
+                self._record(needs),
             )
             for needs in self._todo
         ]
@@ -196,6 +229,53 @@ class TileRun:
             PointJob, grid, survey, missing, self._folder, len(tiles), workers, step=step
         )
         return blocks, tiles
+
+
+def tasks_of(
+    survey: Survey,
+    steps: Sequence[PointStep],
+    targets: Sequence[dict[Path, Path]],
+    resume: bool,
+) -> list[Task]:
+    """Return what each of one or two steps has to do, the second with what the first writes.
+
+    What the first step writes is removed at the end. So a finished file is known by the inputs of
+    the first step, and the first step is repeated only for the files that the second needs.
+
+    Parameters
+    ----------
+    survey : Survey
+        The inputs of the first step.
+    steps : sequence of PointStep
+        One or two.
+    targets : sequence of dict of Path to Path
+        The outputs of each step, by the inputs of the first.
+    resume : bool
+        Whether files that an earlier run finished stay.
+    """
+    if len(steps) == 1:
+        return [Task()]
+    first, second = (
+        TileRun(survey, next(iter(where.values())).parent, where, step, SILENT)
+        for step, where in zip(steps, targets)
+    )
+    of_first, of_second = first.sources, second.sources
+    records, kept, todo = {}, [], []
+    for path in of_first.keys() & of_second.keys():
+        files = sorted({file for each in of_second[path] for file in of_first.get(each, ())})
+        record = {**second.record(path, files), "before": first.record(path, ())}
+        before = read_record(targets[1][path]) if resume else None
+        if before is not None and before[0] == record:
+            kept.append(steps[1].summary_type(**before[1]))
+        else:
+            todo.append(path)
+        records[path.name] = record
+    if not kept:
+        return [Task(), Task(records=records)]
+    needed = {each.name for path in todo for each in of_second[path]}
+    refused = {path.name for path in of_first.keys() - of_second.keys()}
+    names = frozenset(each.name for each in todo)
+    return [Task(frozenset(needed | refused)), Task(names, records, kept)]
 
 
 def _make(folder: Path, *within: Path) -> None:
