@@ -24,13 +24,10 @@ from .lasfile import (
     new_vlr,
     text_of,
 )
-from .records import Tally, column, laszip_vlr, named
+from .records import Tally, as_points, laszip_vlr, named
 
 _GPS_TIME_TYPE, _SYNTHETIC_RETURNS, _WKT = 0x01, 0x08, 0x10
 _WAVEFORM_DESCRIPTORS = range(100, 355)
-# Where a record has its GPS time, its colours and its near infrared, by point format.
-_GPS_TIMES = {1: 20, 3: 20, 4: 20, 5: 20}
-_COLOURS = {2: 20, 3: 28, 5: 28}
 _WITH_WAVEFORMS = (4, 5, 9, 10)
 NEW_FORMATS = (6, 6, 7, 7, 6, 7, 6, 7, 8, 6, 8)
 # Degrees to the unit of scan angles since LAS 1.4.
@@ -113,28 +110,17 @@ def convert(layout: LasFile, old: np.ndarray, classes: np.ndarray, new: np.ndarr
         # 9 and 10 are 6 and 8 with waveforms behind.
         new[:, :length] = old[:, :length]
     else:
-        _modernise(old, new, layout.point_format)
+        _modernise(layout, old, new)
     new[:, length:] = old[:, RECORD_LENGTHS[layout.point_format] :]
     new[:, 16] = classes
 
 
-def _modernise(old: np.ndarray, new: np.ndarray, point_format: int) -> None:
-    """Put points of the formats 0 to 5 into records of the formats 6 and 7, but for the class."""
-    new[:, :14] = old[:, :14]  # x, y, z, intensity
-    bits = old[:, 14]
-    new[:, 14] = (bits & 0x07) | ((bits & 0x38) << 1)  # return number, number of returns
-    # Synthetic, key point, withheld; scan direction and edge of flight line.
-    new[:, 15] = (old[:, 15] >> 5) | (bits & 0xC0)
-    new[:, 17] = old[:, 17]  # user data
-    angles = old[:, 16].view(np.int8) / _ANGLE_UNIT
-    column(new, 18, "<i2")[:] = np.rint(angles)
-    new[:, 20:22] = old[:, 18:20]  # point source
-    if point_format in _GPS_TIMES:
-        start = _GPS_TIMES[point_format]
-        new[:, 22:30] = old[:, start : start + 8]
-    if point_format in _COLOURS:
-        start = _COLOURS[point_format]
-        new[:, 30:36] = old[:, start : start + 6]
+def _modernise(layout: LasFile, old: np.ndarray, new: np.ndarray) -> None:
+    """Put points of the formats 0 to 5 into records of the formats 6 and 7."""
+    before = named(layout, old)
+    after = as_points(NEW_FORMATS[layout.point_format], [("extra", layout.extra_bytes)], new)
+    after.copy_fields_from(before)
+    after["scan_angle"] = np.rint(before["scan_angle_rank"] / _ANGLE_UNIT)
 
 
 def new_header(layout: LasFile, point_format: int, statistics: Statistics) -> bytearray:

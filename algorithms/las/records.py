@@ -121,11 +121,19 @@ def read_records(
 
 def named(layout: LasFile, records: np.ndarray) -> laspy.PackedPointRecord:
     """Return points, given as their bytes, by the names that laspy has for their columns."""
+    return as_points(layout.point_format, runs_of_bytes(layout), records)
+
+
+def as_points(
+    point_format: int, extra: Iterable[tuple[str, int]], records: np.ndarray
+) -> laspy.PackedPointRecord:
+    """Return the same, given the point format, and name and size of the extra bytes."""
     import laspy
 
-    point_type = laspy.PointFormat(layout.point_format)
-    for name, size in runs_of_bytes(layout):
-        point_type.add_extra_dimension(laspy.ExtraBytesParams(name, f"{size}u1"))
+    point_type = laspy.PointFormat(point_format)
+    for name, size in extra:
+        if size:
+            point_type.add_extra_dimension(laspy.ExtraBytesParams(name, f"{size}u1"))
     return laspy.PackedPointRecord.from_buffer(records, point_type)
 
 
