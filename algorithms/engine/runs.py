@@ -84,6 +84,11 @@ def heights(
     -------
     HeightSummary or SurveySummary
         What was done, of one file or of many.
+
+    Raises
+    ------
+    BareEarthError, Cancelled
+        As for `classify`, and if the input has no ground.
     """
     return _written(_paths(sources), Path(output), request, progress, workers)
 
@@ -108,6 +113,11 @@ def key_points(
     -------
     KeyPointSummary or SurveySummary
         What was done, of one file or of many.
+
+    Raises
+    ------
+    BareEarthError, Cancelled
+        As for `classify`, and if the input has no ground.
     """
     return _written(_paths(sources), Path(output), request, progress, workers)
 
@@ -126,6 +136,11 @@ def terrain(
         Which rasters, where they go, and how they are made.
     sources, progress, workers
         As for `classify`; all files together are one survey.
+
+    Returns
+    -------
+    RasterSize
+        The size of the rasters, and the number of points that they were made from.
 
     Raises
     ------
