@@ -1,4 +1,4 @@
-"""What is made of many files as one survey, without a seam: classified ones, heights, rasters."""
+"""Classification, heights, key points and rasters of many files as one survey, without seams."""
 
 from __future__ import annotations
 
@@ -26,30 +26,30 @@ from .steps import PointStep
 from .tile_run import TileRun, tasks_of
 from .workers import Threads, Workers
 
-# Where the files wait of which more is to be made.
+# Folder of files that a further step will read.
 _WAITING = "waiting"
 
 
 @dataclass(frozen=True)
 class SurveySummary:
-    """What became of a survey.
+    """The result of a run on a survey.
 
     Attributes
     ----------
     tile_count : int
-        Files of the survey.
+        Number of files in the survey.
     done_count : int
-        Those that are done, in this run or before it.
+        Number of finished files, of this run and of earlier ones.
     kept_count : int
-        Those that a run before had done.
+        How many of them an earlier run finished.
     point_count, ground_count : int
-        Points of the files that are done, and those of them that are ground.
+        Numbers of all points and of ground points in the finished files.
     failures : dict of str to str
-        Why the others are not done, by their paths.
+        Why other files could not be done, by their paths.
     vpc : str
-        The virtual point cloud of all that are.
+        The virtual point cloud of the finished files.
     tiles : tuple
-        What became of each file that is done, as the step says it.
+        The summary of each finished file.
     """
 
     tile_count: int
@@ -83,14 +83,14 @@ def classify_files(
     vpc: Path | None = None,
     blocks: Blocks | None = None,
 ) -> SurveySummary:
-    """Classify the ground points of many files as one survey, and write each anew.
+    """Classify the ground points of many files as one survey, and write each with its new classes.
 
     Parameters
     ----------
     request : ClassifyRequest
         What to do.
     blocks : Blocks, optional
-        How the survey is cut, if not as the method has it.
+        The blocks, if they are not those of the method.
     sources, folder, progress, workers, vpc
         As for `write_files`.
 
@@ -99,7 +99,7 @@ def classify_files(
     BareEarthError
         If no file can be classified, or the outputs cannot be written.
     Cancelled
-        If the user asked to stop; finished files stay, and nothing is half written.
+        If the user asked to stop. Finished files stay, and no file is incomplete.
     """
     steps: list[PointStep] = [replace(request.step, cut=blocks)]
     if request.output.height_above_ground:
@@ -124,36 +124,36 @@ def write_files(
     vpc: Path | None = None,
     rasters: MakeRasters | None = None,
 ) -> SurveySummary:
-    """Write many files anew, as one survey, with what steps find of their points.
+    """Run steps on many files as one survey, and write each file with the results.
 
-    The results are those that one file with all the points would get. A file that cannot be worked
-    on does not stop the others.
+    The results are those of one file with all points. A file that cannot be processed does not stop
+    the others.
 
     Parameters
     ----------
     sources : iterable of Path
         Files, folders, virtual point clouds and lists, as for `open_survey`.
     folder : Path
-        Where the outputs go, under the names of the inputs; made if it is not there.
+        The folder for the outputs, which get the names of the inputs. It is made if it is missing.
     steps : sequence of PointStep
-        What to find, each in the files that the one before wrote.
+        One step, or two of which the second reads the outputs of the first.
     request : Request
-        Which files, in what format, whether files that are done stay, threads and memory.
+        Options for files, format, resuming, threads and memory.
     progress : Progress
         Receives progress, and a line on each finished file.
     workers : Workers, optional
-        Who does the work; threads of this process if not given.
+        The workers; by default threads of this process.
     vpc : Path, optional
-        The virtual point cloud of the results; in the folder if not given.
+        The virtual point cloud of the results; by default in the folder.
     rasters : MakeRasters, optional
-        Rasters to make of what the last step wrote.
+        Rasters to make from the outputs of the last step.
 
     Raises
     ------
     BareEarthError
-        If no file can be done, or the outputs cannot be written.
+        If no file can be processed, or the outputs cannot be written.
     Cancelled
-        If the user asked to stop; finished files stay, and nothing is half written.
+        If the user asked to stop. Finished files stay, and no file is incomplete.
     """
     folder, sources = Path(folder), [Path(each) for each in sources]
     workers = workers or Threads(request.resources)
@@ -239,7 +239,7 @@ def rasters_of_files(
     progress : Progress
         Receives progress and messages.
     workers : Workers, optional
-        Who does the work; threads of this process if not given.
+        The workers; by default threads of this process.
 
     Raises
     ------
@@ -264,7 +264,7 @@ def rasters_of_files(
 
 
 def _check_survey(survey: Survey, folder: Path, vpc: Path, searched: Sequence[Path]) -> None:
-    """Refuse what could not be done or would do harm, before any work."""
+    """Refuse, before any work, a survey and outputs that would fail or overwrite something."""
     if survey.crs.is_geographic:
         raise BareEarthError(
             f"The files are not in a projected CRS ({survey.crs.name}), so that nothing can be"

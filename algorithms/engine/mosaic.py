@@ -1,4 +1,4 @@
-"""The rasters of a survey, put together from those of its blocks, some rows at a time."""
+"""Joins the rasters of blocks, some rows at a time."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from ..grids.morphology import within_square
 from ..grids.surface import CellLattice, Surface
 from ..products.raster_block import BlockRasters
 
-# Cells that are put together at a time.
+# Cells that are joined at a time.
 _CELLS_A_STRIP = 4_000_000
-# Rows of a strip are a multiple of this: the rows of a block of the file.
+# The rows of a strip are a multiple of this, as the file has blocks of so many rows.
 _ROWS = 256
 
 
 class Mosaic:
-    """A layer of a survey.
+    """A layer of all blocks of a survey.
 
     Parameters
     ----------
     made : sequence of BlockRasters
-        Those of the blocks. Cells in none of them have no height.
+        The rasters of the blocks. Cells outside all of them have no value.
     layer : str
-        Which of their layers.
+        Name of the layer.
     window : CellWindow
         All cells.
     cell : float
@@ -67,12 +67,12 @@ class Mosaic:
         return heights[::-1]
 
     def fill_gaps(self, points: np.ndarray, progress: Progress = SILENT) -> None:
-        """Let cells without a height, in the convex hull, get that of a TIN over the gaps.
+        """Fill cells without a height inside the convex hull, from a TIN over the gaps.
 
         Parameters
         ----------
         points : numpy.ndarray of float64, shape (n, 3)
-            Vertices of the TIN besides the cells along the gaps.
+            Vertices of the TIN, beside the cells along the gaps.
         progress : Progress
             Receives progress.
         """
@@ -84,7 +84,7 @@ class Mosaic:
         self._gaps = Surface(Points(*np.concatenate(vertices).T))
 
     def _along_gaps(self, heights: np.ndarray, first: int) -> np.ndarray:
-        """Return the centres of cells next to one without a height, and their heights (n, 3)."""
+        """Return centres and heights of the cells next to one without a height, shape (n, 3)."""
         missing = np.isnan(heights)
         near = within_square(np.maximum, missing, 1)
         row, column = np.nonzero(near & ~missing)
@@ -101,7 +101,7 @@ class Mosaic:
 
 
 def _overlap(one: CellWindow, other: CellWindow) -> tuple[slice, slice] | None:
-    """Return the cells of one window that are in another, as indices of the one."""
+    """Return the rows and columns of `one` that `other` has as well; None if there are none."""
     both = one.within(other)
     if both.rows <= 0 or both.columns <= 0:
         return None
@@ -123,18 +123,18 @@ def gathered_strips(
     margin: int,
     progress: Progress,
 ) -> Iterator[np.ndarray]:
-    """Yield what is made of the rows of mosaics, strip by strip from north to south.
+    """Yield a raster made from mosaics, strip by strip from north to south.
 
     Parameters
     ----------
     mosaics : sequence of Mosaic
-        One or more, of the same cells.
+        One or more mosaics with the same cells.
     window : CellWindow
-        Which of these cells to make.
+        The cells to make.
     make : callable
-        Takes rows of each of them and returns as many rows.
+        Returns rows of the raster, given as many rows of each mosaic.
     margin : int
-        Rows and columns beyond a strip that matter for it.
+        Number of rows and columns beyond a strip that affect it.
     progress : Progress
         Receives progress.
     """

@@ -1,4 +1,4 @@
-"""Rasters of a survey: of each block what `RasterStep` makes of it, put together and written."""
+"""The step that makes rasters, and writing the rasters of all blocks as one."""
 
 from __future__ import annotations
 
@@ -34,21 +34,21 @@ from .raster_files import RASTERS, Raster, RasterFiles, folder_of, virtual_of
 from .steps import Marks, Step
 
 _MOST_CELLS = 4_000_000_000
-# A raster of more cells must have blocks with points over this share of it: else it is large
+# In a raster of more cells, blocks with points must cover this share. Otherwise it is so large
 # because of a few points with stray coordinates.
 _MANY_CELLS, _LEAST_COVERED = 10_000_000, 0.01
-# Bytes that a block takes for each point that it sees, and for each cell.
+# Bytes that a block takes for each point in it and its buffer, and for each cell.
 _BYTES_A_POINT, _BYTES_A_CELL = 130.0, 120.0
 
 
 @dataclass(frozen=True)
 class RasterSize:
-    """What was made.
+    """The size of rasters.
 
     Attributes
     ----------
     ground_count, surface_count : int
-        Points that terrain and surface were made of.
+        Points that terrain and surface were made from.
     columns, rows : int
         Size of the rasters.
     """
@@ -61,14 +61,14 @@ class RasterSize:
 
 @dataclass
 class RasterTally(GroundTally):
-    """What was counted in the parts of a file so far; the rest as in `GroundTally`.
+    """Counts of points so far, beside those of `GroundTally`.
 
     Attributes
     ----------
     top : int
         Points of the surface.
     excluded : int
-        Points of the ground that lie where there is to be none.
+        Ground points that the constraints exclude.
     """
 
     top: int = 0
@@ -77,7 +77,7 @@ class RasterTally(GroundTally):
 
 @dataclass(frozen=True)
 class MakeRasters(Step):
-    """Makes the rasters of classified points.
+    """Makes rasters from classified points.
 
     Attributes
     ----------
@@ -90,11 +90,12 @@ class MakeRasters(Step):
     ground : GroundClasses
         Which points are ground.
     covers_ground : bool
-        Whether the rasters reach as far as the ground does, not as all points but noise.
+        Whether the rasters cover the extent of the ground. Otherwise they cover all points without
+        noise.
     constraints : Constraints
-        Breaklines, water, and where there is no ground.
+        Breaklines, water, and areas without ground.
     per_file : bool
-        Whether each of many files gets rasters of its own.
+        Whether each of many files gets its own rasters.
     fixed : FixedTerrain or None
         The vertices that follow from the constraints; `seeing` finds these.
     """
@@ -112,32 +113,32 @@ class MakeRasters(Step):
 
     @property
     def needs_ground(self) -> bool:
-        """Whether none of them can be made without ground."""
+        """Whether any of the rasters needs ground."""
         return any(LAYERS[each].of_ground for each in self.files.layers)
 
     @property
     def needs_surface(self) -> bool:
-        """Whether heights of the surface are needed."""
+        """Whether any of the rasters needs the surface."""
         return "surface" in self.files.layers
 
     @property
     def of_block(self) -> RasterStep:
-        """What is done with a block."""
+        """Makes the rasters of a single block."""
         return RasterStep(self.model.dtm_cell_size, self.files.layers, self.surface.max_edge)
 
     def seeing(
         self, clouds: Iterable[PointCloud], frame: Frame, progress: Progress = SILENT
     ) -> MakeRasters:
-        """Return the step that knows the vertices of its constraints.
+        """Return the step with the vertices of its constraints.
 
         Parameters
         ----------
         clouds : iterable of PointCloud
             All points with their classes, part by part; see `fixed_terrain`.
         frame : Frame
-            That of the survey.
+            Frame of the survey.
         progress : Progress
-            Told what cannot be used.
+            Receives warnings.
         """
         cell = self.model.dtm_cell_size / VERTICES_A_SIDE
         fixed = fixed_terrain(self.constraints, clouds, frame, self.ground, cell, progress)
@@ -150,7 +151,7 @@ class MakeRasters(Step):
         return Blocks.of(self.of_block.reach, Cost(_BYTES_A_POINT, _BYTES_A_CELL / cell**2))
 
     def marks(self, part: PointCloud, tally: RasterTally) -> Marks:
-        """Return which points are covered, are ground, and belong to the surface."""
+        """Return which points the rasters cover, which are ground, and which are of the surface."""
         nothing = np.zeros(part.count, dtype=bool)
         ground = self.ground.of(part, tally)
         if not self.needs_ground:
@@ -169,7 +170,7 @@ class MakeRasters(Step):
         return Marks(shown, ground, top)
 
     def tell(self, tally: RasterTally, path: Path, progress: Progress) -> None:
-        """Refuse a file that has nothing to make the rasters of."""
+        """Refuse a file without points for the rasters."""
         if self.needs_ground:
             self.ground.check(tally, path)
             if tally.ground == tally.excluded:
@@ -203,7 +204,7 @@ def _made_of(
     contents = blocks.contents(block, store, progress.part(0.0, 0.1))
     corner = blocks.corner(block)
     core = np.ones(contents.points.count, dtype=bool)
-    # The only block of all need not be looked at for what lies in it.
+    # A single block holds all points.
     if not (is_only and are_all):
         core = block.holds(contents.points, corner)
     points, ground, top = contents.points, contents.known, contents.wanted
@@ -228,22 +229,22 @@ def write_rasters(
     Parameters
     ----------
     made : sequence of BlockRasters
-        Those of its blocks.
+        The rasters of its blocks.
     frame : Frame
-        That of the survey, with its origin at (0, 0) of the CRS.
+        Frame of the survey, with its origin at (0, 0) of the CRS.
     step : MakeRasters
-        What is wanted.
+        Which rasters, and where they go.
     outputs : contextlib.ExitStack
-        Takes in the files.
+        Receives the files.
     progress : Progress
         Receives progress and messages.
     files : mapping of str to Box, optional
-        Names of the files that get rasters of their own, with their extents in units of the CRS.
+        Names and extents, in units of the CRS, of the files that get their own rasters.
 
     Raises
     ------
     BareEarthError
-        If there is no point to make the rasters of, or one of them cannot be written.
+        If there are no points, or a raster cannot be written.
     """
     cell, wanted = step.model.dtm_cell_size, step.files.wanted
     window = _window_of(made, cell)

@@ -1,4 +1,4 @@
-"""The run of a step over many files: which of them are to be done, and by which jobs."""
+"""Runs a step on many files: finds which ones are to be done, and makes their jobs."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from .workers import Workers
 
 
 class _Needs(NamedTuple):
-    """A tile, the blocks that may hold its points, and the files that these need."""
+    """A tile, the blocks that it touches, and the files that these blocks need."""
 
     tile: LasFile
     places: list[BlockIndex]
@@ -35,16 +35,16 @@ class _Needs(NamedTuple):
 
 @dataclass(frozen=True)
 class Task:
-    """Which files of a survey one of several steps has to do.
+    """What one of several steps has to do.
 
     Attributes
     ----------
     only : frozenset of str, or None
-        Their names; all, if it is None.
+        Names of the files to do; None for all.
     records : dict of str to Record
-        From what the outputs are made, by the names of the files, if not from the files themselves.
+        Records of the outputs by the names of the files, if they do not follow from these files.
     kept : list
-        What became of the files that an earlier run finished.
+        Summaries of the outputs that an earlier run finished.
     """
 
     only: frozenset[str] | None = None
@@ -53,18 +53,18 @@ class Task:
 
 
 class TileRun:
-    """Writes the files of a survey into a folder, with what a step finds of their points.
+    """Runs a step on the files of a survey, and writes them into a folder with the results.
 
     Parameters
     ----------
     survey : Survey
         The files.
     folder : Path
-        That of the outputs.
+        The folder of the outputs.
     targets : dict of Path to Path
         The output of each input.
     step : PointStep
-        What is to be found.
+        The step that finds the values.
     progress : Progress
         Receives progress, and a line on each finished file.
     task : Task
@@ -73,11 +73,11 @@ class TileRun:
     Attributes
     ----------
     done : list
-        What became of the files that are done, by their names.
+        Summaries of the finished files, sorted by their names.
     kept_count : int
-        How many of them a run before had done.
+        How many of them an earlier run finished.
     empty_count : int
-        Files of which there is nothing to write.
+        Number of files with nothing to write.
     failures : dict of Path to str
         Files that cannot be done, and why.
     """
@@ -97,7 +97,7 @@ class TileRun:
         self._survey, self._folder, self._targets = survey, folder, targets
         self._step, self._progress, self._task = step, progress, task
         self._sources: dict[BlockIndex, list[Path]] = {}
-        # As they are before any of them is read.
+        # Taken before any of them is read.
         self._states = {each.path: state_of(each.path) for each in survey.tiles}
         self._todo: list[_Needs] = []
         for number, tile in enumerate(survey.tiles, start=1):
@@ -118,11 +118,11 @@ class TileRun:
         Parameters
         ----------
         workers : Workers
-            Who does it; they are stopped afterwards.
+            The workers, which are stopped at the end.
         resume : bool
-            Whether files that a run before has done stay.
+            Whether outputs that an earlier run finished are kept.
         rasters : MakeRasters, optional
-            Rasters to make of the outputs.
+            Rasters to make from the outputs.
 
         Raises
         ------
@@ -152,7 +152,7 @@ class TileRun:
             self._clear(values=True)
 
     def _clear(self, values: bool) -> None:
-        """Remove what a killed run left, and all that was found in blocks if wanted."""
+        """Remove what killed runs left, and the results of blocks if `values`."""
         folders = folders_of(self._folder)
         if values:
             shutil.rmtree(folders[2], ignore_errors=True)
@@ -169,11 +169,11 @@ class TileRun:
 
     @property
     def sources(self) -> dict[Path, list[Path]]:
-        """The files whose points matter for each file that is to be done."""
+        """The files that affect each file that is to be done."""
         return {needs.tile.path: needs.sources for needs in self._todo}
 
     def record(self, tile: Path, sources: Iterable[Path]) -> Record:
-        """Return from what the output of a file is made, given the files that matter for it."""
+        """Return the record of the output of a file, given the files that affect it."""
         states = map(self._states.__getitem__, sources)
         return made_of(self._grid, self._step, tile, states, self._targets[tile])
 
@@ -182,7 +182,7 @@ class TileRun:
         return self._task.records.get(path.name) or self.record(path, needs.sources)
 
     def _keep_done(self, resume: bool) -> list[Any]:
-        """Take out the tiles that are done; return what became of them."""
+        """Remove finished tiles from those to do; return their summaries."""
         kept, todo, changed = [*self._task.kept], [], 0
         for needs in self._todo:
             target = self._targets[needs.tile.path]
@@ -204,7 +204,7 @@ class TileRun:
         return kept
 
     def _jobs(self, workers: Workers) -> tuple[list[PointJob], list[TileJob]]:
-        """Return the jobs for all that is to be done, and let the workers begin."""
+        """Return the jobs for the tiles to do and their blocks, and start the workers."""
         grid, survey, step = self._grid, self._survey, self._step
         places = sorted({place for needs in self._todo for place in needs.places})
         waiting = folders_of(self._folder)[2]
@@ -237,21 +237,21 @@ def tasks_of(
     targets: Sequence[dict[Path, Path]],
     resume: bool,
 ) -> list[Task]:
-    """Return what each of one or two steps has to do, the second with what the first writes.
+    """Return what each of one or two steps has to do. The second reads the outputs of the first.
 
-    What the first step writes is removed at the end. So a finished file is known by the inputs of
-    the first step, and the first step is repeated only for the files that the second needs.
+    These are removed at the end. So the record of a final output names the inputs of the first
+    step, which is repeated only for the files that the second step still needs.
 
     Parameters
     ----------
     survey : Survey
         The inputs of the first step.
     steps : sequence of PointStep
-        One or two.
+        One or two steps.
     targets : sequence of dict of Path to Path
         The outputs of each step, by the inputs of the first.
     resume : bool
-        Whether files that an earlier run finished stay.
+        Whether outputs that an earlier run finished are kept.
     """
     if len(steps) == 1:
         return [Task()]
@@ -279,7 +279,7 @@ def tasks_of(
 
 
 def _make(folder: Path, *within: Path) -> None:
-    """Make the folder of the output, and others within it."""
+    """Make the folder of the outputs, and folders within it."""
     try:
         for each in (folder, *within):
             each.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,4 @@
-"""How a setting that was tried on a window is run on all points."""
+"""Commands that run a compared setting on all points."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ _MANY_FILES = "bareearth:classifytiles"
 
 
 def commands_for(paths: Sequence[Path], setting: Setting) -> Commands:
-    """Return how a setting is run on all points of the inputs.
+    """Return the commands that run a setting on all points of the inputs.
 
     Parameters
     ----------
     paths : sequence of Path
-        One file, or what makes a survey.
+        One file, or the inputs of a survey.
     setting : Setting
         Method and preset.
     """
     method, preset, is_one = setting.method.name, setting.preset, is_one_file(paths)
     output, options = _output(paths[0], setting, is_one), ["--method", method, "--preset", preset]
     shell = shell_line(["bare-earth", "classify", *map(str, paths), str(output), *options])
-    # QGIS works in a folder of its own.
+    # QGIS has another current folder.
     *sources, output = (str(path.absolute()) for path in (*paths, output))
     if is_one:
         algorithm = f"bareearth:{setting.method.toolbox.identifier}"
@@ -44,7 +44,7 @@ def commands_for(paths: Sequence[Path], setting: Setting) -> Commands:
 
 
 def _output(first: Path, setting: Setting, is_one: bool) -> Path:
-    """Return a name beside the input: of a file for one file, of a folder for many."""
+    """Return an output beside the input: a file for one file, a folder for many."""
     name, suffix = split_name(first)
     added = setting.name.replace(":", "_")
     return first.with_name(f"{name}_{added}{suffix if is_one else ''}")
