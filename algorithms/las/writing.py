@@ -76,9 +76,9 @@ def write_changed(
     """Write `source` with changes of its points.
 
     Everything else stays: the order of the points, integers, extra bytes, header and records,
-    except for what compression needs. If the changes leave out points, header and counts describe the
-    others. For .copc.laz, the order of the points changes, and point formats 0 to 5 become 6 to 8,
-    as its specification requires.
+    except for what compression needs. If the changes leave out points, header and counts describe
+    the others. For .copc.laz, the order of the points changes, and point formats 0 to 5 become 6
+    to 8, as its specification requires.
 
     Parameters
     ----------
