@@ -61,8 +61,10 @@ class BlockGrid:
         """Return the box that holds all points that the blocks need, in units of the CRS."""
         boxes = np.array([self.blocks.window(self.blocks.block(*place)) for place in places])
         low, high = boxes[:, :2].min(axis=0) - _MARGIN, boxes[:, 2:].max(axis=0) + _MARGIN
-        corners = np.concatenate([low, high]) / self.frame.horizontal_unit
-        return tuple(float(each) for each in corners + np.tile(self.frame.origin, 2))
+        unit, origin = self.frame.horizontal_unit, np.array(self.frame.origin)
+        west, south = (low / unit + origin).tolist()
+        east, north = (high / unit + origin).tolist()
+        return west, south, east, north
 
     def places_in(self, box: Box) -> tuple[range, range]:
         """Return the columns and rows of the blocks that a box in units of the CRS touches."""
@@ -89,7 +91,7 @@ class BlockGrid:
 
 def code(place: BlockIndex) -> int:
     """Return the number of a block, as in `BlockGrid.codes`."""
-    return int(code_of(np.int64(place.row), np.int64(place.column)))
+    return int(code_of(np.array(place.row), np.array(place.column)))
 
 
 def places_of(grid: BlockGrid, tile: LasFile) -> list[BlockIndex]:

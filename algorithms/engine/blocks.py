@@ -345,8 +345,9 @@ class Blocks:
         """Return the points of a block and its buffer, relative to its `corner`."""
         box, corner = self.window(block), self.corner(block)
         leaves = store.leaves.within(box)
-        local = tuple(each - at for each, at in zip(box, corner * 2))
-        part = None if store.leaves.are_inside(leaves, box) else local
+        west, south, east, north = (each - at for each, at in zip(box, corner * 2))
+        is_inside = store.leaves.are_inside(leaves, box)
+        part = None if is_inside else (west, south, east, north)
         return store.read(leaves, part, corner, progress)
 
     def core(self, block: Block, contents: BlockPoints, is_only: bool) -> np.ndarray:

@@ -63,7 +63,7 @@ class Mosaic:
             if target is not None:
                 heights[target] = each.layers[self._layer][source]
         if self._gaps is not None:
-            self._fill(heights, strip)
+            self._fill(heights, strip, self._gaps)
         return heights[::-1]
 
     def fill_gaps(self, points: np.ndarray, progress: Progress = SILENT) -> None:
@@ -92,12 +92,12 @@ class Mosaic:
         y = (self.window.row + self.window.rows - first - row - 0.5) * self._cell
         return np.column_stack((x, y, heights[row, column].astype(np.float64)))
 
-    def _fill(self, heights: np.ndarray, strip: CellWindow) -> None:
+    def _fill(self, heights: np.ndarray, strip: CellWindow, gaps: Surface) -> None:
         row, column = np.nonzero(np.isnan(heights))
         if len(row):
             x, y = ((at + 0.5) * self._cell for at in (strip.column + column, strip.row + row))
             lattice = CellLattice((0.0, 0.0), self._cell)
-            heights[row, column] = self._gaps.heights(x, y, cells=lattice)
+            heights[row, column] = gaps.heights(x, y, cells=lattice)
 
 
 def _overlap(one: CellWindow, other: CellWindow) -> tuple[slice, slice] | None:

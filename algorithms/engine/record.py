@@ -6,7 +6,7 @@ import hashlib
 import json
 import os
 from pathlib import Path
-from typing import Any, Iterable
+from typing import Any, Dict, Iterable, List
 
 from ..core.errors import BareEarthError
 from ..core.files import replacing
@@ -17,7 +17,7 @@ _FOLDER, _LABELS = ".bare-earth", "labels"
 _LONGEST_NAME = 250
 
 # The result of `made_of`; two outputs are equal if theirs are.
-Record = dict
+Record = Dict[str, Any]
 
 
 def folders_of(folder: Path) -> tuple[Path, Path, Path]:
@@ -26,7 +26,7 @@ def folders_of(folder: Path) -> tuple[Path, Path, Path]:
 
 
 # Path, size and time of a file, which show whether it has changed.
-State = list
+State = List[Any]
 
 
 def state_of(path: Path) -> State:

@@ -174,5 +174,6 @@ def _written(
 
 
 def _paths(sources: Sources) -> list[Path]:
-    one = isinstance(sources, (str, Path))
-    return [Path(each) for each in ([sources] if one else sources)]
+    if isinstance(sources, (str, Path)):
+        return [Path(sources)]
+    return [Path(each) for each in sources]

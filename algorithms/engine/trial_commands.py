@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Sequence
+from typing import Any, Sequence
 
 from ..core.commands import shell_line
 from ..core.files import split_name
@@ -29,16 +29,17 @@ def commands_for(paths: Sequence[Path], setting: Setting) -> Commands:
     output, options = _output(paths[0], setting, is_one), ["--method", method, "--preset", preset]
     shell = shell_line(["bare-earth", "classify", *map(str, paths), str(output), *options])
     # QGIS has another current folder.
-    *sources, output = (str(path.absolute()) for path in (*paths, output))
+    *sources, target = (str(path.absolute()) for path in (*paths, output))
+    call: tuple[str, dict[str, Any]]
     if is_one:
         algorithm = f"bareearth:{setting.method.toolbox.identifier}"
-        call = algorithm, {"INPUT": sources[0], "PRESET": preset, "OUTPUT": output}
+        call = algorithm, {"INPUT": sources[0], "PRESET": preset, "OUTPUT": target}
     else:
         choices = {each.name: each.choices for each in TileMethod.declarations()}
         if preset not in choices["preset"]:
             return Commands(shell, "")
         call = _MANY_FILES, {
-            "INPUT": sources, "METHOD": method, "PRESET": preset, "OUTPUT_FOLDER": output,
+            "INPUT": sources, "METHOD": method, "PRESET": preset, "OUTPUT_FOLDER": target,
         }  # fmt: skip
     return Commands(shell, "processing.run({!r}, {!r})".format(*call))
 

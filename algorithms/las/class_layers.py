@@ -171,8 +171,8 @@ class ClassLayers:
         start[_CLASS] = first_class
         # The lengths of the layers stand after the number of points.
         struct.pack_into("<I", start, head.record_length + 4 + 4 * CLASSES, len(layer))
-        data = memoryview(data)
-        for part in (start, data[head.size : former.start], layer, data[former.stop :]):
+        view = memoryview(data)
+        for part in (start, view[head.size : former.start], layer, view[former.stop :]):
             file.write(part)
 
 
@@ -190,11 +190,12 @@ def _returns(
         most = max(piece.stop - piece.start for piece in pieces)
         for records in read_records(layout, most, columns=(), pieces=pieces):
             points = named(layout, records)
-            yield tuple(np.asarray(points[name]) for name in _DECISIVE)
+            first, second, third = (np.asarray(points[name]) for name in _DECISIVE)
+            yield first, second, third
         return
-    columns = [getattr(cloud, name) for name in _DECISIVE]
     for piece in pieces:
-        yield tuple(column[piece] for column in columns)
+        first, second, third = (getattr(cloud, name)[piece] for name in _DECISIVE)
+        yield first, second, third
 
 
 def _new_layers(

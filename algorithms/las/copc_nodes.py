@@ -91,7 +91,8 @@ def read_hierarchy(layout: LasFile) -> Hierarchy:
     OctreeError
         If they are missing or do not agree with the header.
     """
-    data = layout.vlr(COPC_INFO).data or b""
+    info = layout.vlr(COPC_INFO)
+    data = (info.data if info else None) or b""
     if len(data) < 56:
         raise _octree_error(layout, "its description is cut off")
     x, y, z, half, _, start, size = struct.unpack_from("<5d2Q", data)

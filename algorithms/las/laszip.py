@@ -144,11 +144,11 @@ class ChunkHead(NamedTuple):
         """Bytes before the first layer."""
         return self.record_length + 4 + 4 * self.layers
 
-    def numbers(self, data: bytes | memoryview, start: int = 0) -> tuple[int, ...]:
+    def numbers(self, data: bytes | bytearray | memoryview, start: int = 0) -> tuple[int, ...]:
         """Return the number of points and the lengths of the layers of the chunk at `start`."""
         return struct.unpack_from(f"<{1 + self.layers}I", data, start + self.record_length)
 
-    def fits(self, data: bytes | memoryview, size: int, start: int = 0) -> bool:
+    def fits(self, data: bytes | bytearray | memoryview, size: int, start: int = 0) -> bool:
         """Return whether the layers fit into the chunk at `start`."""
         if min(size, len(data) - start) < self.size:
             return False
