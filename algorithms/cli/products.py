@@ -34,10 +34,11 @@ def _add_remove_objects(parser: argparse.ArgumentParser, arguments: Sequence[str
 
 
 def _remove_objects(options: argparse.Namespace) -> int:
-    from ..products.off_terrain import remove_objects_file
+    from ..products.off_terrain import OffTerrain, remove_objects_file
 
+    how = OffTerrain.among(chosen(options))
     with Terminal(options.verbose) as progress:
-        removal = remove_objects_file(options.input, options.output, *chosen(options), progress)
+        removal = remove_objects_file(options.input, options.output, how, progress)
     tell(options, removal, f"{options.output}: {removal.text}")
     return DONE
 
