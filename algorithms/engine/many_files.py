@@ -189,10 +189,13 @@ def write_files(
             empty_count = run.empty_count
             if (run.done or empty_count) and not tasks[-1].kept:
                 step.tell_of_survey(run.done, progress)
-        if not is_last and run.done:
-            done = [place / each.name for each in run.done]
-            survey = open_survey(done, progress=SILENT)
-        elif not run.done and not tasks[-1].kept:
+        if is_last:
+            break
+        if run.done:
+            survey = open_survey([place / each.name for each in run.done], progress=SILENT)
+        elif tasks[-1].kept:  # all that was left to do has failed
+            tasks[-1] = replace(tasks[-1], only=frozenset())
+        else:
             break
     reasons = {str(path): reason for path, reason in sorted(failures.values())}
     for path, reason in reasons.items():

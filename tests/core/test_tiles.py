@@ -377,6 +377,12 @@ def test_runs_with_heights_go_on_and_repeat_only_what_changed(tmp_path, out):
     (folder / "new.laz").write_bytes(b"no cloud")
     summary = classify_tiles([folder], out, other, output=RESUME, **made)
     assert summary.kept_count == 2 and summary.done_count == 3 and len(summary.failures) == 1
+    # What is not classified has no heights.
+    write(folder / "new.laz", strip(400, 60.0, 60.0) - [60_000_000, 0, 0], classes=7)
+    summary = classify_tiles([folder], out, other, output=RESUME, **made)
+    assert summary.kept_count == summary.done_count == 3
+    (reason,) = summary.failures.values()
+    assert "can be classified" in reason
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no such signals")
