@@ -24,7 +24,7 @@ from .block_grid import BlockGrid, BlockIndex, code
 from .file_points import FilePoints
 from .memory import Resources
 from .memory_points import MemoryPoints, SurveyFile
-from .record import Record, write_record
+from .record import Fingerprint, write_record
 from .steps import PointStep
 
 _FAILURE = "no ground"
@@ -181,7 +181,7 @@ class TileJob:
         The blocks that may hold its points.
     files : tuple of Path
         The file with the result of each block.
-    record : Record
+    fingerprint : Fingerprint
         What the output is made from; written after the output.
     """
 
@@ -191,7 +191,7 @@ class TileJob:
     target: Path
     places: tuple[BlockIndex, ...]
     files: tuple[Path, ...]
-    record: Record
+    fingerprint: Fingerprint
 
     def run(self, resources: Resources, progress: Progress) -> Any:
         """Write the file. Return the summary of the step, or None if there is nothing to write."""
@@ -213,7 +213,7 @@ class TileJob:
             last = progress.part(0.4, 1.0)
             write_changed(las, self.target, edits, last, points.cloud, points.memory_left)
         summary = result.summary(self.target.name)
-        write_record(self.target, self.record, asdict(summary))
+        write_record(self.target, self.fingerprint, asdict(summary))
         return summary
 
 

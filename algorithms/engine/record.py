@@ -16,8 +16,8 @@ from .steps import Step
 _FOLDER, _LABELS = ".bare-earth", "labels"
 _LONGEST_NAME = 250
 
-# The result of `made_of`; two outputs are equal if theirs are.
-Record = Dict[str, Any]
+# The result of `fingerprint_of`; two outputs are equal if theirs are.
+Fingerprint = Dict[str, Any]
 
 
 def folders_of(folder: Path) -> tuple[Path, Path, Path]:
@@ -26,10 +26,10 @@ def folders_of(folder: Path) -> tuple[Path, Path, Path]:
 
 
 # Path, size and time of a file, which show whether it has changed.
-State = List[Any]
+Stamp = List[Any]
 
 
-def state_of(path: Path) -> State:
+def stamp_of(path: Path) -> Stamp:
     """Return path, size and time of a file.
 
     Raises
@@ -44,9 +44,9 @@ def state_of(path: Path) -> State:
     return [str(path.resolve()), status.st_size, status.st_mtime_ns]
 
 
-def made_of(
-    grid: BlockGrid, step: Step, tile: Path, sources: Iterable[State], target: Path
-) -> Record:
+def fingerprint_of(
+    grid: BlockGrid, step: Step, tile: Path, sources: Iterable[Stamp], target: Path
+) -> Fingerprint:
     """Return everything that an output depends on.
 
     Parameters
@@ -57,7 +57,7 @@ def made_of(
         The step that computes it.
     tile : Path
         The input.
-    sources : iterable of State
+    sources : iterable of Stamp
         The files that affect it.
     target : Path
         The output.
@@ -71,7 +71,7 @@ def made_of(
 
 
 def label_file(
-    grid: BlockGrid, step: Step, folder: Path, place: BlockIndex, sources: Iterable[State]
+    grid: BlockGrid, step: Step, folder: Path, place: BlockIndex, sources: Iterable[Stamp]
 ) -> Path:
     """Return the file for the result of a block; its name depends on all inputs of the result."""
     content = {
@@ -96,24 +96,24 @@ def _settings(grid: BlockGrid, step: Step) -> dict[str, Any]:
     }
 
 
-def write_record(target: Path, record: Record, summary: dict[str, Any]) -> None:
+def write_record(target: Path, fingerprint: Fingerprint, summary: dict[str, Any]) -> None:
     """Write the record of an output, after the output was written.
 
     Parameters
     ----------
     target : Path
         The output.
-    record : Record
-        The result of `made_of` before the inputs were read.
+    fingerprint : Fingerprint
+        The result of `fingerprint_of` before the inputs were read.
     summary : dict
         The summary of the output.
     """
-    content = {"made_of": record, "size": target.stat().st_size, "summary": summary}
+    content = {"made_of": fingerprint, "size": target.stat().st_size, "summary": summary}
     with replacing(_place(target)) as temporary:
         temporary.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
 
 
-def read_record(target: Path) -> tuple[Record, dict[str, Any]] | None:
+def read_record(target: Path) -> tuple[Fingerprint, dict[str, Any]] | None:
     """Return the record and the summary of an output; None if it is not finished."""
     try:
         content = json.loads(_place(target).read_text(encoding="utf-8"))

@@ -20,7 +20,15 @@ from .jobs import PointJob, TileJob
 from .planning import block_jobs
 from .raster_jobs import make_rasters
 from .rasters import MakeRasters
-from .record import Record, folders_of, label_file, made_of, read_record, remove_record, state_of
+from .record import (
+    Fingerprint,
+    fingerprint_of,
+    folders_of,
+    label_file,
+    read_record,
+    remove_record,
+    stamp_of,
+)
 from .steps import PointStep
 from .workers import Workers
 
@@ -41,14 +49,14 @@ class Task:
     ----------
     only : frozenset of str, or None
         Names of the files to do; None for all.
-    records : dict of str to Record
+    fingerprints : dict of str to Fingerprint
         Records of the outputs by the names of the files, if they do not follow from these files.
     kept : list
         Summaries of the outputs that an earlier run finished.
     """
 
     only: frozenset[str] | None = None
-    records: dict[str, Record] = field(default_factory=dict)
+    fingerprints: dict[str, Fingerprint] = field(default_factory=dict)
     kept: list[Any] = field(default_factory=list)
 
 
@@ -98,7 +106,7 @@ class TileRun:
         self._step, self._progress, self._task = step, progress, task
         self._sources: dict[BlockIndex, list[Path]] = {}
         # Taken before any of them is read.
-        self._states = {each.path: state_of(each.path) for each in survey.tiles}
+        self._stamps = {each.path: stamp_of(each.path) for each in survey.tiles}
         self._todo: list[_Needs] = []
         for number, tile in enumerate(survey.tiles, start=1):
             if step.skips(tile):
@@ -172,14 +180,14 @@ class TileRun:
         """The files that affect each file that is to be done."""
         return {needs.tile.path: needs.sources for needs in self._todo}
 
-    def record(self, tile: Path, sources: Iterable[Path]) -> Record:
+    def fingerprint(self, tile: Path, sources: Iterable[Path]) -> Fingerprint:
         """Return the record of the output of a file, given the files that affect it."""
-        states = map(self._states.__getitem__, sources)
-        return made_of(self._grid, self._step, tile, states, self._targets[tile])
+        stamps = map(self._stamps.__getitem__, sources)
+        return fingerprint_of(self._grid, self._step, tile, stamps, self._targets[tile])
 
-    def _record(self, needs: _Needs) -> Record:
+    def _fingerprint(self, needs: _Needs) -> Fingerprint:
         path = needs.tile.path
-        return self._task.records.get(path.name) or self.record(path, needs.sources)
+        return self._task.fingerprints.get(path.name) or self.fingerprint(path, needs.sources)
 
     def _keep_done(self, resume: bool) -> list[Any]:
         """Remove finished tiles from those to do; return their summaries."""
@@ -187,7 +195,7 @@ class TileRun:
         for needs in self._todo:
             target = self._targets[needs.tile.path]
             before = read_record(target) if resume else None
-            if before is not None and before[0] == self._record(needs):
+            if before is not None and before[0] == self._fingerprint(needs):
                 kept.append(self._step.summary_type(**before[1]))
                 continue
             changed += before is not None
@@ -209,7 +217,7 @@ class TileRun:
         places = sorted({place for needs in self._todo for place in needs.places})
         waiting = folders_of(self._folder)[2]
         files = {
-            each: label_file(grid, step, waiting, each, map(self._states.get, self._sources[each]))
+            each: label_file(grid, step, waiting, each, map(self._stamps.get, self._sources[each]))
             for each in places
         }
         tiles = [
@@ -220,7 +228,7 @@ class TileRun:
                 self._targets[needs.tile.path],
                 tuple(needs.places),
                 tuple(files[each] for each in needs.places),
-                self._record(needs),
+                self._fingerprint(needs),
             )
             for needs in self._todo
         ]
@@ -263,7 +271,7 @@ def tasks_of(
     records, kept, todo = {}, [], []
     for path in of_first.keys() & of_second.keys():
         files = sorted({file for each in of_second[path] for file in of_first.get(each, ())})
-        record = {**second.record(path, files), "before": first.record(path, ())}
+        record = {**second.fingerprint(path, files), "before": first.fingerprint(path, ())}
         before = read_record(targets[1][path]) if resume else None
         if before is not None and before[0] == record:
             kept.append(steps[1].summary_type(**before[1]))
@@ -271,7 +279,7 @@ def tasks_of(
             todo.append(path)
         records[path.name] = record
     if not kept:
-        return [Task(), Task(records=records)]
+        return [Task(), Task(fingerprints=records)]
     needed = {each.name for path in todo for each in of_second[path]}
     refused = {path.name for path in of_first.keys() - of_second.keys()}
     names = frozenset(each.name for each in todo)
