@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from .engine.heights import HeightOutput as HeightOutput
     from .engine.key_points import KeyPointMark as KeyPointMark
     from .engine.memory import Resources as Resources
+    from .engine.options import RasterOutput as RasterOutput
+    from .engine.options import TileInput as TileInput
+    from .engine.options import TileOutput as TileOutput
     from .engine.output import Output as Output
     from .engine.raster_files import RasterFiles as RasterFiles
     from .engine.requests import ClassifyRequest as ClassifyRequest
@@ -53,6 +56,9 @@ _MODULES = {
     "HeightOutput": "engine.heights",
     "KeyPointMark": "engine.key_points",
     "Resources": "engine.memory",
+    "RasterOutput": "engine.options",
+    "TileInput": "engine.options",
+    "TileOutput": "engine.options",
     "Output": "engine.output",
     "RasterFiles": "engine.raster_files",
     "ClassifyRequest": "engine.requests",

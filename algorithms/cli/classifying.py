@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..engine.memory import Resources
-    from ..engine.options import TileInput, TileOutput
+    from ..engine.options import RasterOutput, TileInput, TileOutput
     from ..engine.output import Output
     from ..products.terrain_model import TerrainModel
     from ..survey.selection import Selection
@@ -65,10 +65,10 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
     add_json(parser, "the counts ")
     add_parameters(
         parser, method.parameters, Selection, TerrainModel, Output, TileInput, TileOutput,
-        Resources,
+        RasterOutput, Resources,
         titles=(
             f"{method.label} parameters", "Which points, which classes", "Terrain model", "Output",
-            "Files", "Output of many files", "Threads and memory",
+            "Files", "Output of many files", "Rasters of many files", "Threads and memory",
         ),
     )  # fmt: skip
 

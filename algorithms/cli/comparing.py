@@ -48,8 +48,9 @@ def _add_assess(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> No
 
 def _assess(options: argparse.Namespace) -> int:
     from ..products.assessment import assess_files
+    from ..products.comparison import AssessmentOptions
 
-    (what,) = chosen(options)
+    what = AssessmentOptions.among(chosen(options))
     with Terminal(options.verbose) as progress:
         assessment = assess_files(
             options.classified, options.reference, what, options.report, options.error_map, progress
@@ -72,9 +73,12 @@ def _add_compare_settings(parser: argparse.ArgumentParser, arguments: Sequence[s
 
 
 def _compare_settings(options: argparse.Namespace) -> int:
+    from ..engine.memory import Resources
     from ..engine.trial import compare_settings
+    from ..engine.trial_options import TrialOptions
 
-    what, resources = chosen(options)
+    sets = chosen(options)
+    what, resources = TrialOptions.among(sets), Resources.among(sets)
     with Terminal(options.verbose) as progress:
         summary = compare_settings(
             options.input, options.page, options.extent, what, resources, progress

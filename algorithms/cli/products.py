@@ -34,10 +34,11 @@ def _add_remove_objects(parser: argparse.ArgumentParser, arguments: Sequence[str
 
 
 def _remove_objects(options: argparse.Namespace) -> int:
-    from ..products.off_terrain import remove_objects_file
+    from ..products.off_terrain import OffTerrain, remove_objects_file
 
+    how = OffTerrain.among(chosen(options))
     with Terminal(options.verbose) as progress:
-        removal = remove_objects_file(options.input, options.output, *chosen(options), progress)
+        removal = remove_objects_file(options.input, options.output, how, progress)
     tell(options, removal, f"{options.output}: {removal.text}")
     return DONE
 
@@ -97,7 +98,7 @@ def _write(options: argparse.Namespace) -> int:
 
 def _add_terrain(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..engine.memory import Resources
-    from ..engine.options import TileInput
+    from ..engine.options import RasterOutput, TileInput
     from ..products.surface_model import SurfaceModel
     from ..products.terrain_model import TerrainModel
     from ..survey.ground_classes import GroundClasses
@@ -107,7 +108,9 @@ def _add_terrain(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> N
     add_constraints(parser)
     add_scheduler(parser)
     add_json(parser)
-    add_parameters(parser, GroundClasses, TerrainModel, SurfaceModel, TileInput, Resources)
+    add_parameters(
+        parser, GroundClasses, TerrainModel, SurfaceModel, TileInput, RasterOutput, Resources
+    )
 
 
 def _terrain(options: argparse.Namespace) -> int:

@@ -28,6 +28,20 @@ _REASONS = {
 }
 
 
+# Endings of files; the longest first, since it ends as another does.
+_ENDINGS = (".copc.laz", ".las", ".laz", ".vpc", ".txt", ".tif", ".tiff")
+
+
+def split_name(path: Path) -> tuple[str, str]:
+    """Return the name of a file without its ending, and the ending, such as ``.copc.laz``.
+
+    A folder, and a file of another kind, has no ending.
+    """
+    ending = next((each for each in _ENDINGS if path.name.lower().endswith(each)), "")
+    stem = path.name[: -len(ending) or None]
+    return stem, path.name[len(stem) :]
+
+
 def check_output(target: Path, sources: tuple[Path, ...] = ()) -> None:
     """Refuse, before any work is done, an output that could not be written at the end.
 
@@ -123,6 +137,26 @@ def replacing(target: Path) -> Iterator[Path]:
     finally:
         if temporary is not None:
             remove_temporary(temporary)
+
+
+@contextlib.contextmanager
+def new_folder(path: Path) -> Iterator[Path]:
+    """Give a folder, made if it is not there; it is removed again if it is empty at the end.
+
+    Raises
+    ------
+    BareEarthError
+        If the operating system refuses to make it.
+    """
+    try:
+        path.mkdir(exist_ok=True)
+    except OSError as error:
+        raise describe_write_error(path, error) from error
+    try:
+        yield path
+    finally:
+        with contextlib.suppress(OSError):  # there are files in it
+            path.rmdir()
 
 
 @contextlib.contextmanager

@@ -20,7 +20,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
-from typing import Any, Mapping, TypeVar
+from typing import Any, Iterable, Mapping, TypeVar
 
 from .errors import BareEarthError
 
@@ -215,6 +215,11 @@ class ParameterSet:
             shown = ", ".join(map(shown_value, values))
             words.append(f"{declared[name].label.lower()} {shown} {declared[name].unit}".rstrip())
         return ", ".join(words)
+
+    @classmethod
+    def among(cls: type[_Set], sets: Iterable[ParameterSet]) -> _Set:
+        """Return the set of this type among others, whatever their order."""
+        return next(each for each in sets if isinstance(each, cls))
 
     @classmethod
     def declarations(cls) -> tuple[Declaration, ...]:

@@ -1,7 +1,7 @@
-"""A survey of many files: which blocks each holds, and which files a block needs.
+"""Which blocks the files of a survey touch, and which files a block needs.
 
-The blocks are those of the whole survey, whatever its files, so that the files together get the
-labels of one that holds all their points: there is no seam.
+The blocks belong to the whole survey, not to its files. So the files get the same labels as one
+file with all their points, without seams.
 """
 
 from __future__ import annotations
@@ -22,13 +22,14 @@ from ..survey.files import Survey
 from .blocks import Blocks
 from .leaf_index import code_of, row_and_column
 
-# Metres by which boxes are read larger than needed: the points are chosen exactly thereafter.
+# Boxes are read wider by so many metres. Later the points are chosen exactly.
 _MARGIN = 0.1
-# A tile over more blocks than this has stray points: it is looked where its points are.
+# A tile that touches more blocks than this has stray points. Then its points are read to see which
+# blocks they are in.
 _MOST_PLACES = 400
 # Bytes that a point takes in memory while it waits for its block.
 _BYTES_HELD = 48
-# So many times as many groups of blocks as workers, at least, so that none of them is idle long.
+# Least number of groups of blocks for each worker, so that no worker is idle for long.
 _GROUPS_A_WORKER = 4
 _LARGEST_GROUP = 16
 _STEP = 1 << 20
@@ -48,7 +49,7 @@ class BlockGrid:
     Attributes
     ----------
     frame : Frame
-        That of all files: the CRS and its zero.
+        Frame of all files, with its origin at (0, 0) of the CRS.
     blocks : Blocks
         How the survey is cut.
     """
@@ -57,11 +58,13 @@ class BlockGrid:
     blocks: Blocks
 
     def window(self, places: Iterable[BlockIndex]) -> Box:
-        """Return the box, in units of the CRS, of all points that some blocks need."""
+        """Return the box that holds all points that the blocks need, in units of the CRS."""
         boxes = np.array([self.blocks.window(self.blocks.block(*place)) for place in places])
         low, high = boxes[:, :2].min(axis=0) - _MARGIN, boxes[:, 2:].max(axis=0) + _MARGIN
-        corners = np.concatenate([low, high]) / self.frame.horizontal_unit
-        return tuple(float(each) for each in corners + np.tile(self.frame.origin, 2))
+        unit, origin = self.frame.horizontal_unit, np.array(self.frame.origin)
+        west, south = (low / unit + origin).tolist()
+        east, north = (high / unit + origin).tolist()
+        return west, south, east, north
 
     def places_in(self, box: Box) -> tuple[range, range]:
         """Return the columns and rows of the blocks that a box in units of the CRS touches."""
@@ -80,15 +83,15 @@ class BlockGrid:
         for first in range(0, cloud.count, _STEP):
             part = slice(first, first + _STEP)
             places = cloud.places(part, self.frame)
-            # As `Block.holds`: of the same numbers in the same way.
+            # From the same numbers and by the same steps as in `Block.holds`.
             column, row = (self.blocks.number(each) for each in places)
             codes[part] = code_of(row, column)
         return codes
 
 
 def code(place: BlockIndex) -> int:
-    """Return one number for a place."""
-    return int(code_of(np.int64(place.row), np.int64(place.column)))
+    """Return the number of a block, as in `BlockGrid.codes`."""
+    return int(code_of(np.array(place.row), np.array(place.column)))
 
 
 def places_of(grid: BlockGrid, tile: LasFile) -> list[BlockIndex]:
@@ -112,14 +115,14 @@ def sources_of(grid: BlockGrid, survey: Survey, place: BlockIndex) -> list[Path]
 
 
 def memory_of(grid: BlockGrid, survey: Survey, places: Sequence[BlockIndex]) -> int:
-    """Return about how many bytes it takes to filter some blocks, one after the other."""
+    """Return about how many bytes of memory it takes to filter the blocks one after the other."""
     count = points_in(survey, grid.window(places))
     seen = min(count, grid.blocks.most_points)
     return int(_BYTES_HELD * count) + grid.blocks.memory(seen)
 
 
 def points_in(survey: Survey, box: Box) -> float:
-    """Return about how many points lie in a box, as the headers of the files have it."""
+    """Estimate from the headers of the files how many points lie in a box."""
     count = 0.0
     for tile in survey.touching(box):
         shares = (

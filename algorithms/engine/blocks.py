@@ -1,9 +1,8 @@
-"""The square blocks that a survey is filtered in, and what each of them needs of the points round.
+"""The square blocks in which a survey is filtered, and the points that each of them needs.
 
-The blocks belong to the method and to the CRS, not to the run: what a point is, the filter says in
-the one block that holds it, with all points of a buffer round the block. So the labels depend
-neither on how far the survey reaches and how it is cut into files, nor on threads, memory and the
-order of the points.
+The blocks are fixed by the method and the CRS. A point gets its label in the block that holds it,
+from all points in that block and in a buffer round it. So the labels do not depend on the extent of
+the survey, on its files, on threads or memory, or on the order of the points.
 """
 
 from __future__ import annotations
@@ -21,22 +20,22 @@ from ..core.threads import in_threads, parts_of
 from .memory import Cost
 
 _SIDE, _STEP, _REACHES = 2000.0, 100.0, 4.0
-# Metres from the multiples of the side to the borders of the blocks. The tiles of a survey mostly
-# begin at whole kilometres and end before the next: a border that leaves a narrow strip of them
-# costs as much as the buffer of that strip. No coordinate lies on such a border, so that rounding
-# never decides.
+# Metres from the multiples of the side to the borders of the blocks. Most tiles begin and end at
+# whole kilometres. A border just inside a tile would make a narrow strip, whose buffer costs as
+# much as that of a whole block. No coordinate lies exactly on such a border, so rounding does not
+# matter.
 _START = -0.00005
 _MOST_POINTS = 10_000_000
 # What the filters take.
 _COST = Cost()
-# Metres by which a border of a leaf may be wrong that is one of a block.
+# Rounding error, in metres, of the borders of leaves.
 _ROUNDING = 1e-5
-# Few enough that what is computed of them stays in the processor's cache.
+# So few that intermediate arrays stay in the processor's cache.
 _POINTS_A_PART = 1 << 15
-# How often a block may be quartered: leaves of a sixteenth of a block are also how points are kept.
+# How often a block can be quartered. Points are stored in leaves with a sixteenth of its side.
 _LEVELS = 4
 
-# What a point is labelled; 0 where it is neither.
+# Labels of points; 0 is none of these.
 GROUND, LOW, BRIDGE = 1, 2, 3
 
 # x and y in metres.
@@ -44,14 +43,14 @@ Corner = tuple[float, float]
 
 
 class Block(NamedTuple):
-    """A square of the plane: block `column`, `row` of the side that it has.
+    """A square block of the plane.
 
     Attributes
     ----------
     column, row : int
-        Its number from west and from south.
+        Position, counted to the east and to the north.
     side : float
-        Metres.
+        Side in metres.
     start : float
         Metres from the multiples of the side to the borders of the blocks.
     """
@@ -63,7 +62,7 @@ class Block(NamedTuple):
 
     @property
     def box(self) -> Box:
-        """Smallest x and y, largest x and y in metres; the largest belong to the next block."""
+        """Smallest x and y, largest x and y in metres; the largest belong to the next blocks."""
         west, south = (each * self.side + self.start for each in (self.column, self.row))
         return west, south, west + self.side, south + self.side
 
@@ -84,7 +83,7 @@ class Block(NamedTuple):
 
 
 class Leaves(NamedTuple):
-    """Where the points of a store lie, roughly: squares that need not be those of the blocks.
+    """Squares that hold the points of a store; smaller than blocks or equal to them.
 
     Attributes
     ----------
@@ -104,7 +103,7 @@ class Leaves(NamedTuple):
     def within(self, box: Box) -> np.ndarray:
         """Return the indices of the leaves that a box touches."""
         west, south, east, north = box
-        # Where a border of both is one, rounding must not decide.
+        # Rounding must not decide where the two have a border in common.
         touch = (self.x <= east) & (self.x + self.side >= west)
         return np.flatnonzero(touch & (self.y <= north) & (self.y + self.side >= south))
 
@@ -117,14 +116,14 @@ class Leaves(NamedTuple):
 
 
 class Store(Protocol):
-    """Where points wait for their block: in memory or on disk.
+    """Holds points, in memory or on disk, until their block is computed.
 
     Attributes
     ----------
     leaves : Leaves
-        Where they lie.
+        The squares in which the points lie.
     has_known : bool
-        Whether any of them are surely ground.
+        Whether any of them are known ground.
     """
 
     leaves: Leaves
@@ -137,13 +136,13 @@ class Store(Protocol):
         corner: Corner = (0.0, 0.0),
         progress: Progress = SILENT,
     ) -> BlockPoints:
-        """Return the points of some leaves, or those of them in a box.
+        """Return the points of some leaves; only those in a box, if there is one.
 
-        Coordinates, and the box, are relative to a corner. May be called from several threads.
+        Coordinates and box are relative to a corner. Several threads may call this.
         """
 
     def put(self, positions: np.ndarray, labels: np.ndarray) -> None:
-        """Keep the labels of points; called from one thread."""
+        """Store the labels of points. Only one thread may call this."""
 
 
 class BlockPoints(NamedTuple):
@@ -152,13 +151,13 @@ class BlockPoints(NamedTuple):
     Attributes
     ----------
     points : Points
-        Where they lie.
+        Their coordinates.
     known : numpy.ndarray of bool, shape (n,)
-        Which are surely ground.
+        Which are known ground.
     wanted : numpy.ndarray of bool, shape (n,)
         Which are to be labelled; the others are context.
     positions : numpy.ndarray of int, shape (n,)
-        Their places in the store.
+        Their indices in the store.
     """
 
     points: Points
@@ -168,22 +167,22 @@ class BlockPoints(NamedTuple):
 
     @classmethod
     def empty(cls, count: int, kind: type) -> BlockPoints:
-        """Return room for so many points, and for their places as integers of a type."""
+        """Return uninitialised arrays for `count` points; `kind` is the type of the positions."""
         known, wanted = np.zeros(count, dtype=bool), np.zeros(count, dtype=bool)
         return cls(Points(*np.empty((3, count))), known, wanted, np.empty(count, dtype=kind))
 
     def put(self, start: int, some: BlockPoints) -> None:
-        """Put others in the place of these from `start` on."""
+        """Overwrite points from index `start` on with other points."""
         where = slice(start, start + some.points.count)
         for mine, others in zip((*self.points, *self[1:]), (*some.points, *some[1:])):
             mine[where] = others
 
     def take(self, which: np.ndarray | slice) -> BlockPoints:
-        """Return what a mask or a slice names."""
+        """Return the points that a mask or a slice selects."""
         return BlockPoints(self.points.take(which), *(each[which] for each in self[1:]))
 
     def within(self, box: Box) -> BlockPoints:
-        """Return those in a box; on its largest x and y they are outside."""
+        """Return the points in a box, without those on its largest x and y."""
         west, south, east, north = box
         x, y = self.points.x, self.points.y
         inside = (x >= west) & (x < east) & (y >= south) & (y < north)
@@ -197,18 +196,18 @@ def gathered(
     kind: type = np.int64,
     progress: Progress = SILENT,
 ) -> BlockPoints:
-    """Return contents that are read piece by piece: small ones stay in the processor's cache.
+    """Return points that are read in pieces, which are small enough for the processor's cache.
 
     Parameters
     ----------
     counts : sequence of int
         Points of each piece.
     read : callable
-        Returns the contents of a piece, given its number; may be called from several threads.
+        Returns the points of a piece, given its number. Several threads may call it.
     box : tuple of float, optional
-        Points outside are left out.
+        Only points in this box are returned.
     kind : type
-        Integers that hold the place of any point.
+        Type of integer for the positions.
     progress : Progress
         Receives progress.
     """
@@ -230,19 +229,19 @@ def gathered(
 
 @dataclass(frozen=True)
 class Blocks:
-    """How the plane is cut, anchored at (0, 0) of the frame: in a survey that of its CRS.
+    """How the plane is cut into blocks, from (0, 0) of the frame; in a survey, of the CRS.
 
     Attributes
     ----------
     side, buffer : float
         Metres.
     most_points : int
-        A block with more is quartered, again and again, as long as it is no narrower than its
-        buffer.
+        A block with more points is quartered repeatedly, unless its parts would be narrower than
+        the buffer.
     start : float
-        As that of `Block`.
+        As in `Block`.
     cost : Cost
-        Memory that it takes to work on one.
+        Memory that a block takes.
     """
 
     side: float
@@ -253,25 +252,25 @@ class Blocks:
 
     @classmethod
     def of(cls, reach: float, cost: Cost = _COST) -> Blocks:
-        """Return the blocks for a step to which points within `reach` metres matter."""
+        """Return the blocks for a step that uses points up to `reach` metres away."""
         side = max(_SIDE, _STEP * math.ceil(_REACHES * reach / _STEP))
         return cls(side, reach, start=_START, cost=cost)
 
     def memory(self, count: float, area: float = math.inf) -> int:
-        """Return about how many bytes it takes to work on a block.
+        """Return about how many bytes of memory a block takes.
 
         Parameters
         ----------
         count : float
-            Points that the step sees.
+            Points in the block and its buffer.
         area : float
-            Square metres in which they lie; those of a whole block count at most.
+            Square metres in which they lie; at most the area of a whole block counts.
         """
         most = (self.side + 2.0 * self.buffer) ** 2
         return int(self.cost.a_point * count + self.cost.a_square_metre * min(area, most))
 
     def number(self, places: np.ndarray | float) -> np.ndarray:
-        """Return the columns of blocks that hold some x, or the rows of some y, as floats."""
+        """Return the columns of the blocks that hold some x, or the rows for some y, as floats."""
         return np.floor((places - self.start) / self.side)
 
     def block(self, column: int, row: int) -> Block:
@@ -279,22 +278,22 @@ class Blocks:
         return Block(column, row, self.side, self.start)
 
     def corner(self, block: Block) -> Corner:
-        """Return the corner that the filter takes for (0, 0) in a block, or a part of one.
+        """Return the place that becomes (0, 0) while a block, or a part of one, is computed.
 
-        Near the block no digit is lost to the size of the coordinates, and what the filter sees
-        does not depend on where the survey begins.
+        It is near the block, so that no digits are lost to large coordinates. It does not depend
+        on the extent of the survey, so that the results do not either.
         """
         share = round(self.side / block.side)
         return block.column // share * self.side, block.row // share * self.side
 
     @property
     def leaf_side(self) -> float:
-        """Side of the smallest blocks that there can be."""
+        """Side of the smallest possible blocks."""
         levels = int(math.log2(max(self.side / max(self.buffer, 1e-9), 1.0)))
         return self.side / 2.0 ** min(levels, _LEVELS)
 
     def window(self, block: Block) -> Box:
-        """Return the box of all points that the filter sees for a block."""
+        """Return the box of a block with its buffer."""
         west, south, east, north = block.box
         buffer = self.buffer
         return west - buffer, south - buffer, east + buffer, north + buffer
@@ -313,7 +312,7 @@ class Blocks:
             yield from self._divided(self.block(column, row), store)
 
     def _divided(self, block: Block, store: Store) -> Iterator[Block]:
-        """Yield a block, or the smaller ones that it is cut into."""
+        """Yield a block, or the smaller blocks into which it is cut."""
         if store.leaves.counts[store.leaves.within(block.box)].sum() <= self.most_points:
             yield block
             return
@@ -329,7 +328,7 @@ class Blocks:
             todo[:0] = zip(each.quarters(), parts)
 
     def _counts(self, block: Block, store: Store) -> np.ndarray:
-        """Return the number of points of a block in each of the smallest blocks in it."""
+        """Return the number of points in each of the smallest blocks of a block."""
         width = round(block.side / self.leaf_side)
         counts = np.zeros((width, width), dtype=np.int64)
         for leaf in store.leaves.within(block.box):
@@ -343,11 +342,12 @@ class Blocks:
         return counts
 
     def contents(self, block: Block, store: Store, progress: Progress = SILENT) -> BlockPoints:
-        """Return what the filter sees for a block, relative to its `corner`."""
+        """Return the points of a block and its buffer, relative to its `corner`."""
         box, corner = self.window(block), self.corner(block)
         leaves = store.leaves.within(box)
-        local = tuple(each - at for each, at in zip(box, corner * 2))
-        part = None if store.leaves.are_inside(leaves, box) else local
+        west, south, east, north = (each - at for each, at in zip(box, corner * 2))
+        is_inside = store.leaves.are_inside(leaves, box)
+        part = None if is_inside else (west, south, east, north)
         return store.read(leaves, part, corner, progress)
 
     def core(self, block: Block, contents: BlockPoints, is_only: bool) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""The workers of a Dask cluster, on whatever computers, as those who run the jobs of a survey."""
+"""Runs the jobs of a survey on the workers of a Dask cluster."""
 
 from __future__ import annotations
 
@@ -26,18 +26,18 @@ if TYPE_CHECKING:
     from distributed import Client
 
 _CONNECTING = "15s"
-# Seconds between two looks at the workers, and those that a scheduler may take to answer.
+# Seconds between two checks of the workers, and seconds that a scheduler may take to answer.
 _LOOKING, _ANSWERING = 2.0, 15.0
-# Seconds after which a job looks whether anybody still waits for it.
+# Seconds after which a job checks whether its run is still there.
 _LISTENING = 0.5
-# Share of the free memory of a computer that the jobs there may use.
+# Share of the free memory of a computer that jobs on it may use.
 _SHARE = 0.5
-# How many jobs there are for each thread of a worker, so that it need not wait for the next.
+# Jobs submitted for each thread of a worker, so that it need not wait for the next one.
 _AHEAD = 2
 
 
 class _Facts(NamedTuple):
-    """What a worker says of itself."""
+    """What a worker reports about itself."""
 
     version: str
     sees_folder: bool
@@ -46,16 +46,15 @@ class _Facts(NamedTuple):
 
 
 class Cluster(Workers):
-    """The workers of a Dask scheduler that runs already.
+    """The workers of a running Dask scheduler.
 
-    They need this package, of the same version, and the same folders under the same names. Each
-    thread of a worker runs one job at a time, which uses one thread. The jobs of a worker that dies
-    are done by another.
+    They need the same version of this package, and the same folders under the same names. Each
+    thread of a worker runs one job at a time. If a worker dies, another one does its jobs.
 
     Parameters
     ----------
     address : str
-        Of the scheduler, such as ``tcp://host:8786``.
+        Address of the scheduler, such as ``tcp://host:8786``.
     resources : Resources
         The memory is that of one job; by default half of what is free on the computer of a worker,
         divided by its threads. The number of threads is that of the cluster.
@@ -70,7 +69,7 @@ class Cluster(Workers):
         super().__init__(resources)
         self._address, self._patience = address, patience
         self._looked = self._seen = 0.0
-        # A file that is there as long as the run is: without it, its jobs end.
+        # A file that exists as long as the run. When it is gone, the jobs end.
         self._mark: Path | None = None
         self._client: Client | None = None
         self._pool: Executor | None = None
@@ -102,12 +101,12 @@ class Cluster(Workers):
             raise
 
     def _prepare(self, folder: Path) -> None:
-        """Check the workers, and share out what they have."""
+        """Check the workers, and divide their threads and memory among jobs."""
         threads, self._seen = self._threads(), time.monotonic()
         facts = self._check(folder)
         memory = self.resources.bytes
         if self.resources.memory is None:
-            # Several workers may be on one computer.
+            # Several workers can be on one computer.
             on_host = {
                 each.host: sum(threads.get(a, 1) for a in facts if facts[a].host == each.host)
                 for each in facts.values()
@@ -115,7 +114,7 @@ class Cluster(Workers):
             memory = int(min(_SHARE * each.free / on_host[each.host] for each in facts.values()))
         self.share = Resources.of(1, memory)
         self.at_once = self._room()
-        # Each job is done once, whatever Dask still knows of one that is the same.
+        # Dask must not take the result of an equal job of an earlier run.
         self._pool = self._client.get_executor(pure=False)
 
     def _room(self) -> int:
@@ -136,7 +135,7 @@ class Cluster(Workers):
             raise BareEarthError(SCHEDULER_GONE) from error
 
     def _check(self, folder: Path) -> dict[str, _Facts]:
-        """Return what the workers say of themselves; refuse those that could not work."""
+        """Return what the workers report about themselves; refuse workers that lack something."""
         from ..core.version import __version__
 
         install = f"Install bare-earth {__version__} there."
@@ -154,7 +153,7 @@ class Cluster(Workers):
                 f" {self._address}'."
             )
         for address, each in facts.items():
-            if isinstance(each, OSError):  # it ended just now
+            if isinstance(each, OSError):  # it has just ended
                 raise BareEarthError(f"The worker {address} does not answer. Run it again.")
             if not isinstance(each, _Facts):
                 raise BareEarthError(
@@ -181,7 +180,7 @@ class Cluster(Workers):
             If the scheduler is gone.
         """
         try:
-            # As a function without arguments: Dask would look into these for results of others.
+            # Without arguments, since Dask would search these for results of other jobs.
             future = self._pool.submit(
                 functools.partial(_on_cluster, job, self.share, str(self._mark))
             )
@@ -191,7 +190,7 @@ class Cluster(Workers):
         return Running(future, JobProgress(threading.Event()))
 
     def check(self) -> None:
-        """Look whether the scheduler answers and has workers, from time to time.
+        """Check from time to time whether the scheduler answers and has workers.
 
         Raises
         ------
@@ -203,7 +202,7 @@ class Cluster(Workers):
             return
         if self._threads():
             self._seen = now
-        elif now - self._seen > self._patience:  # one that died may be started again
+        elif now - self._seen > self._patience:  # a worker that died may be started again
             raise BareEarthError(
                 f"All workers of {self._address} are gone. Start some with 'dask worker"
                 f" {self._address}', and continue with --resume."
@@ -211,7 +210,7 @@ class Cluster(Workers):
         self._looked = time.monotonic()
 
     def stop(self) -> None:
-        """Take back the jobs, those that have begun as well, and leave the scheduler."""
+        """Cancel all jobs, also running ones, and disconnect from the scheduler."""
         if self._mark is not None:
             remove_temporary(self._mark)
         with contextlib.suppress(OSError):  # the scheduler is gone
@@ -222,9 +221,9 @@ class Cluster(Workers):
 
 
 def _check_encryption(address: str) -> None:
-    """Refuse an address that the configuration of Dask on this computer has no keys for.
+    """Refuse an address for which the configuration of Dask on this computer has no keys.
 
-    Dask would tell so by errors of many kinds, and leave threads that never end.
+    Dask itself raises various errors then, and leaves threads that never end.
     """
     from distributed.security import Security
 
@@ -245,7 +244,7 @@ def _check_encryption(address: str) -> None:
 
 
 def _marked(folder: Path) -> Path:
-    """Make the file that says that a run is there."""
+    """Make the file that shows that the run is active."""
     try:
         return make_temporary(folder / "run")
     except OSError as error:
@@ -261,7 +260,7 @@ def _facts(marker: str) -> _Facts:
 
 
 class _Listening(Progress):
-    """Ends a job once its run has ended or was killed: it must not write over what comes next."""
+    """Ends a job when its run has ended or was killed, so that it does not disturb the next run."""
 
     def __init__(self, mark: str) -> None:
         self._mark, self._looked = mark, 0.0

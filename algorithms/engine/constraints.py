@@ -1,4 +1,4 @@
-"""What a terrain model must respect: breaklines, water, and places where there is no ground."""
+"""What a terrain model must respect: breaklines, water, and areas without ground."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from ..las.reading import read_parts
 from ..survey.area import Area, Polygon
 from ..survey.ground_classes import GroundClasses, GroundTally
 
-# Metres from a line or a border within which ground points say how high it lies.
+# Ground points up to so many metres from a line or border give its height.
 _NEAR = 10.0
-# The level of water is that below which this share of the ground along its border lies: banks rise.
+# This share of the ground along the border of water is below its level: banks are higher.
 _LEVEL = 10.0
-# Metres between the points that hold the level inside of a border, and along a river.
+# Metres between vertices inside water, and along a river.
 _INSIDE, _STATION = 10.0, 5.0
-# Metres beyond the points of a block to which lines are followed.
+# Lines are used up to so many metres beyond the points of a block.
 _BEYOND = 20.0
-# Places on a line for each cell of the lattice in which points are thinned: it crosses none unseen.
+# Places on a line for each cell in which points are thinned: the line misses no cell.
 _PER_CELL = 4.0
 
 
@@ -41,9 +41,9 @@ class Constraints:
     water : tuple of polygon
         Water, as in `Area`: flattened to one level.
     rivers : tuple of numpy.ndarray of float64, shape (n, 3)
-        Lines along which water falls, in either direction; z is not used.
+        Lines along which the level of water falls, in either direction; z is not used.
     no_ground : tuple of polygon
-        Where no point is ground, such as bridges and roofs.
+        Areas in which no point is ground, such as bridges and roofs.
     """
 
     breaklines: tuple[np.ndarray, ...] = ()
@@ -53,18 +53,18 @@ class Constraints:
 
     @property
     def any(self) -> bool:
-        """Whether there are any."""
+        """Whether any are given."""
         return bool(self.breaklines or self.water or self.no_ground)
 
     def is_ground(self, part: PointCloud, ground: np.ndarray) -> np.ndarray:
-        """Return which of the ground points of a part stay; boolean, shape (n,)."""
+        """Return which ground points of a part remain; boolean, shape (n,)."""
         if self._excluded is None or not ground.any():
             return ground
         return ground & ~self._excluded.of(part)
 
     @cached_property
     def _excluded(self) -> Area | None:
-        """Where points are no ground."""
+        """The area in which points are not ground."""
         excluded = (*self.no_ground, *self.water)
         return Area(None, excluded) if excluded else None
 
@@ -141,15 +141,15 @@ def fixed_terrain(
     cell: float,
     progress: Progress = SILENT,
 ) -> FixedTerrain | None:
-    """Return constraints as vertices; heights that they lack are those of the ground near them.
+    """Return constraints as vertices. Missing heights are taken from the ground nearby.
 
     Parameters
     ----------
     constraints : Constraints
-        What is known.
+        The constraints.
     clouds : iterable of PointCloud
-        All points of the survey, part by part, for the ground near lines and water; none of them
-        is asked for where there is no line and no water.
+        All points of the survey, part by part. They are read only if there are lines or water,
+        to find the ground near these.
     frame : Frame
         That of the survey.
     ground : GroundClasses
@@ -157,7 +157,7 @@ def fixed_terrain(
     cell : float
         Side in metres of the cells in which points are thinned.
     progress : Progress
-        Told what cannot be used.
+        Receives a warning about what cannot be used.
 
     Raises
     ------
@@ -183,7 +183,7 @@ def fixed_terrain(
     rivers = [along(line * (unit, unit, 1.0), _STATION)[:, :2] for line in constraints.rivers]
     near = _ground_near([*lines, *borders], clouds, ground, frame)
     if waters:
-        # What lies in water is no bank.
+        # Points in the water are not on its banks.
         water = Area(None, tuple(tuple(ring[:, :2] for ring in each) for each in waters))
         near = near[~water.contains(*near[:, :2].T)]
     heights, none = NearestHeights(near, _NEAR), np.zeros((0, 3))
@@ -194,7 +194,7 @@ def fixed_terrain(
 
 
 def parts_of(files: Sequence[LasFile], progress: Progress = SILENT) -> Iterator[PointCloud]:
-    """Yield all points of some files, part by part."""
+    """Yield the points of files, part by part."""
     for las, part in zip(files, progress.shares(*[1.0] * len(files))):
         yield from read_parts(las, part.quiet())
 
@@ -224,7 +224,7 @@ def _flattened(
     ground: NearestHeights,
     progress: Progress,
 ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """Yield the vertices of each water: those of its border, and some inside."""
+    """Yield the vertices of each water polygon, on its border and inside."""
     dry = 0
     for polygon, border in zip(waters, borders):
         heights = ground.at(border[:, :2])
@@ -257,7 +257,7 @@ def _ground_near(
     ground: GroundClasses,
     frame: Frame,
 ) -> np.ndarray:
-    """Return the ground points in the cells of lines and those round them, shape (n, 3)."""
+    """Return the ground points in and round the cells that lines cross, shape (n, 3)."""
     if not lines:
         return np.zeros((0, 3))
     wanted = NearPlaces(*np.concatenate(lines)[:, :2].T, _NEAR)

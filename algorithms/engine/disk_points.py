@@ -1,4 +1,4 @@
-"""Points on disk that wait for their block."""
+"""Points on disk, until their block is computed."""
 
 from __future__ import annotations
 
@@ -21,32 +21,32 @@ from .leaf_index import LeafIndex, Sorted, smallest_integers
 
 _RECORD = np.dtype([("x", "<i4"), ("y", "<i4"), ("z", "<i4"), ("flags", "u1")])
 _KNOWN, _WANTED = 1, 2
-# Points between two that are labelled, up to which one access to the file is cheaper than two.
+# If fewer points than this lie between two labelled ones, one access to the file is cheaper.
 _GAP = 1 << 16
 # Points that are read at a time.
 _MOST_READ = 1 << 15
-# Bytes that are written at a time to make room.
+# Bytes that are written at a time to allocate a file.
 _STEP = 1 << 24
 
 
 class DiskPoints:
-    """The points that take part, in temporary files without a name.
+    """The selected points, in temporary files without a name.
 
-    They are gone as soon as they are closed, or the process ends, however that may be.
+    The system removes the files when they are closed or the process ends, even if it is killed.
 
     Parameters
     ----------
     target : Path
-        The output, in whose folder the files are.
+        The output. The files are in its folder.
     blocks : Blocks
         The points are sorted by their leaves, part by part.
     kind : type
-        Of what is kept of each point.
+        Type of the value that is stored for each point.
 
     Attributes
     ----------
     count : int
-        Points so far.
+        Number of points so far.
     cloud : PointCloud
         The file without its points.
     leaves, has_known
@@ -63,7 +63,7 @@ class DiskPoints:
             self._records, self._labels = self._file(), self._file()
         self.cloud: PointCloud | None = None
         self._frame = Frame()
-        # Of each part, where its points begin here, and which it has, as bits.
+        # For each part the index of its first point here, and a mask of its points, as bits.
         self._parts: list[tuple[int, np.ndarray]] = []
         self._runs = LeafIndex()
 
@@ -94,7 +94,7 @@ class DiskPoints:
         part : PointCloud
             Points in file order.
         selected, known, wanted : numpy.ndarray of bool, shape (n,)
-            Which take part, which are surely ground, and which are to be labelled.
+            Which take part, which are known ground, and which are to be labelled.
         """
         if self.cloud is None:
             names = ("x", "y", "z", "classification", "return_number", "number_of_returns")
@@ -121,7 +121,7 @@ class DiskPoints:
         return which[found.order], found
 
     def finish(self) -> None:
-        """End the points."""
+        """Finish adding points."""
         rows, columns, totals = self._runs.finish()
         x, y = (number * self._side + self._start for number in (columns, rows))
         self.leaves = Leaves(x, y, self._side, totals)
@@ -136,7 +136,7 @@ class DiskPoints:
         corner: Corner = (0.0, 0.0),
         progress: Progress = SILENT,
     ) -> BlockPoints:
-        """Return the points of some leaves, in the order of the file, or those of them in a box."""
+        """Return the points of some leaves in file order; only those in a box, if given."""
         runs, frame = list(_joined(*self._runs.of(leaves))), self._frame.moved(corner)
         kind = smallest_integers(self.count)
 
@@ -153,7 +153,7 @@ class DiskPoints:
         return gathered([end - start for start, end in runs], read, box, kind, progress)
 
     def put(self, positions: np.ndarray, labels: np.ndarray) -> None:
-        """Keep the labels of points; their positions ascend."""
+        """Store the labels of points, whose positions must ascend."""
         if not len(positions):
             return
         cuts = np.flatnonzero(np.diff(positions) > _GAP) + 1
@@ -166,12 +166,12 @@ class DiskPoints:
                 self._labels.write(held.tobytes())
 
     def values_of(self, number: int, part: PointCloud) -> np.ndarray:
-        """Return what is kept of the points of a part that was appended.
+        """Return the values that are stored for the points of a part.
 
         Parameters
         ----------
         number : int
-            How many parts were appended before it.
+            How many parts were appended before this one.
         part : PointCloud
             Its points.
 
@@ -200,16 +200,16 @@ def room_on_disk(target: Path, kind: type, count: int) -> np.ndarray:
     Parameters
     ----------
     target : Path
-        The output, in whose folder the file is.
+        The output. The file is in its folder.
     kind : type
-        Of the values.
+        Type of the values.
     count : int
-        How many there are.
+        Number of values.
 
     Raises
     ------
     BareEarthError
-        If the disk is full: memory of a file that has no room ends the process later.
+        If the disk is full. Without this check, writing to the mapped file would end the process.
     """
     try:
         with tempfile.TemporaryFile(dir=target.parent) as file:
@@ -226,7 +226,7 @@ def room_on_disk(target: Path, kind: type, count: int) -> np.ndarray:
 
 
 def _joined(starts: np.ndarray, counts: np.ndarray) -> Iterator[tuple[int, int]]:
-    """Yield start and end of runs, such as follow one another as one, and none too long."""
+    """Yield start and end of runs; adjacent ones are joined, and long ones are split."""
     if not len(starts):
         return
     ends = starts + counts

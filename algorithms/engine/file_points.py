@@ -20,29 +20,29 @@ from .steps import Marks, PointResult, PointStep, Step
 
 # Bytes that a cloud in memory takes a point, besides what a filter takes for those it sees.
 _BYTES_A_POINT_KEPT, _BYTES_A_POINT_SEEN, _MOST_SEEN = 40, 110, 12_000_000
-# Bytes that stay in memory of a point that waits on disk: its class, and what else is to change.
+# Bytes of memory for a point that is on disk: for its class and other changes.
 _BYTES_A_POINT_ON_DISK = 3
-# How much of the memory the blocks may take where the points are on disk.
+# Share of the memory that the blocks may take when the points are on disk.
 _MOST_FOR_BLOCKS = GIGABYTE
-# Bytes of a point, as the file has it, up to which all of it is kept: reading it again for what
-# does not change would take as long as the filter.
+# Largest record length of which whole records are kept in memory. To read them again for
+# writing would take as long as the filter.
 _LONGEST_KEPT = 48
 
-# Some points: where they stand in the file, and themselves.
+# Some points with their indices in the file.
 Parts = Iterable[tuple[slice, PointCloud]]
 
 
 def fits_in_memory(count: int, resources: Resources, record_length: int = 0) -> bool:
-    """Return whether a file of `count` points can be worked on with all of them in memory.
+    """Return whether all `count` points of a file fit into memory while it is processed.
 
     Parameters
     ----------
     count : int
         Points of the file.
     resources : Resources
-        How much memory there is.
+        The memory that may be used.
     record_length : int
-        Bytes of each point that are to be kept besides, as the file has them.
+        Bytes of the records, if they are kept as well.
     """
     seen = _BYTES_A_POINT_SEEN * min(count, _MOST_SEEN)
     return (_BYTES_A_POINT_KEPT + record_length) * count + seen <= resources.bytes
@@ -54,11 +54,11 @@ class FilePoints:
     Parameters
     ----------
     cloud : PointCloud or LasFile
-        All points, or the file that is to be read part by part.
+        All points, or a file that is read part by part.
     resources : Resources
         Threads and memory.
     target : Path, optional
-        The output, in whose folder temporary files are made.
+        The output. Temporary files are made in its folder.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ class FilePoints:
     count : int
         Its points.
     cloud : PointCloud or None
-        All points, where they are in memory; else some of them, once any are read.
+        All points, if they are in memory; otherwise some of them, after the first were read.
     resources : Resources
         What the blocks may use.
     """
@@ -102,7 +102,7 @@ class FilePoints:
         target, resources
             As for the class.
         keep_records : bool
-            Whether all of a point is kept, if that fits as well, to be written again.
+            Whether whole records are kept for writing, if they fit into memory as well.
         progress : Progress
             Receives progress and messages.
         """
@@ -125,7 +125,7 @@ class FilePoints:
 
     @property
     def memory_left(self) -> int:
-        """Bytes that may be used besides what the points take while their file is written."""
+        """Bytes that may be used for writing, beside what the points take."""
         held = _BYTES_A_POINT_ON_DISK
         if self.is_in_memory:
             records = self.cloud.records
@@ -133,7 +133,7 @@ class FilePoints:
         return max(self.resources.bytes - held * self.count, 0)
 
     def parts(self, progress: Progress = SILENT) -> Iterator[tuple[slice, PointCloud]]:
-        """Yield the points some at a time, and where they stand; each time the same parts."""
+        """Yield the points part by part with their indices; the parts are always the same."""
         if self.is_in_memory:
             for where, part in self.cloud.parts():
                 yield where, part
@@ -147,7 +147,7 @@ class FilePoints:
             start += part.count
 
     def room(self, kind: type) -> np.ndarray:
-        """Return room for one value of each point; only small ones are always in memory."""
+        """Return an array of one value for each point, on disk if the values are large."""
         if self.is_in_memory or np.dtype(kind).itemsize == 1:
             return np.empty(self.count, dtype=kind)
         return room_on_disk(self._target, kind, self.count)
@@ -160,16 +160,16 @@ class FilePoints:
         Parameters
         ----------
         steps : sequence of tuple
-            Each step, and what it counts in.
+            Each step with its tally.
         parts : iterable
-            All points once, as `parts` yields them, perhaps with other classes.
+            All points once, as `parts` yields them; their classes may have changed.
         progress : Progress
-            Receives progress of sorting, and what the steps tell.
+            Receives progress of sorting, and messages of the steps.
 
         Raises
         ------
         BareEarthError
-            If there is nothing to do for a step.
+            If a step has no points to work on.
         """
         gather = self._in_memory if self.is_in_memory else self._on_disk
         return gather(steps, parts, progress)
@@ -207,7 +207,7 @@ class FilePoints:
     def values(
         self, store: Store, progress: Progress = SILENT
     ) -> Iterator[tuple[slice, PointCloud, np.ndarray]]:
-        """Yield the points some at a time, where they stand, and what a store keeps of them."""
+        """Yield the points part by part with their indices and their values in a store."""
         for number, (where, part) in enumerate(self.parts(progress)):
             found = store.labels[0][where] if self.is_in_memory else store.values_of(number, part)
             yield where, part, found
@@ -220,20 +220,20 @@ class FilePoints:
         Parameters
         ----------
         step : PointStep
-            What finds it.
+            The step that finds it.
         tally : object
-            What it counts in.
+            The tally of the step.
         progress : Progress
             Receives progress and messages.
         then : sequence of Step
-            Further steps on the points as they are thereafter.
+            Further steps, which get the points with the new values.
 
         Returns
         -------
         result : PointResult
             The values.
         stores : list of Store
-            The points that each of the further steps needs.
+            The points for each of the further steps.
 
         Raises
         ------

@@ -1,4 +1,4 @@
-"""The ground of a survey, block by block."""
+"""Finds the ground of a survey, block by block."""
 
 from __future__ import annotations
 
@@ -21,18 +21,18 @@ from .blocks import BRIDGE, GROUND, LOW, Block, BlockPoints, Blocks, Corner, Sto
 from .memory import Resources, give_back
 from .scheduling import run_jobs
 
-# Bytes of a block from which on it is worth while to give back what it took.
+# Blocks that take so many bytes give their memory back to the system.
 _MUCH = 100_000_000
-# The steps of bridges and of low outliers take these shares of the time of a block.
+# Shares of the time of a block for finding bridges and low outliers.
 _BRIDGES_SHARE, _LOW_SHARE = 0.15, 0.1
 
 
-# Labels the points of a window.
+# A function that labels the points of a window.
 _Label = Callable[[BlockPoints, Progress], np.ndarray]
 
 
 class _Labelled(NamedTuple):
-    """What a block gave: labels of the points at some positions."""
+    """The result of a block: the labels of the points at some positions."""
 
     positions: np.ndarray
     labels: np.ndarray
@@ -40,7 +40,7 @@ class _Labelled(NamedTuple):
 
 
 def blocks_of(parameters: ParameterSet) -> Blocks:
-    """Return the blocks in which a method filters any survey."""
+    """Return the blocks in which a method filters a survey."""
     return Blocks.of(method_of(parameters).reach(parameters))
 
 
@@ -52,18 +52,18 @@ def label_ground(
     resources: Resources = Resources(),
     progress: Progress = SILENT,
 ) -> None:
-    """Give every wanted point of a store its label: `GROUND`, `LOW`, `BRIDGE` or 0.
+    """Label every wanted point of a store with `GROUND`, `LOW`, `BRIDGE` or 0.
 
     Parameters
     ----------
     store : Store
         The points.
     parameters : ParameterSet
-        Those of one method.
+        The parameters of one method.
     blocks : Blocks
-        How the survey is cut; `blocks_of` says.
+        How the survey is cut, as `blocks_of` returns it.
     selection : Selection
-        Says whether low outliers get `LOW`, and decks of bridges `BRIDGE`.
+        Decides whether low outliers get `LOW`, and bridge decks `BRIDGE`.
     resources : Resources
         Threads, and the memory for the blocks.
     progress : Progress
@@ -99,16 +99,16 @@ def over_blocks(
     progress: Progress,
     is_wanted: Callable[[Block], bool] | None = None,
 ) -> Iterator[tuple[int, Any]]:
-    """Yield what is made of each block, with the number of the block, as they end.
+    """Yield the number and the result of each block, in the order in which they finish.
 
     Parameters
     ----------
     store, blocks, resources, progress
         As for `label_ground`.
     work : callable
-        Makes it: takes a block, whether it is the only one, and a `Progress`.
+        Returns the result, given a block, whether it is the only one, and a `Progress`.
     is_wanted : callable, optional
-        Says of a block whether it is to be done; all are, if it is not given.
+        Returns whether a block is to be computed. By default all are.
     """
     todo = [each for each in blocks.over(store) if is_wanted is None or is_wanted(each)]
     if not todo:
@@ -136,15 +136,15 @@ def fill(
     resources: Resources,
     progress: Progress,
 ) -> None:
-    """Put a value for each wanted point of a store.
+    """Store a value for each wanted point.
 
     Parameters
     ----------
     store, blocks, resources, progress
         As for `label_ground`.
     values_of : callable
-        Takes what is seen for a block, which points of it are wanted, its corner and a `Progress`,
-        and returns the values of these points, in their order.
+        Takes the points of a block and its buffer, which of them are wanted, the corner and a
+        `Progress`. Returns the values of the wanted points, in their order.
     """
 
     def found(block: Block, is_only: bool, progress: Progress) -> tuple[np.ndarray, np.ndarray]:
@@ -158,7 +158,7 @@ def fill(
 
 
 def _at_once(number: int, largest: int, resources: Resources) -> int:
-    """Return how many blocks may be in work at once; the largest takes `largest` bytes."""
+    """Return how many blocks can be computed at once; the largest takes `largest` bytes."""
     fitting = resources.bytes // max(largest, 1)
     return int(max(1, min(number, resources.thread_count, fitting)))
 
@@ -175,7 +175,7 @@ def _label(
     part = progress.part(0.0, end - _BRIDGES_SHARE if finds_bridges else end)
     points, known = contents.points, contents.known
     if points.count == 1:
-        # There is nothing to tell it from, and a survey may be scattered all over a country.
+        # One point cannot be compared with others, and such groups can be many.
         return np.array([GROUND], dtype=np.uint8)
     tell_of_extent(points, *method.largest(parameters), progress)
     ground = method.ground(points, parameters, part, known) | known
@@ -212,11 +212,10 @@ def _labelled(
 def _labels(
     contents: BlockPoints, wanted: np.ndarray, label: _Label, reach: float, progress: Progress
 ) -> np.ndarray:
-    """Return the label of each point of a window that is wanted.
+    """Return the label of each wanted point of a window.
 
-    Points that no chain of steps as long as the reach of the filter joins do not matter for each
-    other, and are filtered apart: grids end where the points do, and a stray point would move the
-    border of those of all others.
+    Groups of points that are farther apart than the reach of the filter do not affect each other,
+    and are filtered separately. Otherwise a stray point would extend the grid of all others.
     """
     groups, count = apart(contents.points, reach)
     progress(0.1)
@@ -230,7 +229,7 @@ def _labels(
         which, end = np.flatnonzero(groups == group), done + int(sizes[group])
         part = progress.part(done / len(groups), end / len(groups))
         try:
-            # What there is to say of the points is said of the most of them.
+            # Messages are those of the largest group.
             labels[which] = label(contents.take(which), part.quiet() if done else part)
         except BareEarthError as error:
             failures.append(error)
@@ -241,14 +240,14 @@ def _labels(
 
 
 class _Notes(Notes):
-    """Passes on the progress of a block, and keeps its messages until all blocks are done.
+    """Passes on the progress of a block, and collects its messages until all blocks are done.
 
     Attributes
     ----------
     count : int
-        Points that the block was to label.
+        Number of points to label in the block.
     failure : BareEarthError or None
-        Why it has no ground.
+        Why the block has no ground.
     """
 
     def __init__(self, whole: Progress, count: int, is_only: bool) -> None:
@@ -267,7 +266,7 @@ class _Notes(Notes):
 
 
 def _tell(progress: Progress, blocks: list[_Notes]) -> None:
-    """Tell each message of the blocks once, and how many failed."""
+    """Report each message of the blocks once, and the number of blocks that failed."""
     failed = [each for each in blocks if each.failure is not None]
     if failed and len(failed) == len(blocks):
         raise failed[0].failure

@@ -23,7 +23,7 @@ from .memory import Cost, Resources
 from .output import HEIGHT_DIMENSION, height_dimension
 from .steps import Marks, PointResult, PointStep, Room
 
-# Metres round a block in which ground points matter for its heights, and what it takes.
+# The buffer of a block in metres, and the memory that it takes.
 _BLOCKS = Blocks.of(100.0, Cost(150.0, 50.0))
 _INTEGERS = np.iinfo(np.int32)
 
@@ -46,14 +46,14 @@ class HeightOutput(ParameterSet):
 
 @dataclass(frozen=True, order=True)
 class HeightSummary:
-    """What heights above ground a file has.
+    """The heights above ground of a file.
 
     Attributes
     ----------
     name : str
-        Of the output.
+        Name of the output.
     point_count, ground_count : int
-        Its points, and those of the ground.
+        Numbers of all points and of ground points.
     minimum, maximum : float
         The lowest and the highest height, in the vertical unit of the CRS.
     unit : str
@@ -72,14 +72,14 @@ class HeightSummary:
 
     @property
     def text(self) -> str:
-        """All of it in words."""
+        """The summary as a sentence."""
         extremes = f"{self.minimum:.2f} to {self.maximum:.2f} {self.unit}"
         return f"{self.name}: heights above ground are {extremes}"
 
 
 @dataclass(frozen=True)
 class MeasureHeights(PointStep):
-    """Measures how high each point stands above the ground.
+    """Measures the height of each point above the ground.
 
     Attributes
     ----------
@@ -115,11 +115,11 @@ class MeasureHeights(PointStep):
         self.ground.check(tally, path)
 
     def work(self, store: Store, resources: Resources, progress: Progress) -> None:
-        """Put the height of each wanted point in metres; NaN in blocks without ground."""
+        """Store the height of each wanted point in metres; NaN in blocks without ground."""
         fill(store, self.blocks, _heights, resources, progress)
 
     def result(self, path: Path, room: Room) -> HeightsOfPoints:
-        """Return what keeps the heights of a file."""
+        """Return an object that collects the heights of a file."""
         return HeightsOfPoints(self, room)
 
 
@@ -129,9 +129,9 @@ class HeightsOfPoints(PointResult):
     Parameters
     ----------
     step : MeasureHeights
-        What measures them.
+        The step.
     room : callable
-        Makes room for a value of each point.
+        Returns an array of one value for each point.
 
     Attributes
     ----------
@@ -141,15 +141,15 @@ class HeightsOfPoints(PointResult):
 
     def __init__(self, step: MeasureHeights, room: Room) -> None:
         self._step, self._as_z = step, step.output.output_as == "z"
-        # A dimension needs no more digits; in place of z they are rounded as z is.
+        # Single precision is enough for a dimension. Heights that replace z are rounded as z is.
         self.heights = room(np.float64 if self._as_z else np.float32)
         self._kept = room(bool) if step.ground_only else None
         self._lowest, self._highest = np.inf, -np.inf
         self._ground_count, self._unit = 0, 1.0
 
     def add(self, where: slice, part: PointCloud, values: np.ndarray) -> None:
-        """Keep heights in metres in the vertical unit, without the noise of rounding."""
-        # Ground points have 0, not -0.
+        """Convert heights from metres to the vertical unit, without noise from rounding."""
+        # So that ground points have 0, not -0.
         heights = np.round(values / part.crs.vertical_unit, 6) + 0.0
         self.heights[where] = heights
         ground = ground_of(part, self._step.ground.ground_classes)
@@ -183,7 +183,7 @@ class HeightsOfPoints(PointResult):
 
 
 def _z_of(cloud: PointCloud, heights: np.ndarray) -> np.ndarray:
-    """Return heights as integers of the file's scale and offset."""
+    """Return heights as integers in the scale and offset of the file."""
     if np.isnan(heights).any():
         raise BareEarthError(
             f"Some points of {cloud.path} are kilometres from any ground, so that they have no"

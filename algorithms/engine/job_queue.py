@@ -1,4 +1,4 @@
-"""Running the jobs of a survey: blocks first, and each tile as soon as its blocks are labelled."""
+"""Runs the jobs of a survey: first the blocks, and each tile as soon as its blocks are done."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .jobs import BlockJob, JobResult, TileJob
 from .workers import SCHEDULER_GONE, Job, Running, Workers
 
 _POLL = 0.1
-# What a block does with a point takes so many times as long as reading and writing it.
+# A point takes so many times as long in a block as for reading and writing.
 _BLOCK_WEIGHT = 2.0
 _DIED = (
     "The process that worked on it ended unexpectedly, perhaps because memory was short. Allow"
@@ -23,12 +23,12 @@ _DIED = (
 
 
 class JobQueue:
-    """The jobs of a survey, and what became of them.
+    """The jobs of a survey and their results.
 
     Parameters
     ----------
     blocks : list of BlockJob
-        The blocks that are not done yet, in groups.
+        The blocks that are still to be done, in groups.
     tiles : list of TileJob
         The tiles to write.
     workers : Workers
@@ -41,9 +41,9 @@ class JobQueue:
     done : list of object
         The summaries of the tiles that were written.
     empty_count : int
-        Tiles of which there was nothing to write.
+        Number of tiles with nothing to write.
     failures : dict of Path to str
-        Why the others were not, by their inputs.
+        Why the other tiles were not written, by their inputs.
     lost : list of str
         Why blocks were not done.
     """
@@ -57,7 +57,8 @@ class JobQueue:
         self.lost: list[str] = []
         self._workers, self._progress = workers, progress
         self._blocks, self._ready = collections.deque(blocks), collections.deque()
-        # Jobs that were running when a worker died: one by one it is found which of them kills.
+        # Jobs that were running when a worker died. They are repeated one by one, to find the one
+        # that kills its worker.
         self._suspects: collections.deque[Job] = collections.deque()
         self._missing = {file for job in blocks for file in job.files}
         self._waiting = list(tiles)
@@ -97,7 +98,7 @@ class JobQueue:
         self._tell()
 
     def _fill(self) -> bool:
-        """Begin as many jobs as may run; return whether any is running."""
+        """Start as many jobs as may run at once; return whether any is running."""
         while len(self._running) < (1 if self._suspects else self._workers.at_once):
             queues = (self._suspects, self._ready, self._blocks)
             queue = next((each for each in queues if each), None)
@@ -111,14 +112,14 @@ class JobQueue:
         return bool(self._running)
 
     def _suspect_all(self) -> None:
-        """Begin all running jobs anew, one after the other: one of them may kill its worker."""
+        """Repeat all running jobs one by one, since one of them may have killed its worker."""
         self._suspects.extend(self._running.values())
         self._running.clear()
         self._workers.restart()
 
     def _end(self, ended: Running) -> None:
-        """Take note of what became of a job."""
-        if ended not in self._running:  # it is a suspect by now
+        """Record the result of a job."""
+        if ended not in self._running:  # it is suspected meanwhile
             return
         job = self._running[ended]
         try:
@@ -133,7 +134,7 @@ class JobQueue:
         except CancelledError as error:
             raise BareEarthError(SCHEDULER_GONE) from error
         except Exception as error:
-            # A cluster gave the job up.
+            # The cluster gave up the job.
             failure = f"It could not be done: {error or type(error).__name__}."
             outcome = JobResult(None, failure=failure)
         self._running.pop(ended, None)
@@ -159,7 +160,7 @@ class JobQueue:
         self._find_ready()
 
     def _find_ready(self) -> None:
-        """Let those tiles be written whose blocks are labelled."""
+        """Queue the tiles whose blocks are done."""
         waiting = []
         for each in self._waiting:
             is_ready = self._missing.isdisjoint(each.files)
@@ -180,7 +181,7 @@ class JobQueue:
                 file.unlink(missing_ok=True)
 
     def _hear(self, job: Job, outcome: JobResult) -> None:
-        """Keep what a job told; of tiles not what only counts their points."""
+        """Collect the messages of a job; without those that only give counts of a tile."""
         is_tile = isinstance(job, TileJob)
         for kind, text in outcome.messages:
             if is_tile and kind == "warning":
@@ -189,17 +190,17 @@ class JobQueue:
                 self._heard.setdefault((kind, _without_numbers(text)), []).append(text)
 
     def _tell(self) -> None:
-        """Tell each message once, and how many others differ in names and numbers only."""
+        """Report each message once, and count those that differ only in names and numbers."""
         for (kind, _), texts in self._heard.items():
             more = f" (And {len(texts) - 1:,} more like this.)" if len(texts) > 1 else ""
             getattr(self._progress, kind)(texts[0] + more)
 
 
 def _without_numbers(text: str) -> str:
-    """Return what messages have in common that differ in names of files and numbers."""
+    """Return a message without names of files and numbers."""
     return re.sub(r"\S*\d\S*|\S+\.la[sz]\b\S*", "#", text)
 
 
 def _weight(job: Job) -> float:
-    """Return the share of a job in the whole, in points to read and write."""
+    """Return the cost of a job, as a number of points to read and write."""
     return float(job.tile.count) if isinstance(job, TileJob) else _BLOCK_WEIGHT * job.count

@@ -1,6 +1,6 @@
-"""The jobs of a survey of many files: plain functions of what can be pickled, with files between.
+"""The jobs of a survey of many files: values that can be pickled, and pass results on in files.
 
-They run in a thread, in another process or on another computer that sees the same folders.
+They run in threads, in processes, or on other computers that see the same folders.
 """
 
 from __future__ import annotations
@@ -24,23 +24,23 @@ from .block_grid import BlockGrid, BlockIndex, code
 from .file_points import FilePoints
 from .memory import Resources
 from .memory_points import MemoryPoints, SurveyFile
-from .record import Record, write_record
+from .record import Fingerprint, write_record
 from .steps import PointStep
 
 _FAILURE = "no ground"
 
 
 class JobResult(NamedTuple):
-    """What became of a job.
+    """The result of a job.
 
     Attributes
     ----------
     result : object
-        What it returned.
+        The return value.
     messages : tuple of tuple of str
-        Kind and text of each.
+        Kind and text of each message.
     failure : str or None
-        Why it failed.
+        Why the job failed, if it did.
     """
 
     result: Any
@@ -50,20 +50,20 @@ class JobResult(NamedTuple):
 
 @dataclass(frozen=True)
 class BlockJob:
-    """Does something with the points of some blocks.
+    """A job that works on the points of some blocks.
 
     Attributes
     ----------
     grid : BlockGrid
-        What all jobs share.
+        The blocks of the survey.
     places : tuple of BlockIndex
-        The blocks.
+        The blocks of this job.
     files : tuple of Path
-        Where what is made of each goes.
+        The file for the result of each block.
     sources : tuple of Path
-        The files that may have points which these blocks need.
+        The input files that may have points for these blocks.
     count : float
-        About how many points the blocks hold.
+        Estimated number of points in the blocks.
     """
 
     grid: BlockGrid
@@ -73,7 +73,7 @@ class BlockJob:
     count: float
 
     def split(self) -> list[BlockJob]:
-        """Return a job for each of the blocks."""
+        """Return one job for each block."""
         count = self.count / len(self.places)
         pairs = zip(self.places, self.files)
         return [replace(self, places=(a,), files=(b,), count=count) for a, b in pairs]
@@ -100,12 +100,12 @@ class BlockJob:
 
 @dataclass(frozen=True)
 class PointJob(BlockJob):
-    """Finds something of each point of some blocks, and keeps it by files and blocks.
+    """A job that finds a value for each point of some blocks, and stores it by block and file.
 
     Attributes
     ----------
     step : PointStep
-        What is to be found.
+        The step that finds the values.
     """
 
     step: PointStep
@@ -128,7 +128,7 @@ class PointJob(BlockJob):
         progress(1.0)
 
     def _read(self, progress: Progress) -> tuple[list[SurveyFile], list[np.ndarray]]:
-        """Return the points that the blocks need, and the block of each."""
+        """Return the points that the blocks need, and the block in which each point lies."""
         parts, codes = [], []
         here, tally = np.array([code(place) for place in self.places]), self.step.tally()
         for cloud in self.clouds(progress):
@@ -147,7 +147,7 @@ class PointJob(BlockJob):
         values: list[np.ndarray],
         failure: str,
     ) -> None:
-        """Keep what was found in a block: for each file that of its points there, in its order."""
+        """Write the values of a block: for each file those of its points in it, in file order."""
         kept = {
             _key(part.cloud.path): some[there == block]
             for part, there, some in zip(parts, codes, values)
@@ -159,20 +159,20 @@ class PointJob(BlockJob):
 
 
 def _key(path: Path) -> str:
-    """Return a name for the labels of a file; its own may be none that can be written."""
+    """Return a name for the values of a file, whose own name may have unsuitable characters."""
     return os.fsencode(path.name).hex()
 
 
 @dataclass(frozen=True)
 class TileJob:
-    """Writes a file anew with what was found of its points.
+    """A job that writes a file with the values that were found for its points.
 
     Attributes
     ----------
     grid : BlockGrid
-        What all jobs share.
+        The blocks of the survey.
     step : PointStep
-        What was found.
+        The step that found the values.
     tile : LasFile
         The input.
     target : Path
@@ -180,9 +180,9 @@ class TileJob:
     places : tuple of BlockIndex
         The blocks that may hold its points.
     files : tuple of Path
-        Where what was found in each is.
-    record : Record
-        Says from what the output is made; written after it.
+        The file with the result of each block.
+    fingerprint : Fingerprint
+        What the output is made from; written after the output.
     """
 
     grid: BlockGrid
@@ -191,10 +191,10 @@ class TileJob:
     target: Path
     places: tuple[BlockIndex, ...]
     files: tuple[Path, ...]
-    record: Record
+    fingerprint: Fingerprint
 
     def run(self, resources: Resources, progress: Progress) -> Any:
-        """Do it; return the summary of the step, or None if there is nothing to write."""
+        """Write the file. Return the summary of the step, or None if there is nothing to write."""
         step, las, path = self.step, self.tile, self.tile.path
         tally, kept = step.tally(), KeptValues(self)
         is_copied = layers_kept(las, self.target) is not None
@@ -213,12 +213,12 @@ class TileJob:
             last = progress.part(0.4, 1.0)
             write_changed(las, self.target, edits, last, points.cloud, points.memory_left)
         summary = result.summary(self.target.name)
-        write_record(self.target, self.record, asdict(summary))
+        write_record(self.target, self.fingerprint, asdict(summary))
         return summary
 
 
 class KeptValues:
-    """What was found of the points of a tile, as the blocks have it.
+    """The values of the points of a tile, as the blocks stored them.
 
     Parameters
     ----------
@@ -228,7 +228,7 @@ class KeptValues:
     Attributes
     ----------
     failure : str
-        Why nothing was found in a block; empty if it was.
+        Why a block has no values; empty if all have.
     """
 
     def __init__(self, job: TileJob) -> None:
@@ -242,12 +242,12 @@ class KeptValues:
                     self.failure = self.failure or str(kept.get(_FAILURE, ""))
 
     def of(self, where: slice, part: PointCloud) -> np.ndarray:
-        """Return what was found of the next points, which stand there in the file.
+        """Return the values of the next points.
 
         Raises
         ------
         BareEarthError
-            If there are points where the header says that there are none.
+            If points lie outside the extent in the header.
         """
         if where.stop > self._count:
             raise self._changed()
@@ -265,17 +265,17 @@ class KeptValues:
         return values
 
     def check(self) -> None:
-        """Refuse a tile of whose values some are left."""
+        """Refuse a tile if some values were not used."""
         if any(map(len, self._left.values())):
             raise self._changed()
 
     def _changed(self) -> BareEarthError:
-        """Return the error for a file that is not what it was."""
+        """Return the error for a file that has changed."""
         return BareEarthError(f"{self._path} changed while it was worked on. Classify it again.")
 
 
 def attempt(job: BlockJob | TileJob, resources: Resources, progress: Progress) -> JobResult:
-    """Run a job; what goes wrong with it is told, not raised."""
+    """Run a job. Return its errors in the result instead of raising them."""
     notes = _Notes(progress)
     try:
         with may_use(resources.thread_count):
@@ -292,7 +292,7 @@ def attempt(job: BlockJob | TileJob, resources: Resources, progress: Progress) -
 
 
 class _Notes(Notes):
-    """Passes on progress and keeps the messages."""
+    """Passes on progress and collects the messages."""
 
     def __init__(self, whole: Progress) -> None:
         super().__init__()

@@ -23,7 +23,7 @@ from .memory import Resources
 from .remembering import Memory
 from .steps import Marks, PointResult, PointStep, Room
 
-# What a store keeps of ground points that are key points, and of the others.
+# Values that a store holds for key points, and for other ground points.
 _KEY, _OTHER = 1, 2
 
 
@@ -59,14 +59,14 @@ class KeyPointMark(ParameterSet):
 
 @dataclass(frozen=True, order=True)
 class KeyPointSummary:
-    """How many model key points a file has.
+    """The numbers of key points of a file.
 
     Attributes
     ----------
     name : str
-        Of the output.
+        Name of the output.
     point_count, ground_count, key_point_count : int
-        Its points, those of the ground, and those of them that are key points.
+        Numbers of all points, of ground points, and of key points.
     class_counts : dict of int to int
         Points of each class in the output.
     """
@@ -78,13 +78,13 @@ class KeyPointSummary:
     class_counts: dict[int, int] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        # JSON, in which a run before keeps them, knows no numbers as keys.
+        # The keys of the JSON record are strings.
         counts = {int(each): count for each, count in self.class_counts.items()}
         object.__setattr__(self, "class_counts", counts)
 
     @property
     def text(self) -> str:
-        """All of it in words."""
+        """The summary as a sentence."""
         return (
             f"{self.name}: {self.key_point_count:,} of {self.ground_count:,} ground points are key"
             " points"
@@ -139,7 +139,7 @@ class FindKeyPoints(PointStep):
         fill(store, self.blocks, partial(_keys, self.parameters), resources, progress)
 
     def result(self, path: Path, room: Room) -> KeyPointsOfPoints:
-        """Return what keeps the key points of a file."""
+        """Return an object that collects the key points of a file."""
         return KeyPointsOfPoints(self, room)
 
 
@@ -149,21 +149,21 @@ class KeyPointsOfPoints(PointResult):
     Parameters
     ----------
     step : FindKeyPoints
-        What finds them.
+        The step.
     room : callable
-        Makes room for a value of each point.
+        Returns an array of one value for each point.
     """
 
     def __init__(self, step: FindKeyPoints, room: Room) -> None:
         self._step = step
-        # Classes, or what becomes of the flag.
+        # Classes, or new values of the flag.
         self._values = room(np.uint8 if step.mark.by_class else np.int8)
         self._memory = Memory(room)
         self._counts = np.zeros(256, dtype=np.int64)
         self._ground_count = self._key_point_count = 0
 
     def add(self, where: slice, part: PointCloud, values: np.ndarray) -> None:
-        """Put in the class or the flag of some points."""
+        """Set the class or the flag of some points."""
         keys, others, mark = values == _KEY, values == _OTHER, self._step.mark
         classes = part.classification
         if mark.by_class:
@@ -185,7 +185,7 @@ class KeyPointsOfPoints(PointResult):
         return Edits(key_points=self._values)
 
     def summary(self, name: str) -> KeyPointSummary:
-        """Return how many key points there are."""
+        """Return the numbers of points."""
         counts = {int(each): int(self._counts[each]) for each in np.flatnonzero(self._counts)}
         points = self._ground_count, self._key_point_count
         return KeyPointSummary(name, len(self._values), *points, counts)

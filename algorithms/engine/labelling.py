@@ -32,16 +32,17 @@ from .steps import Marks, PointResult, PointStep, Room
 
 @dataclass(frozen=True, order=True)
 class ClassifiedSummary:
-    """What became of one file of a survey.
+    """The result for one file of a survey.
 
     Attributes
     ----------
     name : str
-        Of the output.
+        Name of the output.
     point_count, ground_count : int
-        Its points, and those of the target class; of the area, if only they are written.
+        Numbers of all points and of points of the target class. If only the area is written,
+        only points in the area count.
     area_count, by_hand_count : int
-        Points in the area, and those whose class is known by hand.
+        Numbers of points in the area, and of points whose class is known by hand.
     """
 
     name: str
@@ -52,29 +53,29 @@ class ClassifiedSummary:
 
     @property
     def text(self) -> str:
-        """All of it in words."""
+        """The summary as a sentence."""
         share = self.ground_count / max(self.point_count, 1)
         return f"{self.name}: {self.point_count:,} points, {share:.1%} ground"
 
 
 @dataclass(frozen=True)
 class LabelGround(PointStep):
-    """Finds the ground, low outliers and decks of bridges.
+    """Finds the ground, low outliers and bridge decks.
 
     Attributes
     ----------
     parameters : ParameterSet
-        Those of one method; their type chooses the method.
+        The parameters of one method. Their type chooses the method.
     selection : Selection
         Which points take part, and what their classes become.
     area : Area or None
-        Where points are classified. Those outside keep their class; those near it are context.
+        Where points are classified. Points outside keep their class; those near it are context.
     output : Output
         Which points are written.
     cut : Blocks or None
-        How the survey is cut, if not as the method has it.
+        The blocks, if they are not those of the method.
     corrections : Corrections
-        What is known of the points by hand, beside what their files remember.
+        Corrections by hand, beside those that the files remember.
     """
 
     parameters: ParameterSet
@@ -95,17 +96,17 @@ class LabelGround(PointStep):
 
     @property
     def chooser(self) -> PointChooser:
-        """What says which points take part."""
+        """Chooses the points that take part."""
         reach = method_of(self.parameters).reach(self.parameters)
         return PointChooser(self.selection, self.area, reach, self.corrections)
 
     def marks(self, part: PointCloud, tally: Tally) -> Marks:
-        """Return which points take part, are surely ground, and lie in the area."""
+        """Return which points take part, are known ground, and lie in the area."""
         inside, selected, known = self.chooser.choose(part, tally)
         return Marks(selected, known, inside)
 
     def tell(self, tally: Tally, path: Path, progress: Progress) -> None:
-        """Tell how many points take part; refuse a file in which none does."""
+        """Report how many points take part; refuse a file without any."""
         self.chooser.tell(tally, path, progress)
 
     def check_tile(self, tile: LasFile) -> None:
@@ -117,26 +118,26 @@ class LabelGround(PointStep):
         self.chooser.choose(part, tally)
 
     def tell_of_tile(self, tally: Tally, path: Path, progress: Progress) -> None:
-        """Tell how many points of a file took part; refuse one in which none does.
+        """Report how many points took part; refuse a file without any.
 
-        Of an area a file need not have any.
+        If an area is given, a file need not have points in it.
         """
         if self.area is None or tally.of_returns:
             self.selection.tell(tally, path, progress)
 
     def check_survey(self, box: Box) -> None:
-        """Refuse files that reach so far, if the area lies elsewhere."""
+        """Refuse the survey if the area lies outside its extent."""
         if self.area is not None and not self.area.may_touch(box):
             raise self.chooser.no_point_in_area("the files", box)
 
     def skips(self, tile: LasFile) -> bool:
-        """Return whether only the area is written, and a file lies outside."""
+        """Return whether only the area is written and a file lies outside it."""
         if self.area is None or not self.output.area_only:
             return False
         return not self.area.may_touch(tile.outer_box)
 
     def tell_of_survey(self, done: Sequence[ClassifiedSummary], progress: Progress) -> None:
-        """Tell of an area, and of corrections, that meet no point of any file."""
+        """Warn if no point of any file lies in the area or in the corrections."""
         if self.area is not None and not any(each.area_count for each in done):
             progress.warning(
                 "No point lies in the area. Give the extent or the boundary in the CRS of the"
@@ -150,7 +151,7 @@ class LabelGround(PointStep):
         label_ground(store, self.parameters, self.blocks, self.selection, resources, progress)
 
     def result(self, path: Path, room: Room) -> ClassifiedPoints:
-        """Return what turns labels into classes."""
+        """Return an object that turns the labels of a file into classes."""
         return ClassifiedPoints(self, path, room)
 
 
@@ -160,21 +161,21 @@ class ClassifiedPoints(PointResult):
     Parameters
     ----------
     step : LabelGround
-        What labels them.
+        The step.
     path : Path
         The file.
     room : callable
-        Makes room for a value of each point.
+        Returns an array of one value for each point.
 
     Attributes
     ----------
     classification : numpy.ndarray of uint8, shape (n,)
         The new class of every point, in file order.
     class_counts : numpy.ndarray of int64, shape (256,)
-        Points of each class, of those that are written.
+        Numbers of written points of each class.
     area_ground_count, area_low_count, area_deck_count : int
-        Points in the area of the class of the ground, those labelled as low outliers, and those on
-        decks of bridges.
+        Numbers of points in the area with the class of the ground, of low outliers, and of
+        points on bridge decks.
     """
 
     def __init__(self, step: LabelGround, path: Path, room: Room) -> None:
@@ -188,7 +189,7 @@ class ClassifiedPoints(PointResult):
         self._has_ground = False
 
     def add(self, where: slice, part: PointCloud, values: np.ndarray) -> None:
-        """Put in the classes that follow from the labels of some points, and count them."""
+        """Set the classes of some points from their labels, and count them."""
         selection, chooser = self._step.selection, self._step.chooser
         inside = chooser.inside(part)
         ground, low, decks = (values == each for each in (GROUND, LOW, BRIDGE))
@@ -209,7 +210,7 @@ class ClassifiedPoints(PointResult):
         self.area_deck_count += int(np.count_nonzero(decks & inside))
 
     def part(self, where: slice, part: PointCloud) -> PointCloud:
-        """Return some points with their new classes; those that are not written are withheld."""
+        """Return points with their new classes; points that are not written become withheld."""
         part = dataclasses.replace(part, classification=self.classification[where])
         if self._inside is not None:
             part = dataclasses.replace(part, withheld=part.withheld | ~self._inside[where])
@@ -217,7 +218,7 @@ class ClassifiedPoints(PointResult):
 
     @property
     def is_empty(self) -> bool:
-        """Whether there is nothing to write: no point of the area, or none of its ground."""
+        """Whether no point is to be written."""
         if self._inside is None:
             return False
         return not (self.area_ground_count if self._step.output.ground_only else self._area_count)
@@ -225,7 +226,7 @@ class ClassifiedPoints(PointResult):
     def check(self, why: str = "") -> None:
         """Refuse to write a file without ground.
 
-        Where an area ends, a file may have few points in it, and no ground among them.
+        A file at the border of an area is allowed to have none: few of its points may be in it.
         """
         if self._has_ground:
             return
@@ -233,7 +234,7 @@ class ClassifiedPoints(PointResult):
             raise BareEarthError(why or f"No ground was found in {self._path}.")
 
     def tell(self, progress: Progress) -> None:
-        """Tell how many low outliers and points on bridges there are in the area."""
+        """Report the numbers of low outliers and of points on bridges in the area."""
         if self._step.selection.low_noise_class:
             depth = self._step.selection.low_noise_depth
             progress.info(
@@ -250,12 +251,12 @@ class ClassifiedPoints(PointResult):
         progress: Progress = SILENT,
         heights: np.ndarray | None = None,
     ) -> Edits:
-        """Return the new classes, and what else the output is to have.
+        """Return the new classes and all other changes of the output.
 
         Raises
         ------
         BareEarthError
-            If nothing would be left to write, or no height can be measured.
+            If no point would be written, or no height can be measured.
         """
         output, kept = self._step.output, self._inside
         if kept is not None:
@@ -278,7 +279,7 @@ class ClassifiedPoints(PointResult):
         return self._memory.added_to(Edits(self.classification, extra=extra, kept=kept))
 
     def summary(self, name: str) -> ClassifiedSummary:
-        """Return how many points there are, and how many of them are ground."""
+        """Return the numbers of points."""
         written = len(self.classification) if self._inside is None else self._area_count
         ground = int(self.class_counts[self._step.selection.to_class])
         return ClassifiedSummary(name, written, ground, self._area_count, self._by_hand_count)

@@ -1,4 +1,4 @@
-"""Where the points of each leaf stand in a store: in runs of points that follow one another."""
+"""Finds the points of each leaf in a store, as runs of consecutive points."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-# Row and column of a square as one number: half of those that fit are below 0.
+# Row and column of a square are packed into one number, each with an offset since it can be
+# negative.
 _SHIFT, _HALF = 32, 1 << 30
 
 
@@ -16,7 +17,7 @@ def code_of(row: np.ndarray, column: np.ndarray) -> np.ndarray:
 
 
 def row_and_column(codes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return what `code_of` made numbers of."""
+    """Return the row and column for numbers of `code_of`."""
     return (codes >> _SHIFT) - _HALF, (codes & ((1 << _SHIFT) - 1)) - _HALF
 
 
@@ -28,7 +29,7 @@ class Sorted(NamedTuple):
     order : numpy.ndarray of intp, shape (n,)
         The indices of the points; those of one leaf in their former order.
     codes, counts : numpy.ndarray of int64, shape (m,)
-        Which leaves hold any, and how many each.
+        The leaves that hold points, and their numbers of points.
     """
 
     order: np.ndarray
@@ -37,9 +38,9 @@ class Sorted(NamedTuple):
 
     @classmethod
     def of(cls, row: np.ndarray, column: np.ndarray) -> Sorted:
-        """Return points sorted, whose leaves have these numbers, as float64 of shape (n,)."""
+        """Sort points, given row and column of the leaf of each, float64 of shape (n,)."""
         codes = code_of(row, column)
-        # Mostly a point lies in the leaf of the one before: a stable sort is the fastest then.
+        # Most points lie in the same leaf as the point before, and then a stable sort is fastest.
         order = np.argsort(codes, kind="stable")
         codes = codes[order]
         starts = np.flatnonzero(np.concatenate(([True], codes[1:] != codes[:-1]))[: len(codes)])
@@ -47,21 +48,21 @@ class Sorted(NamedTuple):
 
 
 class LeafIndex:
-    """The runs of the leaves of a store, added as its points are sorted."""
+    """The runs of all leaves of a store."""
 
     def __init__(self) -> None:
         self._added: list[np.ndarray] = []
-        # Where the runs of each leaf begin, and where those of the last one end.
+        # Index of the first run of each leaf, and the number of all runs.
         self._bounds = np.zeros(1, dtype=np.intp)
         self._starts = self._counts = np.zeros(0, dtype=np.int64)
 
     def add(self, codes: np.ndarray, counts: np.ndarray, start: int) -> None:
-        """Add points that were sorted together and stand in the store from `start` on."""
+        """Add points that were sorted together; `start` is the index of the first in the store."""
         starts = start + np.cumsum(counts) - counts
         self._added.append(np.column_stack((codes, starts, counts)).astype(np.int64))
 
     def finish(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """End the points; return row, column and number of points of each leaf."""
+        """Finish adding. Return row, column and number of points of each leaf."""
         added = np.concatenate([np.zeros((0, 3), np.int64), *self._added])
         self._added = []
         added = added[np.argsort(added[:, 0], kind="stable")]
@@ -72,7 +73,7 @@ class LeafIndex:
         return (*row_and_column(codes), totals)
 
     def of(self, leaves: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the starts of the runs of some leaves, ascending, and their numbers of points."""
+        """Return the starts of the runs of some leaves, ascending, and the lengths of the runs."""
         of_each = [np.arange(*self._bounds[leaf : leaf + 2]) for leaf in leaves]
         runs = np.concatenate([np.zeros(0, np.intp), *of_each])
         runs = runs[np.argsort(self._starts[runs], kind="stable")]
@@ -80,5 +81,5 @@ class LeafIndex:
 
 
 def smallest_integers(count: int) -> type:
-    """Return the smallest integers that hold the place of each of so many points."""
+    """Return the smallest integer type that holds the indices of `count` points."""
     return np.int32 if count < 1 << 31 else np.int64

@@ -1,4 +1,4 @@
-"""What is made of many files as one survey, without a seam: classified ones, heights, rasters."""
+"""Classification, heights, key points and rasters of many files as one survey, without seams."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Iterable, Sequence
 
 from ..core.errors import BareEarthError
-from ..core.files import check_output, is_same_file, temporary_folder
+from ..core.files import check_output, is_same_file, split_name, temporary_folder
 from ..core.progress import SILENT, Progress
 from ..las.writing import check_writable
 from ..survey.files import Survey, open_survey
@@ -23,34 +23,33 @@ from .rasters import MakeRasters, RasterSize
 from .record import folders_of
 from .requests import ClassifyRequest, Request, TerrainRequest
 from .steps import PointStep
-from .tile_run import TileRun
+from .tile_run import TileRun, tasks_of
 from .workers import Threads, Workers
 
-_COPC = ".copc.laz"
-# Where the files wait of which more is to be made.
+# Folder of files that a further step will read.
 _WAITING = "waiting"
 
 
 @dataclass(frozen=True)
 class SurveySummary:
-    """What became of a survey.
+    """The result of a run on a survey.
 
     Attributes
     ----------
     tile_count : int
-        Files of the survey.
+        Number of files in the survey.
     done_count : int
-        Those that are done, in this run or before it.
+        Number of finished files, of this run and of earlier ones.
     kept_count : int
-        Those that a run before had done.
+        How many of them an earlier run finished.
     point_count, ground_count : int
-        Points of the files that are done, and those of them that are ground.
+        Numbers of all points and of ground points in the finished files.
     failures : dict of str to str
-        Why the others are not done, by their paths.
+        Why other files could not be done, by their paths.
     vpc : str
-        The virtual point cloud of all that are.
+        The virtual point cloud of the finished files.
     tiles : tuple
-        What became of each file that is done, as the step says it.
+        The summary of each finished file.
     """
 
     tile_count: int
@@ -84,14 +83,14 @@ def classify_files(
     vpc: Path | None = None,
     blocks: Blocks | None = None,
 ) -> SurveySummary:
-    """Classify the ground points of many files as one survey, and write each anew.
+    """Classify the ground points of many files as one survey, and write each with its new classes.
 
     Parameters
     ----------
     request : ClassifyRequest
         What to do.
     blocks : Blocks, optional
-        How the survey is cut, if not as the method has it.
+        The blocks, if they are not those of the method.
     sources, folder, progress, workers, vpc
         As for `write_files`.
 
@@ -100,7 +99,7 @@ def classify_files(
     BareEarthError
         If no file can be classified, or the outputs cannot be written.
     Cancelled
-        If the user asked to stop; finished files stay, and nothing is half written.
+        If the user asked to stop. Finished files stay, and no file is incomplete.
     """
     steps: list[PointStep] = [replace(request.step, cut=blocks)]
     if request.output.height_above_ground:
@@ -125,36 +124,36 @@ def write_files(
     vpc: Path | None = None,
     rasters: MakeRasters | None = None,
 ) -> SurveySummary:
-    """Write many files anew, as one survey, with what steps find of their points.
+    """Run steps on many files as one survey, and write each file with the results.
 
-    The results are those that one file with all the points would get. A file that cannot be worked
-    on does not stop the others.
+    The results are those of one file with all points. A file that cannot be processed does not stop
+    the others.
 
     Parameters
     ----------
     sources : iterable of Path
         Files, folders, virtual point clouds and lists, as for `open_survey`.
     folder : Path
-        Where the outputs go, under the names of the inputs; made if it is not there.
+        The folder for the outputs, which get the names of the inputs. It is made if it is missing.
     steps : sequence of PointStep
-        What to find, each in the files that the one before wrote.
+        One step, or two of which the second reads the outputs of the first.
     request : Request
-        Which files, in what format, whether files that are done stay, threads and memory.
+        Options for files, format, resuming, threads and memory.
     progress : Progress
         Receives progress, and a line on each finished file.
     workers : Workers, optional
-        Who does the work; threads of this process if not given.
+        The workers; by default threads of this process.
     vpc : Path, optional
-        The virtual point cloud of the results; in the folder if not given.
+        The virtual point cloud of the results; by default in the folder.
     rasters : MakeRasters, optional
-        Rasters to make of what the first step wrote.
+        Rasters to make from the outputs of the last step.
 
     Raises
     ------
     BareEarthError
-        If no file can be done, or the outputs cannot be written.
+        If no file can be processed, or the outputs cannot be written.
     Cancelled
-        If the user asked to stop; finished files stay, and nothing is half written.
+        If the user asked to stop. Finished files stay, and no file is incomplete.
     """
     folder, sources = Path(folder), [Path(each) for each in sources]
     workers = workers or Threads(request.resources)
@@ -170,27 +169,34 @@ def write_files(
     steps[0].check_survey(survey.box)
     targets = _targets_of(survey, folder, request.tiles.format)
     if rasters is not None:
-        _check_rasters(rasters.files, folder, (vpc, *targets, *targets.values()))
+        _check_rasters(rasters, survey, folder, (vpc, *targets, *targets.values()))
     failures = {each.path.name: (each.path, each.reason) for each in survey.broken}
     inputs = {each.path.name: each.path for each in survey.tiles}
     waiting = [folders_of(folder)[1] / f"{_WAITING}-{each}" for each in range(len(steps) - 1)]
     parts = progress.part(0.02, 0.98).shares(*[1.0] * len(steps))
-    for number, (step, place, part) in enumerate(zip(steps, (*waiting, folder), parts)):
+    places = [*waiting, folder]
+    formats = [*["same"] * len(waiting), request.tiles.format]
+    of_steps = [_targets_of(survey, *each) for each in zip(places, formats)]
+    tasks = tasks_of(survey, steps, of_steps, request.tiles.resume)
+    for number, (step, place, task, part) in enumerate(zip(steps, places, tasks, parts)):
         is_last = place is folder
-        targets = _targets_of(survey, place, request.tiles.format if is_last else "same")
-        run = TileRun(survey, place, targets, step, part)
-        run.work(workers, request.tiles.resume, None if number else rasters)
+        targets = _targets_of(survey, place, formats[number])
+        run = TileRun(survey, place, targets, step, part, task)
+        run.work(workers, request.tiles.resume, rasters if is_last else None)
         for path, reason in run.failures.items():
             failures[path.name] = inputs[path.name], reason
         if not number:
             empty_count = run.empty_count
-            if run.done or empty_count:
+            if (run.done or empty_count) and not tasks[-1].kept:
                 step.tell_of_survey(run.done, progress)
-        if not run.done:
+        if is_last:
             break
-        if not is_last:
-            done = [place / each.name for each in run.done]
-            survey = open_survey(done, progress=SILENT)
+        if run.done:
+            survey = open_survey([place / each.name for each in run.done], progress=SILENT)
+        elif tasks[-1].kept:  # all that was left to do has failed
+            tasks[-1] = replace(tasks[-1], only=frozenset())
+        else:
+            break
     reasons = {str(path): reason for path, reason in sorted(failures.values())}
     for path, reason in reasons.items():
         progress.warning(f"{path} is left out. {reason}")
@@ -236,7 +242,7 @@ def rasters_of_files(
     progress : Progress
         Receives progress and messages.
     workers : Workers, optional
-        Who does the work; threads of this process if not given.
+        The workers; by default threads of this process.
 
     Raises
     ------
@@ -247,7 +253,10 @@ def rasters_of_files(
     """
     recursive = request.files.recursive
     survey = open_survey(sources, recursive, progress.part(0.0, 0.05))
-    request.rasters.check(tuple(each.path for each in survey.tiles))
+    per_file = request.raster_output.raster_per_file
+    request.rasters.check(tuple(each.path for each in survey.tiles), per_file)
+    if per_file:
+        _check_stems(survey)
     for each in survey.broken:
         progress.warning(f"{each.path} is left out. {each.reason}")
     beside = next(iter(request.rasters.wanted.values())).parent
@@ -258,7 +267,7 @@ def rasters_of_files(
 
 
 def _check_survey(survey: Survey, folder: Path, vpc: Path, searched: Sequence[Path]) -> None:
-    """Refuse what could not be done or would do harm, before any work."""
+    """Refuse, before any work, a survey and outputs that would fail or overwrite something."""
     if survey.crs.is_geographic:
         raise BareEarthError(
             f"The files are not in a projected CRS ({survey.crs.name}), so that nothing can be"
@@ -286,13 +295,30 @@ def _check_survey(survey: Survey, folder: Path, vpc: Path, searched: Sequence[Pa
         check_output(vpc)
 
 
-def _check_rasters(rasters: RasterFiles, folder: Path, others: tuple[Path, ...]) -> None:
+def _check_rasters(
+    step: MakeRasters, survey: Survey, folder: Path, others: tuple[Path, ...]
+) -> None:
     """Refuse rasters that could not be written; the folder of the output may not be there yet."""
-    if folder.exists():
-        rasters.check(others)
-        return
-    elsewhere = {name: path for name, path in rasters.wanted.items() if path.parent != folder}
-    RasterFiles(**elsewhere).check(others)
+    rasters = step.files
+    if not folder.exists():
+        paths = rasters.wanted.items()
+        rasters = RasterFiles(**{name: path for name, path in paths if path.parent != folder})
+    rasters.check(others, step.per_file)
+    if step.per_file:
+        _check_stems(survey)
+
+
+def _check_stems(survey: Survey) -> None:
+    """Refuse files whose rasters would get the same name."""
+    stems: dict[str, Path] = {}
+    for tile in survey.tiles:
+        stem = split_name(tile.path)[0]
+        other = stems.setdefault(os.path.normcase(stem).lower(), tile.path)
+        if other is not tile.path:
+            raise BareEarthError(
+                f"The rasters of {other} and of {tile.path} would both become {stem}.tif. Rename"
+                " one of the files, or make one raster of all."
+            )
 
 
 def _targets_of(survey: Survey, folder: Path, format: str = "same") -> dict[Path, Path]:
@@ -301,8 +327,7 @@ def _targets_of(survey: Survey, folder: Path, format: str = "same") -> dict[Path
     for tile in (*survey.tiles, *survey.broken):
         name = tile.path.name
         if format != "same":
-            stem = name[: -len(_COPC)] if name.lower().endswith(_COPC) else tile.path.stem
-            name = f"{stem}.{format}"
+            name = f"{split_name(tile.path)[0]}.{format}"
         other = inputs.setdefault(os.path.normcase(name).lower(), tile.path)
         if other is not tile.path:
             raise BareEarthError(

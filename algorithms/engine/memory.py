@@ -20,7 +20,7 @@ _CGROUP = Path("/sys/fs/cgroup")
 
 @dataclass(frozen=True)
 class Resources(ParameterSet):
-    """What a run may use of the computer; the result does not depend on it."""
+    """The threads and memory that a run may use. The result does not depend on them."""
 
     threads: int | None = parameter(
         None,
@@ -54,28 +54,28 @@ class Resources(ParameterSet):
 
     @classmethod
     def of(cls, threads: int | None, memory: float) -> Resources:
-        """Return so many threads, and so many bytes of memory, or the least there may be."""
+        """Return resources with threads and bytes of memory; at least the minimum of memory."""
         return cls(threads, max(memory / GIGABYTE, 0.001))
 
     def now(self) -> Resources:
-        """Return the same with the memory that is free now, where none was given."""
+        """Return the resources with half of the memory that is free now, if none was given."""
         return Resources.of(self.thread_count, self.bytes)
 
     @property
     def bytes(self) -> int:
-        """Memory to use."""
+        """Memory to use, in bytes."""
         return int(free_memory() * _SHARE if self.memory is None else self.memory * GIGABYTE)
 
 
 class Cost(NamedTuple):
-    """Bytes of memory that a step takes; by default those that the filters take.
+    """Bytes of memory that a step takes; by default those of the filters.
 
     Attributes
     ----------
     a_point : float
-        For each point that it sees.
+        Bytes for each point of a block and its buffer.
     a_square_metre : float
-        For each square metre that it sees.
+        Bytes for each square metre of them.
     """
 
     a_point: float = 110.0
@@ -83,9 +83,9 @@ class Cost(NamedTuple):
 
 
 def give_back() -> None:
-    """Give the system the memory that was freed, where the C library keeps it.
+    """Return freed memory to the system, if the C library would keep it.
 
-    That of Linux keeps up to 64 MB for each thread that ever freed as much.
+    glibc keeps up to 64 MB for each thread.
     """
     if sys.platform != "linux":
         return
@@ -97,7 +97,7 @@ def give_back() -> None:
 
 
 def free_memory() -> int:
-    """Return the bytes of memory that are free; 4 GB where the system does not tell."""
+    """Return the bytes of free memory; 4 GB if the system does not tell."""
     free = _windows_free() if sys.platform == "win32" else _linux_free()
     limits = [_cgroup_free(), _UNKNOWN if free is None else free]
     return min(each for each in limits if each is not None)
@@ -114,7 +114,7 @@ def _linux_free() -> int | None:
 
 
 def _cgroup_free() -> int | None:
-    """Return what the limit of a container leaves, if there is one."""
+    """Return the bytes left within the limit of a container, if there is one."""
     limit, used = _lines(_CGROUP / "memory.max"), _lines(_CGROUP / "memory.current")
     if not limit or not used or not limit[0].isdigit():
         return None
@@ -125,7 +125,7 @@ def _cgroup_free() -> int | None:
 
 
 def _lines(path: Path) -> list[str]:
-    """Return the lines of a file of the system; none where it has no such file."""
+    """Return the lines of a system file; none if the file does not exist."""
     try:
         return path.read_text(encoding="ascii").splitlines()
     except (OSError, ValueError):

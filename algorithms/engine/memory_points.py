@@ -1,4 +1,4 @@
-"""Points in memory that wait for their block."""
+"""Points in memory, until their block is computed."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from ..las.cloud import PointCloud
 from .blocks import BlockPoints, Blocks, Corner, Leaves, gathered
 from .leaf_index import LeafIndex, Sorted, code_of, smallest_integers
 
-# Points that are looked at, sorted, and read together.
+# Points that are sorted and read together.
 _CHOSEN, _SORTED, _READ = 1 << 19, 1 << 16, 1 << 15
 
 
 class SurveyFile(NamedTuple):
-    """The points of one file, in its order.
+    """The points of one file, in file order.
 
     Attributes
     ----------
@@ -27,9 +27,9 @@ class SurveyFile(NamedTuple):
     selected : numpy.ndarray of bool, shape (n,)
         Which take part.
     known : numpy.ndarray of bool, shape (n,), optional
-        Which of them are surely ground.
+        Which of them are known ground.
     wanted : numpy.ndarray of bool, shape (n,), optional
-        Which of them are to be labelled; all, if it is not given.
+        Which of them are to be labelled. By default all are.
     """
 
     cloud: PointCloud
@@ -46,19 +46,19 @@ class MemoryPoints:
     parts : sequence of SurveyFile
         The files.
     frame : Frame
-        That of the survey.
+        Frame of the survey.
     blocks : Blocks
-        How it will be cut.
+        The blocks in which the points will be read.
     progress : Progress
         Receives progress.
     kind : type
-        Of what is kept of each point.
+        Type of the value that is stored for each point.
 
     Attributes
     ----------
     labels : list of numpy.ndarray, shape (n,)
-        For each file what was put for each point, 0 if nothing was: mostly `GROUND`, `LOW` (far
-        below it) or `BRIDGE`.
+        For each file the values of its points; 0 if none was stored. For `LabelGround` they are
+        `GROUND`, `LOW` or `BRIDGE`.
     leaves, has_known
         As `Store` says.
     """
@@ -77,7 +77,7 @@ class MemoryPoints:
         counts = [part.cloud.count for part in self._parts]
         self._starts = np.concatenate(([0], np.cumsum(counts)))
         self._kind = smallest_integers(self._starts[-1])
-        # Selected points of each file; their places in all of them together are those of the runs.
+        # Selected points of each file. Indices of runs count through all files.
         self._orders = [_indices(part, progress.part(0.0, 0.3)) for part in self._parts]
         self._ends = np.cumsum([len(order) for order in self._orders])
         self._runs = LeafIndex()
@@ -90,7 +90,7 @@ class MemoryPoints:
         self.leaves = Leaves(x, y, side, totals)
 
     def _only_block(self, blocks: Blocks) -> tuple[float, float] | None:
-        """Return column and row of the block that holds all points; None if there are more."""
+        """Return column and row of the block if one holds all points, otherwise None."""
         if self._ends[-1] > blocks.most_points:
             return None
         corners = np.array([part.cloud.bounds(self._frame) for part in self._parts]).reshape(-1, 2)
@@ -98,7 +98,7 @@ class MemoryPoints:
         return tuple(numbers[0].tolist()) if (numbers == numbers[:1]).all() else None
 
     def _sort(self, side: float | None, progress: Progress) -> None:
-        """Sort the points of each file by leaves; there is but one leaf where `side` is None."""
+        """Sort the points of each file by leaves; if `side` is None, all are in one leaf."""
         start = 0
         for number, order in enumerate(self._orders):
             if side is None:
@@ -112,9 +112,9 @@ class MemoryPoints:
     def _sorted(
         self, number: int, side: float, progress: Progress
     ) -> list[tuple[np.ndarray, np.ndarray]]:
-        """Sort the points of a file; return the leaves and their counts of those sorted together.
+        """Sort the points of a file part by part. Return the leaves of each part with their counts.
 
-        Not all at once: those of a leaf are then read nearly in the order of the file.
+        So the points of a leaf are later read nearly in file order.
         """
         cloud, order = self._parts[number].cloud, self._orders[number]
         found: list = [None] * len(parts_of(len(order), _SORTED))
@@ -135,7 +135,7 @@ class MemoryPoints:
         corner: Corner = (0.0, 0.0),
         progress: Progress = SILENT,
     ) -> BlockPoints:
-        """Return the points of some leaves, or those of them in a box, relative to a corner."""
+        """Return the points of some leaves, relative to a corner; only those in a box, if given."""
         pieces, frame = list(self._pieces(leaves)), self._frame.moved(corner)
 
         def read(number: int) -> BlockPoints:
@@ -164,7 +164,7 @@ class MemoryPoints:
         return BlockPoints(part.cloud.points(which, frame), known, wanted, positions)
 
     def put(self, positions: np.ndarray, labels: np.ndarray) -> None:
-        """Keep the labels of points."""
+        """Store the labels of points."""
         for number, mine in enumerate(self.labels):
             start, end = self._starts[number], self._starts[number + 1]
             if len(self.labels) == 1:
@@ -175,14 +175,14 @@ class MemoryPoints:
 
 
 def _as_needed(part: SurveyFile) -> SurveyFile:
-    """Return a part without flags that say the same of all points."""
+    """Return a part without flags that are equal for all points."""
     known = part.known if part.known is not None and part.known.any() else None
     wanted = part.wanted if part.wanted is not None and not part.wanted.all() else None
     return part._replace(known=known, wanted=wanted)
 
 
 def _indices(part: SurveyFile, progress: Progress) -> np.ndarray:
-    """Return the indices of the points of a part that are selected, in the smallest type."""
+    """Return the indices of the selected points of a part, in the smallest integer type."""
     count = np.count_nonzero(part.selected)
     indices, end = np.empty(count, dtype=smallest_integers(part.cloud.count)), 0
     for some in parts_of(part.cloud.count, _CHOSEN):

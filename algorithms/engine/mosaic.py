@@ -1,7 +1,8 @@
-"""The rasters of a survey, put together from those of its blocks, some rows at a time."""
+"""Joins the rasters of blocks, some rows at a time."""
 
 from __future__ import annotations
 
+import copy
 from typing import Callable, Iterator, Sequence
 
 import numpy as np
@@ -13,21 +14,21 @@ from ..grids.morphology import within_square
 from ..grids.surface import CellLattice, Surface
 from ..products.raster_block import BlockRasters
 
-# Cells that are put together at a time.
+# Cells that are joined at a time.
 _CELLS_A_STRIP = 4_000_000
-# Rows of a strip are a multiple of this: the rows of a block of the file.
+# The rows of a strip are a multiple of this, as the file has blocks of so many rows.
 _ROWS = 256
 
 
 class Mosaic:
-    """A layer of a survey.
+    """A layer of all blocks of a survey.
 
     Parameters
     ----------
     made : sequence of BlockRasters
-        Those of the blocks. Cells in none of them have no height.
+        The rasters of the blocks. Cells outside all of them have no value.
     layer : str
-        Which of their layers.
+        Name of the layer.
     window : CellWindow
         All cells.
     cell : float
@@ -40,11 +41,12 @@ class Mosaic:
         self._made, self._layer, self.window, self._cell = made, layer, window, cell
         self._gaps: Surface | None = None
 
-    def strips(self) -> list[tuple[int, int]]:
-        """Return the rows, from north, at which strips begin and end."""
-        rows = max(_CELLS_A_STRIP // self.window.columns // _ROWS, 1) * _ROWS
-        count = self.window.rows
-        return [(start, min(start + rows, count)) for start in range(0, count, rows)]
+    def columns(self, start: int, end: int) -> Mosaic:
+        """Return some columns of the layer."""
+        part, whole = copy.copy(self), self.window
+        part.window = CellWindow(whole.row, whole.column + start, whole.rows, end - start)
+        part._made = [each for each in self._made if _overlap(each.window, part.window)]
+        return part
 
     def rows(self, start: int, end: int) -> np.ndarray:
         """Return rows of the raster, from north to south; rows beyond it are NaN.
@@ -61,28 +63,28 @@ class Mosaic:
             if target is not None:
                 heights[target] = each.layers[self._layer][source]
         if self._gaps is not None:
-            self._fill(heights, strip)
+            self._fill(heights, strip, self._gaps)
         return heights[::-1]
 
     def fill_gaps(self, points: np.ndarray, progress: Progress = SILENT) -> None:
-        """Let cells without a height, in the convex hull, get that of a TIN over the gaps.
+        """Fill cells without a height inside the convex hull, from a TIN over the gaps.
 
         Parameters
         ----------
         points : numpy.ndarray of float64, shape (n, 3)
-            Vertices of the TIN besides the cells along the gaps.
+            Vertices of the TIN, beside the cells along the gaps.
         progress : Progress
             Receives progress.
         """
         vertices = [points]
-        for start, end in self.strips():
+        for start, end in _strips(self.window):
             heights = self.rows(max(start - 1, 0), min(end + 1, self.window.rows))
             vertices.append(self._along_gaps(heights, max(start - 1, 0)))
             progress(end / self.window.rows)
         self._gaps = Surface(Points(*np.concatenate(vertices).T))
 
     def _along_gaps(self, heights: np.ndarray, first: int) -> np.ndarray:
-        """Return the centres of cells next to one without a height, and their heights (n, 3)."""
+        """Return centres and heights of the cells next to one without a height, shape (n, 3)."""
         missing = np.isnan(heights)
         near = within_square(np.maximum, missing, 1)
         row, column = np.nonzero(near & ~missing)
@@ -90,42 +92,61 @@ class Mosaic:
         y = (self.window.row + self.window.rows - first - row - 0.5) * self._cell
         return np.column_stack((x, y, heights[row, column].astype(np.float64)))
 
-    def _fill(self, heights: np.ndarray, strip: CellWindow) -> None:
+    def _fill(self, heights: np.ndarray, strip: CellWindow, gaps: Surface) -> None:
         row, column = np.nonzero(np.isnan(heights))
         if len(row):
             x, y = ((at + 0.5) * self._cell for at in (strip.column + column, strip.row + row))
             lattice = CellLattice((0.0, 0.0), self._cell)
-            heights[row, column] = self._gaps.heights(x, y, cells=lattice)
+            heights[row, column] = gaps.heights(x, y, cells=lattice)
 
 
 def _overlap(one: CellWindow, other: CellWindow) -> tuple[slice, slice] | None:
-    """Return the cells of one window that are in another, as indices of the one."""
-    south, north = max(one.row, other.row), min(one.row + one.rows, other.row + other.rows)
-    west = max(one.column, other.column)
-    east = min(one.column + one.columns, other.column + other.columns)
-    if south >= north or west >= east:
+    """Return the rows and columns of `one` that `other` has as well; None if there are none."""
+    both = one.within(other)
+    if both.rows <= 0 or both.columns <= 0:
         return None
-    return slice(south - one.row, north - one.row), slice(west - one.column, east - one.column)
+    row, column = both.row - one.row, both.column - one.column
+    return slice(row, row + both.rows), slice(column, column + both.columns)
+
+
+def _strips(window: CellWindow) -> list[tuple[int, int]]:
+    """Return the rows, from north, at which strips begin and end."""
+    rows = max(_CELLS_A_STRIP // window.columns // _ROWS, 1) * _ROWS
+    count = window.rows
+    return [(start, min(start + rows, count)) for start in range(0, count, rows)]
 
 
 def gathered_strips(
-    mosaics: Sequence[Mosaic], make: Callable[..., np.ndarray], margin: int, progress: Progress
+    mosaics: Sequence[Mosaic],
+    window: CellWindow,
+    make: Callable[..., np.ndarray],
+    margin: int,
+    progress: Progress,
 ) -> Iterator[np.ndarray]:
-    """Yield what is made of the rows of mosaics, strip by strip from north to south.
+    """Yield a raster made from mosaics, strip by strip from north to south.
 
     Parameters
     ----------
     mosaics : sequence of Mosaic
-        One or more, of the same cells.
+        One or more mosaics with the same cells.
+    window : CellWindow
+        The cells to make.
     make : callable
-        Takes rows of each of them and returns as many rows.
+        Returns rows of the raster, given as many rows of each mosaic.
     margin : int
-        Rows beyond a strip that matter for it.
+        Number of rows and columns beyond a strip that affect it.
     progress : Progress
         Receives progress.
     """
-    count = mosaics[0].window.rows
-    for start, end in mosaics[0].strips():
-        first, last = max(start - margin, 0), min(end + margin, count)
-        yield make(*(each.rows(first, last) for each in mosaics))[start - first : end - first]
-        progress(end / count)
+    whole = mosaics[0].window
+    north = whole.row + whole.rows - window.row - window.rows
+    left = window.column - whole.column
+    west, east = max(left - margin, 0), min(left + window.columns + margin, whole.columns)
+    parts = [each.columns(west, east) for each in mosaics]
+    columns = slice(left - west, left - west + window.columns)
+    for start, end in _strips(window):
+        start, end = north + start, north + end
+        first, last = max(start - margin, 0), min(end + margin, whole.rows)
+        made = make(*(each.rows(first, last) for each in parts))
+        yield made[start - first : end - first, columns]
+        progress((end - north) / window.rows)

@@ -1,4 +1,4 @@
-"""What is made of one point cloud file: a classified one, heights, key points, rasters."""
+"""Classification, heights, key points and rasters of one file."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ from .steps import PointStep, Step
 
 @dataclass(frozen=True)
 class Summary:
-    """What a classification did.
+    """The result of a classification.
 
     Attributes
     ----------
     point_count : int
         Points in the file.
     area_count : int
-        Points in the area that was to be classified: all, if none was given.
+        Points in the area; all points, if there is no area.
     selected_count : int
         Points in the area that took part in the filter.
     ground_count : int
@@ -73,7 +73,7 @@ def classify_cloud(
     cloud : PointCloud
         The points, with their present classes.
     parameters : ParameterSet
-        The parameters of one method; their type chooses the method.
+        The parameters of one method. Their type chooses the method.
     selection : Selection
         Which points take part, and what their classes become.
     progress : Progress
@@ -113,13 +113,13 @@ def classify_file(
     request: ClassifyRequest = ClassifyRequest(),
     progress: Progress = SILENT,
 ) -> Summary:
-    """Classify the ground points of a LAS, LAZ or COPC file and write the file anew.
+    """Classify the ground points of a LAS, LAZ or COPC file, and write it with the new classes.
 
     Parameters
     ----------
     source, target : Path
-        The input, and the output (.las, .laz or .copc.laz). The output equals the input but for
-        the classification, and what the request asks for.
+        The input, and the output (.las, .laz or .copc.laz). Only the classes change, and what
+        else the request asks for.
     request : ClassifyRequest
         What to do.
     progress : Progress
@@ -136,7 +136,7 @@ def classify_file(
     request.rasters.check((source, target))
     step, products = request.step, _products(request)
     tally = step.tally()
-    # Reading and writing move in small steps, and need no large share however long they take.
+    # Shares of the progress bar.
     raster_count = len(request.rasters.wanted)
     made_too = 3.0 * bool(raster_count) + raster_count, 3.0 * ("heights" in products)
     first, finding, drawing, measuring, last = progress.shares(1.5, 5.0, *made_too, 0.8)
@@ -165,7 +165,7 @@ def classify_file(
 
 
 def _products(request: ClassifyRequest) -> dict[str, Step]:
-    """Return what is to be made of the classified points."""
+    """Return the steps that use the classified points."""
     products: dict[str, Step] = {}
     if request.rasters.wanted:
         products["rasters"] = request.raster_step
@@ -175,7 +175,7 @@ def _products(request: ClassifyRequest) -> dict[str, Step]:
 
 
 def _worked(points: FilePoints, step: PointStep, store: Any, progress: Progress) -> Any:
-    """Return what a further step finds of the points of a store."""
+    """Run a further step on the points of a store, and return its result."""
     step.work(store, points.resources, progress.part(0.0, 0.9))
     result = step.result(points.path, points.room)
     for where, part, values in points.values(store, progress.part(0.9, 1.0)):
@@ -203,14 +203,14 @@ def write_points(
     resources: Resources = Resources(),
     progress: Progress = SILENT,
 ) -> Any:
-    """Write a file anew with what a step finds of each point, such as heights or key points.
+    """Write a file with the values that a step finds for its points, such as heights.
 
     Parameters
     ----------
     source, target : Path
-        The input, and the output (.las, .laz or .copc.laz); equal but for what the step changes.
+        The input, and the output (.las, .laz or .copc.laz).
     step : PointStep
-        What to find.
+        The step.
     resources : Resources
         Threads and memory.
     progress : Progress
@@ -224,7 +224,7 @@ def write_points(
     Raises
     ------
     BareEarthError
-        If the input does not do or cannot be read, or the output cannot be written.
+        If the input is unsuitable or cannot be read, or the output cannot be written.
     Cancelled
         If the user asked to stop; no output is left behind.
     """
@@ -249,7 +249,7 @@ def rasters_of_file(
     source : Path
         The file.
     request : TerrainRequest
-        What to make.
+        The rasters to make.
     progress : Progress
         Receives progress and messages.
 
@@ -281,13 +281,13 @@ def check_cloud(source: Path, target: Path) -> None:
     Raises
     ------
     BareEarthError
-        If its name or folder does not do, or it is the input.
+        If its name or folder is unsuitable, or it is the input.
     """
     check_output(target, (source,))
     check_writable(target)
 
 
 def _checked(source: Path, target: Path, resources: Resources) -> tuple[LasFile, Resources]:
-    """Refuse an output that cannot be written; return the opened input, and what may be used."""
+    """Refuse an output that cannot be written. Return the opened input and the resources."""
     check_cloud(source, target)
     return open_las(source), resources.now()

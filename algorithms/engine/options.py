@@ -1,4 +1,4 @@
-"""What can be chosen for the classification of many files."""
+"""Options for runs on many files."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ..filters import DEFAULT_METHOD, METHODS
 
 @dataclass(frozen=True)
 class TileMethod(ParameterSet):
-    """The ground filter in short: its name, and a preset that each of them has."""
+    """The ground filter, by its name and a preset."""
 
     method: str = parameter(
         DEFAULT_METHOD,
@@ -35,13 +35,13 @@ class TileMethod(ParameterSet):
 
     @property
     def parameters(self) -> ParameterSet:
-        """Those of the method."""
+        """The parameters of the method."""
         return METHODS[self.method].parameters(preset=self.preset)
 
 
 @dataclass(frozen=True)
 class TileInput(ParameterSet):
-    """Which files are taken."""
+    """Which files are used."""
 
     recursive: bool = parameter(
         False,
@@ -70,4 +70,18 @@ class TileOutput(ParameterSet):
         label="Continue an earlier run",
         help="Keeps the tiles that an earlier run finished, if they were made from the same files"
         " with the same parameters. All other tiles are classified again.",
+    )
+
+
+@dataclass(frozen=True)
+class RasterOutput(ParameterSet):
+    """How the rasters of many files are cut."""
+
+    raster_per_file: bool = parameter(
+        False,
+        label="One raster for each file",
+        advanced=True,
+        help="Cuts each raster of many files into one GeoTIFF for each file. They get the names of"
+        " the files, in a folder with the name of the raster. A virtual raster (.vrt) beside this"
+        " folder shows them as one.",
     )

@@ -1,4 +1,4 @@
-"""What a classified file holds beside the new classes, and which of its points."""
+"""Options for the contents of a classified file."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ HEIGHT_DIMENSION = "HeightAboveGround"
 
 @dataclass(frozen=True)
 class Output(ParameterSet):
-    """What is written of a classified cloud."""
+    """What is written to a classified file."""
 
     ground_only: bool = parameter(
         False,
@@ -42,16 +42,16 @@ class Output(ParameterSet):
 
     @property
     def needs_ground(self) -> bool:
-        """Whether there is nothing to write without ground."""
+        """Whether nothing can be written without ground."""
         return self.ground_only or self.height_above_ground
 
     @property
     def changes_points(self) -> bool:
-        """Whether points change in more than their classes."""
+        """Whether more than the classes changes."""
         return self.needs_ground or self.area_only
 
     def check_area(self, is_given: bool) -> None:
-        """Refuse to write an area alone where none is given."""
+        """Refuse to write only the area if there is no area."""
         if self.area_only and not is_given:
             raise BareEarthError(
                 "Give an extent or a boundary to write the points of the area only, or write all."
@@ -59,7 +59,7 @@ class Output(ParameterSet):
 
 
 def height_dimension(cloud: PointCloud, heights: np.ndarray) -> ExtraDimension:
-    """Return heights above ground as the dimension that keeps them."""
+    """Return heights above ground as an extra dimension."""
     unit = unit_name(cloud.crs.vertical_unit)
     return ExtraDimension(
         HEIGHT_DIMENSION, f"Above ground, {unit}", heights.astype(np.float32, copy=False)

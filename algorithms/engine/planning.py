@@ -1,4 +1,4 @@
-"""Which jobs do the blocks of a survey."""
+"""Divides the blocks of a survey into jobs."""
 
 from __future__ import annotations
 
@@ -21,24 +21,24 @@ def block_jobs(
     workers: Workers,
     **more: Any,
 ) -> list[BlockJob]:
-    """Return the jobs of some blocks, and let the workers begin.
+    """Return the jobs of some blocks, and start the workers.
 
     Parameters
     ----------
     kind : type
-        Of the jobs.
+        Type of the jobs.
     grid, survey
         The blocks, and the files.
     files : dict of BlockIndex to Path
-        Where what is made of each block goes.
+        The file for the result of each block.
     folder : Path
-        Of the output; all workers see it.
+        Folder of the outputs, which all workers see.
     tile_count : int
-        How many files are to be written with what the blocks give.
+        How many files will be written with the results.
     workers : Workers
-        Who does the jobs.
+        The workers.
     **more
-        What jobs of this kind know besides.
+        Further attributes of the jobs.
     """
     least = max((memory_of(grid, survey, [each]) for each in files), default=0)
     workers.start(folder, least, len(files), tile_count)

@@ -1,4 +1,4 @@
-"""Each raster that can be made, declared once: command line, dialog and writing come from here."""
+"""Declarations of all rasters, for the command line, the dialogs and writing."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from typing import Callable, NamedTuple
 
 import numpy as np
 
-from ..core.files import check_distinct
+from ..core.errors import BareEarthError
+from ..core.files import check_distinct, check_output
 from ..grids.hillshade import hillshade, multidirectional_hillshade
 from ..products.surface_model import canopy_height
 from ..products.terrain_model import TerrainModel
@@ -17,26 +18,26 @@ from ..rasters.writing import check_raster_output
 
 
 class Raster(NamedTuple):
-    """What is said of a raster, beside its name.
+    """The declaration of a raster.
 
     Attributes
     ----------
     label, help : str
-        The field's title in the dialog, and a sentence on what it shows.
+        Title of its field in the dialog, and a sentence about it.
     shows : str
-        What its cells hold, for legends; ``{unit}`` stands for the vertical unit.
+        What its cells mean, for legends; ``{unit}`` stands for the vertical unit.
     layers : tuple of str
-        What it is made of: names in `LAYERS` of `products/raster_block.py`.
+        Names of the layers it is made from, in `LAYERS` of `products/raster_block.py`.
     make : callable
-        ``make(*rows, grid, model)`` returns rows of it, from as many rows of each layer; both from
-        north to south, and NaN where a layer has nothing. `grid` is a `RasterGrid`, and `model` a
+        ``make(*rows, grid, model)`` returns rows of the raster, given as many rows of each layer.
+        Rows go from north to south; NaN is no value. `grid` is a `RasterGrid`, `model` a
         `TerrainModel`.
     margin : int
-        Rows beyond those asked for that matter for them.
+        Number of rows and columns round a part of the raster that affect it.
     kind : str
         The type of its values.
     nodata : float
-        The value where there is nothing.
+        The value of cells without data.
     """
 
     label: str
@@ -50,12 +51,12 @@ class Raster(NamedTuple):
 
 
 def plain(values: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.ndarray:
-    """Return values as they are, with no data where there are none."""
+    """Return values with NODATA for NaN."""
     return np.where(np.isnan(values), NODATA, values).astype(np.float32)
 
 
 def _heights(heights: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.ndarray:
-    """Return heights in the vertical unit of the CRS, as the file has them."""
+    """Return heights in metres as heights in the vertical unit of the CRS."""
     return plain(heights.astype(np.float64) / grid.frame.vertical_unit, grid, model)
 
 
@@ -129,8 +130,8 @@ class RasterFiles:
     Attributes
     ----------
     dtm, dsm, chm, hillshade, confidence : Path or None
-        Terrain, surface (the top of all that stands on the terrain), canopy height (the difference
-        of the two), hillshade of the terrain, and how sure the terrain is.
+        Terrain, surface (with everything that stands on the terrain), canopy height (the
+        difference of the two), hillshade of the terrain, and confidence of the terrain.
     """
 
     dtm: Path | None = None
@@ -141,23 +142,45 @@ class RasterFiles:
 
     @property
     def wanted(self) -> dict[str, Path]:
-        """Those that are wanted, by their names."""
+        """The paths of the wanted rasters, by their names."""
         return {name: Path(path) for name, path in vars(self).items() if path}
 
     @property
     def layers(self) -> tuple[str, ...]:
-        """The layers that those are made of, each once."""
+        """The layers from which the wanted rasters are made."""
         return tuple(dict.fromkeys(each for name in self.wanted for each in RASTERS[name].layers))
 
-    def check(self, others: tuple[Path, ...]) -> None:
+    def check(self, others: tuple[Path, ...], per_file: bool = False) -> None:
         """Refuse rasters that could not be written, or would replace another file of the run.
+
+        Parameters
+        ----------
+        others : tuple of Path
+            The other files of the run.
+        per_file : bool
+            Whether each of many files gets rasters of its own.
 
         Raises
         ------
         BareEarthError
-            If a name does not do.
+            If a path is unsuitable.
         """
         paths = list(self.wanted.values())
         check_distinct(paths)
         for each in paths:
             check_raster_output(each, others)
+            if per_file:
+                check_output(virtual_of(each), others)
+                folder = folder_of(each)
+                if folder.exists() and not folder.is_dir():
+                    raise BareEarthError(f"Cannot write into {folder}: it is a file. Rename it.")
+
+
+def folder_of(raster: Path) -> Path:
+    """Return the folder of the rasters of single files, which has the name of the raster."""
+    return raster.with_suffix("")
+
+
+def virtual_of(raster: Path) -> Path:
+    """Return the virtual raster that joins the rasters of single files."""
+    return raster.with_suffix(".vrt")

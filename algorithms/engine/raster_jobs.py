@@ -1,4 +1,4 @@
-"""Rasters of a survey of many classified files: a job for some blocks, with files between."""
+"""Jobs that make rasters of many classified files. Files pass on the rasters of blocks."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any, Iterator, Mapping, Sequence
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import replacing
+from ..core.files import replacing, split_name
 from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
 from ..las.cloud import survey_frame
@@ -30,12 +30,12 @@ from .workers import Workers
 
 @dataclass(frozen=True)
 class RasterJob(BlockJob):
-    """Makes the rasters of some blocks.
+    """A job that makes the rasters of some blocks.
 
     Attributes
     ----------
     step : MakeRasters
-        What is to be made.
+        The step that makes them.
     """
 
     step: MakeRasters
@@ -58,19 +58,19 @@ class RasterJob(BlockJob):
         progress(1.0)
 
     def _place(self, block: Block) -> BlockIndex:
-        """Return the place of the block of which one is a part."""
+        """Return the index of the block that holds a smaller block."""
         share = round(self.grid.blocks.side / block.side)
         return BlockIndex(block.column // share, block.row // share)
 
     def _place_of(self, window: CellWindow) -> BlockIndex:
-        """Return the place of the block in which the first of some cells has its centre."""
+        """Return the index of the block that holds the centre of the first cell."""
         cell, blocks = self.step.model.dtm_cell_size, self.grid.blocks
         x, y = ((each + 0.5) * cell for each in (window.column, window.row))
         return BlockIndex(int(blocks.number(x)), int(blocks.number(y)))
 
 
 def _keep(file: Path, made: Sequence[BlockRasters]) -> None:
-    """Write the rasters of a block, or of the parts of one."""
+    """Write the rasters of a block, or of its parts."""
     content: dict[str, Any] = {}
     for number, each in enumerate(made):
         small = {"window": np.array(each.window), "box": each.box, "counts": each.counts}
@@ -83,14 +83,14 @@ def _keep(file: Path, made: Sequence[BlockRasters]) -> None:
 
 
 class _Kept(Mapping[str, np.ndarray]):
-    """Arrays that stay in a file until they are needed, each time.
+    """Arrays that are read from a file each time they are used.
 
     Parameters
     ----------
     file : Path
-        As `_keep` wrote it.
+        A file of `_keep`.
     start : str
-        How the names of these begin there.
+        Prefix of the names of the arrays in the file.
     """
 
     def __init__(self, file: Path, start: str) -> None:
@@ -138,18 +138,18 @@ def make_rasters(
     survey : Survey
         The files.
     folder : Path
-        Where the rasters of the blocks wait; it must be there, and is seen by all workers.
+        Existing folder for the rasters of blocks, which all workers see.
     step : MakeRasters
-        What is wanted, where it goes, and which points it is made of.
+        Which rasters, where they go, and from which points.
     workers : Workers
-        Who does it; they are stopped afterwards.
+        The workers, which are stopped at the end.
     progress : Progress
         Receives progress and messages.
 
     Raises
     ------
     BareEarthError
-        If a block could not be done, there is no ground, or a raster cannot be written.
+        If a block fails, there is no ground, or a raster cannot be written.
     Cancelled
         If the user asked to stop.
     """
@@ -165,8 +165,12 @@ def make_rasters(
         if queue.lost:
             raise BareEarthError(f"The rasters cannot be made. {queue.lost[0]}")
         made = [each for file in files.values() for each in _kept_in(file)]
+        last = progress.part(0.8, 1.0)
+        per_file = (
+            {split_name(each.path)[0]: each.box for each in survey.tiles} if step.per_file else None
+        )
         with contextlib.ExitStack() as outputs:
-            return write_rasters(made, grid.frame, step, outputs, progress.part(0.8, 1.0))
+            return write_rasters(made, grid.frame, step, outputs, last, per_file)
     finally:
         for file in files.values():
             file.unlink(missing_ok=True)

@@ -1,4 +1,4 @@
-"""Rasters of a survey: of each block what `RasterStep` makes of it, put together and written."""
+"""The step that makes rasters, and writing the rasters of all blocks as one."""
 
 from __future__ import annotations
 
@@ -6,12 +6,13 @@ import contextlib
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import Callable, Iterable, Sequence
+from typing import Callable, Iterable, Mapping, Sequence
 
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.points import Frame
+from ..core.files import new_folder, replacing
+from ..core.points import Box, Frame
 from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
 from ..grids.dense_surface import VERTICES_A_SIDE
@@ -20,7 +21,8 @@ from ..products.raster_block import LAYERS, BlockRasters, RasterStep
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import TerrainModel
 from ..rasters.geotiff import RasterGrid
-from ..rasters.writing import Rows, replacing_raster, write_geotiff
+from ..rasters.virtual import write_virtual
+from ..rasters.writing import Band, Rows, replacing_raster, write_geotiff
 from ..survey.ground_classes import GroundClasses, GroundTally
 from ..survey.selection import NOISE
 from .blocks import Block, Blocks, Store
@@ -28,25 +30,25 @@ from .constraints import NO_CONSTRAINTS, Constraints, FixedTerrain, fixed_terrai
 from .ground import over_blocks
 from .memory import Cost, Resources
 from .mosaic import Mosaic, gathered_strips
-from .raster_files import RASTERS, RasterFiles
+from .raster_files import RASTERS, Raster, RasterFiles, folder_of, virtual_of
 from .steps import Marks, Step
 
 _MOST_CELLS = 4_000_000_000
-# A raster of more cells must have blocks with points over this share of it: else it is large
+# In a raster of more cells, blocks with points must cover this share. Otherwise it is so large
 # because of a few points with stray coordinates.
 _MANY_CELLS, _LEAST_COVERED = 10_000_000, 0.01
-# Bytes that a block takes for each point that it sees, and for each cell.
+# Bytes that a block takes for each point in it and its buffer, and for each cell.
 _BYTES_A_POINT, _BYTES_A_CELL = 130.0, 120.0
 
 
 @dataclass(frozen=True)
 class RasterSize:
-    """What was made.
+    """The size of rasters.
 
     Attributes
     ----------
     ground_count, surface_count : int
-        Points that terrain and surface were made of.
+        Points that terrain and surface were made from.
     columns, rows : int
         Size of the rasters.
     """
@@ -59,14 +61,14 @@ class RasterSize:
 
 @dataclass
 class RasterTally(GroundTally):
-    """What was counted in the parts of a file so far; the rest as in `GroundTally`.
+    """Counts of points so far, beside those of `GroundTally`.
 
     Attributes
     ----------
     top : int
         Points of the surface.
     excluded : int
-        Points of the ground that lie where there is to be none.
+        Ground points that the constraints exclude.
     """
 
     top: int = 0
@@ -75,7 +77,7 @@ class RasterTally(GroundTally):
 
 @dataclass(frozen=True)
 class MakeRasters(Step):
-    """Makes the rasters of classified points.
+    """Makes rasters from classified points.
 
     Attributes
     ----------
@@ -88,11 +90,14 @@ class MakeRasters(Step):
     ground : GroundClasses
         Which points are ground.
     covers_ground : bool
-        Whether the rasters reach as far as the ground does, not as all points but noise.
+        Whether the rasters cover the extent of the ground. Otherwise they cover all points without
+        noise.
     constraints : Constraints
-        Breaklines, water, and where there is no ground.
+        Breaklines, water, and areas without ground.
+    per_file : bool
+        Whether each of many files gets its own rasters.
     fixed : FixedTerrain or None
-        The vertices that follow from them; `seeing` finds these.
+        The vertices that follow from the constraints; `seeing` finds these.
     """
 
     files: RasterFiles = field(default_factory=RasterFiles)
@@ -101,38 +106,39 @@ class MakeRasters(Step):
     ground: GroundClasses = field(default_factory=GroundClasses)
     covers_ground: bool = False
     constraints: Constraints = NO_CONSTRAINTS
+    per_file: bool = False
     fixed: FixedTerrain | None = None
 
     tally = RasterTally
 
     @property
     def needs_ground(self) -> bool:
-        """Whether none of them can be made without ground."""
+        """Whether any of the rasters needs ground."""
         return any(LAYERS[each].of_ground for each in self.files.layers)
 
     @property
     def needs_surface(self) -> bool:
-        """Whether heights of the surface are needed."""
+        """Whether any of the rasters needs the surface."""
         return "surface" in self.files.layers
 
     @property
     def of_block(self) -> RasterStep:
-        """What is done with a block."""
+        """Makes the rasters of a single block."""
         return RasterStep(self.model.dtm_cell_size, self.files.layers, self.surface.max_edge)
 
     def seeing(
         self, clouds: Iterable[PointCloud], frame: Frame, progress: Progress = SILENT
     ) -> MakeRasters:
-        """Return the step that knows the vertices of its constraints.
+        """Return the step with the vertices of its constraints.
 
         Parameters
         ----------
         clouds : iterable of PointCloud
             All points with their classes, part by part; see `fixed_terrain`.
         frame : Frame
-            That of the survey.
+            Frame of the survey.
         progress : Progress
-            Told what cannot be used.
+            Receives warnings.
         """
         cell = self.model.dtm_cell_size / VERTICES_A_SIDE
         fixed = fixed_terrain(self.constraints, clouds, frame, self.ground, cell, progress)
@@ -145,7 +151,7 @@ class MakeRasters(Step):
         return Blocks.of(self.of_block.reach, Cost(_BYTES_A_POINT, _BYTES_A_CELL / cell**2))
 
     def marks(self, part: PointCloud, tally: RasterTally) -> Marks:
-        """Return which points are covered, are ground, and belong to the surface."""
+        """Return which points the rasters cover, which are ground, and which are of the surface."""
         nothing = np.zeros(part.count, dtype=bool)
         ground = self.ground.of(part, tally)
         if not self.needs_ground:
@@ -164,7 +170,7 @@ class MakeRasters(Step):
         return Marks(shown, ground, top)
 
     def tell(self, tally: RasterTally, path: Path, progress: Progress) -> None:
-        """Refuse a file that has nothing to make the rasters of."""
+        """Refuse a file without points for the rasters."""
         if self.needs_ground:
             self.ground.check(tally, path)
             if tally.ground == tally.excluded:
@@ -198,7 +204,7 @@ def _made_of(
     contents = blocks.contents(block, store, progress.part(0.0, 0.1))
     corner = blocks.corner(block)
     core = np.ones(contents.points.count, dtype=bool)
-    # The only block of all need not be looked at for what lies in it.
+    # A single block holds all points.
     if not (is_only and are_all):
         core = block.holds(contents.points, corner)
     points, ground, top = contents.points, contents.known, contents.wanted
@@ -216,46 +222,90 @@ def write_rasters(
     step: MakeRasters,
     outputs: contextlib.ExitStack,
     progress: Progress = SILENT,
+    files: Mapping[str, Box] | None = None,
 ) -> RasterSize:
     """Write the rasters of a survey; they get their names when `outputs` is closed.
 
     Parameters
     ----------
     made : sequence of BlockRasters
-        Those of its blocks.
+        The rasters of its blocks.
     frame : Frame
-        That of the survey, with its origin at (0, 0) of the CRS.
+        Frame of the survey, with its origin at (0, 0) of the CRS.
     step : MakeRasters
-        What is wanted.
+        Which rasters, and where they go.
     outputs : contextlib.ExitStack
-        Takes in the files.
+        Receives the files.
     progress : Progress
         Receives progress and messages.
+    files : mapping of str to Box, optional
+        Names and extents, in units of the CRS, of the files that get their own rasters.
 
     Raises
     ------
     BareEarthError
-        If there is no point to make the rasters of, or one of them cannot be written.
+        If there are no points, or a raster cannot be written.
     """
-    cell, files = step.model.dtm_cell_size, step.files.wanted
+    cell, wanted = step.model.dtm_cell_size, step.files.wanted
     window = _window_of(made, cell)
-    grid = _grid_of(window, cell, frame)
     mosaics = {}
     for name in step.files.layers:
         mosaics[name] = Mosaic(made, name, window, cell)
         loose = [each.loose[name] for each in made if name in each.loose]
         if loose and step.surface.max_edge is None:
             mosaics[name].fill_gaps(np.concatenate(loose), progress.part(0.0, 0.3))
-    parts = progress.part(0.3, 1.0).shares(*[1.0] * len(files))
-    for (name, path), part in zip(files.items(), parts):
+    parts = progress.part(0.3, 1.0).shares(*[1.0] * len(wanted))
+    for (name, path), part in zip(wanted.items(), parts):
         raster = RASTERS[name]
-        make = partial(raster.make, grid=grid, model=step.model)
         layers = [mosaics[each] for each in raster.layers]
-        rows = Rows(window.shape, raster.kind, gathered_strips(layers, make, raster.margin, part))
-        temporary = outputs.enter_context(replacing_raster(path))
-        write_geotiff(temporary, rows, grid, raster.nodata, progress, raster.shows)
+        write = partial(_write, raster, layers, frame, step, outputs)
+        if files is None:
+            write(path, window, part)
+        else:
+            windows = _windows_of(files, window, cell, frame)
+            shares = part.shares(*[1.0] * len(windows))
+            folder = outputs.enter_context(new_folder(folder_of(path)))
+            names = [folder / f"{each}.tif" for each in windows]
+            grids = dict(zip(names, map(write, names, windows.values(), shares)))
+            virtual, grid = virtual_of(path), _grid_of(window, cell, frame)
+            temporary = outputs.enter_context(replacing(virtual))
+            band = Band.of(grid, raster.nodata, raster.shows)
+            write_virtual(temporary, virtual.parent, grid, grids, raster.kind, band)
     counts = np.sum([each.counts for each in made], axis=0)
     return RasterSize(int(counts[0]), int(counts[1]), window.columns, window.rows)
+
+
+def _write(
+    raster: Raster,
+    layers: Sequence[Mosaic],
+    frame: Frame,
+    step: MakeRasters,
+    outputs: contextlib.ExitStack,
+    path: Path,
+    window: CellWindow,
+    progress: Progress,
+) -> RasterGrid:
+    """Write some cells of a raster; return where they lie."""
+    grid = _grid_of(window, step.model.dtm_cell_size, frame)
+    make = partial(raster.make, grid=grid, model=step.model)
+    strips = gathered_strips(layers, window, make, raster.margin, progress)
+    temporary = outputs.enter_context(replacing_raster(path))
+    rows = Rows(window.shape, raster.kind, strips)
+    write_geotiff(temporary, rows, grid, raster.nodata, progress, raster.shows)
+    return grid
+
+
+def _windows_of(
+    files: Mapping[str, Box], whole: CellWindow, cell: float, frame: Frame
+) -> dict[str, CellWindow]:
+    """Return the cells of each file, without files that lie outside of all cells."""
+    windows = {}
+    for name, box in files.items():
+        west, south, east, north = (each * frame.horizontal_unit for each in box)
+        window = CellWindow.around((west, south, east, north), cell).within(whole)
+        if min(window.shape) > 0:
+            windows[name] = window
+    return windows
 
 
 def _window_of(made: Sequence[BlockRasters], cell: float) -> CellWindow:

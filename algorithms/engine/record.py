@@ -1,4 +1,4 @@
-"""What a classified tile was made of, so that a later run knows whether it is done."""
+"""Records of what each output was made from, so that `--resume` finds the finished ones."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import hashlib
 import json
 import os
 from pathlib import Path
-from typing import Any, Iterable
+from typing import Any, Dict, Iterable, List
 
 from ..core.errors import BareEarthError
 from ..core.files import replacing
@@ -16,26 +16,26 @@ from .steps import Step
 _FOLDER, _LABELS = ".bare-earth", "labels"
 _LONGEST_NAME = 250
 
-# What `made_of` returns; equal where the output is.
-Record = dict
+# The result of `fingerprint_of`; two outputs are equal if theirs are.
+Fingerprint = Dict[str, Any]
 
 
 def folders_of(folder: Path) -> tuple[Path, Path, Path]:
-    """Return the folder of the output, that of the records, and that of the labels of blocks."""
+    """Return the folders of the outputs, of the records, and of the results of blocks."""
     return folder, folder / _FOLDER, folder / _FOLDER / _LABELS
 
 
-# Path, size and time of a file: by them it is seen that it has changed.
-State = list
+# Path, size and time of a file, which show whether it has changed.
+Stamp = List[Any]
 
 
-def state_of(path: Path) -> State:
-    """Return by what it is seen that a file has changed.
+def stamp_of(path: Path) -> Stamp:
+    """Return path, size and time of a file.
 
     Raises
     ------
     BareEarthError
-        If it is not there.
+        If the file cannot be read.
     """
     try:
         status = path.stat()
@@ -44,21 +44,21 @@ def state_of(path: Path) -> State:
     return [str(path.resolve()), status.st_size, status.st_mtime_ns]
 
 
-def made_of(
-    grid: BlockGrid, step: Step, tile: Path, sources: Iterable[State], target: Path
-) -> Record:
-    """Return all that an output depends on.
+def fingerprint_of(
+    grid: BlockGrid, step: Step, tile: Path, sources: Iterable[Stamp], target: Path
+) -> Fingerprint:
+    """Return everything that an output depends on.
 
     Parameters
     ----------
     grid : BlockGrid
         The blocks of the survey.
     step : Step
-        What is made.
+        The step that computes it.
     tile : Path
         The input.
-    sources : iterable of State
-        The files whose points matter for it.
+    sources : iterable of Stamp
+        The files that affect it.
     target : Path
         The output.
     """
@@ -71,9 +71,9 @@ def made_of(
 
 
 def label_file(
-    grid: BlockGrid, step: Step, folder: Path, place: BlockIndex, sources: Iterable[State]
+    grid: BlockGrid, step: Step, folder: Path, place: BlockIndex, sources: Iterable[Stamp]
 ) -> Path:
-    """Return where what is found in a block is kept; the name tells all that it depends on."""
+    """Return the file for the result of a block; its name depends on all inputs of the result."""
     content = {
         **_settings(grid, step),
         "place": list(place),
@@ -96,25 +96,25 @@ def _settings(grid: BlockGrid, step: Step) -> dict[str, Any]:
     }
 
 
-def write_record(target: Path, record: Record, summary: dict[str, Any]) -> None:
-    """Keep from what a tile was made, after it was written.
+def write_record(target: Path, fingerprint: Fingerprint, summary: dict[str, Any]) -> None:
+    """Write the record of an output, after the output was written.
 
     Parameters
     ----------
     target : Path
         The output.
-    record : Record
-        What `made_of` returned before the inputs were read.
+    fingerprint : Fingerprint
+        The result of `fingerprint_of` before the inputs were read.
     summary : dict
-        What became of it.
+        The summary of the output.
     """
-    content = {"made_of": record, "size": target.stat().st_size, "summary": summary}
+    content = {"made_of": fingerprint, "size": target.stat().st_size, "summary": summary}
     with replacing(_place(target)) as temporary:
         temporary.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
 
 
-def read_record(target: Path) -> tuple[Record, dict[str, Any]] | None:
-    """Return from what a tile was made, and what became of it; None if it is not done."""
+def read_record(target: Path) -> tuple[Fingerprint, dict[str, Any]] | None:
+    """Return the record and the summary of an output; None if it is not finished."""
     try:
         content = json.loads(_place(target).read_text(encoding="utf-8"))
         if target.stat().st_size != content["size"]:
@@ -125,12 +125,12 @@ def read_record(target: Path) -> tuple[Record, dict[str, Any]] | None:
 
 
 def remove_record(target: Path) -> None:
-    """Say that a tile is not done."""
+    """Remove the record of an output, which is then no longer finished."""
     _place(target).unlink(missing_ok=True)
 
 
 def _place(target: Path) -> Path:
     name = os.fsencode(target.name)
-    if len(name) > _LONGEST_NAME:  # which leaves no room for what follows it
+    if len(name) > _LONGEST_NAME:  # so long that .json does not fit
         return target.parent / _FOLDER / f"{hashlib.sha256(name).hexdigest()}.json"
     return target.parent / _FOLDER / f"{target.name}.json"

@@ -1,4 +1,4 @@
-"""What a file remembers of the classes that runs give, so that the next sees what was changed."""
+"""Stores the classes of a run in the file, so that the next run finds later changes by hand."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from .steps import Room
 
 
 class Memory:
-    """What is remembered of the classes of the points of a file.
+    """The classes of a file that are to be remembered.
 
     Parameters
     ----------
     room : callable
-        Makes room for a value of each point.
+        Returns an array of one value for each point.
     begins : bool
-        Whether it is remembered even if the file does not do so yet.
+        Whether classes are remembered even if the file has none remembered yet.
     """
 
     def __init__(self, room: Room, begins: bool = False) -> None:
@@ -29,14 +29,14 @@ class Memory:
         self._values: np.ndarray | None = None
 
     def add(self, where: slice, part: PointCloud, classes: np.ndarray) -> None:
-        """Take in the classes that some points get."""
+        """Add the new classes of some points."""
         if self._begins or part.remembered is not None:
             if self._values is None:
                 self._values = self._room(np.uint8)
             self._values[where] = to_remember(part, classes)
 
     def added_to(self, edits: Edits) -> Edits:
-        """Return edits with what is remembered."""
+        """Return edits with the remembered classes."""
         if self._values is None:
             return edits
         dimension = ExtraDimension(REMEMBERED, "Before changes by hand", self._values)

@@ -1,4 +1,4 @@
-"""What a run is to do, each as one value that every front end fills from the declarations."""
+"""Requests: what a run is to do, as one value. Command line, dialogs and library fill it."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from .heights import HeightOutput, MeasureHeights
 from .key_points import FindKeyPoints, KeyPointMark
 from .labelling import LabelGround
 from .memory import Resources
-from .options import TileInput, TileMethod, TileOutput
+from .options import RasterOutput, TileInput, TileMethod, TileOutput
 from .output import Output
 from .raster_files import RasterFiles
 from .rasters import MakeRasters
@@ -36,9 +36,9 @@ class Request:
     Attributes
     ----------
     files : TileInput
-        Which files are taken of folders.
+        Which files of folders are used.
     tiles : TileOutput
-        Of many files: the format of the outputs, and whether those that are done are kept.
+        For many files: the format of the outputs, and whether finished ones are kept.
     resources : Resources
         Threads and memory.
     """
@@ -49,14 +49,14 @@ class Request:
 
     @classmethod
     def of(cls: type[_Request], sets: Iterable[ParameterSet], **others: Any) -> _Request:
-        """Return a request of parameter sets, in any order.
+        """Return a request with parameter sets, given in any order.
 
         Parameters
         ----------
         sets : iterable of ParameterSet
-            Each goes where one of its type belongs; one that belongs nowhere is that of the method.
+            The type of each decides its attribute. A set of another type is that of the method.
         **others
-            Attributes that are no parameter sets.
+            The attributes that are not parameter sets.
         """
         fields = {type(value): name for name, value in vars(cls()).items()}
         for each in sets:
@@ -68,26 +68,28 @@ class Request:
 
 @dataclass(frozen=True)
 class ClassifyRequest(Request):
-    """To classify the ground, and what to make of it.
+    """A request to classify the ground, and to make products of it.
 
     Attributes
     ----------
     parameters : ParameterSet
-        Those of one method; their type chooses the method.
+        The parameters of one method. Their type chooses the method.
     selection : Selection
         Which points take part, and what their classes become.
     area : Area or None
-        Where points are classified; everywhere if it is None.
+        Where points are classified; None for everywhere.
     corrections : Corrections
         Polygons in which the class is known.
     output : Output
-        Which points are written, and whether with their heights above ground.
+        Which points are written, and whether their heights above ground are.
     rasters : RasterFiles
         Rasters to write as well.
     terrain, surface : TerrainModel, SurfaceModel
-        Their cell size and light, and which points make the surface.
+        Cell size and light of the rasters, and which points make the surface.
     constraints : Constraints
-        Breaklines, water, and where there is no ground, for the rasters.
+        Breaklines, water, and areas without ground, for the rasters.
+    raster_output : RasterOutput
+        Whether each of many files gets its own rasters.
     """
 
     parameters: ParameterSet = field(default_factory=METHODS[DEFAULT_METHOD].parameters)
@@ -99,6 +101,7 @@ class ClassifyRequest(Request):
     terrain: TerrainModel = field(default_factory=TerrainModel)
     surface: SurfaceModel = field(default_factory=SurfaceModel)
     constraints: Constraints = NO_CONSTRAINTS
+    raster_output: RasterOutput = field(default_factory=RasterOutput)
 
     def __post_init__(self) -> None:
         self.output.check_area(self.area is not None)
@@ -110,7 +113,7 @@ class ClassifyRequest(Request):
 
     @property
     def step(self) -> LabelGround:
-        """What finds the ground."""
+        """The step that finds the ground."""
         return LabelGround(
             self.parameters, self.selection, self.area, self.output, corrections=self.corrections
         )
@@ -121,21 +124,22 @@ class ClassifyRequest(Request):
 
     @property
     def raster_step(self) -> MakeRasters:
-        """What makes the rasters of the classified points."""
+        """The step that makes the rasters from the classified points."""
         covers_ground = not any(LAYERS[each].of_all for each in self.rasters.layers)
         return MakeRasters(
-            self.rasters, self.terrain, self.surface, self._ground, covers_ground, self.constraints
-        )
+            self.rasters, self.terrain, self.surface, self._ground, covers_ground, self.constraints,
+            self.raster_output.raster_per_file,
+        )  # fmt: skip
 
     @property
     def height_step(self) -> MeasureHeights:
-        """What measures the heights of the classified points."""
+        """The step that measures the heights of the classified points."""
         return MeasureHeights(self._ground, area=self.area if self.output.area_only else None)
 
 
 @dataclass(frozen=True)
 class HeightRequest(Request):
-    """To measure heights above ground.
+    """A request to measure heights above ground.
 
     Attributes
     ----------
@@ -150,13 +154,13 @@ class HeightRequest(Request):
 
     @property
     def step(self) -> MeasureHeights:
-        """What measures the heights."""
+        """The step that measures the heights."""
         return MeasureHeights(self.ground, self.output)
 
 
 @dataclass(frozen=True)
 class KeyPointRequest(Request):
-    """To mark model key points.
+    """A request to mark model key points.
 
     Attributes
     ----------
@@ -174,24 +178,26 @@ class KeyPointRequest(Request):
 
     @property
     def step(self) -> FindKeyPoints:
-        """What finds the key points."""
+        """The step that finds the key points."""
         return FindKeyPoints(self.parameters, self.ground, self.mark)
 
 
 @dataclass(frozen=True)
 class TerrainRequest(Request):
-    """To make rasters of the terrain and of what stands on it.
+    """A request to make rasters of the terrain and of the objects on it.
 
     Attributes
     ----------
     rasters : RasterFiles
-        What to write.
+        The rasters to write.
     ground : GroundClasses
         Which points are ground.
     terrain, surface : TerrainModel, SurfaceModel
         Cell size, light, gaps, and which points make the surface.
     constraints : Constraints
-        Breaklines, water, and where there is no ground.
+        Breaklines, water, and areas without ground.
+    raster_output : RasterOutput
+        Whether each of many files gets its own rasters.
     """
 
     rasters: RasterFiles = field(default_factory=RasterFiles)
@@ -199,10 +205,12 @@ class TerrainRequest(Request):
     terrain: TerrainModel = field(default_factory=TerrainModel)
     surface: SurfaceModel = field(default_factory=SurfaceModel)
     constraints: Constraints = NO_CONSTRAINTS
+    raster_output: RasterOutput = field(default_factory=RasterOutput)
 
     @property
     def raster_step(self) -> MakeRasters:
-        """What makes the rasters."""
+        """The step that makes the rasters."""
         return MakeRasters(
-            self.rasters, self.terrain, self.surface, self.ground, constraints=self.constraints
-        )
+            self.rasters, self.terrain, self.surface, self.ground, constraints=self.constraints,
+            per_file=self.raster_output.raster_per_file,
+        )  # fmt: skip

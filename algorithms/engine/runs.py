@@ -1,4 +1,4 @@
-"""What a run does with one file, with many, with folders and with virtual point clouds."""
+"""The functions of the public API, for one file or many."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ def classify(
     sources : path or iterable of paths
         LAS, LAZ and COPC files, folders of them, virtual point clouds (.vpc) and lists (.txt).
     output : path
-        Of one file the file to write (.las, .laz or .copc.laz); else a folder, which is made if it
-        is not there.
+        For one file, the file to write (.las, .laz or .copc.laz). Otherwise a folder, which is made
+        if it is missing.
     request : ClassifyRequest
         What to do.
     progress : Progress
         Receives progress and messages.
     workers : Workers, optional
-        Who works on many files; threads of this process if not given.
+        The workers for many files; by default threads of this process.
 
     Returns
     -------
@@ -50,7 +50,7 @@ def classify(
     BareEarthError
         If an input cannot be read or an output cannot be written.
     Cancelled
-        If the user asked to stop; nothing is left half written.
+        If the user asked to stop; no output is incomplete.
 
     Examples
     --------
@@ -71,7 +71,7 @@ def heights(
     progress: Progress = SILENT,
     workers: Workers | None = None,
 ) -> Any:
-    """Write classified files anew with the height of every point above the ground.
+    """Write classified files with the height of every point above the ground.
 
     Parameters
     ----------
@@ -84,6 +84,11 @@ def heights(
     -------
     HeightSummary or SurveySummary
         What was done, of one file or of many.
+
+    Raises
+    ------
+    BareEarthError, Cancelled
+        As for `classify`, and if the input has no ground.
     """
     return _written(_paths(sources), Path(output), request, progress, workers)
 
@@ -95,7 +100,7 @@ def key_points(
     progress: Progress = SILENT,
     workers: Workers | None = None,
 ) -> Any:
-    """Write classified files anew with their model key points marked.
+    """Write classified files with their model key points marked.
 
     Parameters
     ----------
@@ -108,6 +113,11 @@ def key_points(
     -------
     KeyPointSummary or SurveySummary
         What was done, of one file or of many.
+
+    Raises
+    ------
+    BareEarthError, Cancelled
+        As for `classify`, and if the input has no ground.
     """
     return _written(_paths(sources), Path(output), request, progress, workers)
 
@@ -118,7 +128,7 @@ def terrain(
     progress: Progress = SILENT,
     workers: Workers | None = None,
 ) -> RasterSize:
-    """Write rasters of the terrain and of what stands on it; all of them or none.
+    """Write rasters of the terrain and of the objects on it; all of them or none.
 
     Parameters
     ----------
@@ -126,6 +136,11 @@ def terrain(
         Which rasters, where they go, and how they are made.
     sources, progress, workers
         As for `classify`; all files together are one survey.
+
+    Returns
+    -------
+    RasterSize
+        The size of the rasters, and the number of points that they were made from.
 
     Raises
     ------
@@ -159,5 +174,6 @@ def _written(
 
 
 def _paths(sources: Sources) -> list[Path]:
-    one = isinstance(sources, (str, Path))
-    return [Path(each) for each in ([sources] if one else sources)]
+    if isinstance(sources, (str, Path)):
+        return [Path(sources)]
+    return [Path(each) for each in sources]

@@ -1,4 +1,4 @@
-"""Jobs in threads, watched by the thread that the user's progress belongs to."""
+"""Runs jobs in threads, while the calling thread reports their progress."""
 
 from __future__ import annotations
 
@@ -22,33 +22,33 @@ def run_jobs(
     workers: int,
     progress: Progress,
 ) -> Iterator[tuple[int, Any]]:
-    """Run jobs in threads, and yield the result of each when it is there.
+    """Run jobs in threads, and yield the result of each when it is finished.
 
-    The calling thread asks `progress` ten times a second: when the user cancels, it leaves at once
-    and waits for nobody. The jobs then end at their next call of the progress that they got.
+    The calling thread calls `progress` ten times a second. When the user cancels, it returns at
+    once. The jobs then end at their next call of their own progress.
 
     Parameters
     ----------
     jobs : sequence of callable
-        Each takes a `Progress` and computes; messages to it are relayed in the calling thread.
+        Each takes a `Progress`, whose messages are passed on in the calling thread.
     weights : sequence of float
         The share of each job in the whole.
     at_once : int
-        How many run at the same time.
+        How many jobs run at the same time.
     workers : int
-        How many threads each may use itself. The last ones share those of the others that ended.
+        How many threads a job may use. The last jobs get the threads of those that ended.
     progress : Progress
         Used in the calling thread only.
 
     Yields
     ------
     tuple of (int, object)
-        Number of a job, and what it returned; in the order in which they end.
+        Number and return value of each job, in the order in which they end.
 
     Raises
     ------
     Exception
-        What a job raised.
+        The error of a job.
     Cancelled
         If the user asked to stop.
     """
@@ -67,7 +67,7 @@ def run_jobs(
     try:
         waiting = iter(range(len(jobs)))
         running: dict[Future[Any], int] = {}
-        # Not all at once: results that nobody has fetched yet would fill the memory.
+        # Not all at once, since results that were not fetched yet would fill the memory.
         while True:
             for number in waiting:
                 talks[number] = JobProgress(stop)
@@ -94,20 +94,20 @@ def run_jobs(
 
 
 class JobProgress(Notes):
-    """How far a job is, for the thread that looks on; ends the job once `stop` is set."""
+    """The progress of a job, for the calling thread; ends the job when `stop` is set."""
 
     def __init__(self, stop: threading.Event) -> None:
         super().__init__()
         self.fraction, self._stop = 0.0, stop
 
     def report(self, fraction: float) -> None:
-        """Note how far the job is."""
+        """Store the progress of the job."""
         if self._stop.is_set():
             raise Cancelled
         self.fraction = fraction
 
     def tell(self, progress: Progress) -> None:
-        """Pass on the messages since the last time."""
+        """Pass on the messages since the last call."""
         while self.messages:
             kind, text = self.messages.pop(0)
             getattr(progress, kind)(text)

@@ -1,8 +1,8 @@
-"""What a run can make of the points of a survey.
+"""Steps: what a run can compute from the points of a survey.
 
-A step says which points it needs (`marks`), how far they matter (`blocks`), and what it makes of
-those that wait in a store (`work`). It knows neither files nor threads: it runs on one file or on
-many, in memory, from disk, and in the jobs of a survey.
+A step chooses the points that it needs (`marks`) and the blocks in which it works (`blocks`), and
+computes its result from the points in a store (`work`). It knows neither files nor threads. So it
+runs on one file or many, in memory, from disk, and in the jobs of a survey.
 """
 
 from __future__ import annotations
@@ -23,21 +23,21 @@ from ..las.lasfile import LasFile
 from .blocks import Blocks, Store
 from .memory import Resources
 
-# Makes room for one value of each point of a file, given its type.
+# Returns an array of one value for each point of a file, given the type of the values.
 Room = Callable[[type], np.ndarray]
 
 
 class Marks(NamedTuple):
-    """What a step wants to know of points, boolean arrays of shape (n,).
+    """Flags of points for a step, boolean arrays of shape (n,).
 
     Attributes
     ----------
     selected : numpy.ndarray
         Which take part.
     known : numpy.ndarray
-        Which of them are surely ground.
+        Which of them are known ground.
     wanted : numpy.ndarray
-        For which of them something is wanted; the others are context.
+        Which of them get a value; the others are context.
     """
 
     selected: np.ndarray
@@ -46,14 +46,14 @@ class Marks(NamedTuple):
 
 
 class Step:
-    """Base of the steps, which are frozen dataclasses of what the user chose.
+    """Base of the steps, which are frozen dataclasses of parameters.
 
     Attributes
     ----------
     kind : type
-        Of the value that a store keeps of each point.
+        Type of the value that a store holds for each point.
     tally : type
-        Of what `marks` counts in.
+        Type of the counters that `marks` adds to.
     """
 
     kind: type = np.uint8
@@ -61,44 +61,44 @@ class Step:
 
     @property
     def blocks(self) -> Blocks:
-        """The blocks in which it works."""
+        """The blocks in which the step works."""
         raise NotImplementedError
 
     def marks(self, part: PointCloud, tally: Any) -> Marks:
-        """Return which points of a part of a file are needed, and count them.
+        """Return the flags of the points of a part of a file, and count them.
 
         Raises
         ------
         BareEarthError
-            If the file does not do.
+            If the file is unsuitable.
         """
         raise NotImplementedError
 
     def tell(self, tally: Any, path: Path, progress: Progress) -> None:
-        """Tell what was counted in a file.
+        """Report what was counted in a file.
 
         Raises
         ------
         BareEarthError
-            If there is nothing to do.
+            If the step has nothing to do.
         """
 
     def work(self, store: Store, resources: Resources, progress: Progress) -> Any:
-        """Make something of the points of a store."""
+        """Compute the result from the points of a store."""
         raise NotImplementedError
 
     def settings(self) -> dict[str, Any]:
-        """Return all that the result depends on, as plain values."""
+        """Return everything that the result depends on, as plain values."""
         return {"step": type(self).__name__, **_plain(self)}
 
 
 class PointStep(Step):
-    """Base of the steps that find a value of each point, and write it into its file.
+    """Base of the steps that find a value for each point, and write it into the file.
 
     Attributes
     ----------
     summary_type : type
-        Of the summaries of its results: a frozen dataclass with `name`, `point_count` and `text`.
+        Type of its summaries: a frozen dataclass with `name`, `point_count` and `text`.
     vpc_name : str
         Name of the virtual point cloud of the results.
     """
@@ -107,69 +107,69 @@ class PointStep(Step):
     vpc_name: str
 
     def check_tile(self, tile: LasFile) -> None:
-        """Refuse, before any work, a file that cannot hold what is found."""
+        """Refuse, before any work, a file that cannot hold the result."""
 
     def check_survey(self, box: Box) -> None:
-        """Refuse, before any work, files whose points have these bounds in units of the CRS."""
+        """Refuse, before any work, a survey with an unsuitable extent, in units of the CRS."""
 
     def skips(self, tile: LasFile) -> bool:
-        """Return whether nothing of a file is to be written, as its header says."""
+        """Return whether no point of a file is to be written, according to its header."""
         return False
 
     def count(self, part: PointCloud, tally: Any) -> None:
-        """Count what `tell_of_tile` tells of the points of one of many files."""
+        """Count points of one of many files for `tell_of_tile`."""
 
     def tell_of_tile(self, tally: Any, path: Path, progress: Progress) -> None:
-        """Tell what was counted in one of many files, or refuse it."""
+        """Report what was counted in one of many files, or refuse the file."""
 
     def tell_of_survey(self, done: Sequence[Any], progress: Progress) -> None:
-        """Tell what is to be said of all files together, given their summaries."""
+        """Report on all files together, given their summaries."""
 
     def result(self, path: Path, room: Room) -> PointResult:
-        """Return what takes in the values of a file."""
+        """Return an object that collects the values of a file."""
         raise NotImplementedError
 
 
 class PointResult:
-    """What was found of the points of a file."""
+    """The values of the points of a file."""
 
     @property
     def is_empty(self) -> bool:
-        """Whether nothing of them is to be written."""
+        """Whether no point is to be written."""
         return False
 
     def add(self, where: slice, part: PointCloud, values: np.ndarray) -> None:
-        """Take in the values of some points.
+        """Add the values of some points.
 
         Parameters
         ----------
         where : slice
-            Where they stand in the file.
+            Their indices in the file.
         part : PointCloud
             The points.
         values : numpy.ndarray, shape (k,)
-            What the step found of each.
+            Their values.
         """
         raise NotImplementedError
 
     def part(self, where: slice, part: PointCloud) -> PointCloud:
-        """Return some points as they are now."""
+        """Return points as the output will have them."""
         return part
 
     def check(self, why: str = "") -> None:
-        """Refuse to write a file of which nothing was found; `why` says why, if that is known."""
+        """Refuse to write a file without a result; `why` is the reason, if it is known."""
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
-        """Return what becomes other in the file, given any of its points."""
+        """Return the changes of the file; `cloud` holds any of its points."""
         raise NotImplementedError
 
     def summary(self, name: str) -> Any:
-        """Return what became of the file of this name, as the step's `summary_type`."""
+        """Return the summary of the output `name`, as the step's `summary_type`."""
         raise NotImplementedError
 
 
 def _plain(value: Any) -> Any:
-    """Return a value as JSON would give it back."""
+    """Return a value as it would be read back from JSON."""
     if dataclasses.is_dataclass(value):
         names = [field.name for field in dataclasses.fields(value)]
         plain = {name: _plain(getattr(value, name)) for name in names}

@@ -27,19 +27,19 @@ from .options import TileOutput
 from .raster_files import RasterFiles
 from .requests import ClassifyRequest, Request
 
-# The longest first: each ends as the one after it does.
+# The longest first, since it ends as the second does.
 _FORMATS = ("copc.laz", "laz", "las")
 
 
 class MapFiles(NamedTuple):
-    """What is to be made; None for what is not wanted.
+    """The files to make; None for those that are not wanted.
 
     Attributes
     ----------
     cloud : Path or None
-        The classified point cloud. Of many files it is a folder of this name, without its ending.
+        The classified point cloud. For many files it is a folder of this name, without its ending.
     rasters : RasterFiles
-        Terrain, surface and so on.
+        Terrain model, surface model and so on.
     relief, contours : Path or None
         Local relief, and contour lines.
     """
@@ -52,7 +52,7 @@ class MapFiles(NamedTuple):
 
 @dataclass(frozen=True)
 class MapRequest(Request):
-    """How it is to be made: the declared parameters of each step, and what is known besides."""
+    """The parameters of all steps from a point cloud to maps."""
 
     parameters: ParameterSet = field(default_factory=METHODS[DEFAULT_METHOD].parameters)
     selection: Selection = field(default_factory=Selection)
@@ -64,7 +64,7 @@ class MapRequest(Request):
     constraints: Constraints = NO_CONSTRAINTS
 
     def classify(self, rasters: RasterFiles) -> ClassifyRequest:
-        """Return the request to classify, with the rasters that are made in the same run."""
+        """Return the request to classify and to make rasters in the same run."""
         return ClassifyRequest(
             self.files,
             self.tiles,
@@ -80,14 +80,14 @@ class MapRequest(Request):
 
 
 class MapSummary(NamedTuple):
-    """What was made.
+    """What a run made.
 
     Attributes
     ----------
     cloud : Path
         The classified file, or the virtual point cloud of them.
     point_count, ground_count : int
-        Points, and those of the ground.
+        Numbers of all points and of ground points.
     class_counts : dict of int to int
         Points of each class of a single file; empty for many.
     contour_interval : Interval or None
@@ -109,12 +109,12 @@ def make_maps(
     Parameters
     ----------
     sources : sequence of Path
-        A .las, .laz or .copc.laz file; or many, folders of them, virtual point clouds and lists,
-        which are one survey then.
+        A .las, .laz or .copc.laz file, or the files of a survey: many files, folders, virtual point
+        clouds and lists.
     files : MapFiles
-        What to make.
+        The files to make.
     request : MapRequest
-        How.
+        How to make them.
     progress : Progress
         Receives progress and messages.
 
@@ -129,7 +129,7 @@ def make_maps(
     folders = [path.parent for path in wanted if path]
     beside = next((each for each in folders if each.is_dir()), Path(tempfile.gettempdir()))
     is_one = is_one_file(sources)
-    # All or none, as far as the system can: they get their names when all of them are there.
+    # All or none: the outputs get their names when all of them are finished.
     with temporary_folder(beside) as waiting, contextlib.ExitStack() as outputs:
         cloud = files.cloud or waiting / "cloud.las"
         files.rasters.check((*sources, cloud))

@@ -1,14 +1,15 @@
-"""The run of a step over many files: which of them are to be done, and by which jobs."""
+"""Runs a step on many files: finds which ones are to be done, and makes their jobs."""
 
 from __future__ import annotations
 
 import shutil
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, Iterable, NamedTuple, Sequence
 
 from ..core.errors import BareEarthError
 from ..core.files import alone_in, describe_write_error
-from ..core.progress import Progress
+from ..core.progress import SILENT, Progress
 from ..core.temporary import remove_leftovers
 from ..las.cloud import survey_frame
 from ..las.lasfile import LasFile
@@ -19,43 +20,72 @@ from .jobs import PointJob, TileJob
 from .planning import block_jobs
 from .raster_jobs import make_rasters
 from .rasters import MakeRasters
-from .record import Record, folders_of, label_file, made_of, read_record, remove_record, state_of
+from .record import (
+    Fingerprint,
+    fingerprint_of,
+    folders_of,
+    label_file,
+    read_record,
+    remove_record,
+    stamp_of,
+)
 from .steps import PointStep
 from .workers import Workers
 
 
 class _Needs(NamedTuple):
-    """A tile, the blocks that may hold its points, and the files that these need."""
+    """A tile, the blocks that it touches, and the files that these blocks need."""
 
     tile: LasFile
     places: list[BlockIndex]
     sources: list[Path]
 
 
+@dataclass(frozen=True)
+class Task:
+    """What one of several steps has to do.
+
+    Attributes
+    ----------
+    only : frozenset of str, or None
+        Names of the files to do; None for all.
+    fingerprints : dict of str to Fingerprint
+        Records of the outputs by the names of the files, if they do not follow from these files.
+    kept : list
+        Summaries of the outputs that an earlier run finished.
+    """
+
+    only: frozenset[str] | None = None
+    fingerprints: dict[str, Fingerprint] = field(default_factory=dict)
+    kept: list[Any] = field(default_factory=list)
+
+
 class TileRun:
-    """Writes the files of a survey into a folder, with what a step finds of their points.
+    """Runs a step on the files of a survey, and writes them into a folder with the results.
 
     Parameters
     ----------
     survey : Survey
         The files.
     folder : Path
-        That of the outputs.
+        The folder of the outputs.
     targets : dict of Path to Path
         The output of each input.
     step : PointStep
-        What is to be found.
+        The step that finds the values.
     progress : Progress
         Receives progress, and a line on each finished file.
+    task : Task
+        Which files are to be done.
 
     Attributes
     ----------
     done : list
-        What became of the files that are done, by their names.
+        Summaries of the finished files, sorted by their names.
     kept_count : int
-        How many of them a run before had done.
+        How many of them an earlier run finished.
     empty_count : int
-        Files of which there is nothing to write.
+        Number of files with nothing to write.
     failures : dict of Path to str
         Files that cannot be done, and why.
     """
@@ -67,15 +97,16 @@ class TileRun:
         targets: dict[Path, Path],
         step: PointStep,
         progress: Progress,
+        task: Task = Task(),
     ) -> None:
         self.done: list[Any] = []
         self.kept_count, self.empty_count, self.failures = 0, 0, {}
         self._grid = BlockGrid(survey_frame(survey.crs), step.blocks)
         self._survey, self._folder, self._targets = survey, folder, targets
-        self._step, self._progress = step, progress
+        self._step, self._progress, self._task = step, progress, task
         self._sources: dict[BlockIndex, list[Path]] = {}
-        # As they are before any of them is read.
-        self._states = {each.path: state_of(each.path) for each in survey.tiles}
+        # Taken before any of them is read.
+        self._stamps = {each.path: stamp_of(each.path) for each in survey.tiles}
         self._todo: list[_Needs] = []
         for number, tile in enumerate(survey.tiles, start=1):
             if step.skips(tile):
@@ -83,7 +114,8 @@ class TileRun:
                 continue
             try:
                 step.check_tile(tile)
-                self._todo.append(self._needs(tile))
+                if task.only is None or tile.path.name in task.only:
+                    self._todo.append(self._needs(tile))
             except BareEarthError as error:
                 self.failures[tile.path] = str(error)
             progress(0.02 * number / len(survey.tiles))
@@ -94,11 +126,11 @@ class TileRun:
         Parameters
         ----------
         workers : Workers
-            Who does it; they are stopped afterwards.
+            The workers, which are stopped at the end.
         resume : bool
-            Whether files that a run before has done stay.
+            Whether outputs that an earlier run finished are kept.
         rasters : MakeRasters, optional
-            Rasters to make of the outputs.
+            Rasters to make from the outputs.
 
         Raises
         ------
@@ -128,7 +160,7 @@ class TileRun:
             self._clear(values=True)
 
     def _clear(self, values: bool) -> None:
-        """Remove what a killed run left, and all that was found in blocks if wanted."""
+        """Remove what killed runs left, and the results of blocks if `values`."""
         folders = folders_of(self._folder)
         if values:
             shutil.rmtree(folders[2], ignore_errors=True)
@@ -143,18 +175,27 @@ class TileRun:
         sources = sorted({path for place in places for path in self._sources[place]})
         return _Needs(tile, places, sources)
 
-    def _made_of(self, needs: _Needs) -> Record:
+    @property
+    def sources(self) -> dict[Path, list[Path]]:
+        """The files that affect each file that is to be done."""
+        return {needs.tile.path: needs.sources for needs in self._todo}
+
+    def fingerprint(self, tile: Path, sources: Iterable[Path]) -> Fingerprint:
+        """Return the record of the output of a file, given the files that affect it."""
+        stamps = map(self._stamps.__getitem__, sources)
+        return fingerprint_of(self._grid, self._step, tile, stamps, self._targets[tile])
+
+    def _fingerprint(self, needs: _Needs) -> Fingerprint:
         path = needs.tile.path
-        sources = map(self._states.__getitem__, needs.sources)
-        return made_of(self._grid, self._step, path, sources, self._targets[path])
+        return self._task.fingerprints.get(path.name) or self.fingerprint(path, needs.sources)
 
     def _keep_done(self, resume: bool) -> list[Any]:
-        """Take out the tiles that are done; return what became of them."""
-        kept, todo, changed = [], [], 0
+        """Remove finished tiles from those to do; return their summaries."""
+        kept, todo, changed = [*self._task.kept], [], 0
         for needs in self._todo:
             target = self._targets[needs.tile.path]
             before = read_record(target) if resume else None
-            if before is not None and before[0] == self._made_of(needs):
+            if before is not None and before[0] == self._fingerprint(needs):
                 kept.append(self._step.summary_type(**before[1]))
                 continue
             changed += before is not None
@@ -171,12 +212,12 @@ class TileRun:
         return kept
 
     def _jobs(self, workers: Workers) -> tuple[list[PointJob], list[TileJob]]:
-        """Return the jobs for all that is to be done, and let the workers begin."""
+        """Return the jobs for the tiles to do and their blocks, and start the workers."""
         grid, survey, step = self._grid, self._survey, self._step
         places = sorted({place for needs in self._todo for place in needs.places})
         waiting = folders_of(self._folder)[2]
         files = {
-            each: label_file(grid, step, waiting, each, map(self._states.get, self._sources[each]))
+            each: label_file(grid, step, waiting, each, map(self._stamps.get, self._sources[each]))
             for each in places
         }
         tiles = [
@@ -187,7 +228,7 @@ class TileRun:
                 self._targets[needs.tile.path],
                 tuple(needs.places),
                 tuple(files[each] for each in needs.places),
-                self._made_of(needs),
+                self._fingerprint(needs),
             )
             for needs in self._todo
         ]
@@ -198,8 +239,55 @@ class TileRun:
         return blocks, tiles
 
 
+def tasks_of(
+    survey: Survey,
+    steps: Sequence[PointStep],
+    targets: Sequence[dict[Path, Path]],
+    resume: bool,
+) -> list[Task]:
+    """Return what each of one or two steps has to do. The second reads the outputs of the first.
+
+    These are removed at the end. So the record of a final output names the inputs of the first
+    step, which is repeated only for the files that the second step still needs.
+
+    Parameters
+    ----------
+    survey : Survey
+        The inputs of the first step.
+    steps : sequence of PointStep
+        One or two steps.
+    targets : sequence of dict of Path to Path
+        The outputs of each step, by the inputs of the first.
+    resume : bool
+        Whether outputs that an earlier run finished are kept.
+    """
+    if len(steps) == 1:
+        return [Task()]
+    first, second = (
+        TileRun(survey, next(iter(where.values())).parent, where, step, SILENT)
+        for step, where in zip(steps, targets)
+    )
+    of_first, of_second = first.sources, second.sources
+    records, kept, todo = {}, [], []
+    for path in of_first.keys() & of_second.keys():
+        files = sorted({file for each in of_second[path] for file in of_first.get(each, ())})
+        record = {**second.fingerprint(path, files), "before": first.fingerprint(path, ())}
+        before = read_record(targets[1][path]) if resume else None
+        if before is not None and before[0] == record:
+            kept.append(steps[1].summary_type(**before[1]))
+        else:
+            todo.append(path)
+        records[path.name] = record
+    if not kept:
+        return [Task(), Task(fingerprints=records)]
+    needed = {each.name for path in todo for each in of_second[path]}
+    refused = {path.name for path in of_first.keys() - of_second.keys()}
+    names = frozenset(each.name for each in todo)
+    return [Task(frozenset(needed | refused)), Task(names, records, kept)]
+
+
 def _make(folder: Path, *within: Path) -> None:
-    """Make the folder of the output, and others within it."""
+    """Make the folder of the outputs, and folders within it."""
     try:
         for each in (folder, *within):
             each.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,4 @@
-"""Settings tried on a window of a survey before a long run: a page with pictures side by side."""
+"""Compares settings on a window of a survey, on a page with pictures side by side."""
 
 from __future__ import annotations
 
@@ -24,18 +24,18 @@ from .trial_points import TrialPoints, read_trial_points
 
 @dataclass(frozen=True)
 class TrialSummary:
-    """What a comparison found.
+    """The result of a comparison.
 
     Attributes
     ----------
     page : str
         The page that was written.
     read_count, point_count : int
-        Points that were read, and those of them in the window.
+        Numbers of points that were read, and of points in the window.
     context : float
-        Metres round the window that were read as well.
+        Metres that were read round the window.
     settings : list of dict
-        What `Figures` and `Commands` say of each setting.
+        `Figures` and `Commands` of each setting, as dicts.
     """
 
     page: str
@@ -63,21 +63,21 @@ def compare_settings(
     resources: Resources = Resources(),
     progress: Progress = SILENT,
 ) -> TrialSummary:
-    """Classify a window of a survey with several settings, and write a page that shows them.
+    """Classify a window of a survey with several settings, and write a page that compares them.
 
-    Only the window and some metres round it are read: of COPC the nodes of the octree that touch
-    it; a LAS or LAZ file is read from beginning to end. No point cloud is written.
+    Only the window and its surroundings are used. COPC files are read only there, LAS and LAZ files
+    completely. No point cloud is written.
 
     Parameters
     ----------
     sources : iterable of Path
         LAS, LAZ and COPC files, folders of them, virtual point clouds (.vpc) and lists (.txt).
     page : Path
-        The HTML file to write; it needs no other file.
+        The HTML file to write, which contains its pictures.
     extent : tuple of float
         The window: smallest x and y, largest x and y in units of the CRS.
     options : TrialOptions
-        The settings, and how much round the window is read.
+        The settings, and how much is read round the window.
     resources : Resources
         Threads and memory.
     progress : Progress
@@ -126,7 +126,7 @@ def _page(
     options: TrialOptions,
     seen: tuple[float, float],
 ) -> TrialPage:
-    """Return the page of outcomes; `seen` is how far was read, and how far the methods look."""
+    """Return the page; `seen` is how far was read, and how far the methods look."""
     window, first = points.window, outcomes[0]
     line = points.line(options.profile) if options.profile else line_across(window, outcomes)
     profile = Profile.of(window, line, can_be_shown(first.classes, points.withheld))
@@ -143,7 +143,7 @@ def _page(
 
 
 def _notes(context: float, reach: float) -> list[str]:
-    """Return what must be known to judge the pictures."""
+    """Return notes that are needed to judge the pictures."""
     notes = [
         f"{context:g} m round the window were read as well, to judge the points in it.",
         "All other parameters have their defaults. As in a run on all points, the present classes"

@@ -1,11 +1,12 @@
-"""How a setting that was tried on a window is run on all points."""
+"""Commands that run a compared setting on all points."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Sequence
+from typing import Any, Sequence
 
 from ..core.commands import shell_line
+from ..core.files import split_name
 from ..products.trial_page import Commands
 from ..survey.files import is_one_file
 from .options import TileMethod
@@ -15,43 +16,36 @@ _MANY_FILES = "bareearth:classifytiles"
 
 
 def commands_for(paths: Sequence[Path], setting: Setting) -> Commands:
-    """Return how a setting is run on all points of the inputs.
+    """Return the commands that run a setting on all points of the inputs.
 
     Parameters
     ----------
     paths : sequence of Path
-        One file, or what makes a survey.
+        One file, or the inputs of a survey.
     setting : Setting
         Method and preset.
     """
     method, preset, is_one = setting.method.name, setting.preset, is_one_file(paths)
     output, options = _output(paths[0], setting, is_one), ["--method", method, "--preset", preset]
     shell = shell_line(["bare-earth", "classify", *map(str, paths), str(output), *options])
-    # QGIS works in a folder of its own.
-    *sources, output = (str(path.absolute()) for path in (*paths, output))
+    # QGIS has another current folder.
+    *sources, target = (str(path.absolute()) for path in (*paths, output))
+    call: tuple[str, dict[str, Any]]
     if is_one:
         algorithm = f"bareearth:{setting.method.toolbox.identifier}"
-        call = algorithm, {"INPUT": sources[0], "PRESET": preset, "OUTPUT": output}
+        call = algorithm, {"INPUT": sources[0], "PRESET": preset, "OUTPUT": target}
     else:
         choices = {each.name: each.choices for each in TileMethod.declarations()}
         if preset not in choices["preset"]:
             return Commands(shell, "")
         call = _MANY_FILES, {
-            "INPUT": sources, "METHOD": method, "PRESET": preset, "OUTPUT_FOLDER": output,
+            "INPUT": sources, "METHOD": method, "PRESET": preset, "OUTPUT_FOLDER": target,
         }  # fmt: skip
     return Commands(shell, "processing.run({!r}, {!r})".format(*call))
 
 
 def _output(first: Path, setting: Setting, is_one: bool) -> Path:
-    """Return a name beside the input: of a file for one file, of a folder for many."""
-    name, suffix = _split(first.name)
+    """Return an output beside the input: a file for one file, a folder for many."""
+    name, suffix = split_name(first)
     added = setting.name.replace(":", "_")
     return first.with_name(f"{name}_{added}{suffix if is_one else ''}")
-
-
-def _split(name: str) -> tuple[str, str]:
-    """Return the name of an input without its suffix, and the suffix."""
-    for suffix in (".copc.laz", ".laz", ".las", ".vpc", ".txt"):
-        if name.lower().endswith(suffix):
-            return name[: -len(suffix)], name[-len(suffix) :]
-    return name, ""

@@ -1,4 +1,4 @@
-"""What can be chosen for a comparison of settings on a window."""
+"""Options for comparing settings on a window."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ..core.parameters import ParameterSet, parameter
 from ..filters import METHODS
 from ..filters.method import Method
 
-# Metres round the window beyond which nothing is read unless it is asked for.
+# By default at most so many metres are read round the window.
 USUAL_CONTEXT = 50.0
 
 
@@ -20,9 +20,9 @@ class Setting(NamedTuple):
     Attributes
     ----------
     name : str
-        As it is typed: method and preset, such as ``slope:town``.
+        Method and preset, such as ``slope:town``.
     label : str
-        As it is shown.
+        The text that is shown.
     method : Method
         The ground filter.
     preset : str
@@ -41,7 +41,7 @@ class Setting(NamedTuple):
 
     @property
     def reach(self) -> float:
-        """Metres beyond which a point does not matter for another."""
+        """Metres up to which points affect each other."""
         return self.method.reach(self.parameters)
 
 
@@ -61,7 +61,7 @@ SETTINGS = _settings()
 
 @dataclass(frozen=True)
 class TrialOptions(ParameterSet):
-    """Which settings are tried, and how much round the window is read."""
+    """Which settings are compared, and how much is read round the window."""
 
     settings: tuple[str, ...] = parameter(
         ("tin-densification:automatic", "grid-minimum:automatic", "slope:automatic"),

@@ -1,4 +1,4 @@
-"""The points of a window of a survey, read once, and labelled with one setting after the other."""
+"""The points of a window, which are read once and labelled with several settings."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ from .memory import Resources
 from .memory_points import MemoryPoints, SurveyFile
 from .trial_options import Setting
 
-# Metres: a wider window is no quick trial any more.
+# Metres. A wider window would take long.
 _WIDEST = 1000.0
 
 
 class Labelled(NamedTuple):
-    """The points as a setting classifies them.
+    """The points as classified with a setting.
 
     Attributes
     ----------
@@ -41,7 +41,7 @@ class Labelled(NamedTuple):
     classes : numpy.ndarray of uint8, shape (n,)
         Classes.
     ground, selected : numpy.ndarray of bool, shape (n,)
-        Which are ground, and which took part.
+        Which points are ground, and which took part.
     """
 
     names: tuple[str, str]
@@ -52,14 +52,14 @@ class Labelled(NamedTuple):
 
 @dataclass(frozen=True)
 class TrialPoints:
-    """The points in a window and round it.
+    """The points in and round a window.
 
     Attributes
     ----------
     clouds : tuple of PointCloud
-        Those of each file that has any.
+        The points of each file that has any.
     crs : Crs
-        That of the survey.
+        CRS of the survey.
     box : tuple of float
         The window, in units of the CRS.
     """
@@ -75,7 +75,7 @@ class TrialPoints:
 
     @cached_property
     def window(self) -> Window:
-        """The points as a comparison wants them."""
+        """The points in the form that a comparison needs."""
         frame = survey_frame(self.crs)
         west, south, east, north = (each * frame.horizontal_unit for each in self.box)
         frame, width, height = frame.moved((west, south)), east - west, north - south
@@ -86,11 +86,11 @@ class TrialPoints:
 
     @property
     def withheld(self) -> np.ndarray:
-        """Which points the producer wants left out; boolean, shape (n,)."""
+        """Which points are withheld; boolean, shape (n,)."""
         return np.concatenate([cloud.withheld for cloud in self.clouds])
 
     def line(self, ends: Sequence[float]) -> Line:
-        """Return the line between two places, x1, y1, x2, y2 in units of the CRS."""
+        """Return the line between two points, given as x1, y1, x2, y2 in units of the CRS."""
         corner, unit = self.box[:2] * 2, self.crs.horizontal_unit
         x1, y1, x2, y2 = ((each - start) * unit for each, start in zip(ends, corner))
         return Line((x1, y1), (x2, y2))
@@ -109,7 +109,7 @@ class TrialPoints:
         progress : Progress
             Receives progress and messages; a warning if there is no ground.
         is_first : bool
-            Whether what is the same with all settings is told.
+            Whether messages are reported that are the same for all settings.
 
         Raises
         ------
@@ -137,7 +137,7 @@ class TrialPoints:
         return Labelled((setting.name, setting.label), classes, ground, selected)
 
     def outcomes(self, labelled: Sequence[Labelled]) -> list[Outcome]:
-        """Return what settings make of the window, several at the same time."""
+        """Return the results of settings, several of which run at the same time."""
         window = self.window
         return in_threads(lambda each: outcome_of(window, *each), labelled)
 
@@ -145,23 +145,23 @@ class TrialPoints:
 def read_trial_points(
     paths: Sequence[Path], box: Box, context: float, progress: Progress = SILENT
 ) -> TrialPoints:
-    """Read the points in a window and round it.
+    """Read the points in and round a window.
 
     Parameters
     ----------
     paths : sequence of Path
-        One file, or what makes a survey.
+        One file, or the inputs of a survey.
     box : tuple of float
         The window: smallest x and y, largest x and y in units of the CRS.
     context : float
-        Metres round it.
+        Metres to read round it.
     progress : Progress
-        Receives progress, and what is odd about the files.
+        Receives progress, and warnings about the files.
 
     Raises
     ------
     BareEarthError
-        If the window is none, too wide or empty, or a file cannot be read.
+        If the window is invalid, too wide or empty, or a file cannot be read.
     Cancelled
         If the user asked to stop.
     """

@@ -1,4 +1,4 @@
-"""Who runs the jobs of a survey: threads of this process, or processes of this computer."""
+"""Workers that run the jobs of a survey: threads of this process, or other processes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .memory import Resources
 from .record import folders_of
 from .scheduling import JobProgress
 
-# Seconds that jobs get to stop by themselves when the user cancels.
+# When the user cancels, jobs have so many seconds to stop by themselves.
 _PATIENCE = 0.7
 
 SCHEDULER_GONE = "The scheduler is gone. Start it again, and continue with --resume."
@@ -26,14 +26,14 @@ Job = Union[BlockJob, TileJob]
 
 
 class Running(NamedTuple):
-    """A job that runs: the future of its `JobResult`, and how far it is, where that is known."""
+    """A running job: the future of its `JobResult`, and its progress, if that is known."""
 
     future: Future
     progress: JobProgress
 
 
 class Workers:
-    """Base of those who run jobs.
+    """Base of the workers.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ class Workers:
     Attributes
     ----------
     at_once : int
-        How many jobs they take at the same time.
+        How many jobs run at the same time.
     share : Resources
         What each job may use.
     """
@@ -53,71 +53,71 @@ class Workers:
         self.at_once, self.share = 1, Resources.of(1, 0)
 
     def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
-        """Be ready for jobs.
+        """Prepare for jobs.
 
         Parameters
         ----------
         folder : Path
-            Of the output.
+            Folder of the outputs.
         least : int
             Bytes that the largest job needs.
         blocks, tiles : int
-            How many are to be done.
+            Numbers of blocks and tiles to do.
         """
         threads, memory = self.resources.thread_count, self.resources.bytes
         self.at_once = int(max(1, min(threads, memory // max(least, 1), max(blocks, tiles))))
-        # Blocks take the time: where there are few, each may use the threads that would be idle.
+        # If there are few blocks, each can use the threads that would be idle.
         together = max(1, min(self.at_once, blocks))
         self.share = Resources.of(max(1, threads // together), memory // self.at_once)
 
     def submit(self, job: Job) -> Running:
-        """Begin a job."""
+        """Start a job."""
         raise NotImplementedError
 
     def check(self) -> None:
-        """Look whether there is still somebody to do the jobs that were begun.
+        """Check whether there are still workers for the running jobs.
 
         Raises
         ------
         BareEarthError
-            If there is not.
+            If there are none.
         """
 
     def restart(self) -> None:
-        """Be ready again after a worker died."""
+        """Prepare for jobs again after a worker died."""
 
     def stop(self) -> None:
-        """End, also jobs that run; of what these were writing nothing is left."""
+        """Stop all jobs. Running jobs remove their unfinished files."""
 
 
 class Threads(Workers):
     """Threads of this process."""
 
     def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
-        """Be ready for jobs."""
+        """Prepare for jobs."""
         super().start(folder, least, blocks, tiles)
         self._stop, self._futures = threading.Event(), []
         self._pool = ThreadPoolExecutor(self.at_once, thread_name_prefix="tile")
 
     def submit(self, job: Job) -> Running:
-        """Begin a job."""
+        """Start a job."""
         progress = JobProgress(self._stop)
         future = self._pool.submit(attempt, job, self.share, progress)
         self._futures = [each for each in self._futures if not each.done()] + [future]
         return Running(future, progress)
 
     def stop(self) -> None:
-        """End; jobs stop at their next word on how far they are."""
+        """Stop all jobs; running ones stop when they next report progress."""
         self._stop.set()
         self._pool.shutdown(wait=False, cancel_futures=True)
         wait(self._futures, _PATIENCE)
 
 
 class Processes(Workers):
-    """Processes of this computer, each begun anew ("spawn"): a fork of threads may hang."""
+    """Processes of this computer, started by "spawn", since a fork of threads may hang."""
 
     def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
-        """Be ready for jobs."""
+        """Prepare for jobs."""
         import multiprocessing
 
         super().start(folder, least, blocks, tiles)
@@ -133,18 +133,18 @@ class Processes(Workers):
         )
 
     def submit(self, job: Job) -> Running:
-        """Begin a job."""
+        """Start a job."""
         future = self._pool.submit(_in_process, job, self.share)
         self._known.update(self._pool._processes or {})
         return Running(future, JobProgress(threading.Event()))
 
     def restart(self) -> None:
-        """Begin new processes after one died."""
+        """Start new processes after one died."""
         self._close()
         self._open()
 
     def stop(self) -> None:
-        """End the processes, if need be in the middle of a job."""
+        """Stop the processes, also in the middle of a job."""
         self._stop.set()
         self._close()
 
@@ -163,27 +163,27 @@ class Processes(Workers):
 
 
 class Local(Workers):
-    """Processes of this computer, or threads of this process where one block is all there is.
+    """Processes of this computer, or threads of this process if there is only one block.
 
-    The one job of that block uses all threads. New processes would only have to start.
+    The job of a single block uses all threads, and new processes would only take time to start.
     """
 
     def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
-        """Be ready for jobs."""
+        """Prepare for jobs."""
         self._workers: Workers = (Processes if blocks > 1 else Threads)(self.resources)
         self._workers.start(folder, least, blocks, tiles)
         self.at_once, self.share = self._workers.at_once, self._workers.share
 
     def submit(self, job: Job) -> Running:
-        """Begin a job."""
+        """Start a job."""
         return self._workers.submit(job)
 
     def restart(self) -> None:
-        """Be ready again after a worker died."""
+        """Prepare for jobs again after a worker died."""
         self._workers.restart()
 
     def stop(self) -> None:
-        """End, also jobs that run."""
+        """Stop all jobs."""
         self._workers.stop()
 
 
@@ -194,7 +194,7 @@ def _begin(stop: threading.Event, threads: int) -> None:
     """Prepare a new process."""
     global _stop_of_process
     _stop_of_process = stop
-    # Ctrl-C reaches all processes of a terminal; the first of them tells the others.
+    # Ctrl-C reaches all processes of a terminal. Only the first one reacts, and stops the others.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     # The threads that decompress.
     os.environ["RAYON_NUM_THREADS"] = str(threads)
@@ -202,7 +202,7 @@ def _begin(stop: threading.Event, threads: int) -> None:
 
 
 def _end_with_parent() -> None:
-    """End this process when the one that began it is killed: nobody else would."""
+    """End this process when its parent is killed."""
     import multiprocessing
     from multiprocessing.connection import wait as wait_for
 

@@ -56,6 +56,13 @@ class CellWindow(NamedTuple):
             self.row - cells, self.column - cells, self.rows + both, self.columns + both
         )
 
+    def within(self, other: CellWindow) -> CellWindow:
+        """Return the cells that both windows have; none or fewer than none if they are apart."""
+        row, column = max(self.row, other.row), max(self.column, other.column)
+        north = min(self.row + self.rows, other.row + other.rows)
+        east = min(self.column + self.columns, other.column + other.columns)
+        return CellWindow(row, column, north - row, east - column)
+
     def places(
         self, x: np.ndarray, y: np.ndarray, corner: tuple[float, float], cell: float
     ) -> tuple[np.ndarray, np.ndarray]:

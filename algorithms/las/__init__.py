@@ -2,6 +2,6 @@
 
 import os
 
-# The bytes that the stack of each thread of lazrs may take: `gps_times` says why. It is asked for
-# once, when they begin; what is not needed takes no memory.
+# Stack size of the threads of lazrs; see `gps_times` for the reason. It is read when the threads
+# start. Unused parts of a stack take no memory.
 os.environ.setdefault("RUST_MIN_STACK", str(64 << 20))

@@ -1,6 +1,6 @@
-"""Which packages reading and writing need, and how to get those that are missing.
+"""Finds missing packages for reading and writing, and tells how to install them.
 
-Nothing is imported here, so that the plugin can ask in every QGIS.
+The packages are not imported here, so that the plugin can check them in every QGIS.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from ..core.errors import BareEarthError
 READING = ("laspy", "lazrs")
 WRITING_COPC = ("lazrs",)
 
-# Every Flatpak has it.
+# This file exists in every Flatpak.
 _FLATPAK = Path("/.flatpak-info")
 _PURPOSES = {
     "laspy": "reading point clouds",
@@ -26,7 +26,7 @@ _PURPOSES = {
 
 
 def missing_packages(packages: Iterable[str] = READING) -> list[str]:
-    """Return those of `packages` that this Python does not have.
+    """Return the `packages` that this Python does not have.
 
     Examples
     --------
@@ -37,12 +37,12 @@ def missing_packages(packages: Iterable[str] = READING) -> list[str]:
 
 
 def require(*packages: str) -> None:
-    """Refuse to go on without `packages`.
+    """Raise an error if one of `packages` is missing.
 
     Raises
     ------
     BareEarthError
-        If one is missing; the text says how to install it here.
+        If one is missing. The text tells how to install it here.
     """
     missing = missing_packages(packages)
     if missing:
@@ -55,10 +55,10 @@ def require(*packages: str) -> None:
 
 
 def install_hint(packages: Iterable[str]) -> str:
-    """Return a sentence that says how to get `packages` for the Python at hand.
+    """Return a sentence that tells how to install `packages` for this Python.
 
-    Inside QGIS the plugin gets lazrs and brings laspy along. numpy and scipy are those of the build
-    of QGIS, and come from where it came.
+    Inside QGIS, the plugin installs lazrs and contains laspy. numpy and scipy belong to QGIS, and
+    come from its own source.
     """
     missing = list(packages)
     if not _inside_qgis():

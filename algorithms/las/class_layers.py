@@ -1,15 +1,14 @@
-"""Other classes in a LAZ file all of whose other bytes stay as they are.
+"""Replaces the classes in a LAZ file and copies all other bytes.
 
-Point formats 6 to 10 are compressed by chunks and in layers: a chunk holds its first point as it
-is, the number of its points, the length of each layer, and the layers, of which the third is that
-of the classes. How that one is coded depends on nothing but classes, scanner channels, and which
-points are the only return of their pulse. So points that share these, and are zero otherwise, are
-compressed, and their layer takes the place of the former one: nothing else is decompressed or
-compressed again.
+Point formats 6 to 10 are compressed in chunks and layers. A chunk holds its first point
+uncompressed, the number of its points, the length of each layer, and the layers. The third layer
+holds the classes. It depends only on the classes, the scanner channels, and which points are single
+returns. So new points with the same values, and zeros otherwise, are compressed, and their layer of
+classes replaces the old one. Nothing else is decompressed or compressed.
 
 Source: Isenburg, "LASzip for LAS 1.4 (native extension)", specification, "Chunk layout" and
-"Compression of classification layer", where the context is said to be the previous point; that it
-is the point itself, which its implementation has, makes no difference here.
+"Compression of classification layer". It says that the context is the previous point. In its
+implementation it is the point itself, which makes no difference here.
 """
 
 from __future__ import annotations
@@ -26,12 +25,12 @@ from .laszip import CLASSES, LAYERS, POINT_14, ChunkHead
 from .records import LazRecordWriter, laszip_vlr, named, read_records
 from .sources import damaged, open_source
 
-# What of a point decides how its class is coded.
+# The fields of a point that decide how its class is coded.
 _DECISIVE = ("return_number", "number_of_returns", "scanner_channel")
 _FORMAT, _RETURNS, _CHANNEL, _CLASS = 6, 14, 15, 16
-# Returns of a pulse that has one, and that has more: as small as can be.
+# Number of returns that stands for single returns and for all others: as small as possible.
 _ONLY, _FIRST_OF_TWO = 0x11, 0x21
-# Points whose layers are made at a time.
+# Points whose layers are compressed at a time.
 _POINTS_A_GROUP = 1_000_000
 
 
@@ -41,9 +40,9 @@ class Chunk(NamedTuple):
     Attributes
     ----------
     start, end : int
-        Which of the points of the file they are.
+        Indices of its points in the file.
     place, size : int
-        Where their bytes begin in the file, and how many they are.
+        Position of its bytes in the file, and their number.
     """
 
     start: int
@@ -53,12 +52,12 @@ class Chunk(NamedTuple):
 
 
 def class_layers(layout: LasFile) -> ClassLayers | None:
-    """Return the layers of the classes of a file; None if it has none that can be replaced.
+    """Return the layers of the classes of a file; None if they cannot be replaced.
 
     Raises
     ------
     BareEarthError
-        If it cannot be read.
+        If the file cannot be read.
     """
     if not layout.layers:
         return None
@@ -78,7 +77,7 @@ def class_layers(layout: LasFile) -> ClassLayers | None:
 
 
 class ClassLayers:
-    """The layers of the classes in a file, which can be replaced.
+    """The layers of classes in a file, which can be replaced.
 
     Parameters
     ----------
@@ -92,7 +91,7 @@ class ClassLayers:
     chunks : list of Chunk
         As given.
     moved : dict of int to tuple of int
-        Where each that was written begins in the output, and its bytes there, by its `place`.
+        Position and size in the output of each written chunk, by its `place`.
     """
 
     def __init__(self, layout: LasFile, chunks: list[Chunk]) -> None:
@@ -102,28 +101,28 @@ class ClassLayers:
     def write(
         self, file: BinaryIO, classes: np.ndarray, cloud: PointCloud | None = None
     ) -> Iterator[float]:
-        """Write the points with other classes, from where the file stands.
+        """Write the points with new classes, at the current position of the file.
 
         Parameters
         ----------
         file : file object
-            The output, after header and VLRs, which say the same of the compression.
+            The output, after header and VLRs, which describe the same compression.
         classes : numpy.ndarray of uint8, shape (n,)
             The class of each point.
         cloud : PointCloud, optional
-            The points; if it is not given or holds but some of them, the returns are read again.
+            The points. If it is not given or holds only some points, the returns are read again.
 
         Yields
         ------
         float
-            Share of the points that are written.
+            Share of the points written so far.
 
         Raises
         ------
         BareEarthError
             If the file is damaged.
         OSError
-            If nothing more can be written.
+            If the output cannot be written.
         """
         import lazrs
 
@@ -152,7 +151,7 @@ class ClassLayers:
         file.seek(0, io.SEEK_END)
 
     def _groups(self) -> list[list[Chunk]]:
-        """Return the chunks whose layers are made together."""
+        """Return chunks in groups whose layers are compressed together."""
         groups: list[list[Chunk]] = []
         for chunk in self.chunks:
             if not groups or chunk.end - groups[-1][0].start > _POINTS_A_GROUP:
@@ -163,24 +162,24 @@ class ClassLayers:
     def _write_chunk(
         self, source: BinaryIO, file: BinaryIO, chunk: Chunk, first_class: int, layer: bytes
     ) -> None:
-        """Copy a chunk with another layer of classes."""
+        """Copy a chunk with a new layer of classes."""
         data = source.read(chunk.size)
         if len(data) != chunk.size:
             raise damaged(self._layout.path)
         head = self._layout.chunk_head
         former, start = head.layer(CLASSES, data), bytearray(data[: head.size])
         start[_CLASS] = first_class
-        # The lengths of the layers follow the number of points.
+        # The lengths of the layers stand after the number of points.
         struct.pack_into("<I", start, head.record_length + 4 + 4 * CLASSES, len(layer))
-        data = memoryview(data)
-        for part in (start, data[head.size : former.start], layer, data[former.stop :]):
+        view = memoryview(data)
+        for part in (start, view[head.size : former.start], layer, view[former.stop :]):
             file.write(part)
 
 
 def _returns(
     layout: LasFile, groups: Iterable[Sequence[Chunk]], cloud: PointCloud | None
 ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-    """Yield, for each group of chunks, what of the points decides how classes are coded.
+    """Yield for each group of chunks the fields that decide how classes are coded.
 
     Yields
     ------
@@ -191,11 +190,12 @@ def _returns(
         most = max(piece.stop - piece.start for piece in pieces)
         for records in read_records(layout, most, columns=(), pieces=pieces):
             points = named(layout, records)
-            yield tuple(np.asarray(points[name]) for name in _DECISIVE)
+            first, second, third = (np.asarray(points[name]) for name in _DECISIVE)
+            yield first, second, third
         return
-    columns = [getattr(cloud, name) for name in _DECISIVE]
     for piece in pieces:
-        yield tuple(column[piece] for column in columns)
+        first, second, third = (getattr(cloud, name)[piece] for name in _DECISIVE)
+        yield first, second, third
 
 
 def _new_layers(
@@ -205,7 +205,7 @@ def _new_layers(
     classes: np.ndarray,
     chunks: Sequence[slice],
 ) -> Iterator[bytes]:
-    """Yield the layer of the classes for each chunk of some points."""
+    """Yield the layer of classes of each chunk."""
     head = ChunkHead(RECORD_LENGTHS[_FORMAT], LAYERS[POINT_14])
     points = np.zeros((len(classes), head.record_length), dtype=np.uint8)
     is_only = (return_number == 1) & (number_of_returns <= 1)

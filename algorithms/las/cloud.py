@@ -1,4 +1,4 @@
-"""A point cloud in memory: the columns that a classification needs, and nothing else."""
+"""A point cloud in memory, with the columns that a classification needs."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from .lasfile import LasFile
 _POINTS_A_PART = 1 << 15
 # Points of the parts of a cloud.
 _PART = 1 << 19
-# Times as many points as are wanted that may be read with them.
+# At most so many times the wanted points are read in one go.
 _LOOSE = 4
-# Units of the CRS of which the origin of a cloud's own frame is a multiple.
+# The origin of the frame of a cloud is a multiple of so many units of the CRS.
 _ORIGINS = 10_000.0
-# Share of the scale by which offsets may differ from a multiple of it: they are rounded numbers.
+# Offsets may differ from a multiple of the scale by this share of it, due to rounding.
 _WHOLE = 0.01
 
 
@@ -35,29 +35,29 @@ class PointCloud:
     Attributes
     ----------
     path : Path
-        Where the points come from.
+        The file of the points.
     x, y, z : numpy.ndarray of int32, shape (n,)
-        Coordinates as the file has them.
+        Coordinates as in the file.
     scale, offset : tuple of float
         A coordinate in the CRS is the integer times scale plus offset, each for x, y and z.
     classification : numpy.ndarray of uint8, shape (n,)
         Class of each point.
     return_number, number_of_returns : numpy.ndarray of uint8, shape (n,)
-        The how manieth of how many returns of its pulse a point is.
+        Return number of each point, and number of returns of its pulse.
     withheld : numpy.ndarray of bool, shape (n,)
-        Points that the producer wants left out.
+        Points that the producer excluded.
     point_format : int
         LAS point format, 0 to 10.
     crs : Crs
-        What is known of the coordinate reference system.
+        The coordinate reference system.
     scanner_channel : numpy.ndarray of uint8, shape (n,), optional
-        The scanner channel of each point, where the point format has it (6 to 10) and it was read.
+        Scanner channel of each point, if the point format has it (6 to 10) and it was read.
     remembered : numpy.ndarray of uint8, shape (n,), optional
-        The class that a run gave each point, where the file has the dimension `REMEMBERED`.
+        The class that an earlier run gave each point, if the file has the dimension `REMEMBERED`.
     records : numpy.ndarray of uint8, shape (n, record length), optional
-        The points as the file has them, where they were kept to be written again.
+        The records of the file, if they were kept for writing.
     file : LasFile, optional
-        The file as it was when the points were read.
+        The opened file.
     """
 
     path: Path
@@ -83,7 +83,7 @@ class PointCloud:
         return len(self.x)
 
     def parts(self) -> Iterator[tuple[slice, PointCloud]]:
-        """Yield the points some at a time, without their records, and where they stand."""
+        """Yield indices and points part by part, without the records."""
         columns = {
             name: value
             for name, value in vars(self).items()
@@ -108,7 +108,7 @@ class PointCloud:
         """The smallest x and y, and the largest."""
 
         def extremes(part: slice) -> list[tuple[int, int]]:
-            # Among records they are far apart: together once, not twice.
+            # Coordinates among records are far apart in memory, so they are copied once.
             x, y = (np.ascontiguousarray(each[part]) for each in (self.x, self.y))
             return [(int(x.min()), int(y.min())), (int(x.max()), int(y.max()))]
 
@@ -118,7 +118,7 @@ class PointCloud:
 
     @property
     def frame(self) -> Frame:
-        """The local metres of `points`: that of the CRS with an origin near the smallest x and y.
+        """The default frame of `points`, with its origin near the smallest x and y.
 
         The origin is a multiple of a large number, so that it hardly depends on the extent.
         """
@@ -136,27 +136,27 @@ class PointCloud:
         which : numpy.ndarray or slice
             Boolean mask or indices of the points to return.
         frame : Frame, optional
-            That of a survey of which this file is a part; `frame` if none is given. Files of one
-            scale give equal numbers for equal places, whatever their offsets.
+            The frame of the survey; by default `frame`. Files with equal scales give equal numbers
+            for equal places, whatever their offsets.
 
         Raises
         ------
         BareEarthError
-            If the CRS is not a projected one.
+            If the CRS is not projected.
         """
         return Points(*self._metres(which, frame, 3))
 
     def places(
         self, which: np.ndarray | slice, frame: Frame | None = None
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Return the same x and y as `points`, without the heights."""
+        """Return x and y as in `points`, without the heights."""
         x, y = self._metres(which, frame, 2)
         return x, y
 
     def _metres(
         self, which: np.ndarray | slice, frame: Frame | None, count: int
     ) -> list[np.ndarray]:
-        """Return the first one, two or three coordinates of points."""
+        """Return the first one, two or three coordinates of points in metres."""
         self.require_projected()
         if isinstance(which, np.ndarray) and which.dtype == bool:
             which = np.flatnonzero(which)
@@ -175,7 +175,7 @@ class PointCloud:
         return metres
 
     def bounds(self, frame: Frame) -> tuple[float, float, float, float]:
-        """Return smallest x and y, largest x and y in metres of a frame, as `points` has them."""
+        """Return smallest x and y, largest x and y in metres of a frame, as in `points`."""
         corners = np.empty((2, 2))
         for axis, lowest_and_highest, target in zip(
             self._axes(frame), zip(self.lowest, self.highest), corners.T
@@ -192,12 +192,12 @@ class PointCloud:
         ]
 
     def require_projected(self) -> None:
-        """Refuse coordinates in degrees, on which no distance can be measured.
+        """Refuse coordinates in degrees, in which distances cannot be measured.
 
         Raises
         ------
         BareEarthError
-            If the CRS is not a projected one.
+            If the CRS is not projected.
         """
         if self.crs.is_geographic:
             raise BareEarthError(
@@ -209,24 +209,24 @@ class PointCloud:
 
 
 def survey_frame(crs: Crs) -> Frame:
-    """Return the frame in which the blocks of any survey lie: that of the CRS and its zero."""
+    """Return the frame of a survey and its blocks, with its origin at (0, 0) of the CRS."""
     return Frame((0.0, 0.0), crs.horizontal_unit, crs.vertical_unit, crs.wkt)
 
 
 class _Axis(NamedTuple):
-    """How integers become metres.
+    """Converts integers to metres.
 
-    The offset is added to the integers where it is a multiple of the scale: no digit is lost,
-    wherever the survey lies, and equal places give equal numbers, whatever the offset.
+    If the offset is a multiple of the scale, it is added to the integers. So no digits are lost,
+    and equal places give equal numbers, whatever the offset.
 
     Attributes
     ----------
     whole : float
         Added to the integers.
     scale : float
-        Metres in one of them.
+        Metres in one unit of the integers.
     rest : float
-        Metres added at last.
+        Metres added at the end.
     """
 
     whole: float
@@ -240,7 +240,7 @@ class _Axis(NamedTuple):
         return cls(whole - before, scale * unit, (rest - beyond) * unit)
 
     def convert(self, integers: np.ndarray, metres: np.ndarray) -> None:
-        """Write the metres of integers into an array."""
+        """Convert integers to metres, into an array."""
         metres[:] = integers
         metres += self.whole
         metres *= self.scale
@@ -249,17 +249,17 @@ class _Axis(NamedTuple):
 
 
 def _multiple(value: float, scale: float) -> tuple[float, float]:
-    """Return how many times a scale is in a value, as a whole number, and the rest."""
+    """Return a value as a whole number of scales and the rest."""
     whole = float(np.rint(value / scale))
     rest = value - whole * scale
     return whole, rest if abs(rest) > _WHOLE * scale else 0.0
 
 
 def _picked(columns: Sequence[np.ndarray], which: np.ndarray | slice) -> list[np.ndarray]:
-    """Return the values of some columns at some places."""
+    """Return the values of columns at some indices."""
     if isinstance(which, np.ndarray):
         first, last = int(which.min()), int(which.max())
-        # Mostly they stand close together, in order: what lies between is read in one go.
+        # If indices are ordered and close together, all values between are read in one go.
         if last - first < _LOOSE * len(which):
             near, places = slice(first, last + 1), (which - first).astype(np.intp)
             return [np.ascontiguousarray(each[near]).take(places) for each in columns]

@@ -1,8 +1,8 @@
-"""Writing COPC: LAZ whose points are sorted into an octree, so that a viewer reads what it shows.
+"""Writes COPC: LAZ with the points sorted into an octree, so that viewers read only what they show.
 
-lazrs compresses the nodes, and the few records that make a LAZ file a COPC file are written here.
+lazrs compresses the nodes. The few records that make a LAZ file a COPC file are written here.
 copclib is not used: on a full disk it ends the whole process, QGIS included (`std::terminate` from
-a destructor, version 2.6.3), and it keeps no records that it does not know.
+a destructor, version 2.6.3), and it drops records that it does not know.
 
 References
 ----------
@@ -50,8 +50,8 @@ from .sources import open_source
 # Most points compressed at a time.
 _BATCH = 1_000_000
 
-# A row of the hierarchy: depth, x, y and z of a node, then where its points begin, how many bytes
-# they take and how many they are; -1 points where the rest of the branch stands on another page.
+# An entry of the hierarchy: depth, x, y and z of a node, then the position, size in bytes and
+# number of its points. If the number is -1, the rest of the branch is on another page.
 HIERARCHY_ENTRY = np.dtype([("key", "<i4", 4), ("start", "<u8"), ("size", "<i4"), ("count", "<i4")])
 
 
@@ -61,23 +61,22 @@ def write_copc(
     progress: Progress = SILENT,
     memory: int | None = None,
 ) -> None:
-    """Write a file as COPC, with other values of its points.
+    """Write a file with its changes as COPC.
 
-    The order of the points changes; scale, offset, integers, extra bytes and the records stay, but
-    for what is to change.
+    The order of the points changes. Scale, offset, integers, extra bytes and records stay, except
+    for the changes.
 
     Parameters
     ----------
     rewriting : EditedFile
-        The input, and what changes in it.
+        The input and its changes.
     target : Path
         The file to make.
     progress : Progress
-        Told what COPC cannot hold.
+        Receives progress, and warnings about what COPC cannot hold.
     memory : int, optional
-        About how many bytes this may take. Points that need more wait in a temporary file beside
-        the target. As many as all points need, if it is not given. The output does not depend
-        on it.
+        About how many bytes of memory to use. Further points wait in a temporary file beside the
+        target. By default all points are in memory. The output does not depend on it.
 
     Raises
     ------
@@ -86,7 +85,7 @@ def write_copc(
     OSError
         If the output, or the temporary file, cannot be written.
     Cancelled
-        If the user asked to stop; a half written file is left to the caller.
+        If the user asked to stop. The caller removes the incomplete file.
     """
     layout = rewriting.target
     point_format = NEW_FORMATS[layout.point_format]
@@ -108,7 +107,7 @@ def write_copc(
         header = new_header(layout, point_format, statistics)
         fields.POINTS_START.put(header, start)
         fields.VLR_COUNT.put(header, len(vlrs))
-        # One record more behind the points, for the hierarchy.
+        # One more record behind the points, for the hierarchy.
         fields.EVLR_START.put(header, end)
         fields.EVLR_COUNT.put(header, len(evlrs) + 1)
         file.seek(0)
@@ -117,7 +116,7 @@ def write_copc(
 
 
 def _sorted(rewriting: EditedFile, statistics: Statistics, room: Room) -> BranchPoints:
-    """Return the points as they are to be, in a format that COPC takes, ready for the octree."""
+    """Return the changed points in a format of COPC, sorted for the octree."""
     layout, start = rewriting.target, 0
     if layout.count <= room.most:
         records = np.zeros((layout.count, record_length(layout)), dtype=np.uint8)
@@ -128,7 +127,7 @@ def _sorted(rewriting: EditedFile, statistics: Statistics, room: Room) -> Branch
             room.progress.move(0.3 * done)
         room.progress.move(0.3, 0.4)
         return SortedPoints.of(TOP, records, statistics.cube, progress=room.progress)
-    # If the header is right about where the points are, they are read but once.
+    # If the extent in the header is right, the points are read only once.
     room.cube = stated_cube(layout)
     points = WaitingPoints(TOP, _parts(rewriting, room, (0.0, 0.3), statistics), room)
     if statistics.cube != room.cube:
@@ -143,7 +142,7 @@ def _parts(
     share: tuple[float, float],
     statistics: Statistics | None = None,
 ) -> Iterator[np.ndarray]:
-    """Yield the points as they are to be, not too many at a time, and count them if wanted."""
+    """Yield the changed points part by part, and count them if wanted."""
     layout, (start, end) = rewriting.target, share
     for old, classes, done in rewriting.points():
         if statistics is not None:
@@ -178,7 +177,7 @@ def _write_nodes(file: BinaryIO, laszip: Vlr, points: BranchPoints, room: Room) 
 def _batches(
     nodes: Iterable[tuple[Branch, np.ndarray]], least: int
 ) -> Iterator[list[tuple[Branch, np.ndarray]]]:
-    """Yield nodes that have so many points together, or a few more."""
+    """Yield nodes in batches of about the same number of points."""
     batch, count = [], 0
     for node in nodes:
         batch.append(node)

@@ -1,4 +1,4 @@
-"""What COPC wants of a file: its point formats, header and records."""
+"""Point formats, header and records of COPC."""
 
 from __future__ import annotations
 
@@ -24,21 +24,18 @@ from .lasfile import (
     new_vlr,
     text_of,
 )
-from .records import Tally, column, laszip_vlr, named
+from .records import Tally, as_points, laszip_vlr, named
 
 _GPS_TIME_TYPE, _SYNTHETIC_RETURNS, _WKT = 0x01, 0x08, 0x10
 _WAVEFORM_DESCRIPTORS = range(100, 355)
-# Where a record has its GPS time, its colours and its near infrared, by point format.
-_GPS_TIMES = {1: 20, 3: 20, 4: 20, 5: 20}
-_COLOURS = {2: 20, 3: 28, 5: 28}
 _WITH_WAVEFORMS = (4, 5, 9, 10)
 NEW_FORMATS = (6, 6, 7, 7, 6, 7, 6, 7, 8, 6, 8)
-# Degrees to the unit of scan angles since LAS 1.4.
+# Degrees in one unit of scan angles since LAS 1.4.
 _ANGLE_UNIT = 0.006
 
 
 class Statistics(Tally):
-    """Counts what header and info record say of points."""
+    """Counts what header and info record state about points."""
 
     def __init__(self, layout: LasFile) -> None:
         super().__init__(layout)
@@ -50,14 +47,14 @@ class Statistics(Tally):
         points = named(self._layout, records)
         if "gps_time" in points.point_format.dimension_names:
             times = np.asarray(points["gps_time"])
-            # Damaged times must not make the whole range useless.
+            # Damaged times must not spoil the range.
             known = np.isfinite(times)
             self._first = float(times.min(where=known, initial=self._first))
             self._last = float(times.max(where=known, initial=self._last))
 
     @property
     def gps_time(self) -> tuple[float, float]:
-        """The smallest and the largest; 0 and 0 where no point has any."""
+        """The smallest and the largest GPS time; 0 and 0 if there are none."""
         return (self._first, self._last) if self._first <= self._last else (0.0, 0.0)
 
     @property
@@ -70,8 +67,8 @@ class Statistics(Tally):
     def cube(self) -> Cube:
         """The cube of the octree.
 
-        Some readers take the smallest coordinates in the header for its corner, whatever the info
-        record says: here they are.
+        Its corner has the smallest coordinates of the header, since some readers take these instead
+        of the corner in the info record.
         """
         (lowest, highest), scale = self.extent, self._layout.scale
         side = max(float((highest - lowest).max()), *scale)
@@ -79,7 +76,7 @@ class Statistics(Tally):
 
 
 def stated_cube(layout: LasFile) -> Cube:
-    """Return the cube of the octree, if the header of a file is right about its points."""
+    """Return the cube of the octree if the extent in the header is right."""
     stated = Statistics(layout)
     stated.lowest = stated.highest = np.zeros(3)
     if layout.states_extent:
@@ -90,55 +87,44 @@ def stated_cube(layout: LasFile) -> Cube:
 
 
 def record_length(layout: LasFile) -> int:
-    """Return the bytes of a point of a file once it is COPC."""
+    """Return the record length of a file after it was converted to COPC."""
     return RECORD_LENGTHS[NEW_FORMATS[layout.point_format]] + layout.extra_bytes
 
 
 def convert(layout: LasFile, old: np.ndarray, classes: np.ndarray, new: np.ndarray) -> None:
-    """Put points, with other classes, into records of a format that COPC takes.
+    """Convert points with new classes to a point format of COPC.
 
     Parameters
     ----------
     layout : LasFile
-        The file whose point format the old records have.
+        The file of the old records.
     old : numpy.ndarray of uint8, shape (n, record length)
         Records.
     classes : numpy.ndarray of uint8, shape (n,)
         The new classes.
     new : numpy.ndarray of uint8, shape (n, new record length)
-        Zeros, to be filled.
+        Zeros, which are filled.
     """
     length = RECORD_LENGTHS[NEW_FORMATS[layout.point_format]]
     if layout.point_format >= FIRST_EXTENDED_FORMAT:
-        # 9 and 10 are 6 and 8 with waveforms behind.
+        # Formats 9 and 10 are 6 and 8, followed by waveforms.
         new[:, :length] = old[:, :length]
     else:
-        _modernise(old, new, layout.point_format)
+        _modernise(layout, old, new)
     new[:, length:] = old[:, RECORD_LENGTHS[layout.point_format] :]
     new[:, 16] = classes
 
 
-def _modernise(old: np.ndarray, new: np.ndarray, point_format: int) -> None:
-    """Put points of the formats 0 to 5 into records of the formats 6 and 7, but for the class."""
-    new[:, :14] = old[:, :14]  # x, y, z, intensity
-    bits = old[:, 14]
-    new[:, 14] = (bits & 0x07) | ((bits & 0x38) << 1)  # return number, number of returns
-    # Synthetic, key point, withheld; scan direction and edge of flight line.
-    new[:, 15] = (old[:, 15] >> 5) | (bits & 0xC0)
-    new[:, 17] = old[:, 17]  # user data
-    angles = old[:, 16].view(np.int8) / _ANGLE_UNIT
-    column(new, 18, "<i2")[:] = np.rint(angles)
-    new[:, 20:22] = old[:, 18:20]  # point source
-    if point_format in _GPS_TIMES:
-        start = _GPS_TIMES[point_format]
-        new[:, 22:30] = old[:, start : start + 8]
-    if point_format in _COLOURS:
-        start = _COLOURS[point_format]
-        new[:, 30:36] = old[:, start : start + 6]
+def _modernise(layout: LasFile, old: np.ndarray, new: np.ndarray) -> None:
+    """Convert points of the formats 0 to 5 to the formats 6 and 7."""
+    before = named(layout, old)
+    after = as_points(NEW_FORMATS[layout.point_format], [("extra", layout.extra_bytes)], new)
+    after.copy_fields_from(before)
+    after["scan_angle"] = np.rint(before["scan_angle_rank"] / _ANGLE_UNIT)
 
 
 def new_header(layout: LasFile, point_format: int, statistics: Statistics) -> bytearray:
-    """Return a header of LAS 1.4 that says what that of the input said, but not what lies where."""
+    """Return the header of the input as LAS 1.4, still without positions of points and records."""
     header = bytearray(fields.HEADER_SIZES[4])
     until = fields.EXTENT.start
     header[:until] = layout.header[:until]
@@ -147,7 +133,7 @@ def new_header(layout: LasFile, point_format: int, statistics: Statistics) -> by
     fields.GLOBAL_ENCODING.put(header, encoding)
     fields.VERSION.put(header, 1, 4)
     fields.HEADER_SIZE.put(header, len(header))
-    # The old fields for numbers of points, of 32 bits, stay empty since the formats from 6 on.
+    # The old 32 bit numbers of points are 0 for formats 6 and higher.
     fields.LEGACY_COUNT.put(header, 0)
     fields.LEGACY_RETURNS.put(header, *[0] * 5)
     fields.POINT_FORMAT.put(header, point_format | 0x80)
@@ -161,7 +147,7 @@ def new_header(layout: LasFile, point_format: int, statistics: Statistics) -> by
 
 
 def new_vlrs(layout: LasFile, point_format: int, progress: Progress) -> list[Vlr]:
-    """Return the records before the points; the first is the info record, to be filled in."""
+    """Return the records before the points. The first is the info record, still empty."""
     kept = [vlr for vlr in layout.vlrs if _is_kept(vlr)]
     wkt = _wkt(layout, progress)
     if wkt is not None:
@@ -172,12 +158,12 @@ def new_vlrs(layout: LasFile, point_format: int, progress: Progress) -> list[Vlr
 
 
 def kept_evlrs(layout: LasFile) -> list[Evlr]:
-    """Return the records behind the points that still hold."""
+    """Return the records behind the points that are still valid."""
     return [evlr for evlr in layout.evlrs if _is_kept(evlr)]
 
 
 def _is_kept(record: Vlr | Evlr) -> bool:
-    """Return whether a record still holds; those of COPC and LAZ are made anew."""
+    """Return whether a record is still valid; those of COPC and LAZ are made again."""
     user, number = record.key
     if user == "LASF_Spec" and number in _WAVEFORM_DESCRIPTORS:
         return False
@@ -185,7 +171,7 @@ def _is_kept(record: Vlr | Evlr) -> bool:
 
 
 def _wkt(layout: LasFile, progress: Progress) -> Vlr | None:
-    """Return the record of the CRS as well-known text, the only way that COPC has for it."""
+    """Return the record of the CRS as well-known text, which COPC requires."""
     crs = read_crs(layout)
     text = compound_wkt(crs)
     if text is None:
@@ -210,7 +196,7 @@ def _wkt(layout: LasFile, progress: Progress) -> Vlr | None:
 
 
 def tell_of_format(layout: LasFile, point_format: int, progress: Progress) -> None:
-    """Tell what becomes other, and what is lost."""
+    """Report what changes and what is lost."""
     if layout.point_format in _WITH_WAVEFORMS:
         progress.warning(
             f"COPC cannot hold the waveforms of point format {layout.point_format}: they are left"

@@ -1,4 +1,4 @@
-"""The index of a COPC file whose chunks take up other bytes than before, and nothing else.
+"""The index of a COPC file whose chunks change in size but not in order.
 
 References
 ----------
@@ -16,12 +16,12 @@ from .class_layers import Chunk
 from .copc_nodes import OctreeError, read_hierarchy, read_pages
 from .lasfile import COPC_EXTENTS, COPC_INFO, VLR_HEADER, LasFile
 
-# Where the info record says where the first page of the hierarchy begins.
+# Position of the start of the first page in the info record.
 _ROOT = 40
 
 
 class CopcIndex:
-    """The pages of the hierarchy, which say where the points of each node are.
+    """The pages of the hierarchy, which give the position of the points of each node.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ class CopcIndex:
     Raises
     ------
     OctreeError
-        If the index is damaged, or would no longer be true.
+        If the index is damaged or cannot be kept.
     """
 
     def __init__(self, layout: LasFile) -> None:
@@ -50,16 +50,16 @@ class CopcIndex:
         return known.issuperset(zip(*columns))
 
     def write(self, file: BinaryIO, moved: Mapping[int, tuple[int, int]], shift: int) -> None:
-        """Write the index into a file that has the records of this one.
+        """Write the index into a file with the same records.
 
         Parameters
         ----------
         file : file object
             The file.
         moved : mapping of int to tuple of int
-            Where each chunk begins and how many bytes it takes, by where it began.
+            New position and size of each chunk, by its old position.
         shift : int
-            By how many bytes the records behind the points lie further on.
+            Number of bytes by which the records behind the points have moved.
         """
         for start, entries in self._pages.items():
             entries = entries.copy()

@@ -1,7 +1,7 @@
-"""Reading of COPC those nodes of its octree that a window touches.
+"""Reads the nodes of a COPC octree that a window touches.
 
-laspy has a reader of COPC too, which is not used: it decompresses the whole window at once, does
-not notice a file that is cut off, and runs for ever where a page of the hierarchy names itself.
+The COPC reader of laspy is not used: it decompresses the whole window at once, does not notice a
+truncated file, and never ends if a page of the hierarchy refers to itself.
 
 References
 ----------
@@ -29,19 +29,19 @@ if TYPE_CHECKING:
 
 # Points decompressed at once.
 _BATCH = 1_000_000
-# Writers round coordinates after they sorted the points into nodes: so many steps of the scale may
-# a point lie outside of its cube.
+# A point may lie outside its cube by so many steps of the scale, since writers round coordinates
+# after they have sorted the points into nodes.
 _ROUNDING_STEPS = 2
 _DEEPEST = 30
 
 
 class OctreeError(BareEarthError):
-    """The octree cannot be relied on; the points may well be read all the same, as LAZ."""
+    """The octree is damaged. The points can perhaps still be read as LAZ."""
 
 
 @dataclass(frozen=True)
 class Hierarchy:
-    """The cube around the points, and where the list of its nodes begins.
+    """The cube of an octree, and the position of its first page.
 
     Attributes
     ----------
@@ -60,11 +60,11 @@ class Hierarchy:
 
     @property
     def tolerance(self) -> float:
-        """How far a point may lie outside of the cube of its node."""
+        """How far a point may lie outside the cube of its node."""
         return _ROUNDING_STEPS * max(self.layout.scale[:2])
 
     def squares(self, keys: np.ndarray) -> np.ndarray:
-        """Return what the cubes of nodes cover in the plane, and a little more.
+        """Return the squares of nodes in the plane, with a tolerance.
 
         Parameters
         ----------
@@ -84,14 +84,15 @@ class Hierarchy:
 
 
 def read_hierarchy(layout: LasFile) -> Hierarchy:
-    """Read where the octree of a COPC file lies.
+    """Read the cube and the position of the octree of a COPC file.
 
     Raises
     ------
     OctreeError
-        If the file does not say so, or does not fit its own header.
+        If they are missing or do not agree with the header.
     """
-    data = layout.vlr(COPC_INFO).data or b""
+    info = layout.vlr(COPC_INFO)
+    data = (info.data if info else None) or b""
     if len(data) < 56:
         raise _octree_error(layout, "its description is cut off")
     x, y, z, half, _, start, size = struct.unpack_from("<5d2Q", data)
@@ -108,9 +109,9 @@ def read_hierarchy(layout: LasFile) -> Hierarchy:
 
 
 def find_nodes(hierarchy: Hierarchy, box: Box) -> np.ndarray:
-    """Return the nodes whose cubes touch a box, in the order in which the file has them.
+    """Return the nodes whose cubes touch a box, in file order.
 
-    Of the pages of the hierarchy only those are read whose branch touches the box.
+    Only pages whose branch touches the box are read.
 
     Parameters
     ----------
@@ -131,7 +132,7 @@ def find_nodes(hierarchy: Hierarchy, box: Box) -> np.ndarray:
     layout = hierarchy.layout
     found, total, is_whole = [], 0, True
     for _, entries, touch in _pages(hierarchy, lambda keys: _touching(hierarchy, keys, box)):
-        # All points of the pages that are read count, not only those of the nodes that are wanted.
+        # The points of all nodes on these pages count, not only those of the wanted nodes.
         total += int(np.maximum(entries["count"], 0).sum(dtype=np.int64))
         is_whole &= not (entries["count"][~touch] == -1).any()
         found.append(entries[touch & (entries["count"] > 0)])
@@ -150,7 +151,7 @@ def read_pages(hierarchy: Hierarchy) -> dict[int, np.ndarray]:
     Returns
     -------
     dict of int to numpy.ndarray of HIERARCHY_ENTRY
-        The entries of each page, by where it begins.
+        The entries of each page, by its position.
 
     Raises
     ------
@@ -178,7 +179,7 @@ def read_nodes(hierarchy: Hierarchy, nodes: np.ndarray) -> Iterator[laspy.Packed
     Raises
     ------
     OctreeError
-        If points do not lie in the cubes of their nodes: others may be missing.
+        If points lie outside the cubes of their nodes, so that others may be missing.
     BareEarthError
         If the points are damaged.
     """
@@ -195,9 +196,9 @@ def read_nodes(hierarchy: Hierarchy, nodes: np.ndarray) -> Iterator[laspy.Packed
 def _pages(
     hierarchy: Hierarchy, wanted: Callable[[np.ndarray], np.ndarray]
 ) -> Iterator[tuple[int, np.ndarray, np.ndarray]]:
-    """Yield where pages begin, their entries, and which of these are wanted, as their keys tell.
+    """Yield the positions of pages, their entries, and which of these are wanted.
 
-    The pages of branches that are not wanted are not read.
+    Pages of unwanted branches are not read.
     """
     layout, pages, seen = hierarchy.layout, [hierarchy.root], set()
     with open_source(layout.path) as file:
@@ -214,7 +215,7 @@ def _pages(
 
 
 def _read_page(layout: LasFile, file: BinaryIO, start: int, size: int) -> np.ndarray:
-    """Return the entries of a page of the hierarchy, all of which make sense."""
+    """Return the checked entries of a page of the hierarchy."""
     length = HIERARCHY_ENTRY.itemsize
     if size < length or size % length or start + size > layout.size:
         raise _octree_error(layout, "one of its pages lies outside of the file")
@@ -242,7 +243,7 @@ def _touching(hierarchy: Hierarchy, keys: np.ndarray, box: Box) -> np.ndarray:
 
 
 def _batches(nodes: np.ndarray) -> Iterator[np.ndarray]:
-    """Yield runs of nodes that have about `_BATCH` points together."""
+    """Yield nodes in batches of about `_BATCH` points."""
     counts = nodes["count"].astype(np.int64)
     numbers = (np.cumsum(counts) - counts) // _BATCH
     return (run for run in np.split(nodes, np.flatnonzero(np.diff(numbers)) + 1) if len(run))
@@ -274,7 +275,7 @@ def _decompress(layout: LasFile, file: BinaryIO, nodes: np.ndarray) -> np.ndarra
 
 
 def _check_places(hierarchy: Hierarchy, nodes: np.ndarray, chunk: laspy.PackedPointRecord) -> None:
-    """Compare the points of nodes with the cubes in which they should lie."""
+    """Check that the points of nodes lie in their cubes."""
     layout = hierarchy.layout
     starts = np.cumsum(nodes["count"], dtype=np.int64) - nodes["count"]
     squares = hierarchy.squares(nodes["key"])

@@ -1,9 +1,9 @@
-"""The octree of COPC: which node each point belongs to.
+"""The octree of COPC: finds the node of each point.
 
-Each node takes, of the points that the nodes above it left, the first in file order of each cell of
-its grid, and leaves the rest to its eight children. That the cells of a node lie within its
-children, and those of these within theirs, is what lets points be taken for several depths before
-it is known which nodes there are: only the counts say that, see `nodes_of`.
+Each node has a grid. In each cell it takes the first point in file order that no node above it has
+taken, and leaves all other points to its eight children. Each cell lies within one child. So the
+points of several depths can be found before it is known which nodes exist. Only the counts decide
+that, see `nodes_of`.
 
 References
 ----------
@@ -20,22 +20,21 @@ from ..core.progress import SILENT, Progress
 from ..core.threads import parts_of
 from .records import column
 
-# A node takes one point for each cell of a grid of so many cells along each side, ...
+# The grid of a node has 2 to the power of this cells along each side.
 _GRID_BITS = 7
-# ... or all of its points, where they are no more than these.
+# A node takes all points if there are at most so many.
 _LEAF_POINTS = 100_000
-# So few points are not worth a node: they stay with the node above.
+# So few points get no node of their own, but stay with the node above.
 _SMALL_NODE = 500
-# Cells along a side of the whole cube, the finest that are told apart; three times so many bits
-# have to fit into 64.
+# The cube has 2 to the power of this cells along each side. Three times so many bits fit into 64.
 _CUBE_BITS = 21
 _DEEPEST = _CUBE_BITS - _GRID_BITS
-# Depths for which points are taken at a time: no more than `_GRID_BITS`, or the cells of the first
-# would reach beyond the nodes below the last.
+# Number of depths for which points are taken at a time. With more than `_GRID_BITS`, the cells of
+# the first depth would be larger than the nodes below the last.
 _DEPTHS = 3
 # Points whose codes are computed at a time.
 _CODED = 1_000_000
-# Bytes that sorting takes a point, besides its record.
+# Bytes for sorting a point, beside its record.
 _BYTES_TO_SORT = 60
 
 
@@ -49,7 +48,7 @@ class Cube(NamedTuple):
     side : float
         Its edge.
     scale, offset : tuple of float
-        What makes coordinates of the integers of the points.
+        Scale and offset of the integers of the points.
     """
 
     corner: tuple[float, float, float]
@@ -63,9 +62,9 @@ class Cube(NamedTuple):
         return self.side / (1 << _GRID_BITS)
 
     def codes(self, records: np.ndarray, progress: Progress = SILENT) -> np.ndarray:
-        """Return where points lie, as Morton codes.
+        """Return the Morton codes of points.
 
-        Sorted by these, the points of any cell of any depth lie side by side.
+        When sorted by them, the points of each cell of each depth are consecutive.
 
         Parameters
         ----------
@@ -91,23 +90,23 @@ class Cube(NamedTuple):
 
 
 class Branch(NamedTuple):
-    """A node with all below it, by its depth and its number among the nodes of this depth."""
+    """A node with all nodes below it, by its depth and its number among the nodes of this depth."""
 
     depth: int
     number: int
 
     @property
     def depths(self) -> int:
-        """For how many depths its points are taken at a time."""
+        """Number of depths for which its points are taken at a time."""
         return min(_DEPTHS, _DEEPEST - self.depth)
 
     @property
     def cell_count(self) -> int:
-        """Branches below the last of these depths."""
+        """Number of branches below the last of these depths."""
         return 1 << 3 * self.depths
 
     def below(self, cell: int) -> Branch:
-        """Return one of these."""
+        """Return one of these branches."""
         return Branch(self.depth + self.depths, self.number * self.cell_count + cell)
 
 
@@ -115,38 +114,38 @@ TOP = Branch(0, 0)
 
 
 class BranchPoints(Protocol):
-    """The points of a branch, wherever they wait.
+    """The points of a branch, in memory or on disk.
 
     Attributes
     ----------
     branch : Branch
         The branch.
     counts : numpy.ndarray of int64, shape (depths + 1, cells)
-        Points that each of its depths takes in each branch below, if no node ends before; then
-        those that are left.
+        Numbers of points that each depth takes in each branch below, if no node above ends the
+        branch. The last row counts the points that are left.
     """
 
     branch: Branch
     counts: np.ndarray
 
     def records(self, groups: np.ndarray) -> np.ndarray:
-        """Return points in file order, given of which depths and branches as `counts` has them."""
+        """Return the points of some depths and branches, as in `counts`, in file order."""
 
     def below(self, cell: int) -> BranchPoints:
-        """Return what is left for a branch below."""
+        """Return the points that are left for a branch below."""
 
 
 def nodes_of(
     points: BranchPoints, depth: int = 0, cell: int = 0
 ) -> Iterator[tuple[Branch, np.ndarray]]:
-    """Yield the nodes of a branch and their points: each before the nodes below it.
+    """Yield the nodes of a branch with their points, each before the nodes below it.
 
     Parameters
     ----------
     points : BranchPoints
         The points of the branch.
     depth, cell : int
-        The node within the branch to begin with.
+        The first node, within the branch.
     """
     branch = points.branch
     width = 3 * (branch.depths - depth)
@@ -168,27 +167,27 @@ def nodes_of(
 
 
 class SortedPoints:
-    """The points of a branch in memory, sorted by the depths that take them and by branches below.
+    """The points of a branch in memory, sorted by the depths that take them and the branches below.
 
     Parameters
     ----------
     branch : Branch
         The branch.
     records : numpy.ndarray of uint8, shape (n, record length)
-        Points in file order, those of the branch among them.
+        Points in file order, including those of the branch.
     codes : numpy.ndarray of uint64, shape (k,)
         Codes of the points of the branch, ascending.
     order : numpy.ndarray of unsigned integers, shape (k,)
-        The row of `records` of each of them.
+        Their rows in `records`.
     taken : sequence of Taken
-        The cells of each depth of which points before these were taken.
+        The cells of each depth from which earlier points were taken.
     progress : Progress
         Receives progress.
 
     Attributes
     ----------
     branch, counts
-        As `BranchPoints` says.
+        As in `BranchPoints`.
     order : numpy.ndarray of unsigned integers, shape (k,)
         The rows, sorted.
     """
@@ -220,7 +219,7 @@ class SortedPoints:
         taken: Sequence[Taken] = (),
         progress: Progress = SILENT,
     ) -> SortedPoints:
-        """Sort all of some points, which are in file order."""
+        """Sort points that are in file order."""
         codes = cube.codes(records, progress.part(0.0, 0.4))
         order = np.argsort(codes, kind="stable").astype(np.min_scalar_type(len(codes)))
         progress(0.7)
@@ -228,13 +227,13 @@ class SortedPoints:
         return cls(branch, records, codes, order, taken, progress.part(0.75, 1.0))
 
     def records(self, groups: np.ndarray) -> np.ndarray:
-        """Return points in file order, given of which depths and branches."""
+        """Return the points of some depths and branches in file order."""
         rows = np.concatenate([self.order[start:end] for start, end in runs(self.counts, groups)])
         rows.sort()
         return self._records[rows]
 
     def below(self, cell: int) -> SortedPoints:
-        """Return what is left for a branch below."""
+        """Return the points that are left for a branch below."""
         start = self.counts[:-1].sum() + self.counts[-1, :cell].sum()
         end = start + self.counts[-1, cell]
         branch = self.branch.below(cell)
@@ -242,17 +241,17 @@ class SortedPoints:
 
 
 def most_in_memory(memory: int, record_length: int) -> int:
-    """Return how many points can be sorted in so many bytes; never less than a node may have."""
+    """Return how many points can be sorted in `memory` bytes; at least those of a node."""
     return max(memory // (record_length + _BYTES_TO_SORT), _LEAF_POINTS)
 
 
 class Taken:
-    """The cells of a depth of which points were taken, as bits.
+    """The cells of a depth from which points were taken, as bits.
 
     Parameters
     ----------
     depth : int
-        Counted from that of the branch.
+        Depth below that of the branch.
     """
 
     def __init__(self, depth: int) -> None:
@@ -260,7 +259,7 @@ class Taken:
         self._last, self._bits = np.uint64((1 << bits) - 1), np.zeros((1 << bits) // 8, np.uint8)
 
     def add(self, cells: np.ndarray) -> np.ndarray:
-        """Add cells, none of them twice; return which were not there."""
+        """Add distinct cells; return which of them are new."""
         cells = cells & self._last
         byte, bit = (cells >> np.uint64(3)).astype(np.intp), (cells & np.uint64(7)).astype(np.uint8)
         bit = np.left_shift(np.uint8(1), bit)
@@ -276,12 +275,12 @@ def _depths(
     taken: Sequence[Taken],
     progress: Progress,
 ) -> np.ndarray:
-    """Return which depth of a branch takes each point, if no node ends before.
+    """Return the depth of a branch that takes each point, if no node above ends the branch.
 
     Returns
     -------
     numpy.ndarray of uint16, shape (n,)
-        Counted from that of the branch; the number of its depths for points that are left.
+        Depths below that of the branch; the number of its depths for points that are left.
     """
     depths = np.full(len(codes), branch.depths, dtype=np.uint16)
     left = np.arange(len(codes), dtype=order.dtype)
@@ -289,7 +288,7 @@ def _depths(
         cells = codes[left] >> np.uint64(3 * (_DEEPEST - branch.depth - depth))
         starts = np.flatnonzero(np.concatenate(([True], cells[1:] != cells[:-1])))
         sizes, rows = np.diff(starts, append=len(cells)), order[left]
-        # The first of each cell, in the order of the file.
+        # The first point of each cell in file order.
         takes = rows == np.repeat(np.minimum.reduceat(rows, starts), sizes)
         if taken:
             takes &= np.repeat(taken[depth].add(cells[starts]), sizes)
@@ -302,7 +301,7 @@ def _depths(
 
 
 def runs(counts: np.ndarray, groups: np.ndarray) -> np.ndarray:
-    """Return start and end of some groups among sorted points, those side by side as one."""
+    """Return start and end of groups among sorted points; adjacent groups are joined."""
     edges = np.flatnonzero(np.diff(groups.ravel(), prepend=False, append=False))
     return np.concatenate(([0], np.cumsum(counts, dtype=np.int64)))[edges].reshape(-1, 2)
 
@@ -314,7 +313,7 @@ def keys_of(nodes: Sequence[Branch]) -> np.ndarray:
     return np.column_stack([depths, *axes]).astype(np.int32)
 
 
-# The steps that put two zero bits between the 21 bits of a number; known as Morton or z-order.
+# Steps that put two zero bits between the 21 bits of a number (Morton order).
 _SPREAD = (
     (32, 0x001F00000000FFFF),
     (16, 0x001F0000FF0000FF),

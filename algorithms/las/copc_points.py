@@ -1,8 +1,8 @@
-"""Points that wait in a temporary file for the octree of COPC, because they do not fit into memory.
+"""Points for the octree of COPC that do not fit into memory, in a temporary file.
 
-They are written some at a time, each time sorted as `SortedPoints` has them, with a number before
-each record that says where among these it stood. So the points of a node, or of a branch below,
-are a few runs of each time, and are put back into file order when they are read.
+They are written in parts. Each part is sorted as in `SortedPoints`, and each record is preceded by
+its index in the part. So the points of a node, or of a branch below, are a few runs of each part,
+and are put back into file order when they are read.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ from .records import column
 
 # Most points that are sorted and written at a time.
 _MOST_AT_ONCE = 500_000
-# Bytes of the number before each record.
+# Bytes of the index before each record.
 _NUMBER = 4
 
 
 class Steady(Progress):
-    """Tells how far the whole is; while a part goes on of which that is not known, the same again.
+    """Reports the progress of the whole, also during parts whose own progress is unknown.
 
     Parameters
     ----------
@@ -38,24 +38,24 @@ class Steady(Progress):
         self._whole, self._start, self._end = whole, 0.0, 0.0
 
     def move(self, start: float, end: float | None = None) -> None:
-        """Say how far the whole is; what is reported until the next call goes on to `end`."""
+        """Report the progress of the whole; until the next call it can rise to `end`."""
         self._start, self._end = start, start if end is None else end
         self._whole(start)
 
     def report(self, fraction: float) -> None:
-        """Say that the part goes on."""
+        """Report again, so that a cancel is noticed."""
         self._whole(self._start + fraction * (self._end - self._start))
 
 
 class Room:
-    """How many points may be in memory, and a temporary file without a name for the others.
+    """The number of points that may be in memory, and an unnamed temporary file for the others.
 
-    The file is gone as soon as the block ends, or the process, however that may be.
+    The system removes the file at the end of the block, or when the process ends.
 
     Parameters
     ----------
     folder : Path
-        Where the file is to be.
+        Folder of the file.
     most : int
         Points that may be in memory.
     progress : Progress
@@ -64,7 +64,7 @@ class Room:
     Attributes
     ----------
     cube : Cube
-        That of the octree, once it is known.
+        Cube of the octree, once it is known.
     """
 
     cube: Cube
@@ -82,11 +82,11 @@ class Room:
 
     @functools.cached_property
     def file(self) -> BinaryIO:
-        """The file, made when it is needed first."""
+        """The file, made at its first use."""
         return self._files.enter_context(tempfile.TemporaryFile(dir=self._folder))
 
     def clear(self, cube: Cube) -> None:
-        """Forget the points that wait; those that follow are for another cube."""
+        """Discard all points, since those that follow are for another cube."""
         self.file.truncate(0)
         self.cube = cube
 
@@ -99,21 +99,21 @@ class WaitingPoints:
     branch : Branch
         The branch.
     parts : iterable of numpy.ndarray of uint8, shape (k, record length)
-        Its points in file order, not too many at a time.
+        Its points in file order, part by part.
     room : Room
-        Where they wait.
+        Memory and file for the points.
 
     Attributes
     ----------
     branch, counts
-        As `BranchPoints` says.
+        As in `BranchPoints`.
     """
 
     def __init__(self, branch: Branch, parts: Iterable[np.ndarray], room: Room) -> None:
         self.branch, self._room = branch, room
         shape = branch.depths + 1, branch.cell_count
         self.counts = np.zeros(shape, dtype=np.int64)
-        # Where each part begins in the file, and its counts.
+        # Position of each part in the file, and its counts.
         self._parts: list[tuple[int, np.ndarray]] = []
         taken = [Taken(depth) for depth in range(branch.depths)]
         for records in parts:
@@ -127,7 +127,7 @@ class WaitingPoints:
             self._width = rows.shape[1]
 
     def records(self, groups: np.ndarray) -> np.ndarray:
-        """Return points in file order, given of which depths and branches."""
+        """Return the points of some depths and branches in file order."""
         records = np.empty((self.counts[groups].sum(), self._width - _NUMBER), dtype=np.uint8)
         start = 0
         for some in self._read(groups):
@@ -136,7 +136,7 @@ class WaitingPoints:
         return records
 
     def _read(self, groups: np.ndarray) -> Iterator[np.ndarray]:
-        """Yield points in file order, those of each part at a time."""
+        """Yield points in file order, part by part."""
         file, width = self._room.file, self._width
         for begin, counts in self._parts:
             rows, at = np.empty((counts[groups].sum(), width), dtype=np.uint8), 0
@@ -151,7 +151,7 @@ class WaitingPoints:
             self._room.progress(0.0)
 
     def below(self, cell: int) -> SortedPoints | WaitingPoints:
-        """Return what is left for a branch below: in memory, if it fits."""
+        """Return the points that are left for a branch below, in memory if they fit."""
         groups, branch = np.zeros(self.counts.shape, dtype=bool), self.branch.below(cell)
         groups[-1, cell] = True
         if self.counts[-1, cell] > self._room.most:
@@ -160,7 +160,7 @@ class WaitingPoints:
         return SortedPoints.of(branch, self.records(groups), room.cube, progress=room.progress)
 
     def _joined(self, groups: np.ndarray) -> Iterator[np.ndarray]:
-        """Yield points in file order, those of several parts together where they are few."""
+        """Yield points in file order; small parts are joined."""
         waiting: list[np.ndarray] = []
         count = 0
         for part in self._read(groups):

@@ -13,9 +13,9 @@ def sample_of(path: Path, dimension: str) -> np.ndarray:
     Parameters
     ----------
     path : Path
-        A COPC file that this package wrote: it is not checked.
+        A COPC file that this package wrote. It is not checked.
     dimension : str
-        What laspy calls it: "z" for heights in units of the CRS, or the name of an extra dimension.
+        Its name in laspy: "z" for heights in units of the CRS, or that of an extra dimension.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""The coordinate reference system that the records of a file state."""
+"""Reads the coordinate reference system from the records of a file."""
 
 from __future__ import annotations
 
@@ -11,24 +11,24 @@ from ..crs.system import Crs, crs_of_geokeys, crs_of_wkt
 from .lasfile import LasFile, text_of
 
 WKT_RECORD = ("LASF_Projection", 2112)
-# The directory of the keys, their numbers and their texts.
+# Records with the directory of GeoTIFF keys, their numbers and their texts.
 GEOKEY_RECORDS = tuple(("LASF_Projection", number) for number in (34735, 34736, 34737))
 _WKT_BIT = 0x10
 
 
 def read_crs(file: LasFile, progress: Progress = SILENT) -> Crs:
-    """Return the CRS that the records of a file state.
+    """Return the CRS from the records of a file.
 
-    Well-known text and GeoTIFF keys may both be there: the global encoding of the header says which
-    one holds, and the other is read where that one is not there or not understood. The files of a
-    survey state the same as a rule, which is then read once.
+    A file can have well-known text and GeoTIFF keys. The global encoding of the header decides
+    which one is valid. If that is missing or not understood, the other one is read. Most files of a
+    survey have equal records, which are read only once.
 
     Parameters
     ----------
     file : LasFile
         The file.
     progress : Progress
-        Told which units are assumed where none is stated.
+        Receives a message about units that are assumed.
     """
     records = (file.vlr(key) for key in (WKT_RECORD, *GEOKEY_RECORDS))
     content = tuple(record.data or b"" if record else b"" for record in records)
@@ -46,9 +46,9 @@ def read_crs(file: LasFile, progress: Progress = SILENT) -> Crs:
 def _stated(
     content: tuple[bytes, ...], is_wkt: bool, library: object
 ) -> tuple[Crs | None, tuple[tuple[str, str], ...]]:
-    """Return the CRS that records state, and what there is to tell of it.
+    """Return the CRS from records, with messages about it.
 
-    It depends on the library that knows EPSG codes, too.
+    The result also depends on the library for EPSG codes.
     """
     text, keys = text_of(content[0]), read_geokeys(*content[1:])
     readers = [

@@ -1,4 +1,4 @@
-"""What is to become other in the points of a file, and how that changes their bytes."""
+"""Changes of the points of a file, and their effect on the bytes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .records import MOST_KEPT, check_class, column, named, read_records
 
 @dataclass(frozen=True)
 class Edits:
-    """New values of points, each of shape (n,) in the order of the file; None where all stay.
+    """New values of points, of shape (n,) in file order; None for what does not change.
 
     Attributes
     ----------
@@ -26,11 +26,11 @@ class Edits:
     key_points : numpy.ndarray of int8 or None
         1 sets the flag for model key points, 0 clears it, -1 leaves it as it is.
     z : numpy.ndarray of int32 or None
-        Heights as integers, of the scale and offset that the file has.
+        Heights as integers in the scale and offset of the file.
     extra, remembered : ExtraDimension or None
         Dimensions in extra bytes.
     kept : numpy.ndarray of bool or None
-        The points that are written; all if it is not given.
+        Which points are written; by default all.
     """
 
     classification: np.ndarray | None = None
@@ -41,7 +41,7 @@ class Edits:
     kept: np.ndarray | None = None
 
     def columns(self) -> list[np.ndarray]:
-        """Return what is given."""
+        """Return the arrays that are given."""
         extra = [each.values for each in self.dimensions()]
         columns = self.classification, self.key_points, self.z, self.kept, *extra
         return [each for each in columns if each is not None]
@@ -52,26 +52,26 @@ class Edits:
 
 
 class EditedFile:
-    """A file and what becomes of it.
+    """A file with its changes.
 
     Parameters
     ----------
     source : LasFile
-        The file as it is.
+        The file.
     changes : Edits
-        What changes in its points.
+        The changes of its points.
     records : numpy.ndarray of uint8, shape (n, record length), optional
-        Its points, if they were kept when it was read; they are changed.
+        Its records, if they were kept when it was read. They are changed in place.
 
     Attributes
     ----------
     source, target : LasFile
-        The file as it is, and its header and records as they are to be.
+        The file, and the same with the header and records of the output.
 
     Raises
     ------
     BareEarthError
-        If the file is not the one that the changes are for, or cannot hold them.
+        If the changes do not fit the file.
     """
 
     def __init__(self, source: LasFile, changes: Edits, records: np.ndarray | None = None) -> None:
@@ -106,16 +106,16 @@ class EditedFile:
         return given[0] if len(given) == 1 and given[0] is self._changes.classification else None
 
     def points(self) -> Iterator[tuple[np.ndarray, np.ndarray, float]]:
-        """Yield the points that are written, by chunks: as they are to be, but for their classes.
+        """Yield the points to write part by part, with all changes but the classes.
 
         Yields
         ------
         records : numpy.ndarray of uint8, shape (k, record length of the target)
-            The next ones may reuse its memory.
+            The next part can reuse its memory.
         classes : numpy.ndarray of uint8, shape (k,)
-            What their classes are to be.
+            Their new classes.
         done : float
-            Share of the source that has been read.
+            Share of the source read so far.
         """
         start = 0
         for old in self._sources():
@@ -134,20 +134,20 @@ class EditedFile:
         return (self._records[piece] for piece in paced(len(self._records), MOST_KEPT))
 
     def check_classes(self) -> None:
-        """Refuse classes that the point format of the file has no room for."""
+        """Refuse classes that do not fit into the point format of the file."""
         classes = self._changes.classification
         if classes is not None:
             largest = int(classes.max())
             check_class(self.source.path, self.source.point_format, largest, "the ground")
 
     def _classes(self, records: np.ndarray, part: slice) -> np.ndarray:
-        """Return the classes that records are to have, which are that part of the points."""
+        """Return the new classes of records, which are the points of `part`."""
         if self._changes.classification is not None:
             return self._changes.classification[part]
         return np.asarray(named(self.target, records)["classification"])
 
     def _applied(self, records: np.ndarray, part: slice) -> np.ndarray:
-        """Return records as they are to be, but for their classes; may change them in place."""
+        """Return records with all changes but the classes; they may be changed in place."""
         if self.target.record_length > records.shape[1]:
             longer = np.empty((len(records), self.target.record_length), dtype=np.uint8)
             longer[:, : records.shape[1]] = records

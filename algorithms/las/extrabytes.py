@@ -1,7 +1,7 @@
-"""Extra bytes: what a file holds of each point beside what its point format defines.
+"""Extra bytes: values of each point beyond its point format.
 
-A record tells their names and types, 192 bytes for each dimension: see the table "Extra Bytes
-Descriptor" of the LAS 1.4 specification. LAS 1.0 to 1.3 do not know it, but programs read it there.
+A record describes their names and types, with 192 bytes for each dimension: see the table "Extra
+Bytes Descriptor" of the LAS 1.4 specification. Programs also read it in LAS 1.0 to 1.3.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _DESCRIPTOR = 192
 _SIZES = (0, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8)
 _KINDS = {9: "<f4", 10: "<f8"}
 _BYTE, _FLOAT = 1, 9
-# A byte: the class that a run gave. Where it differs from the class, somebody changed this since.
+# One byte with the class that a run gave. Where the class differs, it was changed by hand since.
 REMEMBERED = "BareEarthClass"
 _HAS_MINIMUM, _HAS_MAXIMUM, _HAS_SCALE, _HAS_OFFSET = 0x02, 0x04, 0x08, 0x10
 _LARGEST_RECORD = 65535
@@ -30,14 +30,14 @@ _UNDOCUMENTED, _MOST_UNDOCUMENTED = "undocumented", 255
 
 @dataclass(frozen=True)
 class ExtraDimension:
-    """A number for each point, to be kept in extra bytes.
+    """A number for each point, stored in extra bytes.
 
     Attributes
     ----------
     name, description : str
         Up to 32 bytes each.
     values : numpy.ndarray of float32 or uint8, shape (n,)
-        In the order of the file.
+        Values in file order.
     """
 
     name: str
@@ -47,35 +47,35 @@ class ExtraDimension:
 
 @dataclass(frozen=True)
 class Place:
-    """Where a dimension stands in the record of a point: from which byte on, and as what type."""
+    """First byte and type of a dimension in the record of a point."""
 
     start: int
     kind: np.dtype
 
 
 def place_dimension(layout: LasFile, dimension: ExtraDimension) -> tuple[LasFile, Place]:
-    """Find room for a dimension in the records of a file.
+    """Add a dimension to the records of a file.
 
     Parameters
     ----------
     layout : LasFile
-        The file as it is.
+        The file.
     dimension : ExtraDimension
-        What to add; a dimension of that name is replaced.
+        The dimension, which replaces one of the same name.
 
     Returns
     -------
     layout : LasFile
-        The file to be: with longer records, unless the dimension is there already, and with a
-        record that describes it.
+        The file with the dimension: with longer records, unless it exists already, and with its
+        description.
     place : Place
-        Where the dimension's values go.
+        Position of the values.
 
     Raises
     ------
     BareEarthError
-        If the record on the extra bytes does not fit the points, or a dimension of that name is
-        of another type: neither float nor double, or no byte.
+        If the description of the extra bytes does not fit the points, or a dimension of that name
+        has an unsuitable type.
     """
     descriptors = _descriptors(layout)
     if descriptors is None:
@@ -105,8 +105,8 @@ def place_dimension(layout: LasFile, dimension: ExtraDimension) -> tuple[LasFile
 def extra_dimensions(layout: LasFile) -> list[tuple[str, str, int]]:
     """Return name, type and bytes of each dimension in extra bytes, in the terms of PDAL.
 
-    The type is "unsigned", "signed" or "floating". Pairs and triples, which are deprecated, and
-    bytes that nothing is said of are left out.
+    The type is "unsigned", "signed" or "floating". Deprecated pairs and triples, and undescribed
+    bytes, are left out.
     """
     found = []
     for descriptor in _descriptors(layout) or ():
@@ -124,7 +124,7 @@ def extra_dimensions(layout: LasFile) -> list[tuple[str, str, int]]:
 
 
 def dimension_names(layout: LasFile) -> list[str]:
-    """Return the names of the dimensions in extra bytes, of which some may not be described."""
+    """Return the names of the dimensions in extra bytes, also of undescribed ones."""
     descriptors = _descriptors(layout) or []
     names = [text_of(each[4:36]) for each in descriptors if _size(each)]
     is_all = sum(map(_size, descriptors)) == layout.extra_bytes
@@ -132,9 +132,9 @@ def dimension_names(layout: LasFile) -> list[str]:
 
 
 def runs_of_bytes(layout: LasFile) -> list[tuple[str, int]]:
-    """Return the extra bytes of a point as runs, each with a name and its bytes.
+    """Return the extra bytes of a point as runs, each with its name and size.
 
-    The dimension `REMEMBERED` is a run of its own, if there is one.
+    The dimension `REMEMBERED`, if there is one, is a separate run.
     """
     count, start = layout.extra_bytes, 0
     for each in (_descriptors(layout) or ()) if count else ():
@@ -164,7 +164,7 @@ def _size(descriptor: bytes) -> int:
     kind, options = descriptor[2], descriptor[3]
     if kind == 0:
         return options
-    if kind > 30:  # reserved: not told how long, so whoever wrote it cannot be followed
+    if kind > 30:  # reserved, of unknown size
         return _LARGEST_RECORD
     return _SIZES[(kind - 1) % 10 + 1] * ((kind - 1) // 10 + 1)
 
@@ -196,7 +196,7 @@ def _descriptor(dimension: ExtraDimension, kind: int) -> bytes:
 
 
 def _with_record(layout: LasFile, descriptors: list[bytes]) -> LasFile:
-    """Return the layout with the descriptors in a VLR, where they were or behind the others."""
+    """Return the layout with the descriptors in a VLR, in their former place or at the end."""
     data = b"".join(descriptors)
     if len(data) > LARGEST_VLR:
         raise BareEarthError(f"{layout.path} has too many extra dimensions to add one.")
@@ -209,6 +209,6 @@ def _with_record(layout: LasFile, descriptors: list[bytes]) -> LasFile:
         vlrs[at] = Vlr(bytes(head) + data)
     else:
         vlrs.append(new_vlr(EXTRA_BYTES, data, "Extra Bytes Record"))
-    # Behind the points, where few look for it, it would contradict this one.
+    # A second record behind the points would contradict this one.
     evlrs = tuple(evlr for evlr in layout.evlrs if evlr.key != EXTRA_BYTES)
     return replace(layout, vlrs=tuple(vlrs), evlrs=evlrs)

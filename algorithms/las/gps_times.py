@@ -1,9 +1,9 @@
-"""GPS times that would end the process that decompresses them.
+"""Refuses damaged GPS times that would crash the decompressor.
 
-Where times jump between series, the decompressor of lazrs calls itself once for each jump that it
-reads, and sound files have one at a time. Of a block of bytes 0xFF, as broken disks give, it reads
-thousands of jumps from each byte, until its stack is full: that cannot be caught, and QGIS would go
-along. No sound file has such a block, for compressed bytes are as good as random.
+When times jump between series, the decompressor of lazrs calls itself once for each jump. Sound
+files have one jump at a time. From a block of bytes 0xFF, which broken disks can give, it reads
+thousands of jumps until its stack overflows. This cannot be caught, and would end QGIS as well. No
+sound file has such a block, because compressed bytes are nearly random.
 
 References
 ----------
@@ -19,19 +19,19 @@ from .lasfile import LasFile
 from .laszip import GPS_TIMES
 from .sources import damaged, open_source
 
-# With the stack that `algorithms.las` asks for, 32 of them do no harm yet, and 64 do.
+# With the stack size of `algorithms.las`, 32 of these bytes do no harm, and 64 do.
 _RUN = b"\xff" * 32
 _WITH_TIMES = (1, 3, 4, 5, 6, 7, 8, 9, 10)
 _BLOCK = 1 << 24
 
 
 def check_gps_times(layout: LasFile) -> None:
-    """Refuse a compressed file whose GPS times must not be decompressed.
+    """Refuse a compressed file whose GPS times would crash the decompressor.
 
     Raises
     ------
     BareEarthError
-        If there are such.
+        If there are such times.
     """
     if not layout.laszip or layout.point_format not in _WITH_TIMES:
         return

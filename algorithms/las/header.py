@@ -1,9 +1,9 @@
-"""Where the fields of the header of a LAS file are.
+"""Positions of the fields in the header of a LAS file.
 
 References
 ----------
-ASPRS LAS specifications 1.0 to 1.4, table "Public Header Block": a version adds fields at the end
-of that before it, and changes none.
+ASPRS LAS specifications 1.0 to 1.4, table "Public Header Block". Each version only adds fields at
+the end.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ class Field(NamedTuple):
     start : int
         Its first byte.
     layout : str
-        Its values, as `struct` names them.
+        Format of its values for `struct`.
     """
 
     start: int

@@ -1,4 +1,4 @@
-"""A file with another header: what has to be different there when its points are."""
+"""Changes of the header that follow from changes of the points."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ _LEGACY_RETURN_COUNT, _LAST_LEGACY_FORMAT = 5, 5
 
 
 def with_record_length(layout: LasFile, length: int) -> LasFile:
-    """Return the layout with another number of bytes for each point."""
+    """Return the layout with another record length."""
     header = bytearray(layout.header)
     fields.RECORD_LENGTH.put(header, length)
     return replace(layout, header=bytes(header))
 
 
 def with_z_range(layout: LasFile, lowest: int, highest: int) -> LasFile:
-    """Return the layout with another extent of the heights, which are given as integers."""
+    """Return the layout with another range of heights, given as integers."""
     header, scale, offset = bytearray(layout.header), layout.scale[2], layout.offset[2]
     extent = highest * scale + offset, lowest * scale + offset
     fields.Z_EXTENT.put(header, *extent)
@@ -46,7 +46,7 @@ def with_statistics(
     lowest, highest : sequence of int
         Smallest and largest x, y and z as integers.
     returns : sequence of int
-        How many first, second, ... returns there are; fifteen numbers.
+        Numbers of first, second, ... returns; fifteen numbers.
     """
     header = bytearray(layout.header)
     extent = [

@@ -1,7 +1,7 @@
-"""A LAS, LAZ or COPC file, opened once: what lies around its points.
+"""An opened LAS, LAZ or COPC file: everything but its points.
 
-laspy reads the same, but what it does not know gets lost when it writes a header: here every byte
-of the headers and records is kept.
+laspy reads this as well, but drops what it does not know when it writes a header. Here every byte
+of header and records is kept.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ COPC_HIERARCHY = ("copc", 1000)
 COPC_EXTENTS = ("copc", 10000)
 WAVEFORM_PACKETS = ("LASF_Spec", 65535)
 
-# Bytes of a record of each point format, before extra bytes.
+# Record length of each point format, without extra bytes.
 RECORD_LENGTHS = (20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67)
-# From this point format on, more classes and returns fit into a point.
+# From this point format on, points can have more classes and returns.
 FIRST_EXTENDED_FORMAT = 6
-# Integers of points have 32 bits; a few more, since extents are rounded.
+# The integers of points have 32 bits. A few more are allowed, since extents are rounded.
 _MOST_STEPS = (1 << 31) + 16
 
 
@@ -40,13 +40,13 @@ class Vlr:
 
     @property
     def key(self) -> tuple[str, int]:
-        """User id and record id, which together say what the record is."""
+        """User id and record id, which identify the kind of record."""
         user, number = struct.unpack_from("<16sH", self.raw, 2)
         return text_of(user), number
 
     @property
     def description(self) -> str:
-        """What the writer of the record says of it."""
+        """The description in the record."""
         return text_of(self.raw[22:54])
 
     @property
@@ -57,14 +57,14 @@ class Vlr:
 
 @dataclass(frozen=True)
 class Evlr:
-    """An extended variable length record; `data` is None where it is not kept.
+    """An extended variable length record; `data` is None if it was not read.
 
     Attributes
     ----------
     key : tuple of (str, int)
         User id and record id.
     start, length : int
-        Where the record begins in the file, and its bytes, header included.
+        Position of the record in the file, and its size with its header.
     """
 
     key: tuple[str, int]
@@ -76,26 +76,26 @@ class Evlr:
 
 @dataclass(frozen=True)
 class LasFile:
-    """A LAS, LAZ or COPC file: its header, its records and where its points are.
+    """A LAS, LAZ or COPC file: its header, its records and the position of its points.
 
     Attributes
     ----------
     path : Path
         The file.
     size : int
-        Its bytes.
+        Its size in bytes.
     header : bytes
-        The header, with the bytes that users may have added to it.
+        The header, with any bytes that users added.
     vlrs : tuple of Vlr
-        The records after it.
+        The records after the header.
     padding : bytes
-        What lies between the last VLR and the points.
+        The bytes between the last VLR and the points.
     evlrs : tuple of Evlr
         The records after the points (LAS 1.4).
     waveform_record : int
-        Where the waveform packets lie inside this file (LAS 1.3 and 1.4); 0 if they do not.
+        Position of waveform packets inside this file (LAS 1.3 and 1.4); 0 if there are none.
     state : FileState
-        By what it is seen that the file changed since.
+        State of the file, by which later changes are noticed.
     """
 
     path: Path
@@ -149,7 +149,7 @@ class LasFile:
 
     @property
     def extra_bytes(self) -> int:
-        """Bytes of one point that its format does not define."""
+        """Bytes of one point beyond its format."""
         return self.record_length - RECORD_LENGTHS[self.point_format]
 
     @property
@@ -160,40 +160,40 @@ class LasFile:
 
     @property
     def scale(self) -> tuple[float, float, float]:
-        """By what the integers of x, y and z are multiplied."""
+        """Factors of the integers of x, y and z."""
         return fields.SCALE.get(self.header)
 
     @property
     def offset(self) -> tuple[float, float, float]:
-        """What is then added to them."""
+        """Values that are then added."""
         return fields.OFFSET.get(self.header)
 
     @property
     def minimum(self) -> tuple[float, float, float]:
-        """Smallest x, y and z in units of the CRS, as the header has them: it may be wrong."""
+        """Smallest x, y and z in units of the CRS. These values of the header can be wrong."""
         return fields.EXTENT.get(self.header)[1::2]
 
     @property
     def maximum(self) -> tuple[float, float, float]:
-        """Largest x, y and z in units of the CRS, as the header has them: it may be wrong."""
+        """Largest x, y and z in units of the CRS. These values of the header can be wrong."""
         return fields.EXTENT.get(self.header)[0::2]
 
     @property
     def box(self) -> Box:
-        """Smallest x and y, largest x and y in units of the CRS, as the header has them."""
+        """Smallest x and y, largest x and y in the header, in units of the CRS."""
         return (*self.minimum[:2], *self.maximum[:2])
 
     @property
     def outer_box(self) -> Box:
-        """The box, wider by a step of the coordinates: headers are rounded."""
+        """The box, wider by one step of the coordinates, since headers are rounded."""
         (west, south, east, north), (x, y) = self.box, self.scale[:2]
         return west - x, south - y, east + x, north + y
 
     @property
     def states_extent(self) -> bool:
-        """Whether the extent in the header is one that the integers of points can have.
+        """Whether integers of points can have the extent in the header.
 
-        Heights only have to be numbers.
+        Heights only have to be finite.
         """
         corners = self.minimum, self.maximum
         return all(math.isfinite(corner[2]) for corner in corners) and all(
@@ -204,19 +204,19 @@ class LasFile:
 
     @property
     def points_start(self) -> int:
-        """Where the points begin."""
+        """Position of the points."""
         return fields.POINTS_START.get(self.header)
 
     @property
     def points_end(self) -> int:
-        """Where the points end, if they are not compressed."""
+        """End of the points, if they are not compressed."""
         return self.points_start + self.count * self.record_length
 
     @cached_property
     def tail_start(self) -> int:
-        """Where the first byte after the points lies that is to be kept.
+        """Position of the first byte after the points that is to be kept.
 
-        LAS: whatever follows the points. LAZ: the first of the EVLRs and the waveform packets, for
+        In LAS, it is the end of the points. In LAZ, it is the first EVLR or waveform packet, since
         the length of the chunk table before them is not known.
         """
         if not self.is_compressed:
@@ -226,7 +226,7 @@ class LasFile:
 
     @property
     def laszip(self) -> bytes | None:
-        """What the record before the points says of their compression; None if there is none."""
+        """The record with the compression of the points; None if there is none."""
         return next((vlr.data for vlr in self.vlrs if vlr.key == LASZIP), None)
 
     def vlr(self, *key: tuple[str, int]) -> Vlr | Evlr | None:
@@ -235,12 +235,12 @@ class LasFile:
         return next((each for each in records if each.key in key), None)
 
     def check_unchanged(self) -> None:
-        """Refuse a file that is another one than when it was opened.
+        """Refuse a file that has changed since it was opened.
 
         Raises
         ------
         BareEarthError
-            If its size, time, place on the disk, or what lies before its points differs.
+            If its size, time, place on the disk, or the bytes before its points differ.
         """
         with open_source(self.path) as file:
             before = b"".join((self.header, *(vlr.raw for vlr in self.vlrs), self.padding))
@@ -249,23 +249,23 @@ class LasFile:
 
     @property
     def layers(self) -> int:
-        """How many layers each chunk of compressed points has; 0 if it has none."""
+        """Number of layers of each chunk of compressed points; 0 if there are none."""
         compression = Compression.of(self.laszip or b"") if self.is_compressed else None
         return compression.layers if compression else 0
 
     @property
     def chunk_head(self) -> ChunkHead:
-        """What each chunk of compressed points begins with, if it has layers."""
+        """The head of the chunks of compressed points, if they have layers."""
         return ChunkHead(self.record_length, self.layers)
 
     @cached_property
     def chunk_table(self) -> list[tuple[int, int]]:
-        """Points and bytes of each chunk of a compressed file, as its chunk table says.
+        """Points and bytes of each chunk of a compressed file, from its chunk table.
 
         Raises
         ------
         BareEarthError
-            If the file cannot have such chunks.
+            If such chunks are impossible.
         """
         import lazrs
 
@@ -285,11 +285,11 @@ class LasFile:
 
     @property
     def _room(self) -> int:
-        """Most bytes that compressed points can have."""
+        """Largest possible size of the compressed points."""
         return self.size - self.points_start - 8
 
     def prefix(self, vlrs: tuple[Vlr, ...], compressed: bool) -> bytearray:
-        """Return header, the given VLRs and padding, with what follows from them mended."""
+        """Return header, the given VLRs and padding, with consistent counts and positions."""
         records = b"".join(vlr.raw for vlr in vlrs)
         prefix = bytearray(self.header + records + self.padding)
         fields.POINTS_START.put(prefix, len(prefix))
@@ -298,7 +298,7 @@ class LasFile:
         return prefix
 
     def kept_tail(self, *dropped: tuple[str, int]) -> list[tuple[int, int]]:
-        """Return the ranges of bytes after the points, without the EVLRs that have such a key."""
+        """Return the ranges of bytes after the points, without EVLRs that have one of the keys."""
         ranges, start = [], self.tail_start
         for evlr in self.evlrs:
             if evlr.key in dropped and evlr.start >= start:
@@ -307,20 +307,20 @@ class LasFile:
         return [*ranges, (start, self.size)]
 
     def pointers(self, tail: list[tuple[int, int]], new_start: int) -> dict[int, int]:
-        """Return what the header is to say of what follows the points, now that it has moved.
+        """Return the pointers of the header to what follows the points, after it was moved.
 
         Parameters
         ----------
         tail : list of tuple of int
             Ranges that are kept, as from `kept_tail`.
         new_start : int
-            Where the first of them begins now.
+            New position of the first range.
 
         Returns
         -------
         dict of int to int
-            The pointer to write at each place of the header. One that did not lead behind the
-            points (some writers leave stale ones) is not among them.
+            The pointer to write at each position in the header, without stale ones, which some
+            writers leave.
         """
         known = [fields.WAVEFORM_START, fields.EVLR_START][: max(self.minor_version - 2, 0)]
         found = {field.start: field.get(self.header) for field in known}
@@ -339,5 +339,5 @@ def new_vlr(key: tuple[str, int], data: bytes, description: str) -> Vlr:
 
 
 def text_of(field: bytes) -> str:
-    """Return the text in a field, which a zero may end."""
+    """Return the text in a field, up to the first zero."""
     return field.split(b"\0")[0].decode("utf-8", "replace").strip()

@@ -1,4 +1,4 @@
-"""Opening a LAS, LAZ or COPC file: its header and records are read and checked, not its points."""
+"""Opens LAS, LAZ and COPC files: reads and checks header and records, but no points."""
 
 from __future__ import annotations
 
@@ -23,19 +23,19 @@ from .laszip import Compression
 from .sources import FileState, damaged, open_source
 
 _MOST_EVLRS = 1_000_000
-# Records behind the points that are read: a survey may have thousands of files.
+# Records behind the points that are kept in memory; a survey can have thousands of files.
 _KEPT, _LARGEST_KEPT = ("LASF_Projection", "LASF_Spec"), 1 << 20
-# In units of the CRS: beyond these, coordinates are no numbers that can be calculated with.
+# Largest coordinate, in units of the CRS, with which calculations make sense.
 _SMALLEST_SCALE, _LARGEST_SCALE, _LARGEST_OFFSET = 1e-12, 1e6, 1e12
 
 
 def open_las(path: Path | LasFile) -> LasFile:
-    """Read what lies around the points of a file; what was read already is given back.
+    """Open a file and read everything but its points. An opened file is returned as it is.
 
     Raises
     ------
     BareEarthError
-        If it cannot be opened, is not LAS or LAZ, is cut off, or has no points.
+        If it cannot be opened, is not LAS or LAZ, is truncated, or has no points.
     """
     if isinstance(path, LasFile):
         return path
@@ -73,10 +73,10 @@ def _read_header(path: Path, file: BinaryIO, size: int) -> bytes:
 
 
 def _split_vlrs(block: bytes, count: int) -> tuple[tuple[Vlr, ...], bytes]:
-    """Split what lies between header and points into VLRs and padding.
+    """Split the bytes between header and points into VLRs and padding.
 
-    A record that does not fit, or more records announced than there are, end the list: points can
-    be read all the same.
+    The list ends at a record that does not fit, or if there are fewer records than announced. The
+    points can be read in spite of this.
     """
     vlrs: list[Vlr] = []
     start = 0
@@ -102,7 +102,7 @@ def _read_evlrs(file: BinaryIO, size: int, header: bytes) -> tuple[tuple[Evlr, .
             evlrs.append(evlr)
             start += evlr.length
     if minor >= 3:
-        # Some writers leave a stale pointer: only what is such a record at that place counts.
+        # Some writers leave a stale pointer, so the record there must be of the right kind.
         start = fields.WAVEFORM_START.get(header)
         evlr = _read_evlr(file, size, start) if start else None
         if evlr is not None and evlr.key == WAVEFORM_PACKETS:
@@ -125,7 +125,7 @@ def _read_evlr(file: BinaryIO, size: int, start: int) -> Evlr | None:
 
 
 def _check_points(layout: LasFile) -> None:
-    """Refuse what no points can be read of, or what would ask native code for the impossible."""
+    """Refuse files whose points cannot be read, or would crash native code."""
     path = layout.path
     if layout.point_format >= len(RECORD_LENGTHS):
         raise BareEarthError(
@@ -144,10 +144,10 @@ def _check_points(layout: LasFile) -> None:
 
 
 def _check_compressed(layout: LasFile) -> None:
-    """Check what tells a damaged LAZ file before any of it is decompressed.
+    """Refuse damaged LAZ files before anything is decompressed.
 
-    The first eight bytes of the points say where the chunk table lies, behind the points; writers
-    that could not go back leave -1 there, and say it in the last eight bytes of the file.
+    The first eight bytes of the points are the position of the chunk table behind the points.
+    Writers that cannot seek write -1 there, and the position in the last eight bytes of the file.
     """
     if layout.laszip is None:
         raise BareEarthError(

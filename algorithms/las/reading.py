@@ -1,4 +1,4 @@
-"""Reading LAS, LAZ and COPC files. COPC is LAZ in another order, and read as such."""
+"""Reads LAS, LAZ and COPC files. COPC is LAZ in another order, and is read as LAZ."""
 
 from __future__ import annotations
 
@@ -45,11 +45,11 @@ def read_cloud(
     Parameters
     ----------
     path : Path or LasFile
-        The file, or what `open_las` read of it.
+        The file, or what `open_las` returned for it.
     progress : Progress
-        Receives progress, and what is odd about the CRS.
+        Receives progress, and messages about the CRS.
     keep_records : bool
-        Keep all that the file says of each point, so that it need not be read again to be written.
+        Whether to keep the records, so that the file need not be read again for writing.
 
     Returns
     -------
@@ -68,7 +68,7 @@ def read_cloud(
     crs, start = read_crs(layout, progress), 0
     if keep_records:
         records = np.empty((layout.count, layout.record_length), dtype=np.uint8)
-        # x, y and z stay where they are among the records: a copy would be half as much again.
+        # x, y and z stay among the records: a copy would take half as much memory again.
         points = named(layout, records)
         coordinates = {name: points[source] for name, source in _COORDINATES.items()}
         cloud = _empty_cloud(layout, layout.count, crs, records=records, **coordinates)
@@ -84,7 +84,7 @@ def read_cloud(
 
 
 def read_parts(path: Path | LasFile, progress: Progress = SILENT) -> Iterator[PointCloud]:
-    """Read a file part by part, so that it need not fit into memory.
+    """Read a file part by part, if it may not fit into memory.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ def read_parts(path: Path | LasFile, progress: Progress = SILENT) -> Iterator[Po
     Yields
     ------
     PointCloud
-        The next points, in file order. The parts of a file are the same each time.
+        The next points in file order. The parts of a file are always the same.
 
     Raises
     ------
@@ -116,14 +116,14 @@ def read_parts(path: Path | LasFile, progress: Progress = SILENT) -> Iterator[Po
 
 @dataclass(frozen=True)
 class Description:
-    """What a file holds, for `bare-earth info`.
+    """The description of a file, for `bare-earth info`.
 
     Attributes
     ----------
     minimum, maximum : tuple of float
         Extent of the points in units of the CRS.
     density : float or None
-        Points per square metre of the extent; None where nothing can be measured.
+        Points per square metre of the extent; None if it cannot be measured.
     classes, returns : dict of int to int
         Number of points of each class, and of each return number.
     records : list of str
@@ -155,11 +155,11 @@ class Description:
     software: str
 
     def as_dict(self) -> dict[str, Any]:
-        """Return all of it as plain values."""
+        """Return the description as plain values."""
         return asdict(self)
 
     def lines(self) -> list[str]:
-        """Return all of it as lines of text for a terminal or a log."""
+        """Return the description as lines of text for a terminal or a log."""
         units = f"{unit_name(self.horizontal_unit)}, height {unit_name(self.vertical_unit)}"
         if self.is_geographic:
             units = "degree or geocentric: reproject before classifying"
@@ -236,19 +236,19 @@ def inspect(path: Path | LasFile, progress: Progress = SILENT) -> Description:
 
 
 def require_packages(layout: LasFile) -> None:
-    """Refuse to go on where a package that reads the file is missing."""
+    """Raise an error if a package for reading the file is missing."""
     require(*(("laspy", "lazrs") if layout.is_compressed else ("laspy",)))
 
 
 def read_chunks(layout: LasFile) -> Iterator[laspy.PackedPointRecord]:
-    """Yield all points, as many at a time in each run; the next ones reuse their memory."""
+    """Yield all points in parts, which are always the same. Parts share their memory."""
     pieces = parts_of(layout.count, _CHUNK)
     for records in read_records(layout, _CHUNK, columns=needed(layout), pieces=pieces):
         yield named(layout, records)
 
 
 def columns_of(layout: LasFile) -> dict[str, tuple[str, type]]:
-    """Return which columns of a `PointCloud` a file has: their names there, and their types."""
+    """Return names and types of the columns of a `PointCloud` that a file has."""
     columns = dict(_COLUMNS)
     if layout.point_format < FIRST_EXTENDED_FORMAT:
         del columns["scanner_channel"]
@@ -258,7 +258,7 @@ def columns_of(layout: LasFile) -> dict[str, tuple[str, type]]:
 
 
 def cloud_of(layout: LasFile, crs: Crs, **columns: np.ndarray) -> PointCloud:
-    """Return the cloud of some points of a file."""
+    """Return some points of a file as a cloud."""
     return PointCloud(
         path=layout.path,
         scale=layout.scale,
@@ -271,14 +271,14 @@ def cloud_of(layout: LasFile, crs: Crs, **columns: np.ndarray) -> PointCloud:
 
 
 def _empty_cloud(layout: LasFile, count: int, crs: Crs, **kept: np.ndarray) -> PointCloud:
-    """Return room for points, but for the columns that there are."""
+    """Return a cloud with uninitialised columns, beside the given ones."""
     kinds = {name: kind for name, (_, kind) in columns_of(layout).items() if name not in kept}
     empty = {name: np.empty(count, dtype=kind) for name, kind in kinds.items()}
     return cloud_of(layout, crs, **empty, **kept)
 
 
 def _fill(cloud: PointCloud, where: slice, points: laspy.PackedPointRecord) -> None:
-    """Put points into their place in a cloud; where their coordinates are kept, they are there."""
+    """Copy points into a part of a cloud, except for coordinates that stay among its records."""
     there = () if cloud.records is None else _COORDINATES
     names = {name: each for name, (each, _) in columns_of(cloud.file).items() if name not in there}
 

@@ -1,4 +1,4 @@
-"""Points as raw bytes, in and out of LAS and LAZ, by chunks."""
+"""Reads and writes points as raw bytes, in LAS and LAZ."""
 
 from __future__ import annotations
 
@@ -19,25 +19,25 @@ if TYPE_CHECKING:
     import lazrs
 
 _NEEDED, _REMEMBERED = ("Z", "CLASSIFICATION", "FLAGS"), "ALL_EXTRA_BYTES"
-# Most points at a time: where they go through a buffer, and where all of them are in memory.
+# Most points at a time, through a buffer and if all of them are in memory.
 _MOST, MOST_KEPT = 1_000_000, 8_000_000
 _BLOCK = 1 << 24
 _LARGEST_LEGACY_CLASS = 31
 
 
 def check_class(path: object, point_format: int, value: int, what: str) -> None:
-    """Refuse a class that the point format of a file has no room for.
+    """Refuse a class that does not fit into the point format of a file.
 
     Parameters
     ----------
     path : path-like
         The file.
     point_format : int
-        Its point format; 0 to 5 have five bits for the class.
+        Its point format. Formats 0 to 5 have five bits for the class.
     value : int
         The class.
     what : str
-        Whose class it is, as "the ground".
+        What the class is for, such as "the ground".
 
     Raises
     ------
@@ -52,15 +52,15 @@ def check_class(path: object, point_format: int, value: int, what: str) -> None:
 
 
 def needed(layout: LasFile) -> tuple[str, ...]:
-    """Return what a `PointCloud` has of points that are compressed by columns (formats 6 to 10).
+    """Return the layers of points (formats 6 to 10) that a `PointCloud` needs.
 
-    x, y, returns and scanner channel are not among it.
+    x, y, returns and scanner channel are always decompressed, and not in this list.
     """
     return (*_NEEDED, _REMEMBERED) if remembers(layout) else _NEEDED
 
 
 def selection_of(columns: Sequence[str]) -> lazrs.DecompressionSelection:
-    """Return what lazrs calls these columns of points, with those that are always decompressed."""
+    """Return layers as a selection of lazrs, with the layers that are always decompressed."""
     import lazrs
 
     selection = lazrs.SELECTIVE_DECOMPRESS_XY_RETURNS_CHANNEL
@@ -76,28 +76,28 @@ def read_records(
     columns: Sequence[str] | None = None,
     pieces: Iterable[slice] | None = None,
 ) -> Iterator[np.ndarray]:
-    """Yield the points of a file as their bytes.
+    """Yield the records of a file.
 
     Parameters
     ----------
     layout : LasFile
         The file.
     most : int
-        Most points to read at a time; fewer where that takes long.
+        Most points to read at a time; fewer if that takes long.
     into : numpy.ndarray of uint8, shape (n, record length), optional
-        Where to keep all of them.
+        Array for all records.
     columns : sequence of str, optional
-        Which columns are wanted of point formats that are compressed by columns, by their names in
-        `laspy.DecompressionSelection`, as `needed`; x, y, returns and the scanner channel always
-        are. All, if it is not given. What is in the others is not said.
+        Layers to decompress (formats 6 to 10), by their names in `laspy.DecompressionSelection`, as
+        in `needed`. x, y, returns and scanner channel always are. Other layers are undefined. By
+        default all are decompressed.
     pieces : iterable of slice, optional
-        Which points to read at a time, one piece after the other, none longer than `most`. As
-        many as are read in half a second or so, if it is not given.
+        Which points to read at a time, without gaps, none longer than `most`. By default about as
+        many as are read in half a second.
 
     Yields
     ------
     numpy.ndarray of uint8, shape (up to `most`, record length)
-        A writable array: a part of `into`, or one whose memory the next may reuse.
+        A writable array: a part of `into`, or one whose memory the next can reuse.
 
     Raises
     ------
@@ -120,31 +120,39 @@ def read_records(
 
 
 def named(layout: LasFile, records: np.ndarray) -> laspy.PackedPointRecord:
-    """Return points, given as their bytes, by the names that laspy has for their columns."""
+    """Return records as points of laspy, whose columns have names."""
+    return as_points(layout.point_format, runs_of_bytes(layout), records)
+
+
+def as_points(
+    point_format: int, extra: Iterable[tuple[str, int]], records: np.ndarray
+) -> laspy.PackedPointRecord:
+    """Return records as points of laspy; `extra` are names and sizes of the extra bytes."""
     import laspy
 
-    point_type = laspy.PointFormat(layout.point_format)
-    for name, size in runs_of_bytes(layout):
-        point_type.add_extra_dimension(laspy.ExtraBytesParams(name, f"{size}u1"))
+    point_type = laspy.PointFormat(point_format)
+    for name, size in extra:
+        if size:
+            point_type.add_extra_dimension(laspy.ExtraBytesParams(name, f"{size}u1"))
     return laspy.PackedPointRecord.from_buffer(records, point_type)
 
 
 def column(records: np.ndarray, start: int, kind: str | np.dtype) -> np.ndarray:
-    """Return the field at a byte of each record, as a view that may be written to."""
-    # numpy before 1.23 cannot view a few columns in another type, but it can view whole rows.
+    """Return the field that begins at a byte of each record, as a writable view."""
+    # numpy before 1.23 cannot view some columns as another type, but whole rows.
     row = {"names": ["field"], "formats": [kind], "offsets": [start]}
     return records.view(np.dtype({**row, "itemsize": records.shape[1]}))["field"][:, 0]
 
 
 class Tally:
-    """Counts what a header says of points, as they are written.
+    """Counts what a header states about points, while they are written.
 
     Attributes
     ----------
     lowest, highest : numpy.ndarray of int64, shape (3,)
         Smallest and largest x, y and z as integers.
     returns : numpy.ndarray of int64, shape (15,)
-        How many first, second, ... returns there were.
+        Numbers of first, second, ... returns.
     """
 
     def __init__(self, layout: LasFile) -> None:
@@ -155,7 +163,7 @@ class Tally:
         self.returns = np.zeros(15, dtype=np.int64)
 
     def add(self, records: np.ndarray) -> None:
-        """Count points, given as their bytes."""
+        """Count the points of some records."""
         if not len(records):
             return
         points = named(self._layout, records)
@@ -167,7 +175,7 @@ class Tally:
 
 
 class LasRecordWriter:
-    """Writes the bytes of points as they are."""
+    """Writes records uncompressed."""
 
     def __init__(self, file: BinaryIO) -> None:
         self._file = file
@@ -177,11 +185,11 @@ class LasRecordWriter:
         self._file.write(records.data)
 
     def finish(self) -> None:
-        """End the points."""
+        """Finish writing."""
 
 
 class LazRecordWriter:
-    """Compresses the bytes of points with lazrs."""
+    """Compresses records with lazrs."""
 
     def __init__(self, file: BinaryIO, laszip_vlr: Vlr) -> None:
         import lazrs
@@ -195,7 +203,7 @@ class LazRecordWriter:
         self._call(self._compressor.compress_many, records.reshape(-1))
 
     def write_chunks(self, chunks: list[np.ndarray]) -> None:
-        """Append points, each array as a chunk; only where chunks may differ in size."""
+        """Append points, each array as a chunk. Only for chunks of different sizes."""
         self._call(self._compressor.compress_chunks, [chunk.reshape(-1) for chunk in chunks])
 
     def finish(self) -> None:
@@ -203,13 +211,13 @@ class LazRecordWriter:
         self._call(self._compressor.done)
 
     def chunk_sizes(self, file: BinaryIO) -> list[int]:
-        """Return the bytes of each chunk in a finished file, which stands at its points."""
+        """Return the size of each chunk of a finished file, positioned at its points."""
         import lazrs
 
         return [size for _, size in lazrs.read_chunk_table(file, self._vlr)]
 
     def _call(self, function, *arguments):
-        """Call lazrs; raise what the file raised instead of what lazrs makes of it."""
+        """Call lazrs; raise the original error of the file instead of that of lazrs."""
         import lazrs
 
         try:
@@ -221,7 +229,7 @@ class LazRecordWriter:
 
 
 class _ErrorKeeper:
-    """A file that remembers its error, since lazrs passes on neither its kind nor its number."""
+    """A file that stores its error, since lazrs passes on neither its type nor its number."""
 
     def __init__(self, file: BinaryIO) -> None:
         self._file = file
@@ -248,19 +256,19 @@ class _ErrorKeeper:
 
 
 def laszip_vlr(point_format: int, extra_bytes: int, variable_chunks: bool = False) -> Vlr:
-    """Return the record that tells how lazrs compresses points.
+    """Return the LASzip record for compressing points.
 
     Parameters
     ----------
     point_format, extra_bytes : int
-        Format of the points, and the bytes of each that it does not define.
+        Format of the points, and number of extra bytes.
     variable_chunks : bool
-        Whether chunks may differ in their number of points.
+        Whether chunks can have different numbers of points.
 
     Raises
     ------
     BareEarthError
-        If the lazrs at hand does not know the format: 0.5 does not know those with waveforms.
+        If the installed lazrs does not know the format; 0.5 does not know those with waveforms.
     """
     import lazrs
 
@@ -281,7 +289,7 @@ def copy_range(source: BinaryIO, target: BinaryIO, start: int, end: int) -> None
     Raises
     ------
     BareEarthError
-        If there are not so many.
+        If the source ends before.
     """
     source.seek(start)
     while start < end:

@@ -1,4 +1,4 @@
-"""Opening input files, and telling in a sentence what is wrong with them."""
+"""Opens input files, and describes what is wrong with them."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from ..core.errors import BareEarthError
 
 
 def read_text(path: Path) -> str:
-    """Return what stands in a text file in UTF-8.
+    """Return the contents of a text file in UTF-8.
 
     Raises
     ------
     BareEarthError
         If it cannot be read.
     UnicodeDecodeError
-        If it is no such text.
+        If it is not UTF-8.
     """
     with open_source(path) as file:
         return file.read().decode("utf-8-sig")
@@ -31,13 +31,13 @@ def open_source(path: Path) -> BinaryIO:
     Raises
     ------
     BareEarthError
-        If it is missing, a folder, no ordinary file, or may not be read.
+        If it is missing, a folder or no ordinary file, or cannot be read.
     """
     try:
         kind = os.stat(path).st_mode
         if stat.S_ISDIR(kind):
             raise BareEarthError(f"{path} is a folder. Give a file.")
-        if not stat.S_ISREG(kind):  # to open a pipe would wait for somebody to write to it
+        if not stat.S_ISREG(kind):  # opening a pipe would wait until somebody writes to it
             raise BareEarthError(f"{path} is a pipe or a device, not a file. Give a file.")
         return open(path, "rb")
     except FileNotFoundError:
@@ -53,16 +53,16 @@ def open_source(path: Path) -> BinaryIO:
 
 
 class FileState(NamedTuple):
-    """By what it is seen that a file is still the same.
+    """The state of a file, which shows whether it has changed.
 
     Attributes
     ----------
     size : int
-        Its bytes.
+        Its size in bytes.
     modified : int
-        When it was written to, in nanoseconds.
+        Time of the last change, in nanoseconds.
     inode, device : int
-        Which file it is on which disk: another one may have taken its name.
+        The file and its disk, since another file can have replaced it.
     """
 
     size: int
@@ -77,21 +77,21 @@ class FileState(NamedTuple):
         return cls(now.st_size, now.st_mtime_ns, now.st_ino, now.st_dev)
 
     def is_same(self, other: FileState) -> bool:
-        """Return whether two states are those of one file that nobody wrote to between them.
+        """Return whether two states belong to the same, unchanged file.
 
-        Another computer of a cluster has other numbers for the same disk and file.
+        Other computers of a cluster have other inodes and devices for the same file.
         """
         is_here = self.device == other.device
         return self[:2] == other[:2] and (self.inode == other.inode or not is_here)
 
 
 def changed(path: Path) -> BareEarthError:
-    """Return the error for a file that is not what it was when it was first read."""
+    """Return the error for a file that has changed since it was first read."""
     return BareEarthError(f"{path} has changed while it was worked on. Run it again.")
 
 
 def damaged(path: Path) -> BareEarthError:
-    """Return the error for a file whose points cannot be read to their end."""
+    """Return the error for a file whose points cannot all be read."""
     return BareEarthError(
         f"{path} is damaged or cut off: not all of its points can be read. Copy or download it"
         " again."
@@ -100,10 +100,10 @@ def damaged(path: Path) -> BareEarthError:
 
 @contextlib.contextmanager
 def damage_told(path: Path) -> Iterator[None]:
-    """Turn whatever the libraries raise on a damaged file into one sentence.
+    """Turn all errors of the libraries on a damaged file into one sentence.
 
-    Wrap nothing but their calls in it: what they raise is of many kinds, and panics of the
-    decompressor, written in Rust, are not even exceptions of the usual sort.
+    Wrap only calls of these libraries: their errors have many types, and panics of the
+    decompressor, which is written in Rust, do not even derive from `Exception`.
     """
     try:
         yield

@@ -1,8 +1,8 @@
-"""Writing a cloud anew: the file as it was, with other classes, heights or extra bytes.
+"""Writes files with changed points: with other classes, heights or extra bytes.
 
-laspy says where the fields of a point are, but does not write here: it makes headers and records
-anew, and what it does not know gets lost. The bytes of the input are copied instead, and only those
-changed that have to.
+laspy gives the positions of the fields of a point, but does not write: it would make new headers
+and records, and drop what it does not know. Instead the bytes of the input are copied, and only
+the necessary ones are changed.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ _EXTENDED_WITH_WAVEFORMS = (9, 10)
 
 
 def check_writable(target: Path) -> None:
-    """Refuse, before any work is done, a file name or format that cannot be written here.
+    """Refuse, before any work is done, a file name or format that cannot be written.
 
     Raises
     ------
@@ -53,12 +53,12 @@ def check_writable(target: Path) -> None:
 def write_classified(
     source: Path | LasFile, target: Path, classification: np.ndarray, progress: Progress = SILENT
 ) -> None:
-    """Write `source` anew with other classes.
+    """Write `source` with other classes.
 
     Parameters
     ----------
     classification : numpy.ndarray of uint8, shape (n,)
-        The class of every point, in the order of `source`.
+        The class of every point, in file order.
     source, target, progress
         As for `write_changed`.
     """
@@ -73,35 +73,35 @@ def write_changed(
     cloud: PointCloud | None = None,
     memory: int | None = None,
 ) -> None:
-    """Write `source` anew with other values of its points.
+    """Write `source` with changes of its points.
 
-    Points are left out only if the changes say so; header and counts then speak of the rest. All
-    that is not to change stays: points, their order, integers and extra bytes, the header and
-    all records, but for what compressing or decompressing needs. Writing .copc.laz changes the
-    order of the points, and the point formats 0 to 5 to 6 to 8, as its specification wants.
+    Everything else stays: the order of the points, integers, extra bytes, header and records,
+    except for what compression needs. If the changes leave out points, header and counts describe
+    the others. For .copc.laz, the order of the points changes, and point formats 0 to 5 become 6
+    to 8, as its specification requires.
 
     Parameters
     ----------
     source : Path or LasFile
-        The input. If it is what `open_las` read of it before its points were read, or `cloud` is
-        given, a file that changed since is refused.
+        The input. If it was opened before its points were read, or `cloud` is given, a file that
+        has changed since is refused.
     target : Path
         The output: .las, .laz or .copc.laz.
     changes : Edits
-        What changes.
+        The changes.
     progress : Progress
-        Told what an output cannot hold.
+        Receives progress, and warnings about what the output cannot hold.
     cloud : PointCloud, optional
-        Points of `source`: if they are all, less of it is read again. Its records are changed
-        here, if they were kept.
+        Points of `source`. If it holds all of them, less is read again. Records that were kept are
+        changed in place.
     memory : int, optional
-        About how many bytes making a COPC file may take; as many as all points need, if it is not
-        given. Points that need more wait in a temporary file beside the target.
+        About how many bytes of memory to use for COPC. Further points wait in a temporary file
+        beside the target. By default all points are in memory.
 
     Raises
     ------
     BareEarthError
-        If the input cannot be read or the output not be written; nothing is left behind.
+        If the input cannot be read or the output cannot be written; nothing is left behind.
     Cancelled
         If the user asked to stop; nothing is left behind.
     """
@@ -133,14 +133,14 @@ def is_copc(target: Path) -> bool:
 
 
 class Kept(NamedTuple):
-    """What of a compressed file is known, so that all but the classes may be copied as it is.
+    """Positions in a compressed file that allow to copy everything but the classes.
 
     Attributes
     ----------
     layers : ClassLayers
-        Where the classes are.
+        The layers of classes.
     index : CopcIndex or None
-        That of a COPC file, if the output is one as well.
+        Index of a COPC file, if the output is COPC as well.
     """
 
     layers: ClassLayers
@@ -148,13 +148,12 @@ class Kept(NamedTuple):
 
 
 def layers_kept(source: LasFile, target: Path) -> Kept | None:
-    """Return what has to be known to write nothing of the points anew but their classes.
+    """Return what is needed to replace only the classes of a compressed file.
 
     Returns
     -------
     Kept or None
-        None where the output is of another kind than the source, or the source not compressed by
-        layers.
+        None if the output is of another kind than the source, or the source has no layers.
     """
     if target.suffix.lower() != ".laz" or is_copc(target) > source.is_copc:
         return None
@@ -171,7 +170,7 @@ def layers_kept(source: LasFile, target: Path) -> Kept | None:
 def _replace_classes(
     rewriting: EditedFile, kept: Kept, target: Path, progress: Progress, cloud: PointCloud | None
 ) -> None:
-    """Write a compressed file anew, nothing of whose points changes but the classes."""
+    """Write a compressed file, of whose points only the classes change."""
     layout, dropped = rewriting.target, ()
     if kept.index is None:
         _tell_of_index(layout, progress)
@@ -203,7 +202,7 @@ def _write(rewriting: EditedFile, target: Path, progress: Progress) -> None:
     vlrs = [vlr for vlr in layout.vlrs if vlr.key not in (LASZIP, COPC_INFO)]
     laszip = laszip_vlr(layout.point_format, layout.extra_bytes) if compressed else None
     if laszip is not None:
-        # Where the record was before, so that a file compressed anew differs in its points only.
+        # In its former place, so that a file that is compressed again differs only in its points.
         before = [vlr.key for vlr in layout.vlrs if vlr.key != COPC_INFO]
         vlrs.insert(before.index(LASZIP) if LASZIP in before else len(vlrs), laszip)
     with open(target, "w+b") as file:
@@ -224,7 +223,7 @@ def _write(rewriting: EditedFile, target: Path, progress: Progress) -> None:
             progress(done)
         writer.finish()
         if rewriting.leaves_out:
-            # What the header of the source says of all points would be wrong of some.
+            # The header of the source describes all points, not those that are left.
             layout = with_statistics(
                 layout, tally.lowest.tolist(), tally.highest.tolist(), tally.returns.tolist()
             )
@@ -234,10 +233,9 @@ def _write(rewriting: EditedFile, target: Path, progress: Progress) -> None:
 
 
 def _check_channels(layout: LasFile, channels: set[int]) -> None:
-    """Refuse what lazrs compresses wrongly.
+    """Refuse points that lazrs compresses wrongly.
 
-    It mixes up the waveform packets of points of several scanner channels (seen with 0.6.0 and
-    0.8.2; laszip compresses and both decompress them rightly).
+    It mixes up the waveform packets of several scanner channels (seen with 0.6.0 and 0.8.2).
     """
     if len(channels) > 1:
         raise BareEarthError(
@@ -247,7 +245,7 @@ def _check_channels(layout: LasFile, channels: set[int]) -> None:
 
 
 def _copy_tail(rewriting: EditedFile, file: BinaryIO, *dropped: tuple[str, int]) -> None:
-    """Copy what follows the points, but for some records; let the header say where it is now."""
+    """Copy what follows the points, except for some records, and update the header."""
     layout = rewriting.source
     kept = {evlr.key for evlr in rewriting.target.evlrs}
     tail = layout.kept_tail(*dropped, *(e.key for e in layout.evlrs if e.key not in kept))

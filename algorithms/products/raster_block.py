@@ -152,8 +152,8 @@ def _terrain(step: RasterStep, seen: Seen, progress: Progress) -> Made:
     points, core = seen.points.take(seen.ground), seen.core[seen.ground]
     if not points.count or not min(window.shape):
         return np.full(window.shape, np.nan, dtype=np.float32), _placed(points, corner, core)
-    anchor = tuple(at - by for at, by in zip(window.corner(cell), corner))
-    surface = DenseSurface(points, cell, anchor, progress.part(0.05, 0.3))
+    start_x, start_y = (at - by for at, by in zip(window.corner(cell), corner))
+    surface = DenseSurface(points, cell, (start_x, start_y), progress.part(0.05, 0.3))
     part = progress.part(0.3, 0.95)
     heights = surface.raster(window.shape, step.longest_edge, part)
     loose = np.zeros(points.count, dtype=bool)

@@ -111,8 +111,8 @@ the colour of its more frequent difference, the stronger the more of its points 
                 ]
                 others.append("none" if apart is None else f"{apart:.2f} m")
             cells = [percent(each.ground_share), f"{each.confidence:.0f} %", *others]
-            cells = "".join(f"<td>{cell}</td>" for cell in cells)
-            rows.append(f'<tr><th class="text">{text(each.label)}</th>{cells}</tr>')
+            row = "".join(f"<td>{cell}</td>" for cell in cells)
+            rows.append(f'<tr><th class="text">{text(each.label)}</th>{row}</tr>')
         return f"""<table>
 <tr><th class="text">Setting</th><th>Ground</th><th>Confidence</th><th>More ground</th>
 <th>Less ground</th><th>Terrain differs by</th></tr>

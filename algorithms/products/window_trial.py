@@ -49,7 +49,7 @@ class Window(NamedTuple):
     @property
     def shape(self) -> tuple[int, int]:
         """Rows and columns of the terrain."""
-        return tuple(math.ceil(side / self.cell_size) for side in (self.height, self.width))
+        return math.ceil(self.height / self.cell_size), math.ceil(self.width / self.cell_size)
 
     @property
     def strip(self) -> float:

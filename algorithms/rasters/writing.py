@@ -19,8 +19,10 @@ from .libraries import GdalErrors, library
 
 # Cells up to which a raster waits in memory until all of it is there; a file would take longer.
 _MOST_IN_MEMORY = 64_000_000
+# Cells along a side of a block of the file.
+BLOCK_SIDE = 256
 _OPTIONS = {
-    "COMPRESS": "DEFLATE", "PREDICTOR": "YES", "BLOCKSIZE": "256", "BIGTIFF": "IF_SAFER",
+    "COMPRESS": "DEFLATE", "PREDICTOR": "YES", "BLOCKSIZE": str(BLOCK_SIDE), "BIGTIFF": "IF_SAFER",
     "OVERVIEW_RESAMPLING": "AVERAGE", "NUM_THREADS": "ALL_CPUS",
 }  # fmt: skip
 _WAITING = {"TILED": "YES", "BIGTIFF": "IF_SAFER", "SPARSE_OK": "TRUE"}
@@ -61,6 +63,11 @@ class Band(NamedTuple):
     nodata: float
     description: str
 
+    @classmethod
+    def of(cls, grid: RasterGrid | Raster, nodata: float, shows: str) -> Band:
+        """Return the band of a grid, as `write_geotiff` writes it."""
+        return cls(nodata, shows.format(unit=unit_symbol(grid.frame.vertical_unit)))
+
 
 def write_geotiff(
     target: Path,
@@ -96,7 +103,7 @@ def write_geotiff(
     check_output(target)
     if isinstance(values, np.ndarray):
         values = Rows(values.shape, values.dtype.name, [values])
-    band = Band(nodata, shows.format(unit=unit_symbol(grid.frame.vertical_unit)))
+    band = Band.of(grid, nodata, shows)
     with replacing_raster(target) as temporary:
         _writer()(temporary, values, grid, band, progress)
 

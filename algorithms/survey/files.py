@@ -63,8 +63,9 @@ class Survey:
     @property
     def box(self) -> Box:
         """Smallest x and y, largest x and y of all tiles in units of the CRS."""
-        lowest, highest = self._boxes[:, :2].min(axis=0), self._boxes[:, 2:].max(axis=0)
-        return (*map(float, lowest), *map(float, highest))
+        west, south = self._boxes[:, :2].min(axis=0).tolist()
+        east, north = self._boxes[:, 2:].max(axis=0).tolist()
+        return west, south, east, north
 
     @cached_property
     def _boxes(self) -> np.ndarray:
@@ -140,7 +141,8 @@ def find_files(
     BareEarthError
         If a source is none of these, or there are no files.
     """
-    sources = [sources] if isinstance(sources, (str, os.PathLike)) else list(sources)
+    if isinstance(sources, (str, Path)):
+        sources = [Path(sources)]
     found: dict[str, Path] = {}
     for source in sources:
         for path in _expand(Path(source), recursive, progress):

@@ -380,6 +380,10 @@
         <translation>Korrekturen</translation>
     </message>
     <message>
+        <source>Cuts each raster of many files into one GeoTIFF for each file. They get the names of the files, in a folder with the name of the raster. A virtual raster (.vrt) beside this folder shows them as one.</source>
+        <translation>Zerschneidet jedes Raster vieler Dateien in ein GeoTIFF je Datei. Sie bekommen die Namen der Dateien, in einem Ordner mit dem Namen des Rasters. Ein virtuelles Raster (.vrt) neben diesem Ordner zeigt sie als eines.</translation>
+    </message>
+    <message>
         <source>Depth of low outliers</source>
         <translation>Tiefe tiefer Ausreißer</translation>
     </message>
@@ -940,6 +944,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>One pass for each threshold, the largest first. If two neighbouring cells differ by more than the threshold, the higher one is the rim of an object. Empty: from the preset.</source>
         <translation>Ein Durchgang für jede Schwelle, von der größten an. Wenn sich zwei benachbarte Zellen um mehr als die Schwelle unterscheiden, ist die höhere der Rand eines Objekts. Leer: aus der Voreinstellung.</translation>
+    </message>
+    <message>
+        <source>One raster for each file</source>
+        <translation>Ein Raster je Datei</translation>
     </message>
     <message>
         <source>Only key points</source>

@@ -380,6 +380,10 @@
         <translation>Corrections</translation>
     </message>
     <message>
+        <source>Cuts each raster of many files into one GeoTIFF for each file. They get the names of the files, in a folder with the name of the raster. A virtual raster (.vrt) beside this folder shows them as one.</source>
+        <translation>Découpe chaque raster de plusieurs fichiers en un GeoTIFF par fichier. Ils portent les noms des fichiers, dans un dossier au nom du raster. Un raster virtuel (.vrt) à côté de ce dossier les montre comme un seul.</translation>
+    </message>
+    <message>
         <source>Depth of low outliers</source>
         <translation>Profondeur des points aberrants bas</translation>
     </message>
@@ -940,6 +944,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>One pass for each threshold, the largest first. If two neighbouring cells differ by more than the threshold, the higher one is the rim of an object. Empty: from the preset.</source>
         <translation>Un passage pour chaque seuil, en partant du plus grand. Si deux cellules voisines diffèrent de plus que le seuil, la plus haute est le bord d'un objet. Vide : d'après le préréglage.</translation>
+    </message>
+    <message>
+        <source>One raster for each file</source>
+        <translation>Un raster par fichier</translation>
     </message>
     <message>
         <source>Only key points</source>

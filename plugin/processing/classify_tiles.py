@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from ...algorithms.engine.memory import Resources
-from ...algorithms.engine.options import TileInput, TileMethod, TileOutput
+from ...algorithms.engine.options import RasterOutput, TileInput, TileMethod, TileOutput
 from ...algorithms.engine.output import Output
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
@@ -14,7 +12,7 @@ from .area import add_limits, area_options, limits_of
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified
 from .inputs import CloudCrs, add_clouds, clouds_of, names_of
-from .outputs import TILES_STAY, add_rasters, add_tiles, raster_files, raster_paths
+from .outputs import TILES_STAY, add_rasters, add_tiles, raster_files, raster_paths, shown_rasters
 
 _NUMBERS = {
     "TILE_COUNT": "Tiles", "DONE_COUNT": "Classified tiles", "KEPT_COUNT": "Tiles kept",
@@ -27,17 +25,17 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
 
     identifier, page, section = "classifytiles", "classify-tiles", "Ground classification"
     title, run_name = "Classify ground (many files)", mark("classified files")
-    cancelled = TILES_STAY
+    cancelled, shown = TILES_STAY, ("method", "preset")
     summary = "Finds the ground points of the many files of a survey, without seams between them."
     about = (
         "Classifies the ground points of many files as if they were one file, and writes each file"
         " under its name into the output folder. A virtual point cloud (.vpc) lists the results."
     )
-    shown = "method", "preset"
 
     def parameter_sets(self):
         """Return method, points and classes, files, outputs, and what may be used."""
-        return TileMethod, Selection, TileInput, TileOutput, Output, TerrainModel, Resources
+        sets = TileMethod, Selection, TileInput, TileOutput, Output, TerrainModel, RasterOutput
+        return (*sets, Resources)
 
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""
@@ -66,14 +64,15 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         from ...algorithms.engine.requests import ClassifyRequest
 
         chosen, sources = self.chosen(parameters, context), self._sources
-        folder = Path(self.parameterAsFileOutput(parameters, "OUTPUT_FOLDER", context))
+        folder = self.parameterAsFileOutput(parameters, "OUTPUT_FOLDER", context)
         vpc = self.parameterAsFileOutput(parameters, "OUTPUT_VPC", context)
         paths = raster_paths(self, parameters, context)
-        words = [*map(str, sources), str(folder), *area_options(self._limits["area"], progress)]
+        words = [*map(str, sources), folder, *area_options(self._limits["area"], progress)]
         progress.command(command_line("classify-tiles", words, chosen, {"VPC": vpc, **paths}))
         request = ClassifyRequest.of(chosen, rasters=raster_files(paths), **self._limits)
         summary = classify_files(sources, folder, request, progress, vpc=vpc or None)
         progress.info(f"{summary.text}.")
+        paths = shown_rasters(paths, request.raster_output, context)
         show_classified(self, summary.vpc, (), request, context, progress)
         results = {name: getattr(summary, name.lower()) for name in _NUMBERS}
-        return {"OUTPUT_FOLDER": str(folder), "OUTPUT_VPC": summary.vpc, **paths, **results}
+        return {"OUTPUT_FOLDER": folder, "OUTPUT_VPC": summary.vpc, **paths, **results}

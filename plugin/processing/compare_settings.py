@@ -67,6 +67,8 @@ class CompareSettingsAlgorithm(BareEarthAlgorithm):
         page = self.parameterAsFileOutput(parameters, "OUTPUT", context)
         command = command_line("compare-settings", [str(self._source), page], chosen, {})
         progress.command(" ".join([command, "--extent", *map(repr, self._window)]))
-        sources = [self._source], Path(page), self._window
-        progress.info("\n".join(compare_settings(*sources, *chosen, progress).lines()))
+        options, resources = TrialOptions.among(chosen), Resources.among(chosen)
+        files = [self._source], Path(page)
+        summary = compare_settings(*files, self._window, options, resources, progress)
+        progress.info("\n".join(summary.lines()))
         return {"OUTPUT": page}

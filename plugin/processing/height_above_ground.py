@@ -48,12 +48,13 @@ class HeightAboveGroundAlgorithm(ProductAlgorithm):
         chosen = self.chosen(parameters, context)
         output = self.cloud_output(parameters, context, progress)
         progress.command(command_line("height", [str(self.source), output], chosen, {}))
-        summary = heights(self.source, Path(output), HeightRequest.of(chosen), progress)
+        request = HeightRequest.of(chosen)
+        summary = heights(self.source, Path(output), request, progress)
         progress.info(
             tr("Heights above ground are {low:.2f} to {high:.2f} {unit}.").format(
                 low=summary.minimum, high=summary.maximum, unit=summary.unit
             )
         )
-        attribute = "Z" if chosen[1].output_as == "z" else HEIGHT_DIMENSION
+        attribute = "Z" if request.output.output_as == "z" else HEIGHT_DIMENSION
         self.show(output, layers.heights(attribute, summary.maximum, summary.unit_size))
         return {"OUTPUT": output, **self.numbers_of(summary)}

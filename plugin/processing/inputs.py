@@ -27,6 +27,7 @@ from qgis.core import (
 from qgis.PyQt.QtCore import QUrl
 
 from ...algorithms.core.errors import BareEarthError
+from ...algorithms.core.files import split_name
 from ...algorithms.crs.system import Crs
 from ...algorithms.las.crs_records import read_crs
 from ...algorithms.las.opening import open_las
@@ -166,9 +167,7 @@ def survey_of(
 
 def name_of(path: Path) -> str:
     """Return the name of a file, or folder, without what says its format."""
-    suffixes = (".copc.laz", ".las", ".laz", ".vpc", ".txt", ".tif", ".tiff")
-    known = (each for each in suffixes if path.name.lower().endswith(each))
-    return path.name[: -len(next(known, "")) or None]
+    return split_name(path)[0]
 
 
 def names_of(paths: Sequence[Path]) -> str:

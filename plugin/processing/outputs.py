@@ -15,8 +15,9 @@ from qgis.core import (
     QgsProcessingParameterVectorDestination,
 )
 
+from ...algorithms.engine.options import RasterOutput
 from ...algorithms.engine.raster_files import RASTERS as MODELS
-from ...algorithms.engine.raster_files import RasterFiles
+from ...algorithms.engine.raster_files import RasterFiles, virtual_of
 from ...algorithms.las.backends import WRITING_COPC, missing_packages
 from ...algorithms.survey.files import is_one_file
 from .. import compat
@@ -104,6 +105,21 @@ def raster_paths(
             if path:
                 paths[name] = path
     return paths
+
+
+def shown_rasters(
+    paths: dict[str, str], output: RasterOutput, context: QgsProcessingContext
+) -> dict[str, str]:
+    """Return what QGIS is to load of the rasters of many files: the virtual ones, if there are."""
+    if not output.raster_per_file:
+        return paths
+    layers = context.layersToLoadOnCompletion()
+    found = {name: str(virtual_of(Path(path))) for name, path in paths.items()}
+    for name, path in paths.items():
+        if path in layers:
+            layers[found[name]] = layers.pop(path)
+    context.setLayersToLoadOnCompletion(layers)
+    return found
 
 
 def raster_files(paths: dict[str, str]) -> RasterFiles:

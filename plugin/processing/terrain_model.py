@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from ...algorithms.core.errors import BareEarthError
 from ...algorithms.engine.memory import Resources
+from ...algorithms.engine.options import RasterOutput
 from ...algorithms.products.surface_model import SurfaceModel
 from ...algorithms.products.terrain_model import TerrainModel
+from ...algorithms.survey.files import is_one_file
 from ...algorithms.survey.ground_classes import GroundClasses
 from ..i18n import mark, tr
 from .base import command_line
 from .constraints import add_constraints, constraints_of
 from .inputs import CloudCrs
-from .outputs import add_rasters, raster_files, raster_paths
+from .outputs import add_rasters, raster_files, raster_paths, shown_rasters
 from .products import ProductAlgorithm
 
 
@@ -33,7 +35,7 @@ class TerrainModelAlgorithm(ProductAlgorithm):
 
     def parameter_sets(self):
         """Return ground classes, cells and light, what makes the surface, and what may be used."""
-        return GroundClasses, TerrainModel, SurfaceModel, Resources
+        return GroundClasses, TerrainModel, SurfaceModel, RasterOutput, Resources
 
     def add_outputs(self):
         """Add what the terrain must respect, and the rasters; none of them has to be made."""
@@ -55,4 +57,6 @@ class TerrainModelAlgorithm(ProductAlgorithm):
         summary = terrain(self.source, request, progress)
         size = summary.columns, summary.rows
         progress.info(tr("The rasters have {:,} x {:,} cells.").format(*size))
+        if not is_one_file([self.source]):
+            paths = shown_rasters(paths, request.raster_output, context)
         return {**paths, **self.numbers_of(summary)}

@@ -16,7 +16,7 @@ from bare_earth.algorithms.engine import many_files, one_file
 from bare_earth.algorithms.engine.heights import HeightOutput
 from bare_earth.algorithms.engine.key_points import KeyPointMark
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.engine.options import TileInput, TileOutput
+from bare_earth.algorithms.engine.options import RasterOutput, TileInput, TileOutput
 from bare_earth.algorithms.engine.output import Output
 from bare_earth.algorithms.engine.rasters import RasterFiles
 from bare_earth.algorithms.engine.requests import (
@@ -78,11 +78,11 @@ def classify_file(
 def classify_tiles(
     sources, folder, parameters, selection=Selection(), files=TileInput(), output=TileOutput(),
     vpc=None, progress=SILENT, workers=None, blocks=None, rasters=RasterFiles(),
-    terrain=TerrainModel(), points=Output(),
+    terrain=TerrainModel(), points=Output(), per_file=False,
 ):  # fmt: skip
     request = ClassifyRequest(
         parameters=parameters, selection=selection, files=files, tiles=output, rasters=rasters,
-        terrain=terrain, output=points,
+        terrain=terrain, output=points, raster_output=RasterOutput(per_file),
     )  # fmt: skip
     return many_files.classify_files(sources, folder, request, progress, workers, vpc, blocks)
 
@@ -105,11 +105,12 @@ def write_key_points(
 
 def write_terrain_models(
     sources, files, ground=GroundClasses(), model=TerrainModel(), surface=SurfaceModel(),
-    resources=Resources(), progress=SILENT, workers=None,
+    resources=Resources(), progress=SILENT, workers=None, per_file=False,
 ):  # fmt: skip
     request = TerrainRequest(
-        rasters=files, ground=ground, terrain=model, surface=surface, resources=resources
-    )
+        rasters=files, ground=ground, terrain=model, surface=surface, resources=resources,
+        raster_output=RasterOutput(per_file),
+    )  # fmt: skip
     return terrain(sources, request, progress, workers)
 
 

@@ -251,3 +251,79 @@ def test_a_few_stray_points_do_not_make_a_huge_raster(tmp_path):
     far = np.array([0.0, 1e7, 1e7]), np.array([0.0, 1e7, 1.0]), np.zeros(3)
     with pytest.raises(BareEarthError, match="stray coordinates"):
         _made(_cloud(*far), tmp_path, cell=1.0)
+
+
+# One raster for each file
+
+
+@pytest.fixture
+def named(tmp_path):
+    names = "dtm", "hillshade", "chm"
+    return RasterFiles(**{name: tmp_path / f"{name}.tif" for name in names})
+
+
+def test_the_rasters_of_single_files_are_cut_from_that_of_all(survey, named, tmp_path):
+    write_terrain_models([survey / "many"], named)
+    whole = {name: _values(path) for name, path in named.wanted.items()}
+    for path in named.wanted.values():
+        path.unlink()
+    write_terrain_models([survey / "many"], named, per_file=True)
+    files = sorted(path.stem for path in (survey / "many").iterdir())
+    for name, (cells, at) in whole.items():
+        assert not (tmp_path / f"{name}.tif").exists()
+        assert sorted(path.stem for path in (tmp_path / name).iterdir()) == files
+        # Cells in gaps can differ by a rounding: they are interpolated in other groups.
+        most = 1 if cells.dtype == np.uint8 else 1e-4
+        for each in files:
+            with laspy.open(survey / "many" / f"{each}.laz") as reader:
+                west, north = reader.header.mins[0], reader.header.maxs[1]
+            part, place = _values(tmp_path / name / f"{each}.tif")
+            assert 0 <= west - place.c < 1.0 and 0 <= place.f - north < 1.0
+            column, row = round(place.c - at.c), round(at.f - place.f)
+            expected = cells[row:, column:][: part.shape[0], : part.shape[1]]
+            assert np.abs(part.astype(float) - expected).max() <= most
+        # Programs see all of them as one.
+        with rasterio.open(tmp_path / f"{name}.vrt") as joined:
+            assert joined.transform == at and joined.crs == part_crs(tmp_path / name)
+            seen, covered = joined.read(1), np.zeros(cells.shape, bool)
+            covered[seen != joined.nodata] = True
+            assert np.abs(seen.astype(float) - cells)[covered].max() <= most
+            # What lies between the extents of the files is in none of them.
+            assert 0.9 < np.mean(covered) / np.mean(cells != joined.nodata) <= 1.0
+
+
+def part_crs(folder):
+    with rasterio.open(next(folder.iterdir())) as raster:
+        return raster.crs
+
+
+def test_the_commands_make_one_raster_for_each_file(survey, tmp_path, threads_for_processes):
+    out = tmp_path / "out"
+    words = ["classify", survey / "many", out, "--method", "slope", "--dtm", out / "dtm.tif"]
+    assert main([*map(str, words), "--raster-per-file"]) == 0
+    assert len(list((out / "dtm").glob("*.tif"))) == 24 and (out / "dtm.vrt").exists()
+    words = ["terrain", survey / "many", "--dtm", tmp_path / "dtm.tif", "--raster-per-file"]
+    assert main([*map(str, words)]) == 0
+    assert len(list((tmp_path / "dtm").glob("*.tif"))) == 24
+    # One file has one raster in any case.
+    words = ["terrain", survey / "one.laz", "--dtm", tmp_path / "1.tif", "--raster-per-file"]
+    assert main([*map(str, words)]) == 0 and (tmp_path / "1.tif").exists()
+
+
+def test_rasters_of_single_files_that_would_do_harm_are_refused(survey, named, tmp_path):
+    (tmp_path / "dtm").write_bytes(b"")
+    with pytest.raises(BareEarthError, match="dtm: it is a file"):
+        write_terrain_models([survey / "many"], named, per_file=True)
+    (tmp_path / "dtm").unlink()
+    alike = [write(tmp_path / f"a.{suffix}", strip(300), classes=2) for suffix in ("las", "laz")]
+    with pytest.raises(BareEarthError, match=r"would both become a\.tif"):
+        write_terrain_models(alike, named, per_file=True)
+    with pytest.raises(BareEarthError, match=r"would both become a\.tif"):
+        classify_tiles(alike, tmp_path / "out", SlopeFilter(), rasters=named, per_file=True)
+    assert sorted(os.listdir(tmp_path)) == ["a.las", "a.laz"]
+
+
+def test_a_cancel_leaves_no_raster_and_no_folder_of_single_files(survey, named, tmp_path):
+    with pytest.raises(Cancelled):
+        write_terrain_models([survey / "many"], named, progress=CancelAt(0.97), per_file=True)
+    assert os.listdir(tmp_path) == []

@@ -1,6 +1,7 @@
 """What is made of many files in one go, and the public API."""
 
 import json
+import re
 import subprocess
 import sys
 from dataclasses import replace
@@ -151,6 +152,9 @@ def test_the_public_api_is_there_and_costs_nothing_before_it_is_used():
     text = Path(api.__file__).read_text(encoding="utf-8")
     typed = {line.split()[-1] for line in text.splitlines() if line.startswith("    from .")}
     assert {*api.__all__} - {"assess"} <= typed
+    page = (Path(api.__file__).parents[1] / "docs" / "api.md").read_text(encoding="utf-8")
+    shown = re.findall(r"^::: bare_earth\.algorithms\.(\w+)$", page, re.MULTILINE)
+    assert sorted(shown) == sorted({*api.__all__} - {"__version__"})
     code = (
         "import sys, bare_earth.algorithms; print('scipy' in sys.modules, 'numpy' in sys.modules)"
     )

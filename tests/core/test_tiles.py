@@ -28,6 +28,8 @@ from bare_earth.algorithms.engine.ground import label_ground
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
 from bare_earth.algorithms.engine.options import TileInput, TileMethod, TileOutput
+from bare_earth.algorithms.engine.output import Output
+from bare_earth.algorithms.engine.raster_files import RasterFiles
 from bare_earth.algorithms.engine.workers import Local, Processes, Threads
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
@@ -347,6 +349,40 @@ def test_the_blocks_of_a_method_do_not_move_with_the_survey(tmp_path, out):
     assert classify_tiles([folder], out, FAST, output=RESUME).kept_count == 2
     anew = {name for name, time in changed_times(out).items() if time != before.get(name)}
     assert anew == {"0.laz", "new.laz"}
+
+
+def test_runs_with_heights_go_on_and_repeat_only_what_changed(tmp_path, out):
+    folder, integers = tmp_path / "in", strip(400, 60.0, 60.0)
+    folder.mkdir()
+    for east in (0, 2100, 4200):
+        write(folder / f"{east}.laz", integers + np.array([100 * east, 0, 0]))
+    made = dict(points=Output(height_above_ground=True))
+    classify_tiles([folder], out, FAST, **made)
+    before, dtm = changed_times(out), RasterFiles(dtm=tmp_path / "dtm.tif")
+    summary = classify_tiles([folder], out, FAST, output=RESUME, rasters=dtm, **made)
+    assert summary.kept_count == summary.done_count == 3 and changed_times(out) == before
+    assert dtm.dtm.exists()
+    # A file in the west, and one that is written anew without a change.
+    write(folder / "new.laz", strip(400, 60.0, 300.0, 4) - [6100, 12_000, 0])
+    os.utime(folder / "4200.laz", ns=(1, 1))
+    summary = classify_tiles([folder], out, FAST, output=RESUME, **made)
+    assert summary.kept_count == 1 and summary.done_count == 4
+    anew = {name for name, time in changed_times(out).items() if time != before.get(name)}
+    assert anew == {"0.laz", "4200.laz", "new.laz"}
+    classify_tiles([folder], tmp_path / "once", FAST, **made)
+    assert bytes_of(out) == bytes_of(tmp_path / "once")
+    # Heights depend on the method that found the ground.
+    other = dataclasses.replace(FAST, height_threshold=0.4)
+    assert classify_tiles([folder], out, other, output=RESUME, **made).kept_count == 0
+    (folder / "new.laz").write_bytes(b"no cloud")
+    summary = classify_tiles([folder], out, other, output=RESUME, **made)
+    assert summary.kept_count == 2 and summary.done_count == 3 and len(summary.failures) == 1
+    # What is not classified has no heights.
+    write(folder / "new.laz", strip(400, 60.0, 60.0) - [60_000_000, 0, 0], classes=7)
+    summary = classify_tiles([folder], out, other, output=RESUME, **made)
+    assert summary.kept_count == summary.done_count == 3
+    (reason,) = summary.failures.values()
+    assert "can be classified" in reason
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no such signals")

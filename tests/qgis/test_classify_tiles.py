@@ -4,7 +4,15 @@ import shlex
 import laspy
 import numpy as np
 import pytest
-from qgis.core import QgsPointCloudLayer, QgsProcessingException, QgsProviderRegistry
+from qgis.core import (
+    QgsPointCloudLayer,
+    QgsPointXY,
+    QgsProcessingException,
+    QgsProcessingOutputLayerDefinition,
+    QgsProject,
+    QgsProviderRegistry,
+    QgsRasterLayer,
+)
 from support import Log, write_scene
 
 NAME = "bareearth:classifytiles"
@@ -133,3 +141,25 @@ def test_a_cancel_keeps_what_is_finished(tiles, folder, context):
     results, done = tiles.run({**parameters, "RESUME": True}, context, Log())
     assert done and results["KEPT_COUNT"] >= 1
     check(results, folder)
+
+
+@pytest.mark.parametrize("algorithm", [NAME, "bareearth:terrainmodel"])
+def test_each_file_gets_its_own_rasters_and_one_layer_shows_them(algorithm, folder, tmp_path):
+    import processing
+
+    parameters = {"INPUT_FOLDER": str(folder), "OUTPUT_FOLDER": str(tmp_path / "out")}
+    if algorithm != NAME:
+        processing.run(NAME, parameters)
+        parameters = {"INPUT": str(tmp_path / "out")}
+    project = QgsProject.instance()
+    project.clear()
+    dtm = tmp_path / "heights.tif"
+    parameters["DTM"] = QgsProcessingOutputLayerDefinition(str(dtm), project)
+    results = processing.runAndLoadResults(algorithm, {**parameters, "RASTER_PER_FILE": True})
+    assert results["DTM"] == str(tmp_path / "heights.vrt") and not dtm.exists()
+    parts = sorted((tmp_path / "heights").iterdir())
+    assert [each.name for each in parts] == [f"{number}.tif" for number in range(4)]
+    (layer,) = (each for each in project.mapLayers().values() if isinstance(each, QgsRasterLayer))
+    assert layer.isValid() and layer.name().endswith(": terrain model")
+    height, found = layer.dataProvider().sample(QgsPointXY(500_200.5, 5_700_040.5), 1)
+    assert found and height == pytest.approx(100 + 0.05 * 200.5 + 0.02 * 40.5, abs=0.02)

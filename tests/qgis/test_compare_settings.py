@@ -48,6 +48,17 @@ def test_run(registry, parameters, tmp_path, context, log):
     assert (tmp_path / "page.html").read_bytes() == page
 
 
+def test_the_order_of_the_parameters_is_that_of_the_dialog_only(
+    registry, parameters, context, log, monkeypatch
+):
+    kind = type(registry.algorithmById(ALGORITHM))
+    sets = kind().parameter_sets()
+    assert len(sets) > 1
+    monkeypatch.setattr(kind, "parameter_sets", lambda self: sets[::-1])
+    results, done = kind().create().run(parameters, context, log)
+    assert done and Path(results["OUTPUT"]).is_file(), log.text
+
+
 def test_the_window_is_transformed_to_the_crs_of_the_points(
     registry, parameters, tmp_path, context, log
 ):
