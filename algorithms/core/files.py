@@ -157,13 +157,16 @@ def unnamed_file(folder: Path) -> Iterator[BinaryIO]:
     folder : Path
         Where it is to be.
     """
-    file = tempfile.TemporaryFile(dir=folder)
-    try:
+    with contextlib.ExitStack() as opened:
+        file = opened.enter_context(tempfile.TemporaryFile(dir=folder))
+        opened.callback(_close, file)
         yield file
-    finally:
-        # A full network disk says so once more; nobody wants what is in the file.
-        with contextlib.suppress(OSError):
-            file.close()
+
+
+def _close(file: BinaryIO) -> None:
+    """Close a file in which nobody wants anything more: a full disk may say so once more."""
+    with contextlib.suppress(OSError):
+        file.close()
 
 
 def reach_disk(file: BinaryIO) -> None:

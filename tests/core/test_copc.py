@@ -1,5 +1,4 @@
 import functools
-import io
 import struct
 import tracemalloc
 
