@@ -244,6 +244,35 @@ def test_killed_runs_leave_old_files_or_whole_new_ones(name, inputs, tmp_path):
     assert not _hidden(out)
 
 
+@pytest.mark.long
+def test_runs_that_write_into_one_folder_leave_each_other_alone(inputs, tmp_path):
+    survey = "classify", inputs["many"], "--method", "slope", "--threads", "1"
+    single = "classify", inputs["one"], "--method", "slope", "--memory", "0.005"
+    alone, out = tmp_path / "alone", tmp_path / "out"
+    for folder in (alone, out):
+        folder.mkdir()
+    assert _run(*survey[:2], alone, *survey[2:]).returncode == 0
+    assert _run(*single[:2], alone / "one-0.laz", *single[2:]).returncode == 0
+    begun = subprocess.Popen(command(*survey[:2], out, *survey[2:]), env=environment())
+    while not (out / ".bare-earth" / "lock").exists():
+        time.sleep(0.01)
+    others = [
+        subprocess.Popen(
+            command(*single[:2], out / f"one-{number}.laz", *single[2:]), env=environment()
+        )
+        for number in range(3)
+    ]
+    second = _run(*survey[:2], out, *survey[2:])
+    assert begun.poll() is None and second.returncode == 1
+    assert "Another run writes into" in second.stderr
+    assert [each.wait() for each in (begun, *others)] == [0] * 4
+    expected = {path.name: path.read_bytes() for path in alone.glob("*.laz")}
+    for number in range(1, 3):
+        expected[f"one-{number}.laz"] = expected["one-0.laz"]
+    assert {path.name: path.read_bytes() for path in out.glob("*.laz")} == expected
+    assert not _hidden(out)
+
+
 @pytest.fixture(scope="module")
 def small_inputs(tmp_path_factory):
     def run(*words):
