@@ -208,6 +208,53 @@ test_faults.json.dump(ends, sys.stdout)
     assert set(ends.values()) == {0, 1}
 
 
+# Cells of one byte that hardly shrink, and so many that they wait on disk.
+LARGE_RASTER = """
+import subprocess, sys
+from pathlib import Path
+import numpy as np
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.points import Frame
+from bare_earth.algorithms.core.progress import SILENT
+from bare_earth.algorithms.rasters.geotiff import RasterGrid
+from bare_earth.algorithms.rasters.writing import Rows, write_geotiff
+
+side, target = 8192, Path(sys.argv[1], "out.tif")
+part = np.random.default_rng(1).integers(1, 200, (256, side), dtype=np.uint8)
+grid = RasterGrid(0.0, float(side), 1.0, side, side, Frame())
+for megabytes in (1, 40, 64, 66, 70, 120, 220):
+    subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={megabytes}m", "none", sys.argv[1]])
+    target.write_bytes(b"old")
+    try:
+        rows = Rows((side, side), "uint8", (part for _ in range(side // 256)))
+        write_geotiff(target, rows, grid, 255, SILENT, "classes")
+        print("done", end=" ")
+    except BareEarthError as error:
+        print(error, end=" ")
+    print(target.read_bytes() == b"old", [each.name for each in target.parent.iterdir()])
+    subprocess.run(["umount", sys.argv[1]], check=True)
+"""
+
+
+@pytest.mark.long
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() != 0, reason="it mounts: as root")
+def test_a_large_raster_on_a_full_disk_is_told(tmp_path):
+    found = subprocess.run(
+        ["unshare", "--mount", sys.executable, "-c", LARGE_RASTER, str(tmp_path)],
+        capture_output=True, text=True, timeout=600, env=environment(),
+    )  # fmt: skip
+    if found.returncode and "unshare" in found.stderr:
+        pytest.skip("this machine permits no mounts")
+    assert (found.returncode, found.stderr) == (0, "")
+    *told, last = found.stdout.splitlines()
+    assert last == "done False ['out.tif']" and len(told) == 6
+    for line in told:
+        assert line.startswith(f"Cannot write {tmp_path}/out.tif: ") and line.endswith(
+            "True ['out.tif']"
+        )
+        assert "the disk is full" in line or "No space left" in line
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("name", COMMANDS)
 def test_killed_runs_leave_old_files_or_whole_new_ones(name, inputs, tmp_path):
