@@ -74,6 +74,8 @@ class TileRun:
         self._survey, self._folder, self._targets = survey, folder, targets
         self._step, self._progress = step, progress
         self._sources: dict[BlockIndex, list[Path]] = {}
+        # Those of several blocks, which many small tiles share.
+        self._together: dict[tuple[BlockIndex, ...], list[Path]] = {}
         # As they are before any of them is read.
         self._states = {each.path: state_of(each.path) for each in survey.tiles}
         self._todo: list[_Needs] = []
@@ -140,8 +142,11 @@ class TileRun:
         for place in places:
             if place not in self._sources:
                 self._sources[place] = sources_of(self._grid, self._survey, place)
-        sources = sorted({path for place in places for path in self._sources[place]})
-        return _Needs(tile, places, sources)
+        together = tuple(places)
+        if together not in self._together:
+            every = {path for place in places for path in self._sources[place]}
+            self._together[together] = sorted(every)
+        return _Needs(tile, places, self._together[together])
 
     def _made_of(self, needs: _Needs) -> Record:
         path = needs.tile.path

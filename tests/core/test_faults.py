@@ -208,6 +208,44 @@ test_faults.json.dump(ends, sys.stdout)
     assert set(ends.values()) == {0, 1}
 
 
+@pytest.mark.long
+@pytest.mark.skipif("BARE_EARTH_NFS" not in os.environ, reason="`.ci/on-nfs` gives a network disk")
+@pytest.mark.parametrize("name", COMMANDS)
+def test_a_full_network_disk_changes_nothing_and_is_told_in_a_sentence(name, inputs, tmp_path):
+    """A small disk, which a file fills but for what a run is to have."""
+    disk, enough = Path(os.environ["BARE_EARTH_NFS"]), tmp_path / "enough"
+    out, filling = disk / "out", disk / "filling"
+    _old_outputs(name, inputs, enough)
+    done = _run(*_words(name, inputs, enough))
+    assert done.returncode == 0, done.stderr
+    needed = sum(path.stat().st_size for path in enough.rglob("*") if path.is_file())
+    ends = {}
+    for share in (0.0, 0.3, 0.6, 0.9, 1.0, 1.1, 1.5, 3.0, 10.0, 20.0):
+        filling.unlink(missing_ok=True)
+        _without(out)
+        old, room = _old_outputs(name, inputs, out), int(share * needed) + 8192
+        filling.write_bytes(bytes(max(shutil.disk_usage(disk).free - room, 0)))
+        done = _run(*_words(name, inputs, out))
+        ends[room // 1024] = done.returncode
+        end = time.monotonic() + 10  # the client removes soon what a process had open
+        while list(out.rglob(".nfs*")) and time.monotonic() < end:
+            time.sleep(0.1)
+        _look_at(name, done, out, old, enough)
+        if not done.returncode:
+            break
+    filling.unlink(missing_ok=True)
+    _without(out)
+    print(f"{name}: {sum(ends.values())} of {len(ends)} disks were too small: {ends}")
+    assert set(ends.values()) == {0, 1}
+
+
+def _without(folder):
+    """Remove a folder of a network disk, which takes a moment for what was open just now."""
+    end = time.monotonic() + 10
+    while folder.exists() and time.monotonic() < end:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
 # Cells of one byte that hardly shrink, and so many that they wait on disk.
 LARGE_RASTER = """
 import subprocess, sys
