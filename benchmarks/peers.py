@@ -126,7 +126,7 @@ class WhiteboxSlope(Peer):
         environment.verbose = False
         with tempfile.TemporaryDirectory() as folder:
             source, target = Path(folder) / "source.las", Path(folder) / "target.las"
-            _write_las(cloud, source)
+            write_las(cloud, source)
             lidar = environment.read_lidar(str(source))
             result = environment.lidar_ground_point_filter(lidar, classify=True)
             environment.write_lidar(result, str(target))
@@ -205,7 +205,7 @@ def _coordinates(cloud: PointCloud) -> np.ndarray:
     return np.column_stack(cloud.points(np.ones(cloud.count, dtype=bool)))
 
 
-def _write_las(cloud: PointCloud, path: Path) -> None:
+def write_las(cloud: PointCloud, path: Path) -> None:
     """Write coordinates and returns, all of class 0, as LAS 1.2 or, for many returns, 1.4."""
     import laspy
 

@@ -7,8 +7,9 @@ import errno
 import itertools
 import os
 import sys
+import tempfile
 from pathlib import Path
-from typing import Iterable, Iterator
+from typing import BinaryIO, Iterable, Iterator
 
 from .errors import BareEarthError
 from .temporary import make_temporary, new_marks, remove_leftovers, remove_temporary, shown
@@ -179,6 +180,42 @@ def temporary_folder(beside: Path) -> Iterator[Path]:
         yield folder
     finally:
         remove_temporary(folder)
+
+
+@contextlib.contextmanager
+def unnamed_file(folder: Path) -> Iterator[BinaryIO]:
+    """Give a temporary file without a name, which is gone when the block ends, or the process.
+
+    Parameters
+    ----------
+    folder : Path
+        Where it is to be.
+    """
+    with contextlib.ExitStack() as opened:
+        file = opened.enter_context(tempfile.TemporaryFile(dir=folder))
+        opened.callback(_close, file)
+        yield file
+
+
+def _close(file: BinaryIO) -> None:
+    """Close a file in which nobody wants anything more: a full disk may say so once more."""
+    with contextlib.suppress(OSError):
+        file.close()
+
+
+def reach_disk(file: BinaryIO) -> None:
+    """Let the disk take what was written, and tell if it does not.
+
+    A network disk may say only when a file is closed that it is full, and what is read before is
+    not what was written. A local disk says so at once: for it this costs nothing.
+
+    Raises
+    ------
+    OSError
+        If the disk does not take it.
+    """
+    file.flush()
+    os.close(os.dup(file.fileno()))
 
 
 def replace_with_files_of(folder: Path, target: Path, beside: Iterable[str]) -> None:

@@ -5,14 +5,13 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import os
-import tempfile
 import threading
 from pathlib import Path
 from typing import BinaryIO, Iterator
 
 import numpy as np
 
-from ..core.files import describe_write_error
+from ..core.files import describe_write_error, reach_disk, unnamed_file
 from ..core.points import Box, Frame
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud, survey_frame
@@ -68,7 +67,7 @@ class DiskPoints:
         self._runs = LeafIndex()
 
     def _file(self) -> BinaryIO:
-        return self._files.enter_context(tempfile.TemporaryFile(dir=self._target.parent))
+        return self._files.enter_context(unnamed_file(self._target.parent))
 
     def __enter__(self) -> DiskPoints:
         return self
@@ -126,7 +125,7 @@ class DiskPoints:
         x, y = (number * self._side + self._start for number in (columns, rows))
         self.leaves = Leaves(x, y, self._side, totals)
         with self._told():
-            self._records.flush()
+            reach_disk(self._records)
             self._labels.truncate(self.count * self._kind.itemsize)
 
     def read(
@@ -157,13 +156,14 @@ class DiskPoints:
         if not len(positions):
             return
         cuts = np.flatnonzero(np.diff(positions) > _GAP) + 1
-        for where, values in zip(np.split(positions, cuts), np.split(labels, cuts)):
-            first, last = int(where[0]), int(where[-1]) + 1
-            held = _read(self._labels, self._kind, first, last).copy()
-            held[where - first] = values
-            with self._told():
+        with self._told():
+            for where, values in zip(np.split(positions, cuts), np.split(labels, cuts)):
+                first, last = int(where[0]), int(where[-1]) + 1
+                held = _read(self._labels, self._kind, first, last).copy()
+                held[where - first] = values
                 self._labels.seek(first * self._kind.itemsize)
                 self._labels.write(held.tobytes())
+            reach_disk(self._labels)
 
     def values_of(self, number: int, part: PointCloud) -> np.ndarray:
         """Return the values that are stored for the points of a part.
@@ -212,7 +212,7 @@ def room_on_disk(target: Path, kind: type, count: int) -> np.ndarray:
         If the disk is full. Without this check, writing to the mapped file would end the process.
     """
     try:
-        with tempfile.TemporaryFile(dir=target.parent) as file:
+        with unnamed_file(target.parent) as file:
             size = max(count, 1) * np.dtype(kind).itemsize
             if hasattr(os, "posix_fallocate"):
                 os.posix_fallocate(file.fileno(), 0, size)

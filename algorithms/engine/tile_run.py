@@ -105,6 +105,8 @@ class TileRun:
         self._survey, self._folder, self._targets = survey, folder, targets
         self._step, self._progress, self._task = step, progress, task
         self._sources: dict[BlockIndex, list[Path]] = {}
+        # Those of several blocks, which many small tiles share.
+        self._together: dict[tuple[BlockIndex, ...], list[Path]] = {}
         # Taken before any of them is read.
         self._stamps = {each.path: stamp_of(each.path) for each in survey.tiles}
         self._todo: list[_Needs] = []
@@ -172,8 +174,11 @@ class TileRun:
         for place in places:
             if place not in self._sources:
                 self._sources[place] = sources_of(self._grid, self._survey, place)
-        sources = sorted({path for place in places for path in self._sources[place]})
-        return _Needs(tile, places, sources)
+        together = tuple(places)
+        if together not in self._together:
+            every = {path for place in places for path in self._sources[place]}
+            self._together[together] = sorted(every)
+        return _Needs(tile, places, self._together[together])
 
     @property
     def sources(self) -> dict[Path, list[Path]]:

@@ -9,12 +9,12 @@ from __future__ import annotations
 
 import contextlib
 import functools
-import tempfile
 from pathlib import Path
 from typing import BinaryIO, Iterable, Iterator
 
 import numpy as np
 
+from ..core.files import reach_disk, unnamed_file
 from ..core.progress import Progress
 from .copc_octree import Branch, Cube, SortedPoints, Taken, runs
 from .records import column
@@ -83,7 +83,7 @@ class Room:
     @functools.cached_property
     def file(self) -> BinaryIO:
         """The file, made at its first use."""
-        return self._files.enter_context(tempfile.TemporaryFile(dir=self._folder))
+        return self._files.enter_context(unnamed_file(self._folder))
 
     def clear(self, cube: Cube) -> None:
         """Discard all points, since those that follow are for another cube."""
@@ -123,6 +123,7 @@ class WaitingPoints:
             rows[:, _NUMBER:] = records[some.order]
             self._parts.append((room.file.seek(0, 2), some.counts.astype(np.uint32)))
             room.file.write(rows.data)
+            reach_disk(room.file)
             self.counts += some.counts
             self._width = rows.shape[1]
 

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import contextlib
+import errno
+import math
 import os
+import shutil
 from pathlib import Path
 from typing import Any, Callable, Iterable, Iterator, NamedTuple
 
@@ -25,6 +28,8 @@ _OPTIONS = {
     "COMPRESS": "DEFLATE", "PREDICTOR": "YES", "BLOCKSIZE": str(BLOCK_SIDE), "BIGTIFF": "IF_SAFER",
     "OVERVIEW_RESAMPLING": "AVERAGE", "NUM_THREADS": "ALL_CPUS",
 }  # fmt: skip
+# Of the file in which they wait: cells along the edge of a tile, and bytes that say where it is.
+_TILE, _BYTES_ABOUT_A_TILE = 256, 512
 _WAITING = {"TILED": "YES", "BIGTIFF": "IF_SAFER", "SPARSE_OK": "TRUE"}
 
 
@@ -124,9 +129,21 @@ def _writer() -> Callable[..., None]:
 
 
 def _waiting_file(path: Path, rows: Rows) -> Path | None:
-    """Return the file in which the cells wait, or None if they wait in memory."""
-    is_small = rows.shape[0] * rows.shape[1] <= _MOST_IN_MEMORY
-    return None if is_small else path.with_name(f"{path.name}.cells.tif")
+    """Return the file in which the cells wait, or None if they wait in memory.
+
+    Raises
+    ------
+    OSError
+        If the disk has no room for them: when it is full later, rasterio raises what is no error
+        of its own, or none.
+    """
+    if rows.shape[0] * rows.shape[1] <= _MOST_IN_MEMORY:
+        return None
+    tiles = math.prod(-(-each // _TILE) for each in rows.shape)
+    needed = tiles * (_TILE**2 * np.dtype(rows.kind).itemsize + _BYTES_ABOUT_A_TILE)
+    if shutil.disk_usage(path.parent).free < needed:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+    return path.with_name(f"{path.name}.cells.tif")
 
 
 def _write_with_gdal(

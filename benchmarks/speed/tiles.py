@@ -120,7 +120,7 @@ def survey(count: int) -> Iterator[dict[str, np.ndarray]]:
 
     The square holds about so many points; after it, the last flight line goes on.
     """
-    landscape = _Landscape(np.random.default_rng(SEED))
+    landscape = Landscape(np.random.default_rng(SEED))
     side = np.sqrt(count / DENSITY)
     lines = max(round(side / _LINE_WIDTH), 1)
     spacing = np.sqrt(_returns(landscape, side) / DENSITY)
@@ -140,7 +140,7 @@ def survey(count: int) -> Iterator[dict[str, np.ndarray]]:
             yield _columns(landscape.echoes(x, y, random), x, y, pulse, slant, line, random)
 
 
-def _returns(landscape: _Landscape, side: float) -> float:
+def _returns(landscape: Landscape, side: float) -> float:
     """Return how many returns a pulse has on average over a square."""
     random = np.random.default_rng(SEED)
     x, y = random.uniform(0.0, side, (2, _PLACES))
@@ -171,7 +171,7 @@ def _columns(echoes, x, y, pulse, slant, line, random) -> dict[str, np.ndarray]:
     }
 
 
-class _Landscape:
+class Landscape:
     """Terrain, houses and trees as functions of the place, from tables that repeat."""
 
     def __init__(self, random: np.random.Generator) -> None:
@@ -183,8 +183,8 @@ class _Landscape:
         self, x: np.ndarray, y: np.ndarray, random: np.random.Generator
     ) -> tuple[np.ndarray, np.ndarray]:
         """Return pulse and height of each return."""
-        solid = self._solid(x, y)
-        top, bottom = self._crown(x, y, solid)
+        solid = self.solid(x, y)
+        top, bottom = self.crown(x, y, solid)
         high = np.flatnonzero(top - bottom > 0.5)
         owners, heights = [], []
         for share in (0.0, 0.45, 0.8):
@@ -213,7 +213,7 @@ class _Landscape:
             z += height * self._value(x, y, length)
         return z
 
-    def _solid(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    def solid(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Return the height of what no leaf stops: the terrain, or a gable roof over it."""
         i, j = np.floor(x / _PLOT).astype(int), np.floor(y / _PLOT).astype(int)
         chance, length, width, height, turned = np.moveaxis(
@@ -230,7 +230,7 @@ class _Landscape:
         z[is_house] = self.terrain(east[is_house], north[is_house]) + roof[is_house]
         return z
 
-    def _crown(
+    def crown(
         self, x: np.ndarray, y: np.ndarray, solid: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
         """Return top and bottom of the crown over each place, equal where there is none."""

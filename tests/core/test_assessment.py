@@ -5,6 +5,7 @@ import re
 import struct
 import zlib
 from html.parser import HTMLParser
+from pathlib import Path
 
 import laspy
 import numpy as np
@@ -205,10 +206,11 @@ def test_other_points_are_refused(files, tmp_path):
 @pytest.mark.parametrize("count", [1, 2])
 def test_a_picture_of_hardly_any_points(count):
     points = Points(np.arange(count) * 5.0, np.zeros(count), np.zeros(count))
-    wrong = np.ones(count, bool)
+    wrong, options = np.ones(count, bool), AssessmentOptions()
     picture = report.draw_errors(points, Comparison(wrong, wrong, ~wrong))
     assert picture.pixels.size and picture.cell_size > 0
-    assert "<img" in report._map(picture)
+    found = compare(wrong, np.ones(count, np.uint8))
+    assert "<img" in report.report_html(found, picture, options, (Path("a.las"), Path("b.las")))
 
 
 def test_a_large_survey_has_a_picture_of_bounded_size():

@@ -207,7 +207,7 @@ def test_all_missing_packages_are_told_at_once(monkeypatch):
 
 
 def test_inside_qgis_the_menu_is_named_for_lazrs(las, monkeypatch):
-    monkeypatch.setattr(backends, "_inside_qgis", lambda: True)
+    monkeypatch.setitem(sys.modules, "qgis.core", object())
     without(monkeypatch, "lazrs")
     with pytest.raises(BareEarthError, match="Plugins > Bare Earth > LAZ support") as caught:
         read_cloud(las.make("in.laz"))
@@ -226,7 +226,7 @@ def test_inside_qgis_the_menu_is_named_for_lazrs(las, monkeypatch):
 def test_inside_qgis_numpy_and_scipy_come_from_where_it_came(
     monkeypatch, tmp_path, platform, flatpak, words
 ):
-    monkeypatch.setattr(backends, "_inside_qgis", lambda: True)
+    monkeypatch.setitem(sys.modules, "qgis.core", object())
     monkeypatch.setattr(sys, "platform", platform)
     monkeypatch.setattr(backends, "_FLATPAK", tmp_path if flatpak else tmp_path / "missing")
     assert words in install_hint(["numpy", "scipy"])

@@ -157,7 +157,7 @@ def test_peers_are_asked_once(folder):
 def test_las_for_peers_holds_the_same_points(folder):
     cloud, _ = data.load(data.isprs()[0])
     cloud.number_of_returns[:] = 3
-    peers._write_las(cloud, folder / "out.las")
+    peers.write_las(cloud, folder / "out.las")
     copy = read_cloud(folder / "out.las")
     for name in ("x", "y", "z", "return_number", "number_of_returns", "classification"):
         np.testing.assert_array_equal(getattr(copy, name), getattr(cloud, name))

@@ -9,7 +9,6 @@ import pytest
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.las import class_layers as module
-from bare_earth.algorithms.las import writing
 from bare_earth.algorithms.las.class_layers import class_layers
 from bare_earth.algorithms.las.edits import Edits
 from bare_earth.algorithms.las.lasfile import LASZIP
@@ -104,7 +103,13 @@ def test_chunks_of_any_size_stay_as_they_are(las, monkeypatch):
 def test_nothing_but_the_returns_is_decompressed_and_not_even_they_if_they_are_known(
     las, monkeypatch
 ):
-    source = las.make("in.laz", version=4, point_format=6, count=5000)
+    source, intensities = las.make("in.laz", version=4, point_format=6, count=5000), 4
+    # One of the other layers holds what no decompressor understands.
+    ((first, _, layers),) = chunks_of(source)
+    data, start = source.read_bytes(), open_las(source).points_start + 8
+    start += len(first) + 4 + 4 * len(layers) + sum(map(len, layers[:intensities]))
+    noise = np.random.default_rng(1).bytes(len(layers[intensities]))
+    source.write_bytes(data[:start] + noise + data[start + len(noise) :])
     cloud, classes, asked = read_cloud(source), classes_of(5000), []
     read = module.read_records
 
@@ -113,13 +118,14 @@ def test_nothing_but_the_returns_is_decompressed_and_not_even_they_if_they_are_k
         return read(layout, most, columns=columns, pieces=pieces)
 
     monkeypatch.setattr(module, "read_records", heard)
-    monkeypatch.setattr(writing, "_write", None)
     changes = Edits(classification=classes)
     write_changed(source, las.folder / "known.laz", changes, cloud=cloud)
     assert asked == []
     write_changed(source, las.folder / "read.laz", changes)
     assert asked == [()]
     assert (las.folder / "known.laz").read_bytes() == (las.folder / "read.laz").read_bytes()
+    ((_, _, after),) = chunks_of(las.folder / "read.laz")
+    assert after[intensities] == noise
 
 
 @pytest.mark.parametrize("point_format", range(6))

@@ -1,11 +1,11 @@
 import functools
-import io
 import struct
 import tracemalloc
 
 import laspy
 import numpy as np
 import pytest
+from fulldisks import TELLS, become_full
 from laspy import CopcReader
 
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
@@ -347,14 +347,11 @@ def test_a_cancel_while_points_wait_on_disk_leaves_nothing(las, few_in_memory, f
     assert list(las.folder.iterdir()) == [source]
 
 
-def test_a_disk_without_room_for_the_points_that_wait_is_told(las, few_in_memory, monkeypatch):
-    class Full(io.BytesIO):
-        def write(self, data):
-            if self.tell() > 300_000:
-                raise OSError(28, "No space left on device")
-            return super().write(data)
-
-    monkeypatch.setattr(copc_points.tempfile, "TemporaryFile", lambda dir: Full())
+@TELLS
+def test_a_disk_without_room_for_the_points_that_wait_is_told(
+    las, few_in_memory, monkeypatch, tells
+):
+    become_full(monkeypatch, 300_000, tells)
     source = las.make(version=4, point_format=6, records=cloud_of(20_000))
     changes = Edits(classification=classes_of(20_000))
     with pytest.raises(BareEarthError, match=r"^Cannot write .*out\.copc\.laz: the disk is full\."):

@@ -209,6 +209,93 @@ test_faults.json.dump(ends, sys.stdout)
 
 
 @pytest.mark.long
+@pytest.mark.skipif("BARE_EARTH_NFS" not in os.environ, reason="`.ci/on-nfs` gives a network disk")
+@pytest.mark.parametrize("name", COMMANDS)
+def test_a_full_network_disk_changes_nothing_and_is_told_in_a_sentence(name, inputs, tmp_path):
+    """A small disk, which a file fills but for what a run is to have."""
+    disk, enough = Path(os.environ["BARE_EARTH_NFS"]), tmp_path / "enough"
+    out, filling = disk / "out", disk / "filling"
+    _old_outputs(name, inputs, enough)
+    done = _run(*_words(name, inputs, enough))
+    assert done.returncode == 0, done.stderr
+    needed = sum(path.stat().st_size for path in enough.rglob("*") if path.is_file())
+    ends = {}
+    for share in (0.0, 0.3, 0.6, 0.9, 1.0, 1.1, 1.5, 3.0, 10.0, 20.0):
+        filling.unlink(missing_ok=True)
+        _without(out)
+        old, room = _old_outputs(name, inputs, out), int(share * needed) + 8192
+        # Nothing else is there; what is free, the client remembers for a while.
+        taken = room + 4096 * (len(old) + 2)
+        filling.write_bytes(bytes(shutil.disk_usage(disk).total - taken))
+        done = _run(*_words(name, inputs, out))
+        ends[room // 1024] = done.returncode
+        end = time.monotonic() + 10  # the client removes soon what a process had open
+        while list(out.rglob(".nfs*")) and time.monotonic() < end:
+            time.sleep(0.1)
+        _look_at(name, done, out, old, enough)
+        if not done.returncode:
+            break
+    filling.unlink(missing_ok=True)
+    _without(out)
+    print(f"{name}: {sum(ends.values())} of {len(ends)} disks were too small: {ends}")
+    assert set(ends.values()) == {0, 1}
+
+
+def _without(folder):
+    """Remove a folder of a network disk, which takes a moment for what was open just now."""
+    end = time.monotonic() + 10
+    while folder.exists() and time.monotonic() < end:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+# Cells of one byte that hardly shrink, and so many that they wait on disk.
+LARGE_RASTER = """
+import subprocess, sys
+from pathlib import Path
+import numpy as np
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.points import Frame
+from bare_earth.algorithms.core.progress import SILENT
+from bare_earth.algorithms.rasters.geotiff import RasterGrid
+from bare_earth.algorithms.rasters.writing import Rows, write_geotiff
+
+side, target = 8192, Path(sys.argv[1], "out.tif")
+part = np.random.default_rng(1).integers(1, 200, (256, side), dtype=np.uint8)
+grid = RasterGrid(0.0, float(side), 1.0, side, side, Frame())
+for megabytes in (1, 40, 64, 66, 70, 120, 220):
+    subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={megabytes}m", "none", sys.argv[1]])
+    target.write_bytes(b"old")
+    try:
+        rows = Rows((side, side), "uint8", (part for _ in range(side // 256)))
+        write_geotiff(target, rows, grid, 255, SILENT, "classes")
+        print("done", end=" ")
+    except BareEarthError as error:
+        print(error, end=" ")
+    print(target.read_bytes() == b"old", [each.name for each in target.parent.iterdir()])
+    subprocess.run(["umount", sys.argv[1]], check=True)
+"""
+
+
+@pytest.mark.long
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() != 0, reason="it mounts: as root")
+def test_a_large_raster_on_a_full_disk_is_told(tmp_path):
+    found = subprocess.run(
+        ["unshare", "--mount", sys.executable, "-c", LARGE_RASTER, str(tmp_path)],
+        capture_output=True, text=True, timeout=600, env=environment(),
+    )  # fmt: skip
+    if found.returncode and "unshare" in found.stderr:
+        pytest.skip("this machine permits no mounts")
+    assert (found.returncode, found.stderr) == (0, "")
+    *told, last = found.stdout.splitlines()
+    assert last == "done False ['out.tif']" and len(told) == 6
+    for line in told:
+        assert line.startswith(f"Cannot write {tmp_path}/out.tif: ") and line.endswith(
+            "True ['out.tif']"
+        )
+        assert "the disk is full" in line or "No space left" in line
+
+
+@pytest.mark.long
 @pytest.mark.parametrize("name", COMMANDS)
 def test_killed_runs_leave_old_files_or_whole_new_ones(name, inputs, tmp_path):
     out, random = tmp_path / "out", np.random.default_rng(len(name))
@@ -241,6 +328,35 @@ def test_killed_runs_leave_old_files_or_whole_new_ones(name, inputs, tmp_path):
     assert killed
     assert _run(*_words(name, inputs, out)).returncode == 0
     assert _shown(out) == expected
+    assert not _hidden(out)
+
+
+@pytest.mark.long
+def test_runs_that_write_into_one_folder_leave_each_other_alone(inputs, tmp_path):
+    survey = "classify", inputs["many"], "--method", "slope", "--threads", "1"
+    single = "classify", inputs["one"], "--method", "slope", "--memory", "0.005"
+    alone, out = tmp_path / "alone", tmp_path / "out"
+    for folder in (alone, out):
+        folder.mkdir()
+    assert _run(*survey[:2], alone, *survey[2:]).returncode == 0
+    assert _run(*single[:2], alone / "one-0.laz", *single[2:]).returncode == 0
+    begun = subprocess.Popen(command(*survey[:2], out, *survey[2:]), env=environment())
+    while not (out / ".bare-earth" / "lock").exists():
+        time.sleep(0.01)
+    others = [
+        subprocess.Popen(
+            command(*single[:2], out / f"one-{number}.laz", *single[2:]), env=environment()
+        )
+        for number in range(3)
+    ]
+    second = _run(*survey[:2], out, *survey[2:])
+    assert begun.poll() is None and second.returncode == 1
+    assert "Another run writes into" in second.stderr
+    assert [each.wait() for each in (begun, *others)] == [0] * 4
+    expected = {path.name: path.read_bytes() for path in alone.glob("*.laz")}
+    for number in range(1, 3):
+        expected[f"one-{number}.laz"] = expected["one-0.laz"]
+    assert {path.name: path.read_bytes() for path in out.glob("*.laz")} == expected
     assert not _hidden(out)
 
 

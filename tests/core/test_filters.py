@@ -75,7 +75,12 @@ def test_a_hall_goes_where_points_are_sparse(kind, seed, density):
 
 
 @pytest.mark.parametrize(
-    ("method", "seed"), [("tin-densification", 909), ("slope", 909), ("grid-minimum", 902)]
+    ("method", "seed"),
+    [
+        ("tin-densification", 909),
+        ("slope", 909),
+        pytest.param("grid-minimum", 902, marks=pytest.mark.long),
+    ],
 )
 def test_a_complex_of_halls_goes_that_is_low_on_its_uphill_side(method, seed):
     # Points on the walls hide a drop of 2 m between cells of a metre.
@@ -114,7 +119,7 @@ def test_a_raised_square_stays_where_points_of_its_ramp_are_sparse(method):
         pytest.param("tin-densification", 907, 1.0, marks=pytest.mark.long),
         ("slope", 907, 1.0),
         pytest.param("slope", 903, 2.0, marks=pytest.mark.long),
-        ("grid-minimum", 905, 1.0),
+        pytest.param("grid-minimum", 905, 1.0, marks=pytest.mark.long),
     ],
 )
 def test_a_courtyard_stays_where_points_are_sparse(method, seed, density):
@@ -129,7 +134,7 @@ def test_a_courtyard_stays_where_points_are_sparse(method, seed, density):
     ("kind", "method", "seed"),
     [
         ("greenhouses", "tin-densification", 901),
-        ("greenhouses", "slope", 903),
+        pytest.param("greenhouses", "slope", 903, marks=pytest.mark.long),
         pytest.param("complex_on_slope", "tin-densification", 906, marks=pytest.mark.long),
         pytest.param("complex_on_slope", "grid-minimum", 901, marks=pytest.mark.long),
     ],
@@ -211,7 +216,7 @@ def test_a_raised_square_with_one_ramp_stays(method):
         ("slope", 808, 4.0),
         ("grid-minimum", 806, 4.0),
         ("tin-densification", 1106, 1.0),
-        ("tin-densification", 911, 1.0),
+        pytest.param("tin-densification", 911, 1.0, marks=pytest.mark.long),
         ("slope", 1104, 1.0),
     ],
 )
@@ -297,7 +302,9 @@ def test_scattered_points_of_images_take_no_ground_away(method):
 
 
 @pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize(("kind", "density"), [("gorge", 10.0), ("quarry", 10.0)])
+@pytest.mark.parametrize(
+    ("kind", "density"), [("gorge", 10.0), pytest.param("quarry", 10.0, marks=pytest.mark.long)]
+)
 def test_breaks_stay_where_points_are_dense(method, kind, density):
     scene = make(kind, seed=5, density=density, size=70.0)
     found = METHODS[method].classify(scene.points, METHODS[method].parameters())

@@ -7,6 +7,7 @@ import time
 import laspy
 import numpy as np
 import pytest
+from fulldisks import TELLS, become_full
 from realdata import real
 from runs import CancelAt, classify_file, environment, write_height_above_ground
 
@@ -208,20 +209,14 @@ def test_a_copc_file_stays_one_though_it_does_not_fit(tmp_path):
     assert 1000 < inspect(little).classes[2] < 3900
 
 
-def test_a_full_disk_is_told_in_a_sentence(tmp_path, monkeypatch):
-    class Full:
-        def write(self, data):
-            raise OSError(28, "No space left on device")
-
-        def __enter__(self):
-            return self
-
-        def __exit__(self, *exception):
-            return None
-
-    monkeypatch.setattr(disk_points.tempfile, "TemporaryFile", lambda dir: Full())
+@TELLS
+@pytest.mark.parametrize("spared", [0, 1])  # the points, or their labels alone
+def test_a_full_disk_is_told_in_a_sentence(tmp_path, monkeypatch, small, tells, spared):
+    source = write(tmp_path / "in.las")
+    become_full(monkeypatch, 0, tells, spared)
     with pytest.raises(BareEarthError, match=r"Cannot write .*out\.laz: the disk is full"):
-        run(write(tmp_path / "in.las", 500), tmp_path / "out", SlopeFilter(), LITTLE)
+        run(source, tmp_path / "out", SlopeFilter(), LITTLE, Selection(returns="all"))
+    assert not list((tmp_path / "out").iterdir())
 
 
 @pytest.mark.parametrize(

@@ -1,11 +1,14 @@
-"""The pages for contributors name files that are there."""
+"""The pages for contributors name files that are there, and their rule on private names is kept."""
 
+import ast
 import re
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).parents[2]
+# Of named tuples, of the system, and of these tests themselves.
+_NOT_PRIVATE = ("_replace", "_exit", "_on_full_disks")
 _NAMED = re.compile(r"`((?:algorithms|plugin|tests|tools|benchmarks|docs)/[\w/.\-]*)`")
 
 
@@ -20,3 +23,24 @@ def test_the_architecture_names_every_room():
     text = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
     rooms = {path.parent.name for path in (ROOT / "algorithms").glob("*/__init__.py")}
     assert {room for room in rooms if f"`algorithms/{room}/`" not in text} == set()
+
+
+def _private_calls(path):
+    """Yield what a test calls or replaces of others that begins with one underscore."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        names = []
+        if isinstance(node, ast.Attribute) and getattr(node.value, "id", "") not in ("self", "cls"):
+            names = [node.attr]
+        elif isinstance(node, ast.Call) and getattr(node.func, "attr", "") in ("setattr", "patch"):
+            names = [each.value for each in node.args if isinstance(each, ast.Constant)]
+        for name in map(str, names):
+            if re.match(r"_[a-z]", name) and name not in _NOT_PRIVATE:
+                yield f"{path.name}:{node.lineno}: {name}"
+
+
+def test_tests_call_and_replace_no_private_function():
+    """Sizes, which are written in capitals, they may set: so a small cloud has many pieces."""
+    found = [
+        each for path in sorted((ROOT / "tests").rglob("*.py")) for each in _private_calls(path)
+    ]
+    assert found == []

@@ -21,7 +21,7 @@ from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.grids.dense_surface import DenseSurface
 from bare_earth.algorithms.products.height_above_ground import height_above_ground
 
-EXAMPLES = int(os.environ.get("BARE_EARTH_EXAMPLES", "3"))
+EXAMPLES = int(os.environ.get("BARE_EARTH_EXAMPLES", "2"))
 SETTINGS = settings(
     max_examples=EXAMPLES, deadline=None, derandomize=EXAMPLES < 50, database=None,
     suppress_health_check=list(HealthCheck),
@@ -86,6 +86,26 @@ def test_labels_do_not_depend_on_the_height_of_the_survey(parameters, survey, up
 
 @pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
 @SETTINGS
+@given(survey=surveys())
+def test_labels_do_not_depend_on_which_axis_is_which(parameters, survey):
+    x, y, z = survey
+    swapped = ground_of((y, x, z), parameters, east=NORTH, north=EAST)
+    # Empty cells are filled row by row in single precision: rarely, that decides on a point.
+    assert np.count_nonzero(swapped != ground_of(survey, parameters)) <= 1
+
+
+@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
+@SETTINGS
+@given(survey=surveys(), which=st.floats(0.0, 0.999))
+def test_a_point_that_is_there_twice_changes_no_label(parameters, survey, which):
+    twice = int(which * len(survey[0]))
+    ground = ground_of(survey, parameters)
+    found = ground_of(tuple(np.append(each, each[twice]) for each in survey), parameters)
+    assert np.array_equal(found, np.append(ground, ground[twice]))
+
+
+@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
+@SETTINGS
 @given(survey=surveys(), which=st.floats(0.0, 0.999), up=st.floats(1.0, 50.0))
 def test_raising_a_point_never_makes_it_ground(parameters, survey, which, up):
     ground, z = ground_of(survey, parameters), survey[2]
@@ -103,7 +123,7 @@ def test_raising_a_point_never_makes_it_ground(parameters, survey, which, up):
 @pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
 @SETTINGS
 @given(
-    count=st.integers(900, 3000), angle=st.floats(0.0, 30.0), azimuth=st.floats(0.0, 360.0),
+    count=st.integers(900, 3000), angle=st.floats(0.0, 45.0), azimuth=st.floats(0.0, 360.0),
     seed=st.integers(0, 1000),
 )  # fmt: skip
 def test_a_plane_is_all_ground(parameters, count, angle, azimuth, seed):

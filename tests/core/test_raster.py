@@ -1,5 +1,7 @@
+import shutil
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,7 +10,7 @@ from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Frame, Points
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.rasters.geotiff import NODATA, RasterGrid, read_raster
-from bare_earth.algorithms.rasters.writing import write_geotiff
+from bare_earth.algorithms.rasters.writing import Rows, write_geotiff
 
 rasterio = pytest.importorskip("rasterio")
 
@@ -134,6 +136,24 @@ def test_a_disk_that_becomes_full_leaves_the_old_raster(tmp_path):
     assert done.stderr == ""
     assert target.read_text() == "old"
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.tif", "whole.tif"]
+
+
+def test_cells_that_find_no_room_to_wait_on_disk_are_told_before_any_is_made(tmp_path, monkeypatch):
+    asked = []
+
+    def usage(folder):
+        asked.append(folder)
+        return SimpleNamespace(free=65_000_000)
+
+    target, side = tmp_path / "out.tif", 8_100  # more than 64 million cells of one byte
+    target.write_bytes(b"old")
+    monkeypatch.setattr(shutil, "disk_usage", usage)
+    rows = Rows((side, side), "uint8", (pytest.fail("a row was made") for _ in range(1)))
+    grid = RasterGrid(0.0, float(side), 1.0, side, side, Frame())
+    with pytest.raises(BareEarthError, match=r"Cannot write .*out\.tif: the disk is full\."):
+        write_geotiff(target, rows, grid, 255, SILENT, "classes")
+    assert asked == [tmp_path] and target.read_bytes() == b"old"
+    assert list(tmp_path.iterdir()) == [target]
 
 
 def test_a_crs_that_geotiff_cannot_hold_is_left_out_with_a_warning_and_no_side_car(tmp_path):

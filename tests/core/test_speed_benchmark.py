@@ -105,11 +105,11 @@ def test_survey_has_ground_houses_and_trees(survey):
     from bare_earth.algorithms.las.reading import read_cloud
 
     cloud = read_cloud(survey)
-    landscape = tiles._Landscape(np.random.default_rng(tiles.SEED))
+    landscape = tiles.Landscape(np.random.default_rng(tiles.SEED))
     x, y = np.random.default_rng(1).uniform(0.0, 3000.0, (2, 50_000))
-    solid = landscape._solid(x, y) - landscape.terrain(x, y)
+    solid = landscape.solid(x, y) - landscape.terrain(x, y)
     assert 0.005 < np.mean(solid > 2.5) < 0.2
-    top, bottom = landscape._crown(x, y, solid)
+    top, bottom = landscape.crown(x, y, solid)
     assert 0.05 < np.mean(top - bottom > 1.0) < 0.6
     ground = classify_cloud(cloud, METHODS["slope"].parameters())[0] == 2
     assert 0.4 < ground.mean() < 0.95

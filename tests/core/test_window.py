@@ -8,7 +8,7 @@ from runs import CancelAt
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.las import copc_nodes, copc_octree, reading, writing
 from bare_earth.algorithms.las.copc import HIERARCHY_ENTRY
-from bare_earth.algorithms.las.copc_nodes import read_hierarchy
+from bare_earth.algorithms.las.copc_nodes import find_nodes, read_hierarchy, read_pages
 from bare_earth.algorithms.las.lasfile import COPC_INFO, VLR_HEADER
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import read_cloud
@@ -145,21 +145,23 @@ def test_a_window_of_copc_holds_what_masking_the_whole_gives(las, octree, monkey
     assert not any("octree" in each for each in heard.warnings)
 
 
-def test_a_small_window_of_copc_reads_only_its_nodes(octree, monkeypatch):
-    read = []
-
-    def counting(layout, file, nodes):
-        read.append(int(nodes["count"].sum()))
-        return decompress(layout, file, nodes)
-
-    decompress = copc_nodes._decompress
-    monkeypatch.setattr(copc_nodes, "_decompress", counting)
-    window = read_window(octree, (400_100.0, 5_000_100.0, 400_140.0, 5_000_140.0))
-    assert 20 < window.count < 100
-    assert window.count < sum(read) < POINTS / 4
-    read.clear()
-    assert read_window(octree, (0.0, 0.0, 1.0, 1.0)).count == 0
-    assert not read
+def test_a_small_window_of_copc_reads_only_its_nodes(octree):
+    box, nowhere = (400_100.0, 5_000_100.0, 400_140.0, 5_000_140.0), (0.0, 0.0, 1.0, 1.0)
+    whole, hierarchy = read_cloud(octree), read_hierarchy(open_las(octree))
+    # Of all other nodes the points are damaged: whoever reads them is refused.
+    wanted = find_nodes(hierarchy, box)["start"]
+    assert find_nodes(hierarchy, nowhere).size == 0
+    data, heard = bytearray(octree.read_bytes()), LasKit.Heard()
+    for node in find_nodes(hierarchy, (399_000.0, 4_999_000.0, 401_000.0, 5_001_000.0)):
+        start, size = int(node["start"]), int(node["size"])
+        if start not in wanted:
+            data[start : start + size] = bytes(size)
+    octree.write_bytes(data)
+    assert 20 < assert_is_part(read_window(octree, box, heard), whole, box) < 100
+    assert read_window(octree, nowhere, heard).count == 0
+    assert not any("octree" in each for each in heard.warnings)
+    with pytest.raises(BareEarthError, match="damaged"):
+        read_window(octree, (400_000.0, 5_000_000.0, 400_600.0, 5_000_600.0))
 
 
 def test_a_window_of_copc_by_another_writer(las):
@@ -192,24 +194,24 @@ def test_a_window_of_copc_by_another_writer(las):
     assert not any("octree" in each for each in heard.warnings)
 
 
-def test_nested_pages_are_followed_only_where_the_window_is(octree, monkeypatch):
-    cloud = read_cloud(octree)
-    pages = nest_pages(octree)
-    read = []
-
-    def noting(layout, file, start, size):
-        read.append(start)
-        return read_page(layout, file, start, size)
-
-    read_page = copc_nodes._read_page
-    monkeypatch.setattr(copc_nodes, "_read_page", noting)
-    box = (400_010.0, 5_000_010.0, 400_100.0, 5_000_100.0)
-    assert_is_part(read_window(octree, box), cloud, box)
-    assert len(read) == 2
-    read.clear()
-    box = (400_010.0, 5_000_010.0, 400_590.0, 5_000_590.0)
-    assert_is_part(read_window(octree, box), cloud, box)
-    assert len(read) == 1 + pages
+def test_nested_pages_are_followed_only_where_the_window_is(octree):
+    small, large = (
+        (400_010.0, 5_000_010.0, 400_010.0 + side, 5_000_010.0 + side) for side in (90.0, 580.0)
+    )
+    cloud, heard = read_cloud(octree), LasKit.Heard()
+    nest_pages(octree)
+    assert_is_part(read_window(octree, large, heard), cloud, large)
+    # All pages but the first, and that of the corner, are damaged: whoever reads them tells of it.
+    hierarchy, data = read_hierarchy(open_las(octree)), bytearray(octree.read_bytes())
+    for start, entries in read_pages(hierarchy).items():
+        depth, *place = entries["key"][0].tolist()
+        if start != hierarchy.root[0] and any(each >> (depth - 1) for each in place[:2]):
+            data[start : start + 4] = struct.pack("<i", -1)
+    octree.write_bytes(data)
+    assert_is_part(read_window(octree, small, heard), cloud, small)
+    assert not any("octree" in each for each in heard.warnings)
+    assert_is_part(read_window(octree, large, heard), cloud, large)
+    assert any("octree" in each for each in heard.warnings)
 
 
 @pytest.mark.parametrize("nested", [False, True])
@@ -225,7 +227,7 @@ def test_other_classes_leave_the_octree_as_it_is(las, octree, nested, monkeypatc
     for box in boxes_in_octree():
         assert_is_part(read_window(target, box, heard), cloud, box)
     assert not any("octree" in each for each in heard.warnings)
-    pages = [copc_nodes.read_pages(read_hierarchy(open_las(path))) for path in (octree, target)]
+    pages = [read_pages(read_hierarchy(open_las(path))) for path in (octree, target)]
     assert len(pages[0]) == len(pages[1]) == count
     for one, other in zip(*(np.concatenate(list(each.values())) for each in pages)):
         assert one["count"] == other["count"] and (one["key"] == other["key"]).all()
