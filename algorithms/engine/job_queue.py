@@ -58,8 +58,9 @@ class JobQueue:
         self._workers, self._progress = workers, progress
         self._blocks, self._ready = collections.deque(blocks), collections.deque()
         # Jobs that were running when a worker died. They are repeated one by one, to find the one
-        # that kills its worker.
+        # that kills its worker. The last one that was repeated:
         self._suspects: collections.deque[Job] = collections.deque()
+        self._repeated: Job | None = None
         self._missing = {file for job in blocks for file in job.files}
         self._waiting = list(tiles)
         self._uses = collections.Counter(file for job in tiles for file in job.files)
@@ -106,7 +107,8 @@ class JobQueue:
                 break
             try:
                 self._running[self._workers.submit(queue[0])] = queue[0]
-                queue.popleft()
+                job = queue.popleft()
+                self._repeated = job if queue is self._suspects else self._repeated
             except BrokenExecutor:  # a worker died between two jobs
                 self._suspect_all()
         return bool(self._running)
@@ -125,9 +127,10 @@ class JobQueue:
         try:
             outcome = ended.future.result()
         except BrokenExecutor:
-            is_alone = len(self._running) == 1
+            # Something else may have killed it the first time, even if it ran alone.
+            is_repeated = job is self._repeated
             self._suspect_all()
-            if not is_alone:
+            if not is_repeated:
                 return
             self._suspects.pop()
             outcome = JobResult(None, failure=_DIED)

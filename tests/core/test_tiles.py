@@ -482,7 +482,9 @@ def test_a_stray_point_far_away_does_not_stop_a_survey(tmp_path, out):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="it kills by signals")
-def test_a_process_that_dies_loses_nothing(many, out):
+@pytest.mark.parametrize("threads", [1, 2])
+def test_a_process_that_dies_loses_nothing(threads, many, out):
+    # With one thread, the job is the only one that runs when its process dies.
     folder, expected = many
     killed = []
 
@@ -493,7 +495,7 @@ def test_a_process_that_dies_loses_nothing(many, out):
                 victim.kill()
                 killed.append(victim)
 
-    workers = Processes(Resources(threads=2))
+    workers = Processes(Resources(threads=threads))
     summary = classify_tiles([folder], out, FAST, progress=Killer(), workers=workers)
     assert killed and not summary.failures and summary.done_count == 16
     assert bytes_of(out) == expected
