@@ -42,7 +42,7 @@ def seeds_of_one_grid(
     ground, waiting : numpy.ndarray of intp
         Indices of the points that are taken for ground, and of the lowest points that may be.
     """
-    ground, is_open = _judged(survey, max_size, allowance, progress)
+    ground, is_open, _ = _judged(survey, max_size, allowance, progress)
     if allowance is CLASSIC:
         is_open = np.isfinite(survey.heights).ravel()[survey.cell]
     return survey.lowest[ground], survey.lowest[~ground & is_open]
@@ -68,16 +68,20 @@ def seeds_of_two_grids(
     kinds = np.zeros((2, count), dtype=np.int8)
     caller = threading.get_ident()
 
-    def judge(number: int) -> None:
+    def judge(number: int) -> np.ndarray:
         grid = grids[number]
         part = progress.part(0.5 * number, 0.5 + 0.5 * number)
         # Progress is for the calling thread only.
         part = part if threading.get_ident() == caller else SILENT
-        ground, is_open = _judged(grid, max_size, Allowance(), part)
+        ground, is_open, halls = _judged(grid, max_size, Allowance(), part)
         kinds[number, grid.lowest] = np.where(ground, _GROUND, np.where(is_open, _OPEN, _OBJECT))
+        return halls
 
-    in_threads(judge, range(len(kinds)))
+    halls = in_threads(judge, range(len(kinds)))
     either = np.flatnonzero(kinds[0] | kinds[1])
+    # A hall that one grid finds is one on both.
+    for grid, cells in zip(grids, halls):
+        either = either[~cells.ravel()[grid.cells.index[either]]]
     one, other = kinds[:, either]
     ground = (one == _GROUND) & ((other == _GROUND) | (other == _HIDDEN))
     ground |= (other == _GROUND) & (one == _HIDDEN)
@@ -87,8 +91,8 @@ def seeds_of_two_grids(
 
 def _judged(
     survey: LowestPoints, max_size: float, allowance: Allowance, progress: Progress
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return which lowest points are ground, and which are neither objects nor low outliers."""
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return which lowest points are ground, which are no objects or outliers, and cells of halls."""
     cells, heights = survey.cells, survey.heights
     objects = survey.objects(max_size, progress.part(0.0, 0.4))
     part = progress.part(0.4, 1.0)
@@ -96,4 +100,4 @@ def _judged(
         heights, cells.size, objects, max_size / 2.0, allowance, part, cells.first
     )
     is_open = np.isfinite(heights) & ~objects.raised
-    return ground.ravel()[survey.cell], is_open.ravel()[survey.cell]
+    return ground.ravel()[survey.cell], is_open.ravel()[survey.cell], objects.halls
