@@ -92,7 +92,7 @@ def seeds_of_two_grids(
 def _judged(
     survey: LowestPoints, max_size: float, allowance: Allowance, progress: Progress
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return which lowest points are ground, which are no objects or outliers, and cells of halls."""
+    """Return which lowest points are ground, which may be ground, and the cells of halls."""
     cells, heights = survey.cells, survey.heights
     objects = survey.objects(max_size, progress.part(0.0, 0.4))
     part = progress.part(0.4, 1.0)
