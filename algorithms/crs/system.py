@@ -110,7 +110,7 @@ def crs_of_geokeys(keys: GeoKeys, progress: Progress = SILENT) -> Crs:
 def compound_wkt(crs: Crs) -> str | None:
     """Return the well-known text of a CRS, including the unit of its heights.
 
-    Text made from GeoTIFF keys describes only the horizontal CRS; a different unit of the heights is
+    Text made from GeoTIFF keys describes only the horizontal CRS; a different unit of heights is
     added to it. None if the CRS has no text, or the text has another horizontal unit.
 
     Examples
