@@ -109,7 +109,7 @@ class RasterGrid:
 
     @property
     def corner(self) -> tuple[float, float]:
-        """x and y of the lower left corner, in local metres."""
+        """X and y of the lower left corner, in local metres."""
         south = self.north - self.rows * self.cell_size
         (east, north), unit = self.frame.origin, self.frame.horizontal_unit
         return (self.west - east) * unit, (south - north) * unit
