@@ -38,7 +38,7 @@ def _table(method: Method, offered: Collection[str]) -> str:
     labels = declared["preset"].choices
     rows = {name: _values_of(preset) for name, preset in method.presets.items() if name in offered}
     # Only parameters in which the presets differ. The classic preset is not compared, since it
-    # differs in all of them, and so many would not fit.
+    # differs in all of them, and that many columns would not fit.
     usual = [row for name, row in rows.items() if name != method.classic]
     columns = [name for name in declared if len({row.get(name) for row in usual}) > 1]
     # All values share one column, and the titles are above both columns, because there is little
