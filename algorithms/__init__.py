@@ -1,7 +1,7 @@
 """Ground classification of lidar points, and terrain models: the public API.
 
-Names are imported when they are first used, so that importing the package costs nothing and needs
-no scipy.
+Names are imported when they are first used, so that importing the package is fast and needs no
+scipy.
 
 >>> from bare_earth.algorithms import ClassifyRequest, classify
 >>> summary = classify("tile.laz", "classified.laz", ClassifyRequest())  # doctest: +SKIP
@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from .survey.ground_classes import GroundClasses as GroundClasses
     from .survey.selection import Selection as Selection
 
-# Each name, and the module that has it; with its name there, if that is another one.
+# The module of each name; with the name in that module, if it differs.
 _MODULES = {
     "BareEarthError": "core.errors",
     "Cancelled": "core.errors",

@@ -1,4 +1,4 @@
-"""Lets `python -m bare_earth.algorithms` run the command."""
+"""Runs the command `bare-earth` as `python -m bare_earth.algorithms`."""
 
 import sys
 

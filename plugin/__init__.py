@@ -1,1 +1,1 @@
-"""Bare Earth inside QGIS: everything that imports qgis."""
+"""The QGIS plugin: all code that imports qgis."""

@@ -1,4 +1,4 @@
-"""The one place that knows how QGIS 3.22 to 4.x differ from each other, and build from build."""
+"""All differences between QGIS 3.22 to 4.x, and between builds of QGIS."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from qgis.core import (
 
 from .i18n import tr
 
-try:  # Qt 6 has it there
+try:  # Qt 6
     from qgis.PyQt.QtGui import QAction as QAction
 except ImportError:
     from qgis.PyQt.QtWidgets import QAction as QAction
 
-# From 3.36 on the enumerations are those of `Qgis`; the old names are on their way out.
+# QGIS 3.36 moved these enumerations to `Qgis`; the old names are deprecated.
 if hasattr(Qgis, "ProcessingParameterFlag"):
     ADVANCED = Qgis.ProcessingParameterFlag.Advanced
     OPTIONAL = Qgis.ProcessingParameterFlag.Optional
@@ -47,25 +47,25 @@ else:
     FILES = QgsProcessing.SourceType.TypeFile
     FOLDER = QgsProcessingParameterFile.Behavior.Folder
 
-# Came with 3.26.
+# Since QGIS 3.26.
 HAS_POINT_CLOUD_OUTPUTS = hasattr(core, "QgsProcessingParameterPointCloudDestination")
 
 
 def is_null(value: Any) -> bool:
-    """Return whether a Processing value is not set; PyQt's null differs with the version of Qt."""
+    """Return whether a Processing value is not set; the null of PyQt depends on the Qt version."""
     return value is None or value == NULL
 
 
 def can_load(path: str) -> bool:
     """Return whether this build of QGIS can show a point cloud file, or a .vpc, as a layer."""
     providers = QgsProviderRegistry.instance().providerList()
-    if path.lower().endswith(".vpc"):  # from 3.32 on
+    if path.lower().endswith(".vpc"):  # since QGIS 3.32
         return "vpc" in providers
     return "pdal" in providers or (path.lower().endswith(".copc.laz") and "copc" in providers)
 
 
 def load_virtual_point_cloud(path: str, name: str, context: QgsProcessingContext) -> None:
-    """Show a .vpc file as a layer in the end."""
+    """Let QGIS load a .vpc file as a layer after the run."""
     if context.project() is None:
         return
     details = QgsProcessingContext.LayerDetails(
@@ -77,10 +77,10 @@ def load_virtual_point_cloud(path: str, name: str, context: QgsProcessingContext
 def point_cloud_output(
     name: str, label: str, extensions: list[str]
 ) -> QgsProcessingParameterDefinition:
-    """Return the parameter of a point cloud to be made: a layer, or a file before QGIS 3.26."""
+    """Return the parameter of an output point cloud: a layer, or a file before QGIS 3.26."""
     if HAS_POINT_CLOUD_OUTPUTS:
         return core.QgsProcessingParameterPointCloudDestination(name, label)
-    # The first filter gives the extension of files that get no name.
+    # The first filter gives the extension of files without a name.
     filters = ";;".join(tr("{} files (*.{})").format(each.upper(), each) for each in extensions)
     return QgsProcessingParameterFileDestination(name, label, filters)
 
@@ -100,8 +100,8 @@ def point_cloud_output_path(
 def mark_as_elevation(layer: QgsRasterLayer) -> None:
     """Tell 3D views and elevation profiles that the raster is a surface."""
     properties = layer.elevationProperties()
-    if properties is None:  # came with 3.26
+    if properties is None:  # before QGIS 3.26
         return
     properties.setEnabled(True)
-    if hasattr(properties, "setMode"):  # 3.38; before, being enabled says it
+    if hasattr(properties, "setMode"):  # since QGIS 3.38; before, enabling is enough
         properties.setMode(Qgis.RasterElevationMode.RepresentsElevationSurface)

@@ -1,4 +1,4 @@
-"""The dialog *Plugins > Bare Earth > LAZ support*, and the task that works behind it."""
+"""The dialog *Plugins > Bare Earth > LAZ support*, and its task."""
 
 from __future__ import annotations
 
@@ -34,14 +34,14 @@ _SCHEMES = {
 
 
 class LazDialog(QDialog):
-    """Shows whether .laz files can be read, and gets or removes what that needs.
+    """Shows whether .laz files can be read, and installs or removes lazrs.
 
-    The work goes on when the dialog is closed; it is there again with the result.
+    The work continues if the dialog is closed. When it is opened again, it shows the result.
 
     Parameters
     ----------
     support : LazSupport
-        What does it.
+        Installs and removes lazrs.
     parent : QWidget or None
         The window of QGIS.
     """
@@ -83,17 +83,17 @@ class LazDialog(QDialog):
         self._show_state()
 
     def showEvent(self, event: object) -> None:
-        """Look again what there is, each time the dialog opens."""
+        """Update the state each time the dialog opens."""
         self._show_state()
         super().showEvent(event)
 
     def stop(self) -> None:
-        """End the work; the plugin is unloaded."""
+        """Stop the work, because the plugin is unloaded."""
         if self._task is not None:
             self._task.cancel()
 
     def get_from_wheel(self, path: str) -> None:
-        """Start to get lazrs from a wheel file."""
+        """Start to install lazrs from a wheel file."""
         self._start(lambda _: self._support.get_from_wheel(Path(path)))
 
     def _get(self) -> None:
@@ -132,12 +132,12 @@ class LazDialog(QDialog):
         self.get.setEnabled(not working and not self._support.is_there)
         self.choose.setEnabled(not working and not self._support.is_there)
         self.remove.setEnabled(not working and self._support.is_ours)
-        # For the sentences that came or went.
+        # The number of lines may have changed.
         self.adjustSize()
 
 
 class _Task(QgsTask):
-    """Does the work in another thread, so that the window of QGIS stays alive."""
+    """Works in another thread, so that the window of QGIS does not freeze."""
 
     def __init__(self, work: Callable[[Run], None]) -> None:
         super().__init__(tr("Bare Earth: LAZ support"), QgsTask.Flag.CanCancel)
@@ -145,12 +145,12 @@ class _Task(QgsTask):
         self.error = ""
 
     def run(self) -> bool:
-        """Work; called by QGIS in the other thread."""
+        """Do the work; QGIS calls this in the other thread."""
         try:
             self._work(self._run_process)
         except BareEarthError as error:
             self.error = tr("Cancelled.") if self.isCanceled() else str(error)
-        except Exception as error:  # a thread's error is seen by nobody
+        except Exception as error:  # nobody would see an exception in this thread
             self.error = f"{type(error).__name__}: {error}"
         return not self.error
 
@@ -175,7 +175,7 @@ class _Task(QgsTask):
 
 
 def proxy_address() -> str:
-    """Return the proxy of QGIS's settings as an address, or nothing; only in the main thread."""
+    """Return the address of the proxy in the settings of QGIS, or ""; only in the main thread."""
     proxy = QgsNetworkAccessManager.instance().fallbackProxy()
     scheme = _SCHEMES.get(proxy.type())
     if scheme is None or not proxy.hostName():

@@ -1,4 +1,4 @@
-"""The plugin as QGIS sees it."""
+"""The plugin class that QGIS loads."""
 
 from __future__ import annotations
 
@@ -20,25 +20,25 @@ if TYPE_CHECKING:
     from .provider import BareEarthProvider
 
 _MENU = "Bare Earth"
-# Whether the user has been told of the LAZ support.
+# The setting that stores whether the message on LAZ support was shown.
 _TOLD = "bare_earth/laz_support_told"
 
 
 class BareEarthPlugin:
-    """Adds the Processing provider and the menu, and takes them away."""
+    """Adds and removes the Processing provider and the menu."""
 
     def __init__(self, iface: Any) -> None:
-        # qgis_process has no iface, and needs none.
+        # None in qgis_process.
         self._iface = iface
         self._provider: BareEarthProvider | None = None
         self._action: QAction | None = None
         self._dialog: LazDialog | None = None
-        # Before all else, as the algorithms are listed in the user's language.
+        # First, because the algorithms are listed in the user's language.
         self._translator = install()
         self._support = LazSupport(Path(QgsApplication.qgisSettingsDirPath()))
 
     def initProcessing(self) -> None:
-        """Register the algorithms; the only method that qgis_process calls."""
+        """Register the algorithms; qgis_process calls only this method."""
         add_to_path(BUNDLED)
         self._support.use()
         if missing_packages(["numpy"]):  # the algorithms cannot even be listed
@@ -51,7 +51,7 @@ class BareEarthPlugin:
         QgsApplication.processingRegistry().addProvider(self._provider)
 
     def initGui(self) -> None:
-        """Start within the QGIS window."""
+        """Add provider and menu to the QGIS window."""
         self.initProcessing()
         self._action = QAction(tr("LAZ support…"), self._iface.mainWindow())
         self._action.triggered.connect(self.show_laz_support)
@@ -64,7 +64,7 @@ class BareEarthPlugin:
             self._tell_of_laz_support()
 
     def show_laz_support(self) -> None:
-        """Open the dialog that gets what .laz files need."""
+        """Open the dialog for LAZ support."""
         from .laz_dialog import LazDialog
 
         if self._dialog is None:
@@ -73,7 +73,7 @@ class BareEarthPlugin:
         self._dialog.raise_()
 
     def unload(self) -> None:
-        """Take it all away again."""
+        """Remove provider, menu and dialog."""
         if self._provider is not None:
             QgsApplication.processingRegistry().removeProvider(self._provider)
             self._provider = None
@@ -90,7 +90,7 @@ class BareEarthPlugin:
             QCoreApplication.removeTranslator(self._translator)
 
     def _tell_of_laz_support(self) -> None:
-        """Say once that .laz files need a package, with the way to it."""
+        """Tell the user once that .laz files need a package, with a button to install it."""
         bar = self._iface.messageBar()
         message = bar.createMessage(
             _MENU,
@@ -107,7 +107,7 @@ class BareEarthPlugin:
 
 
 def _missing_science() -> str:
-    """Return what to do where numpy or scipy is missing, which come with QGIS; else nothing."""
+    """Return what to do if numpy or scipy is missing, although QGIS normally has them; or ""."""
     missing = missing_packages(["numpy", "scipy"])
     if not missing:
         return ""

@@ -16,10 +16,10 @@ ICON = Path(__file__).parent / "icons" / "bare_earth.svg"
 
 
 class BareEarthProvider(QgsProcessingProvider):
-    """Registers every algorithm, also where a Python package they need is missing."""
+    """Registers all algorithms, also if a Python package that they need is missing."""
 
     def id(self) -> str:
-        """Return the first half of every algorithm's id; it never changes."""
+        """Return the first half of the ids of the algorithms; it never changes."""
         return "bareearth"
 
     def name(self) -> str:
@@ -35,20 +35,20 @@ class BareEarthProvider(QgsProcessingProvider):
         return __version__
 
     def icon(self) -> QIcon:
-        """Return the picture in the toolbox."""
+        """Return the icon in the toolbox."""
         return QIcon(str(ICON))
 
     def svgIconPath(self) -> str:
-        """Return the file of that picture."""
+        """Return the file of the icon."""
         return str(ICON)
 
     def loadAlgorithms(self) -> None:
-        """Add an instance of each algorithm, and the models that come along."""
+        """Add an instance of each algorithm, and the models of the plugin."""
         for algorithm in [*(each() for each in ALGORITHMS), *shipped_models()]:
             self.addAlgorithm(algorithm)
 
     def supportsNonFileBasedOutput(self) -> bool:
-        """Say that outputs are files."""
+        """Return that outputs are always files."""
         return False
 
     def supportedOutputRasterLayerExtensions(self) -> list[str]:
@@ -56,13 +56,13 @@ class BareEarthProvider(QgsProcessingProvider):
         return ["tif", "tiff"]
 
     def defaultRasterFileExtension(self) -> str:
-        """Return the format of rasters that get no name, whatever the user's usual one is."""
+        """Return the format of rasters without a name, whatever the user's settings are."""
         return "tif"
 
     def supportedOutputPointCloudLayerExtensions(self) -> list[str]:
-        """Return the point cloud formats that can be written here."""
+        """Return the point cloud formats that can be written."""
         return point_cloud_formats()
 
     def defaultPointCloudFileExtension(self) -> str:
-        """Return the format of point clouds that get no name."""
+        """Return the format of point clouds without a name."""
         return point_cloud_formats()[0]

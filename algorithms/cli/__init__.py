@@ -18,14 +18,14 @@ _COMMANDS = (*classifying.COMMANDS, *comparing.COMMANDS, *products.COMMANDS)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command; return its exit code: 0 done, 1 failed, 2 wrong usage."""
+    """Run the command; return 0 if it is done, 1 if it failed, 2 after wrong usage."""
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     _set_output_encoding()
     signal.signal(signal.SIGTERM, _stop)
     try:
         options = _parser(arguments).parse_args(arguments)
         return options.run(options)
-    except SystemExit as error:  # argparse has said what is wrong
+    except SystemExit as error:  # argparse has printed the error
         return error.code if isinstance(error.code, int) else USAGE
     except UsageError as error:
         return _say(error, USAGE, arguments)
@@ -43,7 +43,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _stop(number: int, frame: object) -> None:
-    """End as Ctrl-C does, so that temporary files are removed."""
+    """Stop like Ctrl-C, so that temporary files are removed."""
     raise KeyboardInterrupt
 
 
@@ -56,7 +56,7 @@ def _set_output_encoding() -> None:
 def _say(
     what: object, code: int, arguments: Sequence[str], error: BaseException | None = None
 ) -> int:
-    """Print one line on what went wrong; with --verbose, where it did."""
+    """Print an error in one line; with --verbose, also the traceback."""
     if "--verbose" in arguments and (error is not None or isinstance(what, BaseException)):
         traceback.print_exc()
     print(f"bare-earth: {what}", file=sys.stderr)
@@ -81,7 +81,7 @@ def _parser(arguments: Sequence[str]) -> argparse.ArgumentParser:
             each.name, parents=[common], help=each.help, description=each.description, epilog=_EMPTY
         )
         its_parser.set_defaults(run=each.run)
-        # Declarations of parameters load numpy: those of other commands are not needed.
+        # Declarations of parameters import numpy, so other commands are left out.
         if each.name in arguments:
             each.add(its_parser, arguments)
     return parser

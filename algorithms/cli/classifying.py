@@ -74,14 +74,14 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
 
 
 def _add_method(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> Method:
-    """Add the option for the ground filter, and return the one that the command line names."""
+    """Add the option for the ground filter, and return the method in the command line."""
     from ..filters import DEFAULT_METHOD, METHODS
 
     parser.add_argument(
         "--method", choices=list(METHODS), default=DEFAULT_METHOD,
         help="the ground filter (default: %(default)s)",
     )  # fmt: skip
-    # The options to offer depend on the method, which is on the same command line.
+    # The other options depend on the method, which is in the same command line.
     named = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
     named.add_argument("--method", default=DEFAULT_METHOD)
     return METHODS.get(named.parse_known_args(arguments)[0].method, METHODS[DEFAULT_METHOD])
@@ -120,7 +120,7 @@ def _classify(options: argparse.Namespace) -> int:
 
 
 def _area_of(options: argparse.Namespace) -> Area | None:
-    """Return the area of the options, or None if they name none."""
+    """Return the area of the options, or None if there is none."""
     from ..survey.area import Area
     from ..survey.vector_files import read_boundary
 

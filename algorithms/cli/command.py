@@ -1,4 +1,4 @@
-"""What a command of `bare-earth` is."""
+"""A command of `bare-earth`."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ class Command(NamedTuple):
     Attributes
     ----------
     name : str
-        As it is typed.
+        Its name in the command line.
     help, description : str
-        What it does: in a line, and in one or two sentences.
+        What it does: in one line, and in one or two sentences.
     add : callable
-        ``add(parser, arguments)`` adds its options to a parser; `arguments` is the whole command
-        line, for what to offer may depend on it.
+        ``add(parser, arguments)`` adds its options to a parser. They can depend on `arguments`, the
+        whole command line.
     run : callable
-        ``run(options)`` does it and returns the exit code.
+        ``run(options)`` runs it and returns the exit code.
     """
 
     name: str

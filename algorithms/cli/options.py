@@ -1,4 +1,4 @@
-"""Options made from declared parameters, and parameters made from options."""
+"""Options of declared parameters, and the parameters that they give."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ _NOT_USED = ("none", "automatic")
 
 
 class UsageError(BareEarthError):
-    """A value on the command line that is not allowed."""
+    """The command line contains a value that is not allowed."""
 
 
 def add_inputs(parser: argparse.ArgumentParser, first: str = "") -> None:
-    """Add the argument that names any number of point clouds to read."""
+    """Add the argument for the input point clouds; `first` starts its help."""
     parser.add_argument(
         "input", metavar="INPUT", type=Path, nargs="+",
         help=first + "files, folders, virtual point clouds (.vpc), or lists of files (.txt); all"
@@ -28,7 +28,7 @@ def add_inputs(parser: argparse.ArgumentParser, first: str = "") -> None:
 def add_extent(
     parser: argparse.ArgumentParser, what: str, more: str = "", required: bool = False
 ) -> None:
-    """Add the option for a rectangle; `what` says what it is for, `more` what else to know."""
+    """Add the option for a rectangle; `what` and `more` start and end its help."""
     parser.add_argument(
         "--extent", nargs=4, type=float, metavar=("XMIN", "YMIN", "XMAX", "YMAX"),
         required=required, help=f"{what}, in the CRS of the points{more}",
@@ -36,7 +36,7 @@ def add_extent(
 
 
 def add_json(parser: argparse.ArgumentParser, what: str = "what was done ") -> None:
-    """Add the option to print something as JSON."""
+    """Add the option to print the result as JSON."""
     parser.add_argument("--json", action="store_true", help=f"print {what}as JSON")
 
 
@@ -48,11 +48,11 @@ def add_parameters(
     Parameters
     ----------
     parser : argparse.ArgumentParser
-        That of the command.
+        The parser of the command.
     *declared : type
         Sets of parameters; `chosen` returns them in this order.
     titles : sequence of str, optional
-        Titles, one for each set, under which the help shows its options.
+        A title in the help for each set.
     """
     for place, each in enumerate(declared):
         _add_options(parser.add_argument_group(titles[place]) if titles else parser, each)
@@ -60,12 +60,12 @@ def add_parameters(
 
 
 def chosen(options: argparse.Namespace) -> list[ParameterSet]:
-    """Return the sets of parameters that the parsed options give.
+    """Return the sets of parameters with the values of the options.
 
     Raises
     ------
     UsageError
-        If a value is not allowed; it says which and why.
+        If a value is not allowed.
     """
     return [_from_options(each, options) for each in options.declared]
 

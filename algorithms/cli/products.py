@@ -1,4 +1,4 @@
-"""The commands that make something of a classified file, or of an elevation raster."""
+"""The commands that work on classified files, or on an elevation raster."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def _add_key_points(parser: argparse.ArgumentParser, arguments: Sequence[str]) -
 
 
 def _add_files(parser: argparse.ArgumentParser, *sets: type[ParameterSet]) -> None:
-    """Add what the commands have in common that write classified files anew."""
+    """Add the options of `height` and `key-points`."""
     from ..engine.memory import Resources
     from ..engine.options import TileInput, TileOutput
     from ..survey.ground_classes import GroundClasses
@@ -73,7 +73,7 @@ def _add_files(parser: argparse.ArgumentParser, *sets: type[ParameterSet]) -> No
 
 
 def _write(options: argparse.Namespace) -> int:
-    """Write classified files anew with what the step of a request finds."""
+    """Write classified files with the heights or key points."""
     from ..engine.many_files import write_files
     from ..engine.one_file import write_points
     from ..engine.requests import HeightRequest, KeyPointRequest

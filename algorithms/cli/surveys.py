@@ -1,4 +1,4 @@
-"""What the commands that take many files have in common."""
+"""Options and messages of the commands for many files."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _CONSTRAINTS = {
 
 
 def add_rasters(parser: argparse.ArgumentParser) -> None:
-    """Add the options that name rasters."""
+    """Add the options for rasters."""
     from ..engine.raster_files import RASTERS
 
     for name, each in RASTERS.items():
@@ -39,14 +39,14 @@ def add_rasters(parser: argparse.ArgumentParser) -> None:
 
 
 def rasters_of(options: argparse.Namespace) -> RasterFiles:
-    """Return the rasters that the options name."""
+    """Return the rasters of the options."""
     from ..engine.raster_files import RASTERS, RasterFiles
 
     return RasterFiles(**{name: getattr(options, name) for name in RASTERS})
 
 
 def add_constraints(parser: argparse.ArgumentParser, note: str = "") -> None:
-    """Add the options that name what the terrain must respect; a note may say more of them."""
+    """Add the options for breaklines, water and such; `note` starts their help."""
     for name, what in _CONSTRAINTS.items():
         parser.add_argument(
             f"--{name}", metavar="FILE", type=Path,
@@ -55,7 +55,7 @@ def add_constraints(parser: argparse.ArgumentParser, note: str = "") -> None:
 
 
 def constraints_of(options: argparse.Namespace) -> Constraints:
-    """Return the lines and polygons that the options name."""
+    """Return the lines and polygons of the options."""
     from ..engine.constraints import Constraints
     from ..survey.vector_files import read_boundary, read_lines
 
@@ -79,7 +79,7 @@ def add_scheduler(parser: argparse.ArgumentParser) -> None:
 
 
 def workers_of(options: argparse.Namespace, resources: Resources) -> Workers:
-    """Return who works on many files."""
+    """Return the workers for many files: a cluster, or this computer."""
     from ..engine.cluster import Cluster
     from ..engine.workers import Local
 
@@ -88,7 +88,7 @@ def workers_of(options: argparse.Namespace, resources: Resources) -> Workers:
 
 @contextlib.contextmanager
 def finished_files_stay() -> Iterator[None]:
-    """Tell of a cancelled run that it can go on."""
+    """Tell after a cancel that the run can be continued."""
     try:
         yield
     except (Cancelled, KeyboardInterrupt) as error:
@@ -98,6 +98,6 @@ def finished_files_stay() -> Iterator[None]:
 
 
 def tell_of_survey(options: argparse.Namespace, summary: SurveySummary) -> int:
-    """Tell what became of many files; return the exit code."""
+    """Print the result for many files; return the exit code."""
     tell(options, summary, f"{options.output}: {summary.text}")
     return FAILED if summary.failures else DONE

@@ -1,4 +1,4 @@
-"""What a command tells: what it does on standard error, what it did on standard output."""
+"""Output of commands: messages on standard error, results on standard output."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from ..core.progress import Progress
 
 
 class Terminal(Progress):
-    """Messages on standard error, and a progress bar where that is a terminal.
+    """Shows messages on standard error, and a progress bar if that is a terminal.
 
     Parameters
     ----------
     verbose : bool
-        Whether to tell what is done even if nobody looks on.
+        Whether to show messages also if standard error is no terminal.
     """
 
     def __init__(self, verbose: bool) -> None:
@@ -31,12 +31,12 @@ class Terminal(Progress):
             self._bar.update(round(100 * fraction) - self._bar.n)
 
     def info(self, text: str) -> None:
-        """Tell a message to who looks on or asked for it."""
+        """Show a message, in a terminal or if the user asked for it."""
         if self._talks:
             self._write(text)
 
     def warning(self, text: str) -> None:
-        """Tell a warning, whoever listens."""
+        """Show a warning, in any case."""
         self._write(f"Warning: {text}")
 
     def _write(self, text: str) -> None:
@@ -62,16 +62,16 @@ def _progress_bar() -> Any:
 
 
 def tell(options: argparse.Namespace, summary: Any, text: str) -> None:
-    """Print what was done, as JSON if so asked; a sentence only to who looks on.
+    """Print the result: as JSON, or as a sentence in a terminal.
 
     Parameters
     ----------
     options : argparse.Namespace
         With `json` and `verbose`.
     summary : object
-        A dataclass of what was done.
+        The result as a dataclass, for JSON.
     text : str
-        The sentence.
+        The sentence. With `verbose`, it is printed also if the output is no terminal.
     """
     if options.json:
         print(json.dumps(dataclasses.asdict(summary)))

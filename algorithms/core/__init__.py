@@ -1,1 +1,1 @@
-"""What every room may use: errors, progress, parameters, points, threads and files."""
+"""Used by all other packages: errors, progress, parameters, points, threads and files."""

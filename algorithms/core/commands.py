@@ -1,4 +1,4 @@
-"""Commands as a shell takes them."""
+"""Command lines for a shell."""
 
 from __future__ import annotations
 
@@ -16,6 +16,6 @@ def shell_line(words: Sequence[str]) -> str:
         The command, then its arguments.
     """
     if os.name == "nt":
-        # Windows knows double quotes only, and file names there hold none.
+        # Windows only has double quotes, and file names there cannot contain them.
         return " ".join(f'"{word}"' if " " in word else word for word in words)
     return shlex.join(words)

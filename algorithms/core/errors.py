@@ -1,4 +1,4 @@
-"""The two ways in which a computation of this package ends early."""
+"""The two exceptions that end a computation of this package early."""
 
 from __future__ import annotations
 
@@ -6,22 +6,21 @@ import unicodedata
 
 
 class BareEarthError(Exception):
-    """Something the user can mend; the text says in a sentence what is wrong and what to do."""
+    """An error that the user can solve; the text says what is wrong and what to do."""
 
     def __init__(self, text: object = "") -> None:
-        # Names of files and what stands in them may hold anything.
+        # Names and contents of files can contain any character.
         super().__init__(printable(str(text)))
 
 
 class Cancelled(Exception):
-    """The user asked to stop. Whoever catches it leaves nothing half written behind."""
+    """The user asked to stop. Code that catches it must remove incomplete files."""
 
 
 def printable(text: str) -> str:
     r"""Return a text as one line that any terminal, log or page can show.
 
-    Line breaks, the characters that steer terminals, and the bytes of file names that are not UTF-8
-    become escapes.
+    Line breaks, control characters, and bytes of file names that are not UTF-8 become escapes.
 
     Examples
     --------

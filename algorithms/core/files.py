@@ -1,4 +1,4 @@
-"""Output files that are there whole or not at all."""
+"""Writes output files that are complete or do not exist."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from typing import BinaryIO, Iterable, Iterator
 from .errors import BareEarthError
 from .temporary import make_temporary, new_marks, remove_leftovers, remove_temporary, shown
 
-# What a system says of a file that another process has locked.
+# Errors of the system for a file that another process has locked.
 _LOCKED = (errno.EACCES, errno.EAGAIN, errno.EDEADLK)
 _REASONS = {
     errno.ENOSPC: "the disk is full. Free some space or choose another folder",
@@ -29,14 +29,14 @@ _REASONS = {
 }
 
 
-# Endings of files; the longest first, since it ends as another does.
+# Endings of files; ".copc.laz" must come before ".laz".
 _ENDINGS = (".copc.laz", ".las", ".laz", ".vpc", ".txt", ".tif", ".tiff")
 
 
 def split_name(path: Path) -> tuple[str, str]:
     """Return the name of a file without its ending, and the ending, such as ``.copc.laz``.
 
-    A folder, and a file of another kind, has no ending.
+    The ending is empty for folders and other kinds of files.
     """
     ending = next((each for each in _ENDINGS if path.name.lower().endswith(each)), "")
     stem = path.name[: -len(ending) or None]
@@ -46,7 +46,7 @@ def split_name(path: Path) -> tuple[str, str]:
 def check_output(target: Path, sources: tuple[Path, ...] = ()) -> None:
     """Refuse, before any work is done, an output that could not be written at the end.
 
-    What killed runs left in the folder is removed: its space may be needed.
+    Temporary files of killed runs in the folder are removed, since their space may be needed.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ def check_distinct(outputs: Iterable[Path | None]) -> None:
 
 
 def is_same_file(one: Path, other: Path) -> bool:
-    """Return whether two paths name the same file, which need not be there yet."""
+    """Return whether two paths name the same file, which need not exist yet."""
     if one.exists() and other.exists():
         return os.path.samefile(one, other)
     return os.path.normcase(one.resolve()) == os.path.normcase(other.resolve())
@@ -113,16 +113,16 @@ def is_same_file(one: Path, other: Path) -> bool:
 
 @contextlib.contextmanager
 def replacing(target: Path) -> Iterator[Path]:
-    """Give a temporary file beside `target` to write to; rename it when the block ends well.
+    """Yield a temporary file beside `target`; rename it to `target` when the block ends.
 
-    If the block ends with any exception (a cancel among them), the temporary file is removed and
-    what was at `target` before is untouched. The temporary name keeps the suffixes of the target,
-    since libraries choose the format by them. The permissions of a former target are kept.
+    After an exception (including a cancel), the temporary file is removed and an old target stays
+    unchanged. The temporary name keeps the suffixes of the target, since libraries choose the
+    format by them. The permissions of an old target are kept.
 
     Raises
     ------
     BareEarthError
-        If the operating system refuses to write, with what to do about it.
+        If the operating system refuses to write; the text says what to do.
     """
     temporary = None
     try:
@@ -130,7 +130,7 @@ def replacing(target: Path) -> Iterator[Path]:
         temporary = make_temporary(target, mode)
         yield temporary
         if mode is not None:
-            with contextlib.suppress(OSError):  # not every file system has them
+            with contextlib.suppress(OSError):  # not every file system has permissions
                 os.chmod(temporary, mode)
         _rename(temporary, target)
     except OSError as error:
@@ -142,7 +142,7 @@ def replacing(target: Path) -> Iterator[Path]:
 
 @contextlib.contextmanager
 def new_folder(path: Path) -> Iterator[Path]:
-    """Give a folder, made if it is not there; it is removed again if it is empty at the end.
+    """Make a folder if it does not exist, and yield it; remove it at the end if it is empty.
 
     Raises
     ------
@@ -156,13 +156,13 @@ def new_folder(path: Path) -> Iterator[Path]:
     try:
         yield path
     finally:
-        with contextlib.suppress(OSError):  # there are files in it
+        with contextlib.suppress(OSError):  # it contains files
             path.rmdir()
 
 
 @contextlib.contextmanager
 def temporary_folder(beside: Path) -> Iterator[Path]:
-    """Give a folder within `beside` that is removed, with all in it, when the block ends.
+    """Yield a new folder inside `beside`; remove it with its contents when the block ends.
 
     If the process is killed, `remove_leftovers` removes it.
 
@@ -184,12 +184,12 @@ def temporary_folder(beside: Path) -> Iterator[Path]:
 
 @contextlib.contextmanager
 def unnamed_file(folder: Path) -> Iterator[BinaryIO]:
-    """Give a temporary file without a name, which is gone when the block ends, or the process.
+    """Yield a temporary file without a name. It disappears when the block or the process ends.
 
     Parameters
     ----------
     folder : Path
-        Where it is to be.
+        The folder on whose disk the data are stored.
     """
     with contextlib.ExitStack() as opened:
         file = opened.enter_context(tempfile.TemporaryFile(dir=folder))
@@ -198,37 +198,37 @@ def unnamed_file(folder: Path) -> Iterator[BinaryIO]:
 
 
 def _close(file: BinaryIO) -> None:
-    """Close a file in which nobody wants anything more: a full disk may say so once more."""
+    """Close a file that is no longer needed; ignore errors, such as those of a full disk."""
     with contextlib.suppress(OSError):
         file.close()
 
 
 def reach_disk(file: BinaryIO) -> None:
-    """Let the disk take what was written, and tell if it does not.
+    """Hand what was written to the disk, before it is read again.
 
-    A network disk may say only when a file is closed that it is full, and what is read before is
-    not what was written. A local disk says so at once: for it this costs nothing.
+    A full network disk may report an error only when a file is closed. Until then, reading the
+    file can return wrong data. A local disk reports the error at once, so this costs nothing there.
 
     Raises
     ------
     OSError
-        If the disk does not take it.
+        If the disk does not accept the data.
     """
     file.flush()
     os.close(os.dup(file.fileno()))
 
 
 def replace_with_files_of(folder: Path, target: Path, beside: Iterable[str]) -> None:
-    """Put the files of a temporary folder into that of `target`, for formats of several files.
+    """Move the files of a temporary folder beside `target`, for formats with several files.
 
     Parameters
     ----------
     folder : Path
-        What `temporary_folder` gave, with `target.name` and what belongs to it.
+        A folder of `temporary_folder`, with `target.name` and the files that belong to it.
     target : Path
         The file to be made.
     beside : iterable of str
-        Names of what may belong to the former target: what is not replaced of it is removed.
+        Names of files that may belong to an old target. Those that are not replaced are removed.
 
     Raises
     ------
@@ -246,10 +246,10 @@ def replace_with_files_of(folder: Path, target: Path, beside: Iterable[str]) -> 
 
 
 def _rename(temporary: Path, target: Path) -> None:
-    """Put a temporary file into the place of its target.
+    """Rename a temporary file to its target.
 
-    A network disk may report an error for what it has done: its first answer was lost, and to the
-    same question once more it says that there is no such file.
+    A network disk may report an error although it has renamed the file: if its first answer was
+    lost, it answers the repeated request that the temporary file does not exist.
     """
     written = os.stat(temporary)
     try:
@@ -262,7 +262,7 @@ def _rename(temporary: Path, target: Path) -> None:
 
 
 def _mode_of(target: Path) -> int | None:
-    """Return the permissions of a file, None if there is none."""
+    """Return the permissions of a file, None if it does not exist."""
     try:
         return os.stat(target).st_mode & 0o777
     except FileNotFoundError:
@@ -271,20 +271,20 @@ def _mode_of(target: Path) -> int | None:
 
 @contextlib.contextmanager
 def alone_in(folder: Path) -> Iterator[None]:
-    """Let no other run work in a folder while the block does.
+    """Lock a folder against other runs until the block ends.
 
-    The lock is the operating system's: it ends with the process, however that ends. Where the
-    file system has no locks, nothing is refused.
+    The operating system removes the lock when the process ends, even if it is killed. If the file
+    system has no locks, other runs are not refused.
 
     Parameters
     ----------
     folder : Path
-        It must exist, and be one that only such runs write into; `lock` in it is the file.
+        An existing folder that only such runs write into. The file `lock` in it is locked.
 
     Raises
     ------
     BareEarthError
-        If another run works in it, or nothing can be written there.
+        If another run works in the folder, or nothing can be written there.
     """
     path = folder / "lock"
     with contextlib.ExitStack() as opened:
@@ -316,7 +316,7 @@ def _lock(number: int) -> None:
 
 
 def describe_write_error(target: Path, error: OSError | ValueError) -> BareEarthError:
-    """Turn an operating system error met while writing `target` into a sentence."""
+    """Return a sentence for an error of the operating system while writing `target`."""
     reason = str(error)
     if isinstance(error, OSError):
         reason = _REASONS.get(error.errno or 0, error.strerror or reason)

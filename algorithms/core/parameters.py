@@ -1,7 +1,7 @@
-"""Parameters declared once: dialog, command line, docs and validation come from here.
+"""Parameters, declared once for the dialog, the command line, the docs and validation.
 
-A method's parameters are a frozen dataclass that derives from `ParameterSet`, each field made by
-`parameter`:
+The parameters of a method are a frozen dataclass derived from `ParameterSet`. Its fields are made
+by `parameter`:
 
 >>> @dataclass(frozen=True)
 ... class Example(ParameterSet):
@@ -30,30 +30,30 @@ _Set = TypeVar("_Set", bound="ParameterSet")
 
 @dataclass(frozen=True)
 class Declaration:
-    """What is said of one parameter, beside its name.
+    """The declaration of one parameter.
 
     Attributes
     ----------
     name : str
-        The field's name; upper case in Processing, with hyphens on the command line.
+        Name of the field; upper case in Processing, with hyphens on the command line.
     kind : str
         ``number``, ``integer``, ``boolean``, ``choice``, ``numbers`` or ``integers`` (lists), or
-        ``choices`` (one or more of them, each once).
+        ``choices`` (one or more, each once).
     default : object
-        The value when none is given; None where the parameter is off by default.
+        The default value; None if the parameter is off by default.
     label, help, unit : str
-        The field's title, one or two sentences on what it does and how to choose it, and its unit
-        (``m``, ``deg``, ``points``; empty where it has none).
+        Title of the field, one or two sentences on what it does and how to choose it, and its unit
+        (``m``, ``deg``, ``points``; empty if it has none).
     minimum, maximum : float or None
         Inclusive limits of a number, or of each number of a list.
     choices : mapping of str to str
-        For a choice, or several: each value with its label.
+        The values of a choice with their labels.
     optional : bool
-        Whether None is a value.
+        Whether None is allowed.
     advanced : bool
-        Whether the dialog folds it away.
+        Whether it is an advanced parameter of the dialog.
     empty : str
-        What None means: ``not used``, ``automatic`` where the value is then chosen, or in words.
+        The meaning of None: ``not used``, ``automatic`` (the program chooses), or other words.
     """
 
     name: str
@@ -70,12 +70,12 @@ class Declaration:
     empty: str = "not used"
 
     def check(self, value: Any) -> Any:
-        """Return `value` as this parameter's type.
+        """Return `value`, converted to the type of this parameter.
 
         Raises
         ------
         BareEarthError
-            If it is not a value that this parameter takes.
+            If the value is not allowed.
         """
         if value is None:
             if not self.optional:
@@ -141,9 +141,10 @@ def parameter(
     advanced: bool = False,
     empty: str = "not used",
 ) -> Any:
-    """Declare one field of a `ParameterSet`; see `Declaration` for the words.
+    """Declare one field of a `ParameterSet`; see `Declaration` for the arguments.
 
-    `kind` follows from the default's type and from `choices`; give it where the default is None.
+    By default, `kind` follows from `choices` and the type of the default. It must be given if the
+    default is None.
     """
     if kind is None:
         kind = "choice" if choices else _kind_of(default)
@@ -155,7 +156,7 @@ def parameter(
 
 
 def parameter_of(declared: type[ParameterSet], name: str, **differently: Any) -> Any:
-    """Declare a field as another set does, but for what is given `differently`.
+    """Declare the same field as in another set, with some differences.
 
     Parameters
     ----------
@@ -164,7 +165,7 @@ def parameter_of(declared: type[ParameterSet], name: str, **differently: Any) ->
     name : str
         Its field.
     **differently
-        Attributes of the `Declaration` that are not those of the other.
+        Attributes of the `Declaration` that differ.
     """
     declaration = next(each for each in declared.declarations() if each.name == name)
     declaration = dataclasses.replace(declaration, **differently)
@@ -172,7 +173,7 @@ def parameter_of(declared: type[ParameterSet], name: str, **differently: Any) ->
 
 
 def shown_value(value: str | float) -> str:
-    """Return a value of a list as it is typed."""
+    """Return a value of a list as a user types it."""
     return value if isinstance(value, str) else f"{value:g}"
 
 
@@ -191,7 +192,7 @@ def _kind_of(default: Any) -> str:
 
 @dataclass(frozen=True)
 class ParameterSet:
-    """Base of every method's parameters: validates each value when an instance is made."""
+    """Base class of parameters: checks each value when an instance is made."""
 
     def __post_init__(self) -> None:
         for declaration in self.declarations():
@@ -199,7 +200,7 @@ class ParameterSet:
             object.__setattr__(self, declaration.name, checked)
 
     def filled(self: _Set, values: Mapping[str, Any]) -> _Set:
-        """Return the set with values, by name, for the parameters that are empty (None)."""
+        """Return a copy in which empty parameters (None) get the values, given by name."""
         empty = {
             each: value for each, value in values.items() if getattr(self, each, value) is None
         }
@@ -218,12 +219,12 @@ class ParameterSet:
 
     @classmethod
     def among(cls: type[_Set], sets: Iterable[ParameterSet]) -> _Set:
-        """Return the set of this type among others, whatever their order."""
+        """Return the set of this type from a list of sets."""
         return next(each for each in sets if isinstance(each, cls))
 
     @classmethod
     def declarations(cls) -> tuple[Declaration, ...]:
-        """Return the declarations of all parameters, in their order."""
+        """Return the declarations of all parameters, in order."""
         return tuple(
             dataclasses.replace(field.metadata[_KEY], name=field.name)
             for field in dataclasses.fields(cls)

@@ -1,4 +1,4 @@
-"""The points as every ground filter sees them."""
+"""Points in local metres, as ground filters use them."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ Box = tuple[float, float, float, float]
 
 @dataclass(frozen=True)
 class Frame:
-    """Where local metres lie in the coordinate reference system of the survey.
+    """The position of local metres in the coordinate reference system of the survey.
 
     Attributes
     ----------
     origin : tuple of float
-        x and y, in units of the CRS, of the local origin.
+        x and y of the local origin, in units of the CRS.
     horizontal_unit, vertical_unit : float
         Metres in one unit of the CRS.
     wkt : str or None
@@ -32,7 +32,7 @@ class Frame:
     wkt: str | None = None
 
     def moved(self, corner: tuple[float, float]) -> Frame:
-        """Return the frame whose origin is a place, given in metres of this one."""
+        """Return a frame with another origin, given in metres of this one."""
         east, north = (at + by / self.horizontal_unit for at, by in zip(self.origin, corner))
         return replace(self, origin=(east, north))
 
@@ -46,14 +46,13 @@ class _Columns(NamedTuple):
 class Points(_Columns):
     """Coordinates in metres, relative to a local origin.
 
-    The origin is a place of the CRS that does not depend on the survey: that of the block at hand
-    (`Blocks.corner`). Grids are anchored at its (0, 0), so that a point falls into the same cell
-    however far the survey reaches, and however it is cut.
+    The origin belongs to the block (`Blocks.corner`), not to the survey. Grids start at the origin,
+    so that a point falls into the same cell whatever the extent and the files of the survey.
 
     Attributes
     ----------
     x, y, z : numpy.ndarray of float64, shape (n,)
-        Easting, northing and height in metres. They do not change once the box was asked for.
+        Easting, northing and height in metres. Do not change them after `box` was used.
     """
 
     @property
@@ -63,7 +62,7 @@ class Points(_Columns):
 
     @cached_property
     def box(self) -> Box:
-        """Smallest x and y, largest x and y, of at least one point."""
+        """Smallest x and y, largest x and y; there must be at least one point."""
         return (
             float(self.x.min()),
             float(self.y.min()),
@@ -78,9 +77,9 @@ class Points(_Columns):
         return east - west, north - south
 
     def take(self, which: np.ndarray | slice) -> Points:
-        """Return the points that a boolean mask, an index array or a slice names."""
+        """Return the points that a boolean mask, an index array or a slice selects."""
         return Points(self.x[which], self.y[which], self.z[which])
 
     def and_also(self, others: Points) -> Points:
-        """Return these points and others after them."""
+        """Return these points, followed by others."""
         return Points(*(np.concatenate(pair) for pair in zip(self, others)))

@@ -1,4 +1,4 @@
-"""How a long computation talks to whoever called it: a terminal, a QGIS dialog or a test."""
+"""Progress and messages of a computation, for a terminal, a QGIS dialog or a test."""
 
 from __future__ import annotations
 
@@ -6,21 +6,21 @@ import time
 from itertools import accumulate
 from typing import Iterator
 
-# Seconds that a piece of a long step is to take: a cancel waits for its end.
+# Wanted seconds for a piece of a long step. A cancel waits for the end of the piece.
 _PIECE_SECONDS = 0.4
 _FIRST_PIECE, _LEAST_PIECE = 500_000, 100_000
 
 
 class Progress:
-    """Receives how far a computation is and what it noticed; this base class ignores both.
+    """Receives the progress and messages of a computation; this base class ignores both.
 
-    A front end subclasses it and overrides `report`, `info` and `warning`. To cancel, `report`
-    raises `Cancelled`. An object is used instead of the logging module because several computations
-    may run in threads of one process, each with a log of its own.
+    A front end derives a class from it and overrides `report`, `info` and `warning`. To cancel,
+    `report` raises `Cancelled`. The logging module is not used, because several computations can
+    run in threads of one process, each with its own log.
     """
 
     def __call__(self, fraction: float) -> None:
-        """Say that `fraction` (0 to 1) is done; call it at least once a second.
+        """Report that `fraction` (0 to 1) is done. Call this at least once a second.
 
         Raises
         ------
@@ -30,31 +30,31 @@ class Progress:
         self.report(min(max(float(fraction), 0.0), 1.0))
 
     def report(self, fraction: float) -> None:
-        """Show how far the whole computation is."""
+        """Show the progress of the whole computation."""
 
     def info(self, text: str) -> None:
-        """Tell the user something worth knowing about the data or the choices made."""
+        """Tell the user something useful about the data or the settings."""
 
     def choice(self, text: str) -> None:
-        """Tell the user what was chosen for the data at hand, where nothing was asked for."""
+        """Tell the user which setting was chosen automatically for the data."""
         self.info(text)
 
     def warning(self, text: str) -> None:
         """Tell the user something that may make the result worse than expected."""
 
     def part(self, start: float, end: float) -> Progress:
-        """Return a progress whose 0 to 1 is the range `start` to `end` of this one."""
+        """Return the progress of a part: its 0 to 1 is `start` to `end` of this one."""
         return _Part(self, start, end)
 
     def shares(self, *weights: float) -> list[Progress]:
-        """Return parts that follow each other, as long as their weights; 0 for what is left out."""
+        """Return consecutive parts with lengths in proportion to the weights; 0 for no part."""
         ends, whole = list(accumulate(weights)), sum(weights) or 1.0
         return [
             self.part((end - weight) / whole, end / whole) for weight, end in zip(weights, ends)
         ]
 
     def quiet(self) -> Progress:
-        """Return one that passes on how far it is, and no messages: they are told elsewhere."""
+        """Return a progress that passes on fractions, but drops messages."""
         return _Quiet(self)
 
 
@@ -84,43 +84,43 @@ class _Quiet(Progress):
 
 
 class Notes(Progress):
-    """Keeps messages, to be told later or elsewhere.
+    """Stores messages, to show them later or elsewhere.
 
     Attributes
     ----------
     messages : list of tuple of str
-        Kind (the name of the method that was called) and text of each.
+        Kind (the name of the called method) and text of each message.
     """
 
     def __init__(self) -> None:
         self.messages: list[tuple[str, str]] = []
 
     def info(self, text: str) -> None:
-        """Keep it."""
+        """Store a message."""
         self.keep("info", text)
 
     def choice(self, text: str) -> None:
-        """Keep it."""
+        """Store a choice."""
         self.keep("choice", text)
 
     def warning(self, text: str) -> None:
-        """Keep it."""
+        """Store a warning."""
         self.keep("warning", text)
 
     def keep(self, kind: str, text: str) -> None:
-        """Keep a message."""
+        """Store a message of any kind."""
         self.messages.append((kind, text))
 
 
 def paced(count: int, most: int) -> Iterator[slice]:
-    """Yield the pieces of a range, each as long as the pace of the last one lets it be.
+    """Yield consecutive pieces of a range; the time of a piece sets the size of the next one.
 
     Parameters
     ----------
     count : int
         Length of the range, in points.
     most : int
-        No piece is longer.
+        Greatest length of a piece.
     """
     start, size = 0, _FIRST_PIECE
     while start < count:
@@ -129,7 +129,7 @@ def paced(count: int, most: int) -> Iterator[slice]:
         yield piece
         took = max(time.perf_counter() - begun, 1e-9)
         fitting = int((piece.stop - start) * _PIECE_SECONDS / took)
-        # At most twice as many: the first ones may have been quick for once.
+        # At most twice as many, in case the last piece was fast by chance.
         start, size = piece.stop, min(max(fitting, _LEAST_PIECE), 2 * size)
 
 

@@ -1,4 +1,4 @@
-"""Temporary files whose names say who writes them, and the removal of those that were left."""
+"""Temporary files whose names say which process writes them, and the removal of old ones."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ import time
 from pathlib import Path
 from typing import Container
 
-# The computer and the process that hold a temporary file, and what nobody can foresee.
+# Computer, process, and random characters.
 _TEMPORARY = re.compile(r"\.(\w+)-(\d+)-(\w+)\.part\.")
 _LONGEST_NAME = 255
-# Whether a process of another computer is gone cannot be seen, but whether it still writes.
+# It cannot be seen whether a process of another computer still runs, only when it last wrote.
 _FORGOTTEN_SECONDS = 86_400.0
-# The marks of what this process writes right now.
+# The marks of the files that this process writes now.
 _held: set[str] = set()
 
 
 def make_temporary(target: Path, mode: int | None = None) -> Path:
-    """Make an empty file beside the target whose name says who writes it.
+    """Make an empty file beside the target; its name says which process writes it.
 
-    A file that is there already is never taken: whoever knew the name could have put a link there.
+    An existing file is never used: somebody who knew the name could have put a link there.
     """
     while True:
         marks = new_marks()
@@ -44,9 +44,9 @@ def make_temporary(target: Path, mode: int | None = None) -> Path:
 
 
 def new_marks() -> str:
-    """Return how the name of a new temporary file begins, and hold it.
+    """Return the start of the name of a new temporary file, and register it.
 
-    Before it is there: another thread must not take it for one that was left.
+    It must be registered before the file exists, so that no other thread removes the file.
     """
     marks = f".{_computer()}-{os.getpid()}-{secrets.token_hex(8)}.part."
     _held.add(marks)
@@ -54,9 +54,9 @@ def new_marks() -> str:
 
 
 def _cut(name: str, taken: int) -> str:
-    """Return the end of a file name, so long that it fits behind some other bytes."""
+    """Return the end of a file name that fits behind `taken` other bytes."""
     if len(os.fsencode(name)) > _LONGEST_NAME:
-        return name  # too long by itself, which the operating system says better
+        return name  # too long in any case: the operating system gives the error
     while len(os.fsencode(name)) + taken > _LONGEST_NAME:
         name = name[1:]
     return name
@@ -64,19 +64,19 @@ def _cut(name: str, taken: int) -> str:
 
 @functools.cache
 def _computer() -> str:
-    """Return the name of this computer, as it stands in the names of temporary files."""
+    """Return the name of this computer for the names of temporary files."""
     return re.sub(r"\W", "_", socket.gethostname(), flags=re.ASCII)[:32] or "_"
 
 
 def remove_temporary(temporary: Path) -> None:
-    """Remove a temporary file or folder, if it is still there, and hold it no longer."""
+    """Remove a temporary file or folder, if it still exists, and its registration."""
     _delete(temporary)
     if marks := _TEMPORARY.match(temporary.name):
         _held.discard(marks[0])
 
 
 def _delete(path: str | Path) -> None:
-    """Remove a file, or a folder with all in it, as far as that can be done; follow no link."""
+    """Remove a file, or a folder with its contents, if possible; do not follow links."""
     with contextlib.suppress(OSError):
         if os.path.isdir(path) and not os.path.islink(path):
             shutil.rmtree(path)
@@ -85,17 +85,17 @@ def _delete(path: str | Path) -> None:
 
 
 def remove_leftovers(folder: Path, processes: Container[int] | None = None) -> None:
-    """Remove what `replacing` left in a folder when its process was killed.
+    """Remove temporary files of killed processes from a folder.
 
-    Files of processes that are still there stay. Files of other computers, on a disk that several
-    share, are removed if nobody wrote to them for a day.
+    Files of running processes stay. On a shared disk, files of other computers are removed if they
+    have not changed for a day.
 
     Parameters
     ----------
     folder : Path
         The folder.
     processes : container of int, optional
-        Only the files of these processes; of all if it is not given.
+        Remove only files of these processes. By default, of all processes.
     """
     if not folder.is_dir():
         return
@@ -109,7 +109,7 @@ def remove_leftovers(folder: Path, processes: Container[int] | None = None) -> N
 
 
 def _is_left(entry: os.DirEntry[str], marks: re.Match[str]) -> bool:
-    """Return whether nobody writes a temporary file any more."""
+    """Return whether a temporary file is no longer written."""
     computer, process = marks[1], int(marks[2])
     if computer != _computer():
         age = time.time() - entry.stat(follow_symlinks=False).st_mtime
@@ -120,14 +120,14 @@ def _is_left(entry: os.DirEntry[str], marks: re.Match[str]) -> bool:
 
 
 def _is_running(process: int) -> bool:
-    """Return whether a process of this computer is there."""
+    """Return whether a process of this computer still runs."""
     if sys.platform == "win32":
         import ctypes
 
         kernel, code = ctypes.windll.kernel32, ctypes.c_ulong()
-        handle = kernel.OpenProcess(0x1000, False, process)  # to ask for its state, no more
+        handle = kernel.OpenProcess(0x1000, False, process)  # only the right to read its state
         if not handle:
-            return kernel.GetLastError() == 5  # access denied: it is there
+            return kernel.GetLastError() == 5  # access denied: it runs
         try:
             return bool(kernel.GetExitCodeProcess(handle, ctypes.byref(code))) and code.value == 259
         finally:
@@ -142,9 +142,9 @@ def _is_running(process: int) -> bool:
         state = Path(f"/proc/{process}/stat").read_bytes().rpartition(b")")[2].split()[:1]
     except OSError:  # not every system has it
         return True
-    return state not in ([b"Z"], [b"X"])  # one that ended, but nobody asked how
+    return state not in ([b"Z"], [b"X"])  # ended, but not yet collected by its parent
 
 
 def shown(path: object) -> str:
-    """Return a path, or a text that names one, without the marks of `replacing`."""
+    """Return a path, or a text with a path, without the marks of temporary files."""
     return _TEMPORARY.sub("", str(path))

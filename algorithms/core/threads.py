@@ -1,7 +1,7 @@
-"""How many threads a computation may use, and work spread over so many.
+"""The number of threads that a computation may use, and functions that run in these threads.
 
-The filters run in threads, one for each block. Where there are fewer blocks than threads, a block
-may use several itself: it asks `workers` how many, or lets `in_threads` do so.
+Each block is filtered in one thread. If there are fewer blocks than threads, a block can use
+several: `workers` tells how many, and `in_threads` uses them.
 """
 
 from __future__ import annotations
@@ -22,28 +22,28 @@ def available_cpus() -> int:
     """Return the number of CPUs that this process may use."""
     try:
         return len(os.sched_getaffinity(0))
-    except AttributeError:  # Windows and macOS do not tell
+    except AttributeError:  # not available in Windows and macOS
         return os.cpu_count() or 1
 
 
 def workers() -> int:
-    """Return how many threads the computation of the calling thread may use: 1 if none said so."""
+    """Return how many threads the calling thread may use; 1 outside of `may_use`."""
     return _allowed()()
 
 
 def _allowed() -> Callable[[], int]:
-    """Return what tells how many threads the calling thread may use: that may change."""
+    """Return a function that returns the number of threads for the calling thread now."""
     return getattr(_current, "allowed", lambda: 1)
 
 
 @contextlib.contextmanager
 def may_use(count: int | Callable[[], int]) -> Iterator[None]:
-    """Let the computations of the calling thread use some threads while the block runs.
+    """Let the calling thread use several threads while the block runs.
 
     Parameters
     ----------
     count : int or callable
-        How many, or what tells how many at a time: more of them help as soon as they may.
+        The number of threads, or a function that returns it. The number can change during the run.
     """
     before = _allowed()
     tells = count if callable(count) else lambda: int(count)
@@ -57,24 +57,24 @@ def may_use(count: int | Callable[[], int]) -> Iterator[None]:
 def in_threads(
     function: Callable[[_Item], _Result], items: Iterable[_Item], progress: Progress = SILENT
 ) -> list[_Result]:
-    """Return the results of a function for each item, in their order.
+    """Return the results of a function for each item, in order.
 
-    The calls run in as many threads as the calling thread may use, itself among them, each in one
-    itself.
+    The calls run in as many threads as the calling thread may use, including itself. Each call may
+    use one thread.
 
     Parameters
     ----------
     function : callable
-        Takes one item. It must not change what another call reads.
+        Takes one item. It must not change data that another call reads.
     items : iterable
-        What to call it for.
+        The items.
     progress : Progress
         Receives progress, from the calling thread.
 
     Raises
     ------
     Exception
-        What the first call that failed raised; calls that have not begun are left out then.
+        The exception of the first item whose call failed. Calls that have not started are left out.
     """
     items = list(items)
     return _Shared(function, items).results(progress)
@@ -83,12 +83,12 @@ def in_threads(
 def over_parts(
     function: Callable[[slice], object], count: int, part: int, progress: Progress
 ) -> None:
-    """Call a function for the parts of a range, in threads, and say between them how far it is.
+    """Call a function for the parts of a range, in threads; see `in_threads`.
 
     Parameters
     ----------
     function : callable
-        Takes a slice of the range; it keeps its result where no other call writes.
+        Takes a slice of the range. It must not write where another call writes.
     count : int
         Length of the range.
     part : int
@@ -100,14 +100,14 @@ def over_parts(
 
 
 def parts_of(count: int, part: int) -> list[slice]:
-    """Return the slices that cut a range of some length into parts."""
+    """Return slices of length `part` (the last may be shorter) that cover a range."""
     return [slice(start, min(start + part, count)) for start in range(0, count, part)]
 
 
 class _Shared:
-    """Calls that several threads take one after the other, the calling thread among them.
+    """A list of calls, which several threads, including the calling one, work off.
 
-    No pool: to make one anew for each step would take longer than many of the steps.
+    There is no thread pool, since making one for each step would take longer than many steps.
     """
 
     def __init__(self, function: Callable[[_Item], _Result], items: Sequence[_Item]) -> None:
@@ -118,7 +118,7 @@ class _Shared:
         self._failures: dict[int, BaseException] = {}
 
     def results(self, progress: Progress) -> list[_Result]:
-        """Make the calls; return what they returned, or raise what the first to fail raised."""
+        """Make the calls and return their results, or raise the first exception."""
         others: list[threading.Thread] = []
         allowed = _allowed()
         try:
@@ -150,7 +150,7 @@ class _Shared:
             self._end()
 
     def _numbers(self) -> Iterator[int]:
-        """Yield the numbers of calls that nobody has begun yet."""
+        """Yield the numbers of calls that have not started yet."""
         while True:
             with self._lock:
                 number = next(self._next, None)
@@ -159,6 +159,6 @@ class _Shared:
             yield number
 
     def _end(self) -> None:
-        """Let no call begin any more."""
+        """Start no further call."""
         with self._lock:
             self._next = iter(())

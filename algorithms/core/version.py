@@ -1,3 +1,3 @@
-"""The version of the package; `metadata.txt` and the changelog state the same."""
+"""The version of the package, which is also in `metadata.txt` and the changelog."""
 
 __version__ = "0.1.0"

@@ -1,1 +1,1 @@
-"""What a coordinate reference system says: units, WKT and GeoTIFF keys."""
+"""Coordinate reference systems: units, WKT and GeoTIFF keys."""

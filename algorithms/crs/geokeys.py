@@ -20,7 +20,7 @@ _DOUBLES, _TEXTS = 34736, 34737
 _PROJECTED, _GEOGRAPHIC, _GEOCENTRIC = 1, 2, 3
 _USER_DEFINED = 32767
 
-# Metres in one unit, by EPSG code; a ratio where that is the definition.
+# Metres in one unit, by EPSG code; a ratio if the unit is defined by one.
 _UNITS = {
     9001: 1.0,
     9002: 0.3048,
@@ -44,12 +44,12 @@ _UNITS = {
 
 
 class GeoKeys(NamedTuple):
-    """What the keys say; None where they are silent.
+    """A CRS as GeoTIFF keys describe it; None for values that they do not state.
 
     Attributes
     ----------
     name : str
-        What the file calls its CRS.
+        Name of the CRS in the file.
     is_geographic : bool
         Whether the coordinates are degrees, or geocentric.
     epsg, vertical_epsg : int or None
@@ -57,7 +57,7 @@ class GeoKeys(NamedTuple):
     horizontal_unit, vertical_unit : float or None
         Metres in one unit.
     unknown_units : tuple of int
-        Unit codes that are stated but not known here.
+        Unit codes in the keys that are not known here.
     """
 
     name: str
@@ -70,7 +70,7 @@ class GeoKeys(NamedTuple):
 
 
 def read_geokeys(directory: bytes, doubles: bytes = b"", texts: bytes = b"") -> GeoKeys | None:
-    """Return what the GeoTIFF keys say of the CRS, or None if they do not say which it is.
+    """Return the CRS that the GeoTIFF keys describe, or None if they do not define one.
 
     Parameters
     ----------
@@ -101,7 +101,7 @@ def read_geokeys(directory: bytes, doubles: bytes = b"", texts: bytes = b"") -> 
 
 
 def _read_keys(directory: bytes, doubles: bytes, texts: bytes) -> dict[int, int | float | str]:
-    """Return the value of each key; entries that lead outside their record are left out."""
+    """Return the value of each key, without entries that point outside their record."""
     shorts = struct.unpack(f"<{len(directory) // 2}H", directory[: len(directory) // 2 * 2])
     numbers = struct.unpack(f"<{len(doubles) // 8}d", doubles[: len(doubles) // 8 * 8])
     keys: dict[int, int | float | str] = {}

@@ -1,4 +1,4 @@
-"""What libraries know of coordinate reference systems: GDAL, which QGIS has, or pyproj outside."""
+"""Access to a library for coordinate reference systems: GDAL in QGIS, pyproj elsewhere."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from typing import Any, Iterator
 
 import numpy as np
 
-# In units of the CRS: farther off is no place on earth, and PROJ may not bear the number.
+# In units of the CRS. No place on earth is farther off, and PROJ may fail with larger numbers.
 _FARTHEST = 1e9
 
 
 def wkt_of_epsg(code: int) -> str | None:
     """Return the well-known text (WKT 1) of an EPSG code.
 
-    None if there is none of the libraries, or the code is unknown to it.
+    None if there is no library, or it does not know the code.
     """
     known = library()
     return None if known is None else known.wkt_of_epsg(code)
@@ -34,8 +34,8 @@ def to_wgs84(wkt: str, places: np.ndarray) -> np.ndarray | None:
     Returns
     -------
     numpy.ndarray of float64, shape (n, 2), or None
-        Longitudes and latitudes in degrees; None if there is none of the libraries, the CRS is
-        not known to it, or a place is outside of where the CRS holds.
+        Longitudes and latitudes in degrees. None if there is no library, it does not know the CRS,
+        or a place is outside the area of the CRS.
     """
     known = library()
     if known is None or not _are_within(places, (_FARTHEST, _FARTHEST)):
@@ -45,12 +45,12 @@ def to_wgs84(wkt: str, places: np.ndarray) -> np.ndarray | None:
 
 
 def _are_within(places: np.ndarray, limits: tuple[float, float]) -> bool:
-    """Return whether all places are numbers, and none is beyond the limits of x and y."""
+    """Return whether all places are finite and within the limits of x and y."""
     return bool(np.isfinite(places).all() and (np.abs(places) <= limits).all())
 
 
 def library() -> Any:
-    """Return what asks the library that is there; GDAL first, for QGIS. None if there is none."""
+    """Return the class for the installed library: GDAL first, for QGIS. None if there is none."""
     for package, asking in (("osgeo", _Gdal), ("pyproj", _Pyproj)):
         if importlib.util.find_spec(package) is not None:
             return asking
@@ -58,7 +58,7 @@ def library() -> Any:
 
 
 class _Gdal:
-    """By osr of GDAL."""
+    """Uses osr of GDAL."""
 
     @staticmethod
     def wkt_of_epsg(code: int) -> str | None:
@@ -68,7 +68,7 @@ class _Gdal:
         try:
             with _quiet():
                 failed = reference.ImportFromEPSG(code)
-        except RuntimeError:  # where the application made GDAL raise its errors
+        except RuntimeError:  # the application made GDAL raise its errors
             return None
         return None if failed else reference.ExportToWkt()
 
@@ -86,13 +86,13 @@ class _Gdal:
                 transformation = osr.CoordinateTransformation(source, target)
                 return np.array(transformation.TransformPoints(places.tolist()))[:, :2]
         except (RuntimeError, TypeError, IndexError):
-            # Where GDAL raises its errors, or makes a transformation that is none.
+            # GDAL raised an error, or made an invalid transformation.
             return None
 
 
 @contextlib.contextmanager
 def _quiet() -> Iterator[None]:
-    """Keep GDAL from printing its errors, which are told in another way."""
+    """Prevent GDAL from printing its errors; the caller handles them."""
     from osgeo import gdal
 
     gdal.PushErrorHandler("CPLQuietErrorHandler")
@@ -103,7 +103,7 @@ def _quiet() -> Iterator[None]:
 
 
 class _Pyproj:
-    """By pyproj."""
+    """Uses pyproj."""
 
     @staticmethod
     def wkt_of_epsg(code: int) -> str | None:

@@ -1,4 +1,4 @@
-"""A coordinate reference system: its name, its units, its well-known text."""
+"""A coordinate reference system: name, units and well-known text."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _SYMBOLS = {"metre": "m", "foot": "ft", "US survey foot": "US survey ft"}
 
 @dataclass(frozen=True)
 class Crs:
-    """What is known of a coordinate reference system.
+    """A coordinate reference system.
 
     Attributes
     ----------
@@ -28,7 +28,7 @@ class Crs:
     horizontal_unit, vertical_unit : float
         Metres in one unit.
     is_geographic : bool
-        Whether the coordinates are degrees, or geocentric: nothing can be measured in them.
+        Whether the coordinates are degrees, or geocentric, so that nothing can be measured.
     epsg : int or None
         EPSG code of the horizontal CRS.
     """
@@ -42,7 +42,7 @@ class Crs:
 
 
 def unit_name(metres: float) -> str:
-    """Return the name of the unit that has so many metres.
+    """Return the name of a unit, given its size in metres.
 
     Examples
     --------
@@ -56,7 +56,7 @@ def unit_name(metres: float) -> str:
 
 
 def unit_symbol(metres: float) -> str:
-    """Return the symbol of the unit that has so many metres.
+    """Return the symbol of a unit, given its size in metres.
 
     Examples
     --------
@@ -75,7 +75,7 @@ def crs_of_wkt(text: str, progress: Progress = SILENT) -> Crs | None:
     text : str
         WKT 1 or WKT 2.
     progress : Progress
-        Told which units are assumed where none is stated.
+        Receives messages on units that are not stated, but assumed.
     """
     facts = read_wkt(text)
     return None if facts is None else _crs_of(text, facts, progress)
@@ -89,7 +89,7 @@ def crs_of_geokeys(keys: GeoKeys, progress: Progress = SILENT) -> Crs:
     keys : GeoKeys
         The keys; their EPSG code gives the name and the well-known text.
     progress : Progress
-        Told which units are assumed or not known.
+        Receives messages on units that are assumed or not known.
     """
     text = wkt_of_epsg(keys.epsg) if keys.epsg else None
     facts = read_wkt(text) if text else None
@@ -108,10 +108,10 @@ def crs_of_geokeys(keys: GeoKeys, progress: Progress = SILENT) -> Crs:
 
 
 def compound_wkt(crs: Crs) -> str | None:
-    """Return the well-known text of a CRS, with the unit of its heights in it.
+    """Return the well-known text of a CRS, including the unit of its heights.
 
-    Text made from GeoTIFF keys is that of the horizontal CRS; a unit of the heights that differs
-    from its own would be lost. None if the CRS has no text, or states another horizontal unit.
+    Text made from GeoTIFF keys describes only the horizontal CRS; a different unit of heights is
+    added to it. None if the CRS has no text, or the text has another horizontal unit.
 
     Examples
     --------
@@ -134,7 +134,7 @@ def compound_wkt(crs: Crs) -> str | None:
 
 
 def _stated_unit(keys: GeoKeys, facts: WktFacts, progress: Progress) -> float | None:
-    """Return the horizontal unit; that of the keys before that of the EPSG code."""
+    """Return the horizontal unit of the keys, or else of the EPSG code."""
     stated, known = keys.horizontal_unit, facts.horizontal_unit
     if stated and known and not facts.is_geographic and not math.isclose(stated, known):
         progress.warning(
@@ -145,18 +145,18 @@ def _stated_unit(keys: GeoKeys, facts: WktFacts, progress: Progress) -> float | 
 
 
 def _vertical_of(keys: GeoKeys) -> dict[str, float | bool | None]:
-    """Return what the keys say of the heights, as fields of `WktFacts`."""
+    """Return the fields of `WktFacts` for the heights."""
     unit = keys.vertical_unit
     text = wkt_of_epsg(keys.vertical_epsg) if unit is None and keys.vertical_epsg else None
     if text:
-        # A vertical CRS alone is none that `read_wkt` takes: it is read beside a horizontal one.
+        # `read_wkt` needs a horizontal CRS as well.
         facts = read_wkt(f'LOCAL_CS["",UNIT["metre",1]],{text}')
         unit = facts.vertical_unit if facts else None
     return {"vertical_unit": unit, "has_vertical": unit is not None}
 
 
 def _crs_of(text: str | None, facts: WktFacts, progress: Progress) -> Crs:
-    """Settle what is not stated, and say how."""
+    """Return the CRS, with assumed units if none are stated, and tell the user."""
     crs = Crs(text, facts.name, 1.0, 1.0, facts.is_geographic, facts.epsg)
     if crs.is_geographic:
         return replace(crs, vertical_unit=facts.vertical_unit or 1.0)

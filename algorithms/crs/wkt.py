@@ -1,7 +1,7 @@
-"""Units and names in a CRS given as well-known text, WKT 1 and WKT 2.
+"""Units and names of a CRS given as well-known text, WKT 1 and WKT 2.
 
-Read here rather than by PROJ, since a Python outside QGIS may have no PROJ, and the units are all
-that a classification needs.
+PROJ is not used, since a Python outside QGIS may not have it, and a classification only needs the
+units.
 """
 
 from __future__ import annotations
@@ -19,15 +19,15 @@ _GEOGRAPHIC = {"GEOGCS", "GEOGCRS", "GEOGRAPHICCRS", "GEODCRS", "GEODETICCRS", "
 _VERTICAL = {"VERT_CS", "VERTCS", "VERTCRS", "VERTICALCRS"}
 _UNITS = {"UNIT", "LENGTHUNIT"}
 _UPWARDS = {"up", "down"}
-# Metres in one unit; what lies outside is no unit of length that points can be measured in.
+# Metres in one unit. Other values are no useful units of length.
 _SMALLEST_UNIT, _LARGEST_UNIT = 1e-6, 1e6
-# Brackets in brackets: a CRS of a file has some eight.
+# Most levels of nested brackets; the CRS of a file has about eight.
 _DEEPEST = 50
 _CODE = re.compile(r"[0-9]{1,9}")
 
 
 class Node(NamedTuple):
-    """A keyword of well-known text and what stands in its brackets."""
+    """A keyword of well-known text and the contents of its brackets."""
 
     keyword: str
     values: list[str | Node]
@@ -38,12 +38,12 @@ class Node(NamedTuple):
         return self.values[0] if self.values and isinstance(self.values[0], str) else ""
 
     def children(self, keywords: set[str]) -> list[Node]:
-        """Return the nodes directly inside that have one of the keywords."""
+        """Return the direct children that have one of the keywords."""
         return [each for each in self.values if isinstance(each, Node) and each.keyword in keywords]
 
 
 class WktFacts(NamedTuple):
-    """What a classification wants to know of a CRS; a unit is None where it is not stated.
+    """The properties of a CRS that a classification needs; a unit is None if not stated.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class WktFacts(NamedTuple):
     horizontal_unit, vertical_unit : float or None
         Metres in one unit.
     has_vertical : bool
-        Whether a vertical CRS is named.
+        Whether there is a vertical CRS.
     is_geographic : bool
         Whether the coordinates are degrees, or geocentric.
     epsg : int or None
@@ -68,7 +68,7 @@ class WktFacts(NamedTuple):
 
 
 def read_wkt(text: str) -> WktFacts | None:
-    """Return what `text` says of its CRS, or None if it is not that of a CRS.
+    """Return the CRS that `text` describes, or None if it describes none.
 
     Examples
     --------
@@ -95,9 +95,9 @@ def read_wkt(text: str) -> WktFacts | None:
 
 
 def _parse(text: str) -> list[str | Node]:
-    """Return the nodes of the text; brackets that are never closed end with the text.
+    """Return the nodes of the text; brackets that are not closed end with the text.
 
-    There are none if they are nested deeper than those of any CRS.
+    The list is empty if brackets are nested deeper than in any CRS.
     """
     top: list[str | Node] = []
     open_lists = [top]
@@ -117,7 +117,7 @@ def _parse(text: str) -> list[str | Node]:
 
 
 def _parts(node: Node) -> Sequence[Node]:
-    """Return the single CRSs of which a compound or bound one is made."""
+    """Return the parts of a compound or bound CRS."""
     if node.keyword in _COMPOUND | _BOUND:
         inside = [each for each in node.values if isinstance(each, Node)]
         return [part for each in inside for part in _parts(each)]
@@ -125,9 +125,9 @@ def _parts(node: Node) -> Sequence[Node]:
 
 
 def _unit_of(node: Node) -> float | None:
-    """Return the unit that stands directly in the brackets of a CRS or an axis.
+    """Return the unit that is a direct child of a CRS or an axis.
 
-    The units of its base CRS and of its projection's parameters, deeper inside, are others.
+    Units deeper inside belong to the base CRS or to parameters of the projection.
     """
     for unit in node.children(_UNITS):
         numbers = [_number(value) for value in unit.values[1:2] if isinstance(value, str)]
@@ -142,7 +142,7 @@ def _axis_units(node: Node) -> tuple[float | None, float | None]:
     for axis in node.children({"AXIS"}):
         is_vertical = any(value in _UPWARDS for value in axis.values if isinstance(value, str))
         if is_vertical:
-            # WKT 2 has a unit for each axis or one for all; WKT 1 has one for all.
+            # WKT 2 has a unit for each axis, or one for all; WKT 1 always has one for all.
             vertical = vertical or _unit_of(axis) or _unit_of(node)
         else:
             horizontal = horizontal or _unit_of(axis)
@@ -158,7 +158,7 @@ def _number(text: str) -> float | None:
 
 
 def is_unit(metres: float) -> bool:
-    """Return whether a unit may have so many metres.
+    """Return whether a size in metres is allowed for a unit.
 
     Examples
     --------

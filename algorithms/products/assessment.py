@@ -1,4 +1,4 @@
-"""Comparing a classified file with a reference: figures, a report and a map of the errors."""
+"""Compares a classified file with a reference: figures, a report and a map of the errors."""
 
 from __future__ import annotations
 
@@ -27,26 +27,26 @@ def assess_files(
     error_map: Path | None = None,
     progress: Progress = SILENT,
 ) -> Assessment:
-    """Compare two files that hold the same points, in the same order or not.
+    """Compare two files that hold the same points, in any order.
 
     Parameters
     ----------
     classified, reference : Path
-        The classified cloud, of which class 2 counts as ground, and the reference.
+        The classified cloud, with ground in class 2, and the reference.
     options : AssessmentOptions
         Which reference classes are ground, and which are left out.
     report : Path, optional
-        HTML file to write the figures and a map of the errors to.
+        HTML file to make, with the figures and a map of the errors.
     error_map : Path, optional
-        GeoTIFF file to write the share of wrong points in each cell to, 0 to 1.
+        GeoTIFF file to make, with the share of wrong points in each cell, 0 to 1.
     progress : Progress
         Receives progress and messages.
 
     Raises
     ------
     BareEarthError
-        If a file cannot be read or written, the two do not hold the same points, or a map is wanted
-        and the CRS is geographic.
+        If a file cannot be read or written, the files do not hold the same points, or a map is
+        wanted and the CRS is geographic.
     Cancelled
         If the user asked to stop.
     """
@@ -100,7 +100,7 @@ def _write_error_map(
     progress(0.2)
     grid = RasterGrid.over(points, frame, options.map_cell_size)
     progress(0.3)
-    # Cells are counted from the centre of the first; points on the last edge go into the last cell.
+    # Counted from the centre of the first cell. Points on the last edge go into the last cell.
     column = np.rint((points.x - grid.x[0]) / grid.cell_metres).astype(np.int64)
     progress(0.4)
     row = np.rint((grid.y[0] - points.y) / grid.cell_metres).astype(np.int64)
@@ -116,10 +116,10 @@ def _write_error_map(
 
 
 def _matching_orders(one: PointCloud, other: PointCloud) -> tuple[np.ndarray | slice, ...]:
-    """Return what puts the points of both clouds into the same order.
+    """Return slices or indices that put the points of both clouds into the same order.
 
-    Only a .copc.laz output changes the order; there sorting by the integer coordinates (and return
-    number, which tells apart most points at one place) finds the partner of each point.
+    Only a .copc.laz output has another order. Then both are sorted by integer coordinates and
+    return number, which differs for most points at the same place.
     """
     same = one.count == other.count
     same = same and np.allclose(one.scale, other.scale) and np.allclose(one.offset, other.offset)

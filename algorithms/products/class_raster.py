@@ -1,4 +1,4 @@
-"""A raster of the classes of a point cloud, for where the points themselves cannot be seen."""
+"""A raster of the classes of a point cloud, shown where QGIS cannot show the points."""
 
 from __future__ import annotations
 
@@ -17,20 +17,20 @@ from ..rasters.writing import write_geotiff
 from ..survey.selection import GROUND
 
 NO_CLASS = 255
-# A picture needs no more cells than these.
+# More cells are not needed to look at.
 _MOST_CELLS = 4_000_000
 
 
 class ClassCells:
-    """Classes of cells, from points that come part by part.
+    """Classes of cells; points can be added in parts.
 
-    A cell is ground if at least half of its points are, or else of the highest of the classes
-    of the others: what has been given a meaning shows before unclassified points.
+    A cell is ground if at least half of its points are ground. Otherwise it has the highest class
+    of its other points, so that classes with a meaning are shown rather than unclassified points.
 
     Parameters
     ----------
     cell_count : int
-        How many cells there are.
+        Number of cells.
     ground_class : int
         The class of the ground.
     """
@@ -47,7 +47,7 @@ class ClassCells:
         Parameters
         ----------
         cells : numpy.ndarray of int64, shape (n,)
-            The number of the cell of each.
+            Number of the cell of each point.
         classes : numpy.ndarray of uint8, shape (n,)
             Their classes.
         """
@@ -56,12 +56,12 @@ class ClassCells:
         self._ground += np.bincount(cells[is_ground], minlength=len(self._points))
         cells = cells[~is_ground]
         values = np.maximum(classes[~is_ground], self._highest[cells])
-        # The last value of a cell is kept, which is the highest.
+        # The last value of a cell is kept, and that is the highest.
         order = np.argsort(values, kind="stable")
         self._highest[cells[order]] = values[order]
 
     def values(self) -> np.ndarray:
-        """Return the class of each cell, `NO_CLASS` where no point is; uint8."""
+        """Return the class of each cell, `NO_CLASS` without points; uint8."""
         of_points = np.where(2 * self._ground >= self._points, self._ground_class, self._highest)
         return np.where(self._points > 0, of_points, NO_CLASS).astype(np.uint8)
 
@@ -82,7 +82,7 @@ def write_class_raster(
     target : Path
         The GeoTIFF to make; cells without points are `NO_CLASS`.
     cell_size : float
-        Side of a cell in metres; it becomes larger where there would be millions of cells.
+        Side of a cell in metres; larger if there would be too many cells.
     ground_class : int
         The class of the ground.
     progress : Progress
@@ -119,6 +119,6 @@ def _cells_of(part: PointCloud, grid: RasterGrid) -> np.ndarray:
     )
     column = np.floor((x - grid.west) / grid.cell_size).astype(np.int64)
     row = np.floor((grid.north - y) / grid.cell_size).astype(np.int64)
-    # The extent that a header states need not be quite that of the points.
+    # The extent in the header may be slightly smaller than that of the points.
     column, row = np.clip(column, 0, grid.columns - 1), np.clip(row, 0, grid.rows - 1)
     return row * grid.columns + column

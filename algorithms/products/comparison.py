@@ -1,4 +1,4 @@
-"""How well a classification agrees with a reference: type I, type II and total error, kappa."""
+"""Agreement of a classification with a reference: type I, type II and total error, kappa."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ GROUND = 2
 
 @dataclass(frozen=True)
 class AssessmentOptions(ParameterSet):
-    """Which classes count as ground, which do not count at all, and how errors are mapped."""
+    """Which classes count as ground, which are ignored, and the cells of the error map."""
 
     ground_classes: tuple[int, ...] = parameter(
         (GROUND,),
@@ -44,14 +44,14 @@ class AssessmentOptions(ParameterSet):
 
 
 class Comparison(NamedTuple):
-    """What became of each point.
+    """Errors point by point.
 
     Attributes
     ----------
     counted : numpy.ndarray of bool, shape (n,)
-        Points that are not left out.
+        Points that are not ignored.
     rejected, accepted : numpy.ndarray of bool, shape (n,)
-        The wrong ones of these: ground taken for other (type I), other taken for ground (type II).
+        Errors among these: rejected ground (type I), and accepted other points (type II).
     """
 
     counted: np.ndarray
@@ -73,8 +73,8 @@ class Assessment:
     """Agreement of a classification with a reference.
 
     Type I error is the share of reference ground that was rejected, type II error the share of
-    reference non-ground that was accepted, total error the share of all points that is wrong; all
-    three in percent. Kappa is Cohen's, in percent. A figure is NaN where it has no points.
+    reference non-ground that was accepted, and total error the share of all points that are wrong.
+    Kappa is Cohen's kappa. All are in percent, and NaN if there are no points to count.
 
     References
     ----------
@@ -95,7 +95,7 @@ class Assessment:
     classes: dict[int, dict[str, int]] = field(default_factory=dict)
 
     def as_dict(self) -> dict[str, Any]:
-        """Return all figures as plain values; NaN becomes None, as JSON has no NaN."""
+        """Return all figures for JSON; NaN becomes None."""
         figures = asdict(self)
         return {
             name: None if isinstance(value, float) and np.isnan(value) else value

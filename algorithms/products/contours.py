@@ -1,4 +1,4 @@
-"""Contour lines of a terrain model, by GDAL."""
+"""Contour lines of a terrain model, made with GDAL."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..rasters.libraries import GdalErrors
 
-# A map with about so many lines can be read.
+# A map with about so many lines is easy to read.
 _LINES = 20
 _STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
-# Less is noise.
+# A smaller interval would show noise.
 _LEAST = 0.25
-# Each so many lines one is drawn thick.
+# One of so many lines is drawn thick.
 INDEX = 5
-# The formats that QGIS offers first, and GDAL's names of them.
+# The formats that QGIS offers first, and their names in GDAL.
 _DRIVERS = {".gpkg": "GPKG", ".shp": "ESRI Shapefile", ".geojson": "GeoJSON", ".fgb": "FlatGeobuf"}
-# Files that belong to one of these formats: indices and journals of other lines would do harm.
+# Further files of these formats. Old indices and journals would do harm to new lines.
 _BESIDE = {
     ".shp": (".dbf", ".shx", ".prj", ".cpg", ".qpj", ".qix", ".sbn", ".sbx"),
     ".gpkg": (".gpkg-wal", ".gpkg-shm", ".gpkg-journal"),
@@ -68,14 +68,14 @@ class Interval(NamedTuple):
     height : float
         In the unit of the raster.
     unit : str
-        Symbol of that unit; empty if the raster does not say it.
+        Symbol of that unit; empty if the raster does not state it.
     """
 
     height: float
     unit: str = ""
 
     def text(self, lines: int = 1) -> str:
-        """Return the height between so many lines, with its unit.
+        """Return the height between a number of lines, with its unit.
 
         >>> Interval(2.0, "m").text(5)
         '10 m'
@@ -95,19 +95,19 @@ def write_contours(
     target : Path
         The file to make: .gpkg, .shp, .geojson or .fgb.
     contours : Contours
-        How.
+        The interval.
     progress : Progress
         Receives progress and messages.
 
     Returns
     -------
     Interval
-        The height between them.
+        The height between the lines.
 
     Raises
     ------
     BareEarthError
-        If GDAL is not there, or cannot write them; nothing is left then.
+        If GDAL is missing or cannot write the lines; nothing is left behind.
     """
     try:
         from osgeo import gdal
@@ -118,7 +118,7 @@ def write_contours(
         raise BareEarthError(f"{target} is not one of {', '.join(_DRIVERS)}. Name it so.")
     raster = gdal.Open(str(source))
     band = raster.GetRasterBand(1)
-    # As `write_geotiff` names the bands of terrain models.
+    # The description that `write_geotiff` gives to bands of terrain models.
     unit = band.GetDescription().partition(", ")[2]
     interval = Interval(contours.interval(*band.ComputeRasterMinMax(False)), unit)
     with temporary_folder(target.parent) as folder:
@@ -146,7 +146,7 @@ def _draw(raster: Any, target: Path, interval: float) -> int:
     lines = made.CreateLayer("contours", raster.GetSpatialRef(), ogr.wkbLineString)
     lines.CreateField(ogr.FieldDefn("ID", ogr.OFTInteger))
     lines.CreateField(ogr.FieldDefn("ELEV", ogr.OFTReal))
-    # One transaction: a GeoPackage would commit each line.
+    # One transaction, since a GeoPackage would otherwise commit each line.
     lines.StartTransaction()
     gdal.ContourGenerateEx(band, lines, options=options)
     lines.CommitTransaction()

@@ -1,4 +1,4 @@
-"""How high points stand above the TIN of the ground points."""
+"""Heights of points above the TIN of the ground points."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from ..core.progress import SILENT, Progress
 from ..grids.cells import spacing
 from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
 
-# Vertices of the TIN are so many times as far apart as ground points, but no more than 0.5 m: in
-# dense land more of them do not change heights by more than a centimetre or two.
+# Distance of the vertices of the TIN, in mean distances of ground points, and its limits in metres.
+# Where points are dense, more vertices change the heights by only a centimetre or two.
 _SPACINGS, _LEAST, _MOST = 2.0, 0.1, 0.5
 
 
@@ -20,25 +20,25 @@ def height_above_ground(
     progress: Progress = SILENT,
     wanted: np.ndarray | None = None,
 ) -> np.ndarray:
-    """Return how high each point stands above the ground below it.
+    """Return the height of each point above the ground.
 
     Parameters
     ----------
     points : Points
         All points.
     ground : numpy.ndarray of bool, shape (n,)
-        Which of them are ground; at least one is.
+        Which points are ground; at least one.
     progress : Progress
         Receives progress.
     wanted : numpy.ndarray of bool, shape (n,), optional
-        Which heights are wanted; the others are 0. All are, if it is not given.
+        Which heights are wanted; the others are 0. By default, all.
 
     Returns
     -------
     numpy.ndarray of float64, shape (n,)
-        0 for ground points; for the others metres above the TIN of the ground points, negative
-        below it, or outside its convex hull above the nearest ground point. Of ground points in
-        a square of 0.5 m, or smaller where they are dense, one is a vertex of the TIN.
+        0 for ground points. For other points, metres above the TIN of the ground points, negative
+        below it. Outside the convex hull, metres above the nearest ground point. The TIN has one
+        vertex in each square of 0.5 m, or in smaller squares where ground points are dense.
 
     Examples
     --------

@@ -1,12 +1,12 @@
-"""Local relief: how high the terrain lies above its surroundings, which shows small features.
+"""Local relief: the height of the terrain above its surroundings, which shows small features.
 
-Burial mounds, old paths, ditches and field banks of some decimetres are lost in a terrain model of
-some hundred metres of range. Without the trend of the land they stand out.
+Burial mounds, old paths, ditches and field banks of some decimetres cannot be seen in a terrain
+model with a range of some hundred metres. They stand out when the trend of the land is removed.
 
 References
 ----------
 Hesse, R. (2010): LiDAR-derived Local Relief Models - a new tool for archaeological prospection.
-Archaeological Prospection 17, 67-72. Here is its first step: the terrain less a smooth one.
+Archaeological Prospection 17, 67-72. This is its first step: the terrain minus a smoothed one.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from ..rasters.writing import write_geotiff
 
 @dataclass(frozen=True)
 class LocalRelief(ParameterSet):
-    """How large the features are that local relief shows."""
+    """The size of the features that local relief shows."""
 
     relief_radius: float = parameter(
         10.0,
@@ -42,22 +42,22 @@ class LocalRelief(ParameterSet):
 def local_relief(
     heights: np.ndarray, cell_metres: tuple[float, float], radius: float
 ) -> np.ndarray:
-    """Return how high a surface lies above the mean of its surroundings.
+    """Return the height of a surface above the mean of its surroundings.
 
     Parameters
     ----------
     heights : numpy.ndarray of float, shape (rows, columns)
-        Any unit; NaN where there is none.
+        Heights in any unit; NaN where there is none.
     cell_metres : tuple of float
-        Distance between neighbours in a row, and in a column.
+        Distance between neighbours in a row, and in a column, in metres.
     radius : float
-        Of the surroundings, in metres: the mean is weighted by a normal distribution whose
-        standard deviation is half of it.
+        Radius of the surroundings in metres. The mean is weighted by a normal distribution whose
+        standard deviation is half the radius.
 
     Returns
     -------
     numpy.ndarray of float32, shape (rows, columns)
-        In the unit of the heights; NaN where they are.
+        In the unit of the heights; NaN where these are NaN.
     """
     from scipy.ndimage import gaussian_filter
 
@@ -65,8 +65,8 @@ def local_relief(
     if not known.any():
         return heights.astype(np.float32)
     sigma = radius / 2 / cell_metres[1], radius / 2 / cell_metres[0]
-    # Above their plane: at the edge, where surroundings lie on one side only, a slope would show;
-    # and numbers near 0 keep their millimetres as float32.
+    # Relative to a plane, because a slope would be visible at the edge, where surroundings lie on
+    # one side only. Also, small numbers keep their millimetres as float32.
     filled = np.where(known, heights - plane_through(heights, known), 0).astype(np.float32)
     # Cells without a height have no weight.
     total = gaussian_filter(filled, sigma, mode="constant")
@@ -88,7 +88,7 @@ def write_local_relief(
     source, target : Path
         The terrain model, and the GeoTIFF to make.
     parameters : LocalRelief
-        How large the features are.
+        The size of the features.
     progress : Progress
         Receives progress and messages.
 
@@ -97,7 +97,7 @@ def write_local_relief(
     BareEarthError
         If the raster cannot be read, or the output cannot be written.
     """
-    # Silent: the units were told of the points.
+    # Without progress: messages on units were given for the points.
     raster = read_raster(source)
     progress(0.3)
     relief = local_relief(raster.heights, raster.cell_metres, parameters.relief_radius)

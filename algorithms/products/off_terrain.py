@@ -1,4 +1,4 @@
-"""Buildings, trees and other objects taken out of the raster of a surface.
+"""Removes buildings, trees and other objects from the raster of a surface.
 
 References
 ----------
@@ -22,16 +22,16 @@ from ..grids.morphology import opening
 from ..rasters.geotiff import NODATA, read_raster
 from ..rasters.writing import check_raster_output, write_geotiff
 
-# Each pair of opposite directions to the eight neighbours once.
+# One direction of each opposite pair to the eight neighbours.
 _DIRECTIONS = ((0, 1), (1, -1), (1, 0), (1, 1))
 _RELAXATIONS = 40
-# Neighbours from which the terrain must come up gently: a way one cell wide is no hillside.
+# Number of neighbours from which a cell must rise gently. A way one cell wide is no hillside.
 _WAYS = 2
 
 
 @dataclass(frozen=True)
 class OffTerrain(ParameterSet):
-    """What is an object, and what is a hill."""
+    """What counts as an object, and what as a hill."""
 
     max_object_size: float = parameter(
         40.0,
@@ -63,14 +63,14 @@ class OffTerrain(ParameterSet):
 
 @dataclass(frozen=True)
 class Removal:
-    """What was removed.
+    """Numbers of cells.
 
     Attributes
     ----------
     cell_count : int
         Cells with a height.
     removed_count : int
-        Those whose height was replaced.
+        Cells of removed objects.
     """
 
     cell_count: int
@@ -89,23 +89,23 @@ def remove_objects_file(
     parameters: OffTerrain = OffTerrain(),
     progress: Progress = SILENT,
 ) -> Removal:
-    """Write the raster of a surface anew without the objects on it.
+    """Write the raster of a surface without the objects on it.
 
     Parameters
     ----------
     source : str or Path
-        The raster, whatever GDAL opens.
+        A raster that GDAL can read.
     target : Path
         GeoTIFF file to make: same grid, CRS and unit, float32.
     parameters : OffTerrain
-        What is an object.
+        What counts as an object.
     progress : Progress
         Receives progress and messages.
 
     Raises
     ------
     BareEarthError
-        If the raster cannot be read or written, has no height, or is not in a projected CRS.
+        If the raster cannot be read or written, has no heights, or the CRS is geographic.
     Cancelled
         If the user asked to stop; no output is left behind.
     """
@@ -119,7 +119,7 @@ def remove_objects_file(
     heights, removed = remove_objects(
         raster.heights * np.float32(unit), raster.cell_metres, parameters, progress.part(0.1, 0.9)
     )
-    # Heights that stay are written as they were, not converted forth and back.
+    # Other heights are written as they were, not converted back and forth.
     heights = np.where(removed, heights / unit, raster.heights)
     values = np.where(known, heights, NODATA).astype(np.float32)
     progress(1.0)  # the last moment to cancel: after this the file is there
@@ -133,27 +133,27 @@ def remove_objects(
     parameters: OffTerrain = OffTerrain(),
     progress: Progress = SILENT,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Take what stands steeply above the terrain out of a grid of heights.
+    """Remove objects with steep edges from a grid of heights.
 
-    Heights above the opening with a disc as wide as the largest object (white top-hat) are compared
-    with their neighbours': what can be reached from the terrain by gentle steps grows back, the
-    rest is an object. Its cells are filled smoothly from those round it.
+    The white top-hat (heights above the opening with a disc as wide as the largest object) is
+    compared between neighbours. Cells that gentle steps reach from the terrain belong to hills; the
+    rest are objects. Cells of objects are filled smoothly from the cells around them.
 
     Parameters
     ----------
     heights : numpy.ndarray of float, shape (rows, columns)
-        In metres; NaN where there is none.
+        Heights in metres; NaN where there is none.
     cell_metres : tuple of float
-        Distance between neighbours in a row, and in a column.
+        Distance between neighbours in a row, and in a column, in metres.
     parameters, progress
         As for `remove_objects_file`.
 
     Returns
     -------
     heights : numpy.ndarray of float32, shape (rows, columns)
-        NaN where it was.
+        The terrain; NaN where `heights` was NaN.
     removed : numpy.ndarray of bool, shape (rows, columns)
-        Which cells are of objects.
+        Which cells belong to objects.
     """
     known = np.isfinite(heights)
     if not known.any():
@@ -180,10 +180,10 @@ def _grown_back(
     slope_threshold: float,
     progress: Progress,
 ) -> np.ndarray:
-    """Return the cells that gentle steps upwards, or any downwards, reach from the terrain."""
+    """Return the cells that can be reached from the terrain by gentle or downward steps."""
     slope = math.tan(math.radians(slope_threshold))
     rows, columns = above.shape
-    # A frame of unknown cells, so that each cell has eight neighbours.
+    # With a border of unknown cells, so that each cell has eight neighbours.
     heights = np.pad(above, 1).ravel()
     free = np.pad(known, 1).ravel()
     ground = free & (heights <= slope * cell_metres[0])

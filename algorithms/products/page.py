@@ -1,4 +1,4 @@
-"""What the pages that the products write have in common: HTML that needs no other file."""
+"""Parts of HTML pages that need no other file."""
 
 from __future__ import annotations
 
@@ -41,11 +41,11 @@ def page_html(title: str, body: str, style: str = "") -> str:
     Parameters
     ----------
     title : str
-        Its title and headline, as plain text.
+        Title and headline, as plain text.
     body : str
         HTML below the headline.
     style : str
-        CSS beside that of all pages.
+        Additional CSS.
     """
     from ..core.version import __version__
 
@@ -68,26 +68,26 @@ def page_html(title: str, body: str, style: str = "") -> str:
 
 
 def text(value: object) -> str:
-    """Return something as text that HTML shows as it is."""
+    """Return a value as text, escaped for HTML."""
     return escape(printable(str(value)))
 
 
 def data_uri(pixels: np.ndarray) -> str:
-    """Return an address that holds a picture, shape (rows, columns, 3), itself."""
+    """Return a data URI of a picture, given its pixels, shape (rows, columns, 3)."""
     return "data:image/png;base64," + base64.b64encode(png(pixels)).decode("ascii")
 
 
 def map_figure(picture: Picture, name: str, caption: str = "") -> str:
-    """Return a map with a bar of scale below it.
+    """Return a map with a scale bar below it.
 
     Parameters
     ----------
     picture : Picture
         The map.
     name : str
-        What is said where pictures cannot be seen, as plain text.
+        Alternative text for the picture, as plain text.
     caption : str
-        What stands above the map, as plain text.
+        Caption above the map, as plain text.
     """
     width = picture.pixels.shape[1] * picture.cell_size
     length = round_length(width / 4)
@@ -97,16 +97,16 @@ def map_figure(picture: Picture, name: str, caption: str = "") -> str:
 
 
 def key(colour: str, meaning: str) -> str:
-    """Return the entry of a colour in a legend."""
+    """Return the entry of a legend for a colour."""
     return f'<span class="key" style="background: {colour}"></span>{text(meaning)}'
 
 
 def round_length(most: float) -> float:
-    """Return the largest of 1, 2, 5, 10, 20 ... that is not larger than `most`."""
+    """Return the largest number of the form 1, 2, 5, 10, 20 ... up to `most`."""
     power = 10.0 ** np.floor(np.log10(most))
     return float(next(each * power for each in (5, 2, 1) if each * power <= most * (1 + 1e-9)))
 
 
 def percent(value: float) -> str:
-    """Return a share in percent; NaN is none."""
+    """Return a percentage as text; "none" for NaN."""
     return "none" if np.isnan(value) else f"{value:.2f} %"

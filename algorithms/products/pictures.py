@@ -1,4 +1,4 @@
-"""Pictures of points for a page: relief, and points that stand out on it."""
+"""Pictures of points for a page: a relief with marked points."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from ..grids.hillshade import hillshade
 from ..grids.inpaint import inpaint
 
 LONGEST_SIDE = 900
-# Side of a pixel, in mean distances between points: most pixels are to have one.
+# Side of a pixel, in mean distances between points, so that most pixels have a point.
 _SPACINGS = 1.2
 # Cells without a point, but next to one, are shaded.
 _GAP = 3
-# A cell with one marked point of many is coloured faintly, but not too faintly to be seen.
+# A cell with one marked point of many has a faint colour, but it must be visible.
 _FAINTEST = 0.55
 _DARKEST = 120
 
@@ -46,9 +46,9 @@ class Relief:
     Attributes
     ----------
     place : numpy.ndarray of int64, shape (n,)
-        The pixel of each point, from north to south and west to east.
+        The pixel of each point, counted row by row from north to south, and from west to east.
     shade : numpy.ndarray of float64, shape (rows, columns)
-        Grey, 0 to 255; white where no point is near.
+        Grey, 0 to 255; white far from points.
     cell_size : float
         Side of a pixel in metres.
     """
@@ -64,9 +64,9 @@ class Relief:
         Parameters
         ----------
         points : Points
-            One at least.
+            At least one point.
         longest_side : int
-            Pixels along the longer side, at most.
+            Greatest number of pixels along the longer side.
         """
         width, height = points.sides
         spacing = _SPACINGS * np.sqrt(width * height / points.count)
@@ -84,17 +84,17 @@ class Relief:
         colours: tuple[str, str],
         counted: np.ndarray | None = None,
     ) -> Picture:
-        """Return the relief with some points marked on it.
+        """Return the relief with marked points.
 
         Parameters
         ----------
         first, second : numpy.ndarray of bool, shape (n,)
-            Which points are marked. A pixel takes the colour of the more frequent mark, the
-            stronger the more of its points have one.
+            Which points are marked. A pixel has the colour of the more frequent mark. The colour is
+            stronger if a larger share of the points is marked.
         colours : tuple of str
-            Of the first and the second mark, such as ``#d1157f``.
+            Colours of the first and the second mark, such as ``#d1157f``.
         counted : numpy.ndarray of bool, shape (n,), optional
-            Which points the share is of; all if it is not given.
+            The points of which the share is computed. By default, all points.
         """
         ones, others = self._counts(first), self._counts(second)
         every = self._counts(np.ones(len(first), dtype=bool) if counted is None else counted)
@@ -113,10 +113,10 @@ def _shade(place: np.ndarray, z: np.ndarray, shape: tuple[int, int], cell: float
     from scipy import ndimage
 
     lowest = np.full(shape[0] * shape[1], np.inf)
-    lower_at(lowest, place, -z)  # of the highest points
+    lower_at(lowest, place, -z)  # negative, for the highest points
     heights = np.where(np.isinf(lowest), np.nan, -lowest).reshape(shape)
     near = ndimage.binary_dilation(np.isfinite(heights), np.ones((3, 3)), _GAP)
-    # Without dark tones, on which colours could not be told.
+    # Without dark tones, on which the colours would not be visible.
     light = _DARKEST + (255 - _DARKEST) * (hillshade(inpaint(heights), cell) / 255.0)
     return np.where(near, light, 255.0)
 
@@ -144,10 +144,10 @@ def png(pixels: np.ndarray) -> bytes:
         check = zlib.crc32(kind + data)
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", check)
 
-    # Every row begins with the number of its filter, 0 for none.
+    # Each row begins with the number of its filter, 0 for none.
     lines = np.zeros((rows, 1 + 3 * columns), np.uint8)
     lines[:, 1:] = pixels.reshape(rows, -1)
-    # Eight bits of each of three colours; the zeros are the only compression, filter and order.
+    # Eight bits, RGB (2); the zeros are the only methods of compression, filtering and interlacing.
     header = struct.pack(">IIBBBBB", columns, rows, 8, 2, 0, 0, 0)
     data = zlib.compress(lines.tobytes(), 6)
     signature = b"\x89PNG\r\n\x1a\n"

@@ -1,4 +1,4 @@
-"""A profile: the points along a line by class, and the terrain, as SVG."""
+"""A profile as SVG: the terrain, and the points along a line, coloured by class."""
 
 from __future__ import annotations
 
@@ -11,30 +11,30 @@ from .page import CLASSES, data_uri, key, round_length
 from .pictures import rgb
 from .window_trial import Line, Outcome, Window
 
-# Pixels: of the picture, and of the axes left of it and below it.
+# Pixels of the picture, and of the axes to its left and below it.
 _WIDTH, _HEIGHT, _LEFT, _BELOW = 900, 220, 56, 24
 _GROUND, _OTHER, _TERRAIN, _FIRST = "#9c5a1a", "#9aa5ad", "#111111", "#1f6fd0"
 _COLOURS = {
     2: _GROUND, 3: "#86bf5a", 4: "#4f9e3f", 5: "#2c7a2c", 6: "#d3473a", 9: "#3f8fd6",
     17: "#8a57c4",
 }  # fmt: skip
-# Heights below and above these shares of the points are not shown.
+# Heights are shown between these quantiles of the points.
 _LOWEST, _HIGHEST = 0.0005, 0.9995
-# Space above and below the points, as a share of their range of heights; and the least range, m.
+# Space above and below the points, as a share of their height range; and the least range in metres.
 _SPACE, _LEAST_RANGE = 0.04, 2.0
 
 
 class Profile(NamedTuple):
-    """What the profiles of all settings have in common.
+    """Position and points of a profile, the same for all settings.
 
     Attributes
     ----------
     line : Line
-        Where it lies.
+        The line of the profile.
     near : numpy.ndarray of int, shape (k,)
-        The points that are shown.
+        Indices of the points that are shown.
     distance : numpy.ndarray of float64, shape (k,)
-        How far along the line they lie, in metres.
+        Distances of these points along the line, in metres.
     lowest, highest : float
         Heights at the lower and at the upper edge, in metres.
     """
@@ -47,7 +47,7 @@ class Profile(NamedTuple):
 
     @classmethod
     def of(cls, window: Window, line: Line, shown: np.ndarray) -> Profile:
-        """Return the profile along a line, of the points that a mask (n,) says may be shown."""
+        """Return the profile along a line; `shown` (n,) is a mask of the points to show."""
         distance, aside = line.along(window.points.x, window.points.y)
         near = (np.abs(aside) <= window.strip) & (distance >= 0.0) & (distance <= line.length)
         near = np.flatnonzero(near & shown)
@@ -60,11 +60,11 @@ class Profile(NamedTuple):
 
     @property
     def exaggeration(self) -> float:
-        """How many times as large as lengths heights are drawn."""
+        """Vertical exaggeration: the scale of heights divided by the scale of lengths."""
         return (_HEIGHT / (self.highest - self.lowest)) / (_WIDTH / self.line.length)
 
     def svg(self, window: Window, outcome: Outcome, first: Outcome) -> str:
-        """Return the drawing of a setting, the terrain of the first in it."""
+        """Return the drawing of a setting, together with the terrain of the first setting."""
         points = data_uri(self._points(window, outcome))
         lines = []
         if outcome is not first:
@@ -90,7 +90,7 @@ class Profile(NamedTuple):
         return "".join(entries)
 
     def _points(self, window: Window, outcome: Outcome) -> np.ndarray:
-        """Return the picture of the points, those of the ground on top."""
+        """Return the picture of the points, with ground points on top."""
         pixels = np.full((_HEIGHT, _WIDTH, 3), 255, dtype=np.uint8)
         row, column = self._places(self.distance, window.points.z[self.near])
         classes = outcome.classes[self.near]
@@ -112,7 +112,7 @@ class Profile(NamedTuple):
     def _terrain(self, window: Window, outcome: Outcome, look: str) -> str:
         distance, row, column = self.line.cells(window)
         row, column = self._places(distance, outcome.terrain[row, column])
-        # A line each for what lies between gaps.
+        # One line for each part between gaps.
         parts = np.split(np.arange(len(row)), np.flatnonzero(np.diff(np.isnan(row))) + 1)
         rows = np.clip(row, 0.0, _HEIGHT)
         return "".join(
@@ -144,5 +144,5 @@ class Profile(NamedTuple):
 
 
 def can_be_shown(classes: np.ndarray, withheld: np.ndarray) -> np.ndarray:
-    """Return which points a profile shows: all but noise and those withheld."""
+    """Return which points a profile can show: all except noise and withheld points."""
     return ~np.isin(classes, NOISE) & ~withheld

@@ -1,4 +1,4 @@
-"""What a block of a survey adds to the rasters of terrain and surface, layer by layer."""
+"""Makes the rasters of a block of a survey: terrain, surface and confidence."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
 from ..grids.morphology import within_square
 from .terrain_edges import follow_edges
 
-# Edges of the triangles that a block makes itself, in metres and in cells: those over wider gaps
-# need points from farther away than a block sees, and are made when all blocks are there.
+# Longest edge of the triangles in a block, in metres and in cells. Triangles across wider gaps need
+# points from farther away than a block sees, so they are made when all blocks are done.
 _LONGEST_EDGE, _LONGEST_CELLS = 50.0, 20.0
-# Reach of a triangle in longest edges: the circle round it hardly ever reaches farther.
+# Reach of a triangle in longest edges. Its circumcircle hardly ever reaches farther.
 _EDGES = 2.0
-# The least number of points that are looked at together.
+# Least number of points that are processed together.
 _POINTS_A_PART = 1 << 20
 
 
@@ -33,13 +33,13 @@ class BlockRasters(NamedTuple):
     Attributes
     ----------
     window : CellWindow
-        Its cells.
+        The cells of the block.
     layers : mapping of str to numpy.ndarray of float32, shape (rows, columns)
-        The layers that are wanted, by their names in `LAYERS`; rows from south to north, NaN where
-        there is none.
+        The wanted layers, by their names in `LAYERS`; rows from south to north, NaN where there is
+        no value.
     loose : mapping of str to numpy.ndarray of float64, shape (n, 3)
-        Of the layers whose gaps are filled, the points of the block that matter for wide ones:
-        corners of the convex hull, and those in cells without a height.
+        For layers with filled gaps, the points of the block that are needed across wide gaps:
+        corners of the convex hull, and points beside cells without a height.
     box : numpy.ndarray of float64, shape (4,)
         Smallest x and y, largest x and y of the points in the block; NaN if it has none.
     counts : numpy.ndarray of int64, shape (2,)
@@ -54,18 +54,18 @@ class BlockRasters(NamedTuple):
 
 
 class Seen(NamedTuple):
-    """What a block sees.
+    """The points that a block uses.
 
     Attributes
     ----------
     window : CellWindow
-        Its cells.
+        The cells of the block.
     points : Points
-        Those of the block and round it, relative to `corner`.
+        Points in the block and in its surroundings, relative to `corner`.
     ground, top, core : numpy.ndarray of bool, shape (n,)
         Which are ground, which belong to the surface, and which lie in the block.
     corner : tuple of float
-        x and y in the frame of the survey.
+        x and y of the origin of `points` in the frame of the survey.
     edges : numpy.ndarray of bool, shape (n,), or None
         Which ground points lie on lines that no triangle may cross.
     """
@@ -90,7 +90,7 @@ class RasterStep:
     layers : tuple of str
         Which of `LAYERS` are wanted.
     max_edge : float or None
-        Triangles with a longer edge, in metres, are gaps; none are, if it is None.
+        Triangles with a longer edge, in metres, become gaps; None for no gaps.
     """
 
     cell: float
@@ -99,12 +99,12 @@ class RasterStep:
 
     @property
     def longest_edge(self) -> float:
-        """Longest edge in metres of the triangles that are made of a block."""
+        """Longest edge of triangles in a block, in metres."""
         return self.max_edge or max(_LONGEST_EDGE, _LONGEST_CELLS * self.cell)
 
     @property
     def reach(self) -> float:
-        """Metres round a block in which points matter for it."""
+        """Distance in metres up to which points around a block are needed."""
         return _EDGES * self.longest_edge
 
     def of(
@@ -142,7 +142,7 @@ class RasterStep:
         return BlockRasters(window, made, loose, _extent(points, core, corner), np.array(counts))
 
 
-# The cells of a layer, and the points that matter for wide gaps; None where these stay open.
+# The cells of a layer, and the points needed across wide gaps; None if these stay open.
 Made = tuple[np.ndarray, "np.ndarray | None"]
 
 
@@ -174,7 +174,7 @@ def _terrain(step: RasterStep, seen: Seen, progress: Progress) -> Made:
 
 
 def _surface(step: RasterStep, seen: Seen, progress: Progress) -> Made:
-    """Return the highest point of each cell, between them heights on the TIN of these."""
+    """Return the height of the highest point of each cell; in empty cells, of their TIN."""
     window, corner, cell = seen.window, seen.corner, step.cell
     points, core = seen.points.take(seen.top), seen.core[seen.top]
     heights = np.full(window.shape, np.nan)
@@ -212,9 +212,9 @@ def _highest(
     cell: float,
     progress: Progress,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the highest point of each cell that has any, and row and column of these cells.
+    """Return the highest point of each cell with points, and row and column of these cells.
 
-    The points are looked at some at a time: what is computed of them takes more than they do.
+    Points are processed in parts, since intermediate arrays take more memory than the points.
     """
     size, top = window.rows * window.columns, np.zeros(0, dtype=np.intp)
 
@@ -223,7 +223,7 @@ def _highest(
 
     for part in parts_of(points.count, max(size // 2, _POINTS_A_PART)):
         inside = np.flatnonzero(are_inside(*places(part), window.shape)) + part.start
-        # The highest so far, and those of this part.
+        # The highest points so far, and the points of this part.
         which = np.concatenate((top, inside))
         row, column = places(which)
         keys = -points.z[which], points.x[which], points.y[which]
@@ -233,7 +233,7 @@ def _highest(
 
 
 def _confidence(step: RasterStep, seen: Seen, progress: Progress) -> Made:
-    """Return the confidence of the cell of 1 m in which the centre of each cell lies."""
+    """Return the confidence, computed in cells of 1 m, at the centre of each cell."""
     window = seen.window
     values = np.full(window.shape, np.nan, dtype=np.float32)
     if not seen.points.count or not min(window.shape):
@@ -254,18 +254,18 @@ def _confidence(step: RasterStep, seen: Seen, progress: Progress) -> Made:
 
 
 class Layer(NamedTuple):
-    """One of the layers that rasters are made of.
+    """A layer from which rasters are made.
 
     Attributes
     ----------
     make : callable
-        ``make(step, seen, progress)`` returns its cells, and the points that matter for wide gaps.
+        ``make(step, seen, progress)`` returns its cells, and the points needed across wide gaps.
     cost : float
-        How long it takes, beside the others.
+        Time that it takes, in relation to the other layers.
     of_ground : bool
-        Whether there is none without ground.
+        Whether it needs ground points.
     of_all : bool
-        Whether it is made of other points than the ground, too.
+        Whether it needs points that are not ground.
     """
 
     make: Callable[[RasterStep, Seen, Progress], Made]
@@ -282,7 +282,7 @@ LAYERS = {
 
 
 def _within(box: Box, points: Points, corner: tuple[float, float], margin: float) -> Box:
-    """Return the part of a box in which points lie, or nothing."""
+    """Return the part of a box with points and a margin; an empty box without points."""
     if not points.count:
         return (*box[:2], *box[:2])
     low, high = (
@@ -295,7 +295,7 @@ def _within(box: Box, points: Points, corner: tuple[float, float], margin: float
 
 
 def _placed(points: Points, corner: tuple[float, float], which: np.ndarray) -> np.ndarray:
-    """Return some points in the frame of the survey, shape (n, 3)."""
+    """Return the selected points in the frame of the survey, shape (n, 3)."""
     some = points.take(which)
     return np.column_stack((some.x + corner[0], some.y + corner[1], some.z))
 

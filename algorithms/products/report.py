@@ -1,4 +1,4 @@
-"""The report of an assessment: one HTML page that needs no other file."""
+"""The report of an assessment: a single HTML page."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .comparison import Assessment, AssessmentOptions, Comparison
 from .page import CLASSES, key, map_figure, page_html, percent, text
 from .pictures import LONGEST_SIDE, Picture, Relief
 
-# Told apart by colour-blind eyes, and in print.
+# These colours differ for colour-blind people and in print.
 TYPE_1, TYPE_2 = "#d1157f", "#f07f09"
 
 _STYLE = """
@@ -40,11 +40,11 @@ def write_report(
     assessment : Assessment
         The figures.
     comparison : Comparison
-        What they are about, point by point.
+        The errors point by point.
     points : Points
-        Where the points lie.
+        Coordinates of the points.
     options : AssessmentOptions
-        How the figures were made.
+        The options of the figures.
     files : tuple of Path
         The classified cloud and the reference.
     progress : Progress

@@ -1,4 +1,4 @@
-"""Digital surface models: the top of all that stands on the terrain, and how high it stands."""
+"""Digital surface models (the top of trees, buildings and terrain) and canopy height."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..core.parameters import ParameterSet, parameter
 
 @dataclass(frozen=True)
 class SurfaceModel(ParameterSet):
-    """Which points make the surface, and which gaps are left open."""
+    """Which points form the surface, and which gaps stay open."""
 
     surface_returns: str = parameter(
         "first",
@@ -34,7 +34,7 @@ class SurfaceModel(ParameterSet):
 
 
 def canopy_height(surface: np.ndarray, terrain: np.ndarray) -> np.ndarray:
-    """Return how high the surface stands above the terrain, 0 where it lies below.
+    """Return the height of the surface above the terrain, 0 where it lies below.
 
     Parameters
     ----------

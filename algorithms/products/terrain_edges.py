@@ -1,4 +1,4 @@
-"""The terrain beside lines that no triangle may cross."""
+"""Heights of the terrain beside lines that no triangle may cross."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from ..grids.lines import NearPlaces
 from ..grids.morphology import within_square
 from ..grids.tin import Tin
 
-# Within so many cells of a line, or so many times the distance between ground points, the terrain
-# is the TIN of all points: they are not thinned, so that two lines close together stay two.
+# Up to so many cells from a line, or so many distances between ground points, the terrain is the
+# TIN of all points. They are not thinned, so that two lines close together stay separate.
 _CELLS, _SPACINGS = 3.0, 3.0
 
 
@@ -26,22 +26,22 @@ def follow_edges(
     edges: np.ndarray,
     corner: tuple[float, float],
 ) -> None:
-    """Replace the heights of cells near lines by those of the TIN of all points there, in place.
+    """Replace the heights of cells near lines, in place, by heights of the TIN of all points.
 
     Parameters
     ----------
     heights : numpy.ndarray of float, shape (rows, columns)
         Heights of the terrain in metres.
     window : CellWindow
-        Their cells.
+        The cells of the heights.
     cell : float
         Side of a cell in metres.
     points : Points
         Ground points, and vertices along the lines, relative to `corner`.
     edges : numpy.ndarray of bool, shape (n,)
-        Which are vertices along the lines.
+        Which points are vertices along the lines.
     corner : tuple of float
-        x and y in the frame of the survey.
+        x and y of the origin of `points` in the frame of the survey.
     """
     reach = max(_CELLS * cell, _SPACINGS * spacing(points.take(~edges)))
     lines = points.take(edges)

@@ -1,4 +1,4 @@
-"""How rasters of the terrain are made: cell size and light."""
+"""Parameters of rasters of the terrain: cell size and light."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ..core.parameters import ParameterSet, parameter, parameter_of
 
 @dataclass(frozen=True)
 class TerrainModel(ParameterSet):
-    """How to make the rasters of the terrain."""
+    """Cell size and light of rasters of the terrain."""
 
     dtm_cell_size: float = parameter(
         1.0,
@@ -54,6 +54,6 @@ class TerrainModel(ParameterSet):
 
 @dataclass(frozen=True)
 class MapTerrain(TerrainModel):
-    """The same for a map of any land, whose landforms run in any direction."""
+    """The same with four lights by default, since landforms can run in any direction."""
 
     hillshade_light: str = parameter_of(TerrainModel, "hillshade_light", default="multidirectional")

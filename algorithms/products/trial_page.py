@@ -1,4 +1,4 @@
-"""The page that shows settings side by side on a window."""
+"""The page that compares settings on a window."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .pictures import Picture, Relief, rgb
 from .profile import Profile
 from .window_trial import Figures, Outcome, Window
 
-# Told apart by colour-blind eyes, and in print.
+# These colours differ for colour-blind people and in print.
 _LOST, _GAINED = "#d1157f", "#1b62c4"
 _PROFILE = "#e06c00"
 _NO_TERRAIN = (236, 236, 236)
@@ -33,7 +33,7 @@ h3 { margin: 1.6em 0 .3em; font-size: 1.05em; }
 
 
 class Commands(NamedTuple):
-    """How a setting is run on all points.
+    """Commands that run a setting on all points.
 
     Attributes
     ----------
@@ -48,7 +48,7 @@ class Commands(NamedTuple):
 
 
 class TrialPage(NamedTuple):
-    """What the page shows.
+    """The contents of the page.
 
     Attributes
     ----------
@@ -57,13 +57,13 @@ class TrialPage(NamedTuple):
     where : str
         The window in words.
     notes : sequence of str
-        What must be known to judge the pictures.
+        Notes that help to judge the pictures.
     window : Window
         The points.
     outcomes, figures, commands : sequence
-        Of each setting: what it made, in figures, and how it is run.
+        Result, figures and commands of each setting.
     profile : Profile
-        Where the profile lies.
+        The profile.
     """
 
     sources: Sequence[object]

@@ -1,4 +1,4 @@
-"""What settings make of the points in a window: terrain, shares, differences, a profile."""
+"""Results of settings on the points in a window: terrain, figures, differences, a profile."""
 
 from __future__ import annotations
 
@@ -12,27 +12,27 @@ from ..filters.shared.confidence import confidence
 from ..grids.cells import are_inside
 from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
 
-# Pixels along the longer side of the terrain, at most, and the sides in metres that they may have,
-# but for whole metres.
+# Greatest number of cells along the longer side of the terrain, and the sides in metres that cells
+# can have below one metre. Larger cells have whole metres.
 _MOST_CELLS = 300
 _CELL_SIZES = (0.25, 0.5)
-# Half the width in metres of the strip along a profile: so wide that points are dense enough.
+# The strip along a profile has so many points a metre. Limits of half its width, in metres.
 _POINTS_A_METRE, _NARROWEST, _WIDEST = 8.0, 0.5, 3.0
-# Metres round the window in which points matter for the confidence in it.
+# Distance in metres up to which points around the window are used for the confidence.
 _NEAR = 20.0
 
 
 class Window(NamedTuple):
-    """The points that settings are tried on.
+    """The points on which settings are tried.
 
     Attributes
     ----------
     points : Points
-        Those in the window and round it, in metres from the lower left corner of the window.
+        Points in the window and around it, in metres from the lower left corner of the window.
     inside : numpy.ndarray of bool, shape (n,)
-        Which lie in the window.
+        Which points lie in the window.
     width, height : float
-        Of the window, in metres.
+        Size of the window in metres.
     """
 
     points: Points
@@ -42,7 +42,7 @@ class Window(NamedTuple):
 
     @property
     def cell_size(self) -> float:
-        """Side in metres of the cells of the terrain."""
+        """Side of a cell of the terrain in metres."""
         least = max(self.width, self.height) / _MOST_CELLS
         return next((each for each in _CELL_SIZES if each >= least), float(math.ceil(least)))
 
@@ -53,22 +53,22 @@ class Window(NamedTuple):
 
     @property
     def strip(self) -> float:
-        """Metres to each side of a profile within which points are shown."""
+        """Greatest distance of points that a profile shows, in metres."""
         density = np.count_nonzero(self.inside) / (self.width * self.height)
         return min(max(_POINTS_A_METRE / (2.0 * density), _NARROWEST), _WIDEST)
 
 
 class Outcome(NamedTuple):
-    """What one setting made of a window.
+    """The result of a setting.
 
     Attributes
     ----------
     name, label : str
-        Of the setting, as it is typed and as it is shown.
+        Name and label of the setting.
     classes : numpy.ndarray of uint8, shape (n,)
         Classes of all points.
     ground : numpy.ndarray of bool, shape (n,)
-        Which are ground.
+        Which points are ground.
     terrain : numpy.ndarray of float64, shape (rows, columns)
         Heights in metres from north to south; NaN where there is none.
     confidence : float
@@ -90,7 +90,7 @@ def outcome_of(
     ground: np.ndarray,
     selected: np.ndarray,
 ) -> Outcome:
-    """Return what the classes of points make of a window.
+    """Return the result of a setting, with terrain and confidence.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ def _terrain(window: Window, ground: np.ndarray) -> np.ndarray:
     """Return the heights of the terrain, from north to south."""
     if not ground.any():
         return np.full(window.shape, np.nan)
-    # One vertex a pixel is enough for a picture, and quicker than the four of a terrain model.
+    # One vertex a cell is enough for a picture, and faster than the four of a terrain model.
     surface = DenseSurface(window.points.take(ground), VERTICES_A_SIDE * window.cell_size)
     y, x = ((np.arange(count) + 0.5) * window.cell_size for count in window.shape)
     heights = surface.heights(np.tile(x, len(y)), np.repeat(y, len(x)))
@@ -119,7 +119,7 @@ def _terrain(window: Window, ground: np.ndarray) -> np.ndarray:
 
 
 def _confidence(window: Window, ground: np.ndarray, selected: np.ndarray) -> float:
-    """Return the mean of the cells of 1 m in the window."""
+    """Return the mean confidence of the cells of 1 m in the window."""
     x, y, _ = window.points
     near = (x >= -_NEAR) & (y >= -_NEAR) & (x <= window.width + _NEAR)
     near &= selected & (y <= window.height + _NEAR)
@@ -133,22 +133,23 @@ def _confidence(window: Window, ground: np.ndarray, selected: np.ndarray) -> flo
 
 
 class Figures(NamedTuple):
-    """One setting in figures, for the points and cells of the window.
+    """Figures of a setting for the points and cells in the window.
 
     Attributes
     ----------
     name, label : str
-        Of the setting.
+        Name and label of the setting.
     point_count, ground_count : int
-        Points in the window, and those that are ground.
+        Number of points, and of ground points.
     ground_share : float
-        The latter in percent of the former.
+        Share of ground points in percent.
     confidence : float
-        Mean, in percent.
+        Mean confidence in percent.
     gained, lost : int
-        Points that are ground but not with the first setting, and the reverse.
+        Points that are ground, but not with the first setting; and the reverse.
     terrain_difference : float or None
-        Mean absolute difference in metres from the terrain of the first; None without terrain.
+        Mean absolute difference in metres from the terrain of the first setting; None if there is
+        no terrain.
     """
 
     name: str
@@ -163,7 +164,7 @@ class Figures(NamedTuple):
 
 
 def figures_of(window: Window, outcome: Outcome, first: Outcome) -> Figures:
-    """Return the figures of a setting beside those of the first."""
+    """Return the figures of a setting, compared with the first setting."""
     ground, before = outcome.ground[window.inside], first.ground[window.inside]
     apart = np.abs(outcome.terrain - first.terrain)
     apart = apart[np.isfinite(apart)]
@@ -195,15 +196,15 @@ class Line(NamedTuple):
         return math.dist(self.start, self.end)
 
     def along(self, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return how far along the line places lie, and how far to its left, in metres."""
+        """Return the distances of places along the line, and to its left, in metres."""
         east, north = ((last - first) / self.length for first, last in zip(self.start, self.end))
         x, y = x - self.start[0], y - self.start[1]
         return x * east + y * north, y * east - x * north
 
     def cells(self, window: Window) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return distances along the line, and row and column of the terrain's cell at each.
+        """Return distances along the line, and row and column of the terrain cell at each.
 
-        They are as far apart as cells are wide; those outside of the window are left out.
+        The distance between them is the side of a cell. Places outside the window are left out.
         """
         cell = window.cell_size
         distance = np.arange(0.0, self.length, cell) + 0.5 * min(cell, self.length)
@@ -218,7 +219,7 @@ class Line(NamedTuple):
 
 
 def line_across(window: Window, outcomes: Sequence[Outcome]) -> Line:
-    """Return a line across the window where terrains differ most; through its middle if nowhere."""
+    """Return a line across the window where terrains differ most, or else through its middle."""
     first = outcomes[0].terrain
     apart = sum(np.nan_to_num(np.abs(each.terrain - first)) for each in outcomes)
     rows, columns = apart.mean(axis=1)[::-1], apart.mean(axis=0)

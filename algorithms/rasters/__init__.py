@@ -1,1 +1,1 @@
-"""Raster files, in and out."""
+"""Reads and writes raster files."""

@@ -1,4 +1,4 @@
-"""Rasters of the terrain: their grid, and how they are read."""
+"""The grid of rasters, and reading of raster files."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ from .libraries import GdalErrors, library
 
 NODATA = -9999.0
 _MOST_CELLS = 400_000_000
-# A raster of more cells must have points in this share of its squares of 1 km: else it is large
-# because of a few points with stray coordinates.
+# A raster with more cells must have points in at least this share of its squares of 1 km. Otherwise
+# it is only large because of a few points with stray coordinates.
 _MANY_CELLS, _SQUARE, _LEAST_COVERED = 10_000_000, 1000.0, 0.01
 _STEP = 1 << 20
-# What GDAL would ask another computer for, and how it names a part of a file.
+# Names that GDAL would fetch from another computer, and names of parts of a file.
 _REMOTE = re.compile(r"[a-z][a-z0-9+.-]+://|/vsi", re.IGNORECASE)
 _PART = re.compile(r'[A-Z][A-Z0-9_]+:"?(?P<file>.+?)"?(:[^:\\/]*)?$')
 _DESCRIPTION = 1 << 20
 _SURVEY_FOOT = 1200 / 3937
-# Metres in the units of heights, by the words that files have for them.
+# Metres in the units of heights, by their names in files.
 _UNITS = {
     "m": 1.0, "metre": 1.0, "meter": 1.0, "metres": 1.0, "meters": 1.0,
     "ft": 0.3048, "foot": 0.3048, "feet": 0.3048, "international foot": 0.3048,
@@ -46,14 +46,14 @@ class RasterGrid:
     Attributes
     ----------
     west, north : float
-        Upper left corner, in units of the CRS; a multiple of the cell size, so that the rasters of
+        Upper left corner in units of the CRS. It is a multiple of the cell size, so that rasters of
         neighbouring tiles fit together.
     cell_size : float
         Side of a cell, in units of the CRS.
     columns, rows : int
         Size of the raster.
     frame : Frame
-        The local metres that belong to the CRS.
+        The frame of the local metres.
     """
 
     west: float
@@ -70,7 +70,7 @@ class RasterGrid:
         Raises
         ------
         BareEarthError
-            If there are no points, or the grid would not fit into memory.
+            If there are no points, or the grid would be too large.
         """
         if points.count == 0:
             raise BareEarthError(
@@ -94,12 +94,12 @@ class RasterGrid:
 
     @property
     def unit(self) -> str:
-        """What the band says of the unit of its values: nothing, the CRS does."""
+        """Unit of the band; empty, since the CRS states the unit."""
         return ""
 
     @property
     def geotransform(self) -> tuple[float, ...]:
-        """Where the cells lie in the CRS, as GDAL says it."""
+        """Geotransform of GDAL."""
         return self.west, self.cell_size, 0.0, self.north, 0.0, -self.cell_size
 
     @property
@@ -130,7 +130,7 @@ class RasterGrid:
 
 
 def _covered(points: Points) -> float:
-    """Return in which share of the squares over the extent of points there are any."""
+    """Return the share of squares in the extent of points that contain points."""
     extent = [side // _SQUARE + 1.0 for side in points.sides]
     squares: set[complex] = set()
     for part in parts_of(points.count, _STEP):
@@ -147,11 +147,11 @@ class Raster(NamedTuple):
     heights : numpy.ndarray of float32, shape (rows, columns)
         The cells in file order, in the vertical unit of `frame`; NaN where there is no value.
     geotransform : tuple of float
-        Where the cells lie in the CRS, as GDAL says it.
+        Geotransform of GDAL.
     frame : Frame
-        The CRS and its units; its origin is of no use here.
+        The CRS and its units; the origin is not used.
     unit : str
-        What the band says of the unit of its values; empty if nothing.
+        Unit of the band; empty if it states none.
     """
 
     heights: np.ndarray
@@ -161,7 +161,7 @@ class Raster(NamedTuple):
 
     @property
     def cell_metres(self) -> tuple[float, float]:
-        """Distance in metres between neighbours in a row, and between those in a column."""
+        """Distance in metres between neighbours in a row, and between neighbours in a column."""
         _, a, b, _, c, d = self.geotransform
         unit = self.frame.horizontal_unit
         return math.hypot(a, c) * unit, math.hypot(b, d) * unit
@@ -177,13 +177,13 @@ def read_raster(source: str | Path, band: int = 1, progress: Progress = SILENT) 
     band : int
         Number of the band, from 1.
     progress : Progress
-        Told which units are assumed where none is stated.
+        Receives messages on units that are not stated, but assumed.
 
     Raises
     ------
     BareEarthError
         If there is no library to read rasters with, the raster is not on this computer, the band
-        cannot be read, or the CRS is not a projected one.
+        cannot be read, or the CRS is geographic.
     """
     read = library(_read_with_gdal, _read_with_rasterio, "Reading")
     _check_local(str(source))
@@ -200,7 +200,7 @@ def read_raster(source: str | Path, band: int = 1, progress: Progress = SILENT) 
 
 
 class _Content(NamedTuple):
-    """What a library reads of a file."""
+    """The contents of a raster file."""
 
     values: np.ndarray
     valid: np.ndarray
@@ -212,7 +212,7 @@ class _Content(NamedTuple):
 
 
 def _frame_of(source: str | Path, content: _Content, progress: Progress) -> Frame:
-    """Settle the units: those that the band and the CRS state, metres where nothing is."""
+    """Return a frame with the units of the band and the CRS, or metres if none are stated."""
     facts = read_wkt(content.wkt) if content.wkt else None
     if facts is not None and facts.is_geographic:
         raise BareEarthError(
@@ -241,7 +241,7 @@ def _frame_of(source: str | Path, content: _Content, progress: Progress) -> Fram
 
 
 def _check_local(source: str) -> None:
-    """Refuse what GDAL would fetch: a URL, or a description of a raster that names one."""
+    """Refuse a URL, and files such as VRT that contain one, since GDAL would fetch it."""
     if any("\ud800" <= each <= "\udfff" for each in source):
         raise BareEarthError(f"The name of {source} is not UTF-8, which GDAL needs. Rename it.")
     part = _PART.match(source)
@@ -249,7 +249,7 @@ def _check_local(source: str) -> None:
     is_remote = _REMOTE.search(source) is not None
     if not is_remote and path.is_file():
         with open(path, "rb") as file:
-            # A raster itself is binary; its description, by GDAL, is XML or JSON.
+            # Rasters are binary; descriptions of rasters for GDAL are XML or JSON.
             start = file.read(_DESCRIPTION)
         text = start.decode("utf-8", "replace")
         is_description = text.lstrip("\ufeff \t\r\n")[:1] in ("<", "{")

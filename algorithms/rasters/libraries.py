@@ -13,7 +13,7 @@ from ..core.temporary import shown
 def library(
     by_gdal: Callable[..., Any], by_rasterio: Callable[..., Any], what: str
 ) -> Callable[..., Any]:
-    """Return the function for the library that is there; GDAL first, for QGIS."""
+    """Return the function for the installed library: GDAL first, for QGIS."""
     if importlib.util.find_spec("osgeo") is not None:
         return by_gdal
     if importlib.util.find_spec("rasterio") is not None:
@@ -22,14 +22,14 @@ def library(
 
 
 class GdalErrors:
-    """Collects GDAL's error messages, whichever of its error modes the application chose.
+    """Collects the error messages of GDAL, in each of its error modes.
 
     Parameters
     ----------
     gdal : module
         ``osgeo.gdal``.
     what : str
-        What is done to a raster: "read" or "write".
+        "read" or "write", for the messages.
     """
 
     def __init__(self, gdal: Any, what: str) -> None:
@@ -54,7 +54,7 @@ class GdalErrors:
         self._texts.clear()
 
     def check(self, path: str | Path) -> None:
-        """Raise the first error, if there was any."""
+        """Raise the first error, if there was one."""
         if self._texts:
             reason = shown(self._texts[0]).rstrip(".")
             raise BareEarthError(f"Cannot {self._what} {shown(path)}: {reason}.")

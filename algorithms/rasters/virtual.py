@@ -1,4 +1,4 @@
-"""Virtual rasters (.vrt): many rasters on one grid that programs show as one."""
+"""Virtual rasters (.vrt): many rasters on a common grid, which programs show as one raster."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def write_virtual(
     kind: str,
     band: Band,
 ) -> None:
-    """Write a virtual raster, as ``gdalbuildvrt`` does; none of its parts has to be there yet.
+    """Write a virtual raster, as ``gdalbuildvrt`` does. Its parts need not exist yet.
 
     Parameters
     ----------
@@ -30,13 +30,13 @@ def write_virtual(
     folder : Path
         The folder in which it will lie. The paths of its parts are relative to this folder.
     grid : RasterGrid
-        All cells.
+        The grid of the virtual raster.
     parts : mapping of Path to RasterGrid
-        The rasters, and where they lie. Where they overlap, their cells must be equal.
+        The rasters and their grids. Where they overlap, their cells must be equal.
     kind : str
-        The type of the cells, "float32" or "uint8".
+        Type of the cells, "float32" or "uint8".
     band : Band
-        What the parts say of their band.
+        The band of the parts.
     """
     transform = ", ".join(repr(float(each)) for each in grid.geotransform)
     lines = [
@@ -54,7 +54,7 @@ def write_virtual(
         size = f'xSize="{part.columns}" ySize="{part.rows}"'
         lines += [
             f'<SimpleSource><SourceFilename relativeToVRT="1">{name}</SourceFilename>',
-            # With its properties, a part is not opened before its cells are needed.
+            # With these properties, GDAL opens a part only when its cells are needed.
             f'<SourceProperties RasterXSize="{part.columns}" RasterYSize="{part.rows}"'
             f' DataType="{_TYPES[kind]}" BlockXSize="{BLOCK_SIDE}" BlockYSize="{BLOCK_SIDE}"/>',
             f'<SrcRect xOff="0" yOff="0" {size}/><DstRect xOff="{column}" yOff="{row}" {size}/>',

@@ -20,7 +20,7 @@ from ..crs.system import unit_symbol
 from .geotiff import Raster, RasterGrid
 from .libraries import GdalErrors, library
 
-# Cells up to which a raster waits in memory until all of it is there; a file would take longer.
+# A raster with up to so many cells is collected in memory, which is faster than in a file.
 _MOST_IN_MEMORY = 64_000_000
 # Cells along a side of a block of the file.
 BLOCK_SIDE = 256
@@ -28,29 +28,29 @@ _OPTIONS = {
     "COMPRESS": "DEFLATE", "PREDICTOR": "YES", "BLOCKSIZE": str(BLOCK_SIDE), "BIGTIFF": "IF_SAFER",
     "OVERVIEW_RESAMPLING": "AVERAGE", "NUM_THREADS": "ALL_CPUS",
 }  # fmt: skip
-# Of the file in which they wait: cells along the edge of a tile, and bytes that say where it is.
+# In that file: cells along the edge of a tile, and bytes for the index of a tile.
 _TILE, _BYTES_ABOUT_A_TILE = 256, 512
 _WAITING = {"TILED": "YES", "BIGTIFF": "IF_SAFER", "SPARSE_OK": "TRUE"}
 
 
 @contextlib.contextmanager
 def replacing_raster(path: Path) -> Iterator[Path]:
-    """Yield a temporary name, as `replacing`; what GDAL kept of the raster before goes, too."""
+    """Yield a temporary name, as `replacing`; also remove the .aux.xml file of an old raster."""
     with replacing(path) as temporary:
         yield temporary
-    # Statistics of other cells: QGIS would stretch its colours by them.
+    # It has statistics of the old cells, by which QGIS would stretch its colours.
     beside = path.with_name(f"{path.name}.aux.xml")
-    if os.path.lexists(beside):  # a name as long as can be has no room for one beside it
+    if os.path.lexists(beside):  # False if this name would be too long
         beside.unlink()
 
 
 class Rows(NamedTuple):
-    """The cells of a raster, some rows at a time.
+    """The cells of a raster, in strips of rows.
 
     Attributes
     ----------
     shape : tuple of int
-        Rows and columns of all.
+        Rows and columns of the raster.
     kind : str
         "float32" or "uint8".
     strips : iterable of numpy.ndarray, shape (some rows, columns)
@@ -63,14 +63,14 @@ class Rows(NamedTuple):
 
 
 class Band(NamedTuple):
-    """What a file says of its band: the value that stands for none, and what the cells hold."""
+    """Properties of a band: the value for no data, and a description of the cells."""
 
     nodata: float
     description: str
 
     @classmethod
     def of(cls, grid: RasterGrid | Raster, nodata: float, shows: str) -> Band:
-        """Return the band of a grid, as `write_geotiff` writes it."""
+        """Return the band that `write_geotiff` writes; see there for `shows`."""
         return cls(nodata, shows.format(unit=unit_symbol(grid.frame.vertical_unit)))
 
 
@@ -91,14 +91,14 @@ def write_geotiff(
     values : numpy.ndarray of float32 or uint8, shape (rows, columns), or Rows
         The cells from north to south; `nodata` where there is no value.
     grid : RasterGrid or Raster
-        Where the cells lie.
+        The grid of the cells.
     nodata : float
-        The value that stands for none.
+        The value for no data.
     progress : Progress
-        Warned if the file has to go without its CRS.
+        Receives a warning if the CRS cannot be written.
     shows : str
-        What the cells hold, which programs show as the name of the band; ``{unit}`` stands for the
-        symbol of the vertical unit.
+        Description of the cells, which programs show as the name of the band. ``{unit}`` is
+        replaced by the symbol of the vertical unit.
 
     Raises
     ------
@@ -124,18 +124,18 @@ def check_raster_output(target: Path, sources: tuple[Path, ...] = ()) -> None:
 
 
 def _writer() -> Callable[..., None]:
-    """Return the function that writes with the library that is there."""
+    """Return the function that writes with the installed library."""
     return library(_write_with_gdal, _write_with_rasterio, "Writing")
 
 
 def _waiting_file(path: Path, rows: Rows) -> Path | None:
-    """Return the file in which the cells wait, or None if they wait in memory.
+    """Return the file in which the cells are collected, or None for memory.
 
     Raises
     ------
     OSError
-        If the disk has no room for them: when it is full later, rasterio raises what is no error
-        of its own, or none.
+        If the disk has too little space for the file. If it becomes full later, rasterio raises no
+        error, or an unexpected one.
     """
     if rows.shape[0] * rows.shape[1] <= _MOST_IN_MEMORY:
         return None
@@ -209,7 +209,7 @@ def _write_with_rasterio(
         nodata=about.nodata, crs=crs, transform=Affine.from_gdal(*grid.geotransform), **_WAITING,
     )  # fmt: skip
     try:
-        # No side-car file: it would stay behind under the temporary name.
+        # Without .aux.xml file, which would be left with the temporary name.
         with rasterio.Env(GDAL_PAM_ENABLED="NO"), MemoryFile() as cells, MemoryFile() as made:
             name = str(waiting or cells.name)
             with rasterio.open(name, "w", **profile) as dataset:
@@ -221,7 +221,7 @@ def _write_with_rasterio(
                 dataset.descriptions = (about.description,)
                 if grid.unit:
                     dataset.units = (grid.unit,)
-            # In memory first: of a disk that is full at the close rasterio raises no error.
+            # In memory first, since rasterio raises no error if the disk is full at the close.
             rasterio.shutil.copy(name, made.name, driver="COG", **_OPTIONS)
             with made.open() as dataset:
                 if crs is not None and dataset.crs is None:
@@ -235,7 +235,7 @@ def _write_with_rasterio(
 
 
 def _crs_of(grid: RasterGrid | Raster, progress: Progress) -> Any:
-    """Return the CRS as rasterio has it, or None."""
+    """Return the CRS as a rasterio object, or None."""
     import rasterio
     from rasterio.crs import CRS
     from rasterio.errors import CRSError

@@ -1,1 +1,1 @@
-"""The files of a run as one survey: which files, which points, which area."""
+"""A survey: its files, and the points and the area of a run."""

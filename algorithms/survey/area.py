@@ -1,4 +1,4 @@
-"""Where points are to be classified anew: a rectangle, polygons, or both."""
+"""The area in which points are classified: a rectangle, polygons, or both."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..core.points import Box
 from ..core.threads import parts_of
 from ..las.cloud import PointCloud
 
-# Sorted at once: not so many that memory grows, nor so few that the loop over edges counts.
+# Points that are sorted together: few enough for memory, and many enough for the loop over edges.
 _POINTS_A_STEP = 1 << 21
 
 Polygon = tuple[np.ndarray, ...]
@@ -24,11 +24,11 @@ class Area:
     Attributes
     ----------
     box : tuple of float or None
-        Smallest x and y, largest x and y; its border belongs to it.
+        Smallest x and y, largest x and y; the border belongs to the box.
     polygons : tuple of tuples of numpy.ndarray of float64, shape (n, 2)
-        The rings of each polygon, closed or not, in any direction: by the even-odd rule, those
-        inside another one are holes. Of a border that two polygons share each place belongs to one
-        of them. Together with a box, what lies in both is meant.
+        The rings of each polygon, closed or not, in any direction. By the even-odd rule, rings
+        inside another ring are holes. A point on the common border of two polygons belongs to one
+        of them. If there is a box as well, the area is the part of the polygons in the box.
     """
 
     box: Box | None = None
@@ -52,7 +52,7 @@ class Area:
 
     @property
     def bounds(self) -> Box:
-        """Smallest x and y, largest x and y; the former above the latter where nothing is left."""
+        """Smallest x and y, largest x and y; smallest above largest if the area is empty."""
         boxes = [_bounds(polygon) for polygon in self.polygons if polygon]
         if not boxes:
             return self.box
@@ -67,7 +67,7 @@ class Area:
         return west - distance, south - distance, east + distance, north + distance
 
     def may_touch(self, box: Box) -> bool:
-        """Return whether the bounds share a place with a box, their borders included."""
+        """Return whether the bounds touch a box, including borders."""
         west, south, east, north = self.bounds
         return west <= box[2] and east >= box[0] and south <= box[3] and north >= box[1]
 
@@ -95,8 +95,8 @@ class Area:
         Returns
         -------
         numpy.ndarray of int32, shape (n,)
-            In file order. The first polygon is 1; 0 for points outside of the area. Without
-            polygons, 1 for those in the box.
+            In file order: 1 for the first polygon, 0 outside of the area. Without polygons, 1 in
+            the box.
         """
         numbers = np.empty(cloud.count, dtype=np.int32)
         for part in parts_of(cloud.count, _POINTS_A_STEP):
@@ -119,7 +119,7 @@ class Area:
 
 
 def box_in_words(box: Box) -> str:
-    """Return from where to where a box reaches."""
+    """Return the limits of a box in words."""
     west, south, east, north = box
     return f"x {west:.10g} to {east:.10g}, y {south:.10g} to {north:.10g}"
 
@@ -130,8 +130,8 @@ def _bounds(polygon: Polygon) -> Box:
 
 
 def _last_polygon(x: np.ndarray, y: np.ndarray, polygons: tuple[Polygon, ...]) -> np.ndarray:
-    """Return the number of the last polygon that holds each place: from 1 on, 0 for none; int32."""
-    # Sorted by y, the places beside an edge or a polygon are a slice.
+    """Return the number of the last polygon that holds each place, from 1; 0 for none; int32."""
+    # When sorted by y, the places beside an edge or a polygon are a slice.
     order = np.argsort(y, kind="stable")
     x, y = x[order], y[order]
     numbers = np.zeros(len(x), dtype=np.int32)
@@ -153,7 +153,7 @@ def _is_odd(x: np.ndarray, y: np.ndarray, polygon: Polygon) -> np.ndarray:
     odd = np.zeros(len(x), dtype=bool)
     for ring in polygon:
         following = np.roll(ring, -1, axis=0)
-        # Edges run from the lower to the upper end: one that two polygons share gives one answer.
+        # From the lower to the upper end, so that a common edge of two polygons gives one result.
         upwards = (ring[:, 1] <= following[:, 1])[:, None]
         low, high = np.where(upwards, ring, following), np.where(upwards, following, ring)
         firsts, lasts = np.searchsorted(y, low[:, 1]), np.searchsorted(y, high[:, 1])

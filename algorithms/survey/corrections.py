@@ -1,4 +1,4 @@
-"""What is known of the classes of points by hand: polygons, and classes changed since a run."""
+"""Classes set by hand: polygons with a class, and classes that were changed after a run."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from ..core.errors import BareEarthError
 from ..las.cloud import PointCloud
 from .area import Area, Polygon
 
-# Never classified: a point that gets this class by hand is judged anew.
+# Points that get this class by hand are classified again.
 _NEVER_CLASSIFIED = 0
 _LARGEST_CLASS = 255
-# The attribute of a polygon that says its class.
+# The attribute of a polygon that holds its class.
 CLASS_FIELD = "class"
 
 
@@ -25,14 +25,14 @@ class Corrections:
     Attributes
     ----------
     polygons : tuple of polygon
-        As in `Area`. Where several lie, the last of them counts.
+        As in `Area`. Where polygons overlap, the last one counts.
     classes : tuple of int
-        The class of the points in each; that of the ground says that they are ground.
+        The class of the points in each polygon. With the class of the ground, they are ground.
 
     Raises
     ------
     BareEarthError
-        If a class is none, a polygon has no class, or a corner is not finite.
+        If a class is not valid, a polygon has no class, or a corner is not finite.
     """
 
     polygons: tuple[Polygon, ...] = ()
@@ -43,11 +43,11 @@ class Corrections:
             raise BareEarthError("Each polygon of the corrections must have a class.")
         object.__setattr__(self, "classes", tuple(map(_class, self.classes)))
         if self.polygons:
-            # Refuses corners that are not finite.
+            # This refuses corners that are not finite.
             Area(None, self.polygons)
 
     def classes_of(self, part: PointCloud) -> np.ndarray:
-        """Return the class that the polygons give each point; int16, shape (n,), -1 for none."""
+        """Return the class of each point by the polygons; int16, shape (n,), -1 for none."""
         if not self.polygons:
             return np.full(part.count, -1, dtype=np.int16)
         numbers = Area(None, self.polygons).polygon_of(part)
@@ -55,7 +55,7 @@ class Corrections:
 
 
 def _class(value: Any) -> int:
-    """Return the class that a value of an attribute says."""
+    """Return the value of an attribute as a class."""
     try:
         number = float(value)
     except (TypeError, ValueError):
@@ -72,14 +72,14 @@ NO_CORRECTIONS = Corrections()
 
 
 class ByHand(NamedTuple):
-    """What is known of points by hand.
+    """Classes of points that were set by hand.
 
     Attributes
     ----------
     known : numpy.ndarray of bool, shape (n,)
-        Of which points the class is certain.
+        Which points have a class that was set by hand.
     classes : numpy.ndarray of uint8, shape (n,)
-        Their classes; of the others, those that they have.
+        The classes; for other points, their present class.
     """
 
     known: np.ndarray
@@ -87,12 +87,12 @@ class ByHand(NamedTuple):
 
 
 def changed_since(part: PointCloud) -> np.ndarray:
-    """Return which points have another class than the run that remembered it gave them.
+    """Return which points have another class than the remembered one of an earlier run.
 
     Returns
     -------
     numpy.ndarray of bool, shape (n,)
-        False for those that were set to 0, never classified: they are to be judged anew.
+        False for points that were set to 0, never classified: they are classified again.
     """
     if part.remembered is None:
         return np.zeros(part.count, dtype=bool)
@@ -101,13 +101,13 @@ def changed_since(part: PointCloud) -> np.ndarray:
 
 
 def to_remember(part: PointCloud, classes: np.ndarray) -> np.ndarray:
-    """Return what is remembered of the classes that points get.
+    """Return the values to remember for the new classes of points.
 
     Returns
     -------
     numpy.ndarray of uint8, shape (n,)
-        The class; of points that were changed by hand and keep theirs another one, so that the
-        next run knows them as well.
+        The class. For points that keep a class set by hand, another value than their class, so
+        that the next run detects them again.
     """
     stays = changed_since(part) & (classes == part.classification)
     return np.where(stays, _LARGEST_CLASS - classes, classes)

@@ -1,4 +1,4 @@
-"""Many files as one survey: which there are, what their headers say, and which lie side by side."""
+"""Finds the files of a survey, reads their headers, and checks that they fit together."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ from .vpc import no_extent, read_vpc
 
 _CLOUDS = (".las", ".laz")
 _LISTS = (".txt", ".lst", ".list")
-# Names in a sentence, before it says how many more there are.
+# Most names in a sentence. It gives the number of the others.
 _MOST_NAMES = 3
 
 
 @dataclass(frozen=True)
 class BrokenTile:
-    """A file that cannot be worked on, and a sentence that says why."""
+    """A file that cannot be used, with the reason as a sentence."""
 
     path: Path
     reason: str
@@ -44,11 +44,11 @@ class Survey:
     Attributes
     ----------
     tiles : tuple of LasFile
-        Those that can be read, one at least, all in the same CRS.
+        The files that can be read, at least one, all in the same CRS.
     broken : tuple of BrokenTile
-        Those that cannot.
+        The files that cannot be read.
     crs : Crs
-        The CRS of all of them.
+        The common CRS.
     """
 
     tiles: tuple[LasFile, ...]
@@ -62,7 +62,7 @@ class Survey:
 
     @property
     def box(self) -> Box:
-        """Smallest x and y, largest x and y of all tiles in units of the CRS."""
+        """Smallest x and y, largest x and y of all tiles, in units of the CRS."""
         west, south = self._boxes[:, :2].min(axis=0).tolist()
         east, north = self._boxes[:, 2:].max(axis=0).tolist()
         return west, south, east, north
@@ -72,7 +72,7 @@ class Survey:
         return np.array([tile.outer_box for tile in self.tiles])
 
     def touching(self, box: Box) -> list[LasFile]:
-        """Return the tiles whose extents share a place with a box, their borders included."""
+        """Return the tiles whose extents touch a box, including borders."""
         west, south, east, north = self._boxes.T
         touches = (west <= box[2]) & (east >= box[0]) & (south <= box[3]) & (north >= box[1])
         return [self.tiles[each] for each in np.flatnonzero(touches)]
@@ -87,12 +87,12 @@ def open_survey(
     ----------
     sources : iterable of Path
         LAS, LAZ and COPC files, folders of them, virtual point clouds (.vpc), and text files (.txt)
-        with a path a line, relative to the folder of the text file. What is named twice counts
-        once.
+        with one path in each line, relative to the folder of the text file. Files that are given
+        twice count once.
     recursive : bool
-        Whether the folders in folders are searched, too.
+        Whether subfolders are searched, too.
     progress : Progress
-        Receives progress, and is told what is odd.
+        Receives progress and warnings.
 
     Raises
     ------
@@ -127,19 +127,19 @@ def open_survey(
 def find_files(
     sources: Iterable[Path], recursive: bool = False, progress: Progress = SILENT
 ) -> list[Path]:
-    """Return the paths of the point clouds that sources name, sorted and each once.
+    """Return the paths of all point clouds in the sources, sorted and without duplicates.
 
     Parameters
     ----------
     sources, recursive
         As for `open_survey`.
     progress : Progress
-        Told of virtual point clouds that list files outside of their folders.
+        Receives a warning if a virtual point cloud lists files outside of its folder.
 
     Raises
     ------
     BareEarthError
-        If a source is none of these, or there are no files.
+        If a source is of another kind, or there are no files.
     """
     if isinstance(sources, (str, Path)):
         sources = [Path(sources)]
@@ -154,11 +154,11 @@ def find_files(
 
 
 def _expand(source: Path, recursive: bool, progress: Progress) -> Iterator[Path]:
-    """Yield the files that a source stands for."""
+    """Yield the files of a source."""
     suffix = source.suffix.lower()
     if source.is_dir():
         for path in source.rglob("*") if recursive else source.iterdir():
-            # Hidden files are those of others, or not finished yet.
+            # Hidden files belong to other programs, or are not finished yet.
             if is_cloud(path) and not path.name.startswith(".") and path.is_file():
                 yield path
     elif suffix == VPC_SUFFIX:
@@ -184,7 +184,7 @@ def _expand(source: Path, recursive: bool, progress: Progress) -> Iterator[Path]
 
 
 def _tell_of_files_elsewhere(source: Path, paths: list[Path], progress: Progress) -> None:
-    """Warn of a virtual point cloud whose files do not all lie in its folder, or below it."""
+    """Warn if a virtual point cloud lists files that are not in its folder or a subfolder."""
     folder = source.parent.resolve()
     elsewhere = [path for path in paths if folder not in path.resolve().parents]
     if elsewhere:
@@ -195,17 +195,17 @@ def _tell_of_files_elsewhere(source: Path, paths: list[Path], progress: Progress
 
 
 def is_cloud(path: Path) -> bool:
-    """Return whether a path is named as a point cloud is."""
+    """Return whether a path has the suffix of a point cloud."""
     return path.suffix.lower() in _CLOUDS
 
 
 def is_one_file(paths: Sequence[Path]) -> bool:
-    """Return whether inputs are one point cloud file, not a folder or a list of several."""
+    """Return whether the input is a single point cloud file, not a folder or a list."""
     return len(paths) == 1 and not paths[0].is_dir() and is_cloud(paths[0])
 
 
 def _listed(source: Path) -> list[Path]:
-    """Return the paths in a text file; empty lines and those that begin with # are none."""
+    """Return the paths in a text file, without empty lines and lines that begin with #."""
     try:
         lines = read_text(source).splitlines()
     except UnicodeDecodeError:
@@ -215,7 +215,7 @@ def _listed(source: Path) -> list[Path]:
 
 
 def _crs_of(layout: LasFile, heard: Notes) -> Crs:
-    """Return the CRS that a file states; those without any are told of together."""
+    """Return the CRS of a file; `_common_crs` warns of files that do not state one."""
     crs = read_crs(layout)
     if crs != Crs():
         read_crs(layout, heard)
@@ -223,7 +223,7 @@ def _crs_of(layout: LasFile, heard: Notes) -> Crs:
 
 
 def _check_extent(layout: LasFile) -> None:
-    """Refuse a header that leaves open where the points lie."""
+    """Refuse a header without the extent of the points."""
     lowest, highest = layout.minimum[:2], layout.maximum[:2]
     is_one = layout.states_extent and lowest[0] <= highest[0] and lowest[1] <= highest[1]
     if not is_one or (lowest == highest and layout.count > 1):
@@ -231,7 +231,7 @@ def _check_extent(layout: LasFile) -> None:
 
 
 def _common_crs(tiles: list[LasFile], stated: list[Crs], progress: Progress) -> Crs:
-    """Return the CRS of all tiles, given what each states, or refuse those that differ."""
+    """Return the common CRS of all tiles; refuse tiles that differ in their CRS."""
     groups: dict[Crs, list[LasFile]] = {}
     for tile, crs in zip(tiles, stated):
         same = next((each for each in groups if _is_same(each, crs)), crs)
@@ -263,7 +263,7 @@ def _is_same(one: Crs, other: Crs) -> bool:
 
 
 def _has_same_units(one: Crs, other: Crs) -> bool:
-    # The two feet differ by two millionths.
+    # The two kinds of feet differ by two millionths.
     return one.is_geographic == other.is_geographic and all(
         math.isclose(*pair, rel_tol=1e-8)
         for pair in (
@@ -274,7 +274,7 @@ def _has_same_units(one: Crs, other: Crs) -> bool:
 
 
 def _bare(name: str) -> str:
-    """Return a name without what programs write in different ways."""
+    """Return only the letters and digits of a name, since programs write the rest differently."""
     return "".join(filter(str.isalnum, name)).lower()
 
 
@@ -293,7 +293,7 @@ def _names(tiles: list[LasFile]) -> str:
 
 
 def _tell_of_twins(tiles: list[LasFile], progress: Progress) -> None:
-    """Warn of tiles that look like the same points twice: LAZ and COPC of it, or copies."""
+    """Warn of tiles that seem to hold the same points, such as LAZ and COPC, or copies."""
     seen: dict[tuple[float, ...], LasFile] = {}
     for tile in tiles:
         extent = (*tile.minimum, *tile.maximum)
@@ -307,7 +307,7 @@ def _tell_of_twins(tiles: list[LasFile], progress: Progress) -> None:
 
 
 def _tell(heard: Notes, progress: Progress) -> None:
-    """Tell what was heard of many files: the same once, with the number of files."""
+    """Pass on the messages of many files: equal ones once, with the number of files."""
     for (kind, text), count in Counter(heard.messages).items():
         text = f"{text} (in {count} files)" if count > 1 else text
         (progress.warning if kind == "warning" else progress.info)(text)

@@ -1,4 +1,4 @@
-"""Which points of a classified cloud are ground."""
+"""Ground points of a classified cloud."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from .tally import count_classes
 
 @dataclass
 class GroundTally:
-    """What was counted in the parts of a file so far.
+    """Counts of the parts of a file so far.
 
     Attributes
     ----------
     ground : int
-        Points of the ground.
+        Number of ground points.
     classes : numpy.ndarray of int64, shape (256,)
-        Points of each class.
+        Number of points of each class.
     """
 
     ground: int = 0
@@ -51,9 +51,9 @@ class GroundClasses(ParameterSet):
         part : PointCloud
             Any points of a file, with their classes.
         tally : GroundTally
-            Gets the points added.
+            The counts are added to it.
         also : tuple of int
-            Classes that are ground as well.
+            Further classes that are ground.
 
         Returns
         -------
@@ -78,7 +78,7 @@ class GroundClasses(ParameterSet):
         Raises
         ------
         BareEarthError
-            If no point that was counted is ground.
+            If none of the counted points is ground.
         """
         if tally.ground:
             return

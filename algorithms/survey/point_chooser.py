@@ -1,4 +1,4 @@
-"""Which points of a file are to be classified, and which take part: area and selection together."""
+"""Chooses points by area and selection: which take part, and which are classified."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ class PointChooser:
     selection : Selection
         Which points take part.
     area : Area or None
-        Where points are to be classified; everywhere if it is None.
+        Where points are classified; everywhere if it is None.
     context : float
-        Metres round the area from which points take part as well.
+        Points up to this distance from the area take part as well, in metres.
     corrections : Corrections
-        What is known of the points by hand, beside what their files remember.
+        Classes set by hand, in addition to those remembered in the files.
     """
 
     selection: Selection
@@ -40,7 +40,7 @@ class PointChooser:
     corrections: Corrections = NO_CORRECTIONS
 
     def choose(self, part: PointCloud, tally: Tally) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return which points lie in the area, take part, and are surely ground; count them.
+        """Return which points lie in the area, take part, and are known ground; count them.
 
         Returns
         -------
@@ -49,7 +49,7 @@ class PointChooser:
         Raises
         ------
         BareEarthError
-            If nothing can be measured in the CRS, or the points cannot hold the class.
+            If the CRS is geographic, or the point format cannot hold a class.
         """
         part.require_projected()
         self.check_classes(part.path, part.point_format)
@@ -65,7 +65,7 @@ class PointChooser:
         return inside, selected, self.selection.known_ground(part, selected, by_hand)
 
     def check_classes(self, path: Path, point_format: int) -> None:
-        """Refuse a file whose points have no room for the classes that the user chose."""
+        """Refuse a file whose point format cannot hold the classes that the user chose."""
         by_hand = [(value, "a correction") for value in self.corrections.classes]
         ground, bridges = self.selection.to_class, self.selection.bridge_class
         for value, name in ((ground, "the ground"), (bridges, "bridges"), *by_hand):
@@ -73,7 +73,7 @@ class PointChooser:
                 check_class(path, point_format, value, name)
 
     def by_hand(self, part: PointCloud) -> ByHand | None:
-        """Return what is known of points by hand; None if nothing can be."""
+        """Return the classes set by hand; None without corrections and remembered classes."""
         return self.selection.by_hand(part, self.corrections)
 
     def inside(self, part: PointCloud) -> np.ndarray:
@@ -81,12 +81,12 @@ class PointChooser:
         return np.ones(part.count, dtype=bool) if self.area is None else self.area.of(part)
 
     def tell(self, tally: Tally, path: Path, progress: Progress) -> None:
-        """Tell what lies in the area and what takes part, once all points are counted.
+        """Tell how many points lie in the area and take part, when all points are counted.
 
         Raises
         ------
         BareEarthError
-            If no point lies in the area, or none of these takes part.
+            If no point lies in the area, or none in the area takes part.
         """
         if self.area is not None:
             if not tally.inside:
@@ -102,14 +102,14 @@ class PointChooser:
             )
 
     def no_point_in_area(self, of: str, box: Box) -> BareEarthError:
-        """Return the error for an area without points; those `of` some files have such bounds."""
+        """Return the error for an area without points; `box` holds all points `of` some files."""
         return BareEarthError(
             f"No point of {of} lies in the area ({box_in_words(self.area.bounds)}): the points lie"
             f" in {box_in_words(box)}. Give the area in the CRS of the points."
         )
 
     def tell_of_corrections(self, progress: Progress) -> None:
-        """Tell that no point gets its class by hand, if there are polygons that say one."""
+        """Warn that no point gets its class from the polygons of the corrections, if any."""
         if self.corrections.polygons:
             progress.warning(
                 "No point gets its class from the polygons of the corrections. Give them in the"

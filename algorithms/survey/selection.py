@@ -1,4 +1,4 @@
-"""Which points take part in a classification, and what the classes become."""
+"""Which points take part in a classification, and which classes they get."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ NOISE = (LOW_NOISE, 18)
 
 @dataclass(frozen=True)
 class Selection(ParameterSet):
-    """The policy for points and classes, one for every ground filter."""
+    """Selection of points and classes, the same for all ground filters."""
 
     from_classes: tuple[int, ...] | None = parameter(
         None,
@@ -138,11 +138,11 @@ class Selection(ParameterSet):
         part : PointCloud
             Any points of the file.
         tally : Tally
-            Gets what there is to tell of them added.
+            The counts are added to it.
         within : numpy.ndarray of bool, shape (n,), optional
-            Points outside take no part; all are within where it is not given.
+            Only these points can take part. By default, all points.
         by_hand : ByHand, optional
-            What is known of the points: of those of certain class only the ground takes part.
+            Classes set by hand. Of these points, only ground takes part.
 
         Returns
         -------
@@ -164,11 +164,10 @@ class Selection(ParameterSet):
         return selected
 
     def by_hand(self, part: PointCloud, corrections: Corrections) -> ByHand | None:
-        """Return what is known of points by hand; None if nothing can be.
+        """Return the classes set by hand; None without corrections and remembered classes.
 
-        Points in polygons that say ground are ground if they are of the wanted returns; those in
-        others get their class whatever their return. Points that may not change their class keep
-        it.
+        In polygons of ground, points of the chosen returns are ground. In other polygons, points of
+        all returns get the class. Points that may not change their class keep it.
         """
         if part.remembered is None and not corrections.polygons:
             return None
@@ -179,12 +178,12 @@ class Selection(ParameterSet):
         return ByHand(inside | changed_since(part), classes)
 
     def tell(self, tally: Tally, path: Path, progress: Progress, in_area: bool = False) -> None:
-        """Tell how many points of a file are left out, and why.
+        """Tell how many points of a file take part, and why others do not.
 
         Raises
         ------
         BareEarthError
-            If no point is left.
+            If no point takes part.
         """
         noise = [value for value in NOISE if value not in (self.from_classes or ())]
         counts = ", ".join(
@@ -221,7 +220,7 @@ class Selection(ParameterSet):
         within: np.ndarray | None = None,
         by_hand: ByHand | None = None,
     ) -> np.ndarray:
-        """Return which points, of those within, are ground for certain."""
+        """Return which points are known ground, only among those within if given."""
         known = _is_one_of(cloud.classification, self.seed_classes or ())
         if by_hand is not None:
             np.copyto(known, by_hand.classes == self.to_class, where=by_hand.known)
@@ -244,15 +243,15 @@ class Selection(ParameterSet):
         cloud : PointCloud
             All points, with their present classes.
         ground : numpy.ndarray of bool, shape (n,)
-            Which points, of those that took part, are ground.
+            Which points are ground.
         low : numpy.ndarray of bool, shape (n,), optional
             Which of the others are low outliers.
         inside : numpy.ndarray of bool, shape (n,), optional
-            Points outside keep their class; all are inside where it is not given.
+            Only these points can change their class. By default, all points.
         decks : numpy.ndarray of bool, shape (n,), optional
             Which of the others lie on decks of bridges.
         by_hand : ByHand, optional
-            What is known of the points.
+            Classes set by hand.
 
         Returns
         -------
@@ -262,7 +261,7 @@ class Selection(ParameterSet):
         eligible = self._eligible(cloud, inside)
         changes = eligible
         if self.others == "keep":
-            # Old ground of returns that did not take part goes too: it was not confirmed either.
+            # Also old ground of returns that did not take part, since it was not confirmed.
             changes = eligible & _is_one_of(old, (NEVER_CLASSIFIED, GROUND, self.to_class))
         classes = old.copy()
         np.copyto(classes, UNCLASSIFIED, where=changes)
@@ -277,14 +276,14 @@ class Selection(ParameterSet):
         return classes
 
     def _of_returns(self, part: PointCloud, unnumbered: np.ndarray) -> np.ndarray:
-        """Return which points are of the wanted returns."""
+        """Return which points are of the chosen returns."""
         if self.returns != "last":
             return np.ones(part.count, dtype=bool)
-        # A number above the total is wrong, but a last return whatever the total should be.
+        # A return number above the number of returns is wrong, but still means a last return.
         return (part.return_number >= part.number_of_returns) | unnumbered
 
     def _eligible(self, cloud: PointCloud, within: np.ndarray | None) -> np.ndarray:
-        """Return which points, of those within, may change their class, whatever their return."""
+        """Return which points (within) may change their class, of all returns."""
         if self.from_classes:
             eligible = _is_one_of(cloud.classification, self.from_classes)
         else:
@@ -298,7 +297,7 @@ def _unnumbered(part: PointCloud) -> np.ndarray:
 
 
 def _is_one_of(classification: np.ndarray, classes: tuple[int, ...]) -> np.ndarray:
-    """Return which points have one of the classes, which are few as a rule."""
+    """Return which points have one of a few classes."""
     found = np.zeros(len(classification), dtype=bool)
     for each in classes:
         found |= classification == each
@@ -306,7 +305,7 @@ def _is_one_of(classification: np.ndarray, classes: tuple[int, ...]) -> np.ndarr
 
 
 def ground_of(cloud: PointCloud, classes: Sequence[int]) -> np.ndarray:
-    """Return which points are of some classes and not withheld: the ground of a product.
+    """Return which points are ground for a product: of these classes, and not withheld.
 
     Returns
     -------

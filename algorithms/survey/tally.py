@@ -1,4 +1,4 @@
-"""What there is to tell of the points of a file, counted part by part."""
+"""Counts of the points of a file, for messages; counted part by part."""
 
 from __future__ import annotations
 
@@ -15,21 +15,22 @@ _STEP = 1 << 20
 
 @dataclass
 class Tally:
-    """What was counted in the parts of a file so far.
+    """Counts of the parts of a file so far.
 
     Attributes
     ----------
     points, withheld, unnumbered : int
-        Points of all parts, those withheld and those without return number.
+        All points, withheld points, and points without return number.
     free : int
-        Points in the area that are not withheld.
-    eligible, of_returns, known, by_hand, selected : int
-        Points that may change their class, those of them of the wanted returns, those surely
-        ground, those whose class is certain by hand, and all that take part.
+        Points in the area and its surroundings that are not withheld.
+    eligible, of_returns : int
+        Points that may change their class, and how many of these are of the chosen returns.
+    known, by_hand, selected : int
+        Points of known ground, points whose class was set by hand, and all that take part.
     classes, classes_within : numpy.ndarray of int64, shape (256,)
-        Points of each class, of all parts and in the area.
+        Points of each class: all, and those in the area and its surroundings.
     inside, wanted : int
-        Points in the area without its surroundings, and those of them that take part.
+        Points in the area itself, and how many of these take part.
     bounds : tuple of float or None
         Smallest x and y, largest x and y of all points, in units of the CRS.
     """
@@ -50,7 +51,7 @@ class Tally:
     bounds: Box | None = None
 
     def add(self, part: PointCloud, within: np.ndarray | None, **masks: np.ndarray) -> None:
-        """Count the points of a part, and those of some masks."""
+        """Count the points of a part, and of masks named as the attributes."""
         self.points += part.count
         classes, free = part.classification, ~part.withheld
         counts = count_classes(classes)
@@ -62,7 +63,7 @@ class Tally:
         self.add_counts(withheld=part.withheld, free=free, **masks)
 
     def see(self, part: PointCloud) -> None:
-        """Take in where the points of a part lie."""
+        """Extend the bounds by the points of a part."""
         scale, offset = np.array(part.scale[:2]), np.array(part.offset[:2])
         low, high = part.lowest * scale + offset, part.highest * scale + offset
         if self.bounds is not None:
@@ -71,12 +72,12 @@ class Tally:
         self.bounds = west, south, east, north
 
     def add_counts(self, **masks: np.ndarray) -> None:
-        """Count the points of masks, each named as the attribute."""
+        """Count the points of masks named as the attributes."""
         for name, mask in masks.items():
             setattr(self, name, getattr(self, name) + int(np.count_nonzero(mask)))
 
     def why_empty(self, place: str) -> str:
-        """Return the sentence for a selection without points: what to change."""
+        """Return why no point takes part, and what to change."""
         if self.eligible:
             return f"No point of {place} is a last or single return. Choose all returns instead."
         if not self.free:
@@ -89,10 +90,10 @@ class Tally:
 
 
 def count_classes(classes: np.ndarray) -> np.ndarray:
-    """Return the number of points of each class; in steps, as bincount needs 8 bytes a number."""
+    """Return the number of points of each class; in steps, since bincount needs much memory."""
     counts = np.zeros((256, 256), dtype=np.int64)
     even = len(classes) - len(classes) % 2
-    # Two classes as one number: half as many to count.
+    # Two classes form one number, so that only half as many numbers are counted.
     pairs = np.ascontiguousarray(classes[:even]).view(np.uint16)
     for part in parts_of(len(pairs), _STEP):
         step = np.bincount(pairs[part], minlength=counts.size)

@@ -17,16 +17,16 @@ from .corrections import CLASS_FIELD, Corrections
 _Shape = TypeVar("_Shape")
 
 _WKT_PART = re.compile(r"[()]|[^()]+")
-# What reading a text raises that is not valid GeoJSON or WKT.
+# Errors while reading a text that is not valid GeoJSON or WKT.
 _INVALID = (
     ValueError, TypeError, KeyError, IndexError, AttributeError, RecursionError, OverflowError
 )  # fmt: skip
-# A line is a single run of corners, a polygon a list of runs, its rings.
+# Levels of lists: a line is a list of corners, a polygon a list of rings.
 _DEPTHS = {"LineString": 1, "Polygon": 2}
 
 
 def read_boundary(path: Path) -> tuple[Polygon, ...]:
-    """Read polygons from a GeoJSON or WKT file; what else it holds is left out.
+    """Read the polygons of a GeoJSON or WKT file, and nothing else.
 
     Parameters
     ----------
@@ -41,13 +41,13 @@ def read_boundary(path: Path) -> tuple[Polygon, ...]:
     Raises
     ------
     BareEarthError
-        If it cannot be read as such, or holds no polygon.
+        If the file cannot be read, is not valid, or holds no polygon.
     """
     return _shapes(path, "Polygon", lambda rings, _: _polygon(rings))
 
 
 def read_corrections(path: Path) -> Corrections:
-    """Read polygons with classes from a GeoJSON file; what else it holds is left out.
+    """Read the polygons of a GeoJSON file with their classes, and nothing else.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ def read_corrections(path: Path) -> Corrections:
     Raises
     ------
     BareEarthError
-        If it cannot be read as such, holds no polygon, or one has no class.
+        If the file cannot be read, is not valid, holds no polygon, or a polygon has no class.
     """
     if Path(path).suffix.lower() == ".wkt":
         raise BareEarthError(f"{path} holds no classes. Give the corrections as GeoJSON.")
@@ -66,12 +66,12 @@ def read_corrections(path: Path) -> Corrections:
 
 
 def read_lines(path: Path) -> tuple[np.ndarray, ...]:
-    """Read lines from a GeoJSON or WKT file; what else it holds is left out.
+    """Read the lines of a GeoJSON or WKT file, and nothing else.
 
     Parameters
     ----------
     path : Path
-        As for `read_boundary`, and so are the errors.
+        As for `read_boundary`, with the same errors.
 
     Returns
     -------
@@ -82,7 +82,7 @@ def read_lines(path: Path) -> tuple[np.ndarray, ...]:
 
 
 def _shapes(path: Path, kind: str, made: Callable[[Any, dict], _Shape]) -> tuple[_Shape, ...]:
-    """Return what is made of coordinates and attributes of each geometry of a kind."""
+    """Return what `made` returns for coordinates and attributes of each geometry of a kind."""
     path, what = Path(path), "polygon" if kind == "Polygon" else "line"
     suffix = path.suffix.lower()
     if suffix not in (".geojson", ".json", ".wkt"):
@@ -129,7 +129,7 @@ def _line(corners: Any) -> np.ndarray:
 
 
 def _finite(corners: np.ndarray) -> np.ndarray:
-    """Return corners, all of which have to be places."""
+    """Return corners; refuse those that are not finite."""
     if not np.isfinite(corners[:, :2]).all():
         raise ValueError("a corner is not a finite number")
     return corners
@@ -158,7 +158,7 @@ def _of_wkt(text: str, kind: str) -> Iterator[tuple[Any, dict]]:
     """Yield the coordinates of each geometry of a kind in a text that holds WKT; no attributes."""
     name = rf"\b(MULTI)?{kind.upper()}\s*(?:ZM|Z|M)?\s*(?=\()"
     for match in re.finditer(name, text, re.IGNORECASE):
-        # In how many parentheses the corners stand, and a whole geometry.
+        # Depths of parentheses at the corners, and at a whole geometry.
         corners_at = _DEPTHS[kind] + bool(match[1])
         whole_at = corners_at - _DEPTHS[kind]
         depth, runs = 0, []

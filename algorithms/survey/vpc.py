@@ -1,6 +1,6 @@
-"""Virtual point clouds (.vpc): one small file that lists many point clouds.
+"""Virtual point clouds (.vpc): small files that list many point clouds.
 
-It is a feature collection of STAC items, as `pdal_wrench build_vpc` and QGIS write and read it.
+They are feature collections of STAC items, as `pdal_wrench build_vpc` and QGIS use them.
 
 References
 ----------
@@ -38,12 +38,12 @@ _EXTENSIONS = [
     "https://stac-extensions.github.io/pointcloud/v1.0.0/schema.json",
     "https://stac-extensions.github.io/projection/v1.1.0/schema.json",
 ]
-# "s3://", "https://"; one letter would be a drive of Windows.
+# Such as "s3://" or "https://", but not a single letter: that is a drive of Windows.
 _REMOTE = re.compile(r"[a-z][a-z0-9+.-]+://|/vsi", re.IGNORECASE)
 
 
 class Dimension(NamedTuple):
-    """What a point has, in the terms of PDAL: by them QGIS knows what it can style by."""
+    """A dimension of points, in the terms of PDAL. QGIS offers them for styles."""
 
     name: str
     type: str
@@ -74,7 +74,7 @@ _COLOURS = [Dimension(name, "unsigned", 2) for name in ("Red", "Green", "Blue")]
 
 
 def read_vpc(path: Path) -> list[Path]:
-    """Read which files a virtual point cloud lists; they are not looked at.
+    """Return the files that a virtual point cloud lists, without opening them.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def read_vpc(path: Path) -> list[Path]:
     Raises
     ------
     BareEarthError
-        If it cannot be read, is none, lists nothing, or lists what is not on this computer.
+        If it cannot be read, is not valid or empty, or lists files that are not on this computer.
     """
     path = Path(path)
     try:
@@ -106,10 +106,10 @@ def read_vpc(path: Path) -> list[Path]:
 
 
 def write_vpc(path: Path, files: Iterable[Path], progress: Progress = SILENT) -> None:
-    """Write a virtual point cloud, of which QGIS shows COPC files whole and others as outlines.
+    """Write a virtual point cloud. QGIS shows the points of COPC files, and outlines of others.
 
-    Points are not read: what it says is what the headers of the files say. Paths are relative to
-    the folder of `path`, so that it can be moved together with the files.
+    Only the headers of the files are read. Paths are relative to the folder of `path`, so that it
+    can be moved together with the files.
 
     Parameters
     ----------
@@ -118,7 +118,7 @@ def write_vpc(path: Path, files: Iterable[Path], progress: Progress = SILENT) ->
     files : iterable of Path
         LAS, LAZ or COPC files.
     progress : Progress
-        Receives progress, and is told if the places of the files on the globe are not known.
+        Receives progress, and a warning if the CRS of files is not known.
 
     Raises
     ------
@@ -160,13 +160,13 @@ def _not_one(path: Path, why: str) -> BareEarthError:
 
 
 def _href(assets: dict[str, dict[str, Any]]) -> str:
-    """Return where the points are, which may have an overview beside them."""
+    """Return the reference to the points, not to an overview of them."""
     asset = assets.get("data")
     if asset is None:
         asset = next(each for each in assets.values() if "overview" not in each.get("roles", ()))
     if not isinstance(asset["href"], str) or "\0" in asset["href"]:
         raise TypeError
-    os.fsencode(asset["href"])  # which not all that JSON can say is a name of a file
+    os.fsencode(asset["href"])  # fails for texts that cannot be the name of a file
     return asset["href"]
 
 
@@ -180,7 +180,7 @@ def _path_of(href: str, folder: Path) -> Path:
             f"{href} is not on this computer. Download it, and build the virtual point cloud again."
         )
     path = folder / href
-    # Some programs write a path as it is, and some as the path of a URL.
+    # Some programs write plain paths, and some write paths as in a URL.
     if "%" in href and not path.exists() and (folder / unquote(href)).exists():
         return folder / unquote(href)
     return path
@@ -198,7 +198,7 @@ def _feature(target: Path, layout: LasFile) -> dict[str, Any]:
     wkt = compound_wkt(read_crs(layout)) or ""
     globe = to_wgs84(wkt, ring) if wkt else None
     if globe is None:
-        # As pdal_wrench does it where there is no CRS. With one, QGIS would take these coordinates
+        # As pdal_wrench does without a CRS. If a CRS was stated, QGIS would take these coordinates
         # for degrees and leave the file out.
         wkt, globe = "", ring
     return {
@@ -224,7 +224,7 @@ def _feature(target: Path, layout: LasFile) -> dict[str, Any]:
 
 
 def no_extent(layout: LasFile) -> BareEarthError:
-    """Return the error for a header that leaves open where the points lie."""
+    """Return the error for a header without the extent of the points."""
     return BareEarthError(
         f"The header of {layout.path} does not state the extent of its points. Write the file"
         " again with a program that corrects the header."
@@ -236,7 +236,7 @@ def _polygon(ring: np.ndarray) -> dict[str, Any]:
 
 
 def _creation(layout: LasFile) -> str:
-    """Return the day on which the file was made; 1970 where that is none, as pdal_wrench does."""
+    """Return the day on which the file was made; 1970 if it is not valid, as pdal_wrench does."""
     day, year = CREATION.get(layout.header)
     year = year if 1 <= year <= 9999 else 1970
     made = datetime.date(year, 1, 1)
@@ -260,8 +260,8 @@ def _dimensions(layout: LasFile) -> list[Dimension]:
 
 
 def _reference(file: Path, target: Path) -> str:
-    """Return how the virtual point cloud names a file."""
-    # The folders are resolved, since ".." leads elsewhere behind a symbolic link.
+    """Return the path of a file for the virtual point cloud, relative if possible."""
+    # Folders are resolved, because ".." behind a symbolic link means another folder.
     place = file.parent.resolve() / file.name
     try:
         return "./" + Path(os.path.relpath(place, target.parent.resolve())).as_posix()

@@ -1,4 +1,4 @@
-"""Reading those points of a file that lie in a window."""
+"""Reads the points of a file that lie in a window."""
 
 from __future__ import annotations
 
@@ -28,30 +28,30 @@ def read_window(
 ) -> PointCloud:
     """Read the points of a LAS, LAZ or COPC file that lie in a rectangle.
 
-    A COPC file is read by the nodes of its octree that touch the rectangle, unless the octree turns
-    out to be damaged. LAS and LAZ are read in chunks from beginning to end.
+    Of a COPC file only the nodes of its octree that touch the rectangle are read, unless the octree
+    is damaged. LAS and LAZ files are read completely, in chunks.
 
     Parameters
     ----------
     path : Path or LasFile
-        The file, or what `open_las` read of it.
+        The file, or the result of `open_las`.
     box : tuple of float
-        Smallest x and y, largest x and y in units of the CRS; the border belongs to it.
+        Smallest x and y, largest x and y in units of the CRS; the border belongs to the box.
     progress : Progress
-        Receives progress, what is odd about the CRS, and where header or octree are wrong.
+        Receives progress, and warnings about CRS, header and octree.
     trust_header : bool
-        Whether a LAS or LAZ file need not be read if its header states an extent that the
-        rectangle does not touch. A wrong header then hides points.
+        Whether to skip a LAS or LAZ file if the extent in its header does not touch the rectangle.
+        If the header is wrong, points are missed.
 
     Returns
     -------
     PointCloud
-        The points in file order; it may have none.
+        The points in file order; it can be empty.
 
     Raises
     ------
     BareEarthError
-        If the file cannot be read, with what to do about it, or the rectangle is none.
+        If the file cannot be read, or the rectangle is not valid.
     Cancelled
         If the user asked to stop.
     """
@@ -108,26 +108,26 @@ def _inside(layout: LasFile, area: Area, chunk: laspy.PackedPointRecord) -> Colu
 
 
 def _columns(layout: LasFile) -> dict[str, tuple[str, type]]:
-    """Return which columns of a file are read: all but those that only writing needs."""
+    """Return the columns to read: all except those that are needed only for writing."""
     columns = columns_of(layout)
     columns.pop("scanner_channel", None)
     return columns
 
 
 def _leaves_header(layout: LasFile, chunk: laspy.PackedPointRecord) -> bool:
-    """Return whether a point lies outside of the extent that the header states."""
+    """Return whether a point lies outside of the extent in the header."""
     for axis, name in enumerate("XY"):
         integers = np.asarray(chunk[name])
         scale, offset = layout.scale[axis], layout.offset[axis]
         lowest, highest = (int(pick(integers)) * scale + offset for pick in (np.min, np.max))
-        # Headers are rounded in many ways.
+        # Programs round the values in headers in different ways.
         if lowest < layout.minimum[axis] - scale or highest > layout.maximum[axis] + scale:
             return True
     return False
 
 
 def _may_touch(layout: LasFile, area: Area) -> bool:
-    """Return whether the extent in the header touches an area; one that is none touches all."""
+    """Return whether the extent in the header touches an area, or is not valid."""
     west, south, east, north = layout.box
     is_one = west <= east and south <= north
     return not is_one or area.may_touch(layout.outer_box)
@@ -141,6 +141,6 @@ def _cloud(layout: LasFile, parts: Iterator[Columns], progress: Progress) -> Poi
     for part in parts:
         for name, values in part.items():
             kept[name].append(values)
-    # One after the other, so that not all columns are there twice at the same time.
+    # One column after the other, so that not all columns are in memory twice at the same time.
     columns = {name: np.concatenate(kept.pop(name)) for name in names}
     return cloud_of(layout, read_crs(layout, progress), **columns)

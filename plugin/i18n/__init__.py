@@ -1,8 +1,8 @@
 """The texts of the plugin in the user's language.
 
-They are English in the code, which asks for each by `tr` when it is shown; those of fields, also of
-declared parameters, where the fields are made. `make translations` looks for all of them and writes
-the files bare_earth_*.ts, for translators; `make package` makes of them what Qt reads (.qm).
+In the code they are English. `tr` translates a text when it is shown, and texts of fields and
+declared parameters when the fields are made. `make translations` collects all texts in the files
+bare_earth_*.ts for translators. `make package` compiles these for Qt (.qm).
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from pathlib import Path
 try:
     from qgis.core import QgsApplication
     from qgis.PyQt.QtCore import QCoreApplication, QLocale, QTranslator
-except ImportError:  # what gets lazrs works without QGIS, too
+except ImportError:  # the code that installs lazrs also works without QGIS
     QCoreApplication = None
 
 CONTEXT = "BareEarth"
@@ -20,24 +20,24 @@ _FOLDER = Path(__file__).parent
 
 
 def tr(text: str) -> str:
-    """Return a text in the user's language, or as it is where there is no translation."""
+    """Return a text in the user's language; unchanged if there is no translation."""
     if QCoreApplication is None or not text:
         return text
     return QCoreApplication.translate(CONTEXT, text)
 
 
 def mark(text: str) -> str:
-    """Return a text as it is; `tr` gets it later, when it is shown."""
+    """Mark a text for translation; return it unchanged. `tr` translates it later."""
     return text
 
 
 def install(folder: Path = _FOLDER) -> QTranslator | None:
-    """Let `tr` find the translations into the language of QGIS.
+    """Install the translations into the language of QGIS for `tr`.
 
     Returns
     -------
     QTranslator or None
-        To be kept, and removed in the end; None if there are no translations.
+        Keep it, and remove it when the plugin is unloaded. None if there are no translations.
     """
     translator = QTranslator()
     language = QLocale(QgsApplication.instance().locale())

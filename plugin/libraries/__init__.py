@@ -1,1 +1,1 @@
-"""Python packages that a QGIS may lack: where they are kept, and how to get them. No qgis here."""
+"""Stores and installs Python packages that QGIS may lack. Does not import qgis."""

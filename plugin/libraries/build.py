@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from ..i18n import tr
 
-# The names that glibc's versions had in wheels before they were numbers.
+# Versions of glibc, by the older names of wheels without version numbers.
 _LEGACY_GLIBC = {"1": (2, 5), "2010": (2, 12), "2014": (2, 17)}
 
 
@@ -27,7 +27,7 @@ class Build:
     machine : str
         Processor, as wheels call it: "x86_64", "arm64", "amd64".
     version : tuple of int
-        Version of glibc in Linux, of the system in macOS; (0, 0) where there is none.
+        Version of glibc in Linux, or of macOS; otherwise (0, 0).
     """
 
     python: tuple[int, int]
@@ -37,11 +37,11 @@ class Build:
 
     @classmethod
     def here(cls) -> Build:
-        """Return the build that runs this."""
+        """Return the build of the running Python."""
         system, _, machine = sysconfig.get_platform().partition("-")
         version = "0.0"
         if system == "macosx":
-            # The platform says "universal2" where both processors are served.
+            # The platform is "universal2" in builds for both processors.
             machine, version = platform.machine(), platform.mac_ver()[0]
         elif system == "linux":
             version = platform.libc_ver()[1]
@@ -50,7 +50,7 @@ class Build:
 
     @property
     def name(self) -> str:
-        """Return a short name that differs where compiled packages do.
+        """Return a short name, different for builds that need different compiled packages.
 
         Examples
         --------
@@ -62,7 +62,7 @@ class Build:
 
     @property
     def wheels(self) -> str:
-        """Say in words what wheels must be for: "cp311 and linux_x86_64"."""
+        """The tags that wheels must have, in words: "cp311 and linux_x86_64"."""
         return tr("{} and {}").format(*self.name.split("-", 1))
 
     @property
@@ -75,7 +75,7 @@ class Build:
         Parameters
         ----------
         tag : str
-            Python, ABI and platform, as a file WHEEL says them (PEP 425, 2012; PEP 600, 2019).
+            Python, ABI and platform, as in the file WHEEL (PEP 425, 2012; PEP 600, 2019).
 
         Examples
         --------
@@ -92,7 +92,7 @@ class Build:
         if abi == "none":
             return python in ("py3", self._python)
         if abi == "abi3":
-            # The stable interface of that version, and of all later ones.
+            # The stable ABI of a version also works in all later versions.
             found = re.fullmatch(r"cp3(\d+)", python)
             return bool(found) and self.python >= (3, int(found.group(1)))
         return python == abi == self._python
@@ -104,7 +104,7 @@ class Build:
             found = re.fullmatch(r"macosx_(\d+)_(\d+)_(\w+)", system)
             if not found or found.group(3) not in (self.machine, "universal2"):
                 return False
-            # Older Pythons are told that every macOS from 11 on is 10.16.
+            # To older Pythons, every macOS since 11 reports the version 10.16.
             version = (99, 0) if self.version == (10, 16) else self.version
             return (int(found.group(1)), int(found.group(2))) <= version
         return system == self.name.partition("-")[2]
@@ -118,7 +118,7 @@ class Build:
         kind, legacy = found.group(1), _LEGACY_GLIBC.get(found.group(2) or "")
         if kind == "linux":
             return True
-        if kind == "musllinux":  # there is no glibc beside musl
+        if kind == "musllinux":  # systems with musl have no glibc
             return self.version == (0, 0)
         needed = legacy or (int(found.group(3) or 0), int(found.group(4) or 0))
         return needed <= self.version

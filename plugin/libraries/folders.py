@@ -1,4 +1,4 @@
-"""The folders of packages: one that travels in the zip, and one in the user's profile."""
+"""The folders of packages: one in the zip of the plugin, and one in the user's profile."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ from pathlib import Path
 
 from .build import Build
 
-# The zip holds it, see tools/package.py; a clone of the repository does not.
+# Only in the zip (see tools/package.py), not in a clone of the repository.
 BUNDLED = Path(__file__).parents[2] / "packages"
-# Windows cannot delete what is loaded, so a folder can only be marked until the next start.
+# Windows cannot delete loaded libraries, so the folder is marked until the next start.
 _REMOVED = "removed.txt"
 
 
 def profile_folder(profile: Path) -> Path:
-    """Return the folder of this Python's packages in a profile of QGIS; it need not exist."""
+    """Return the folder of packages in a profile of QGIS for this Python; it need not exist."""
     return profile / "bare_earth" / "packages" / Build.here().name
 
 
 def add_to_path(folder: Path) -> None:
-    """Let Python find the packages of a folder, after all others: QGIS's own come first."""
+    """Let Python find the packages of a folder, after the packages of QGIS."""
     if (folder / _REMOVED).exists():
         shutil.rmtree(folder, ignore_errors=True)
     elif folder.is_dir() and str(folder) not in sys.path:
@@ -30,7 +30,7 @@ def add_to_path(folder: Path) -> None:
 
 
 def take_from_path(folder: Path) -> None:
-    """Let Python forget the packages of a folder, also those that are imported."""
+    """Let Python forget the packages of a folder, including imported ones."""
     sys.path[:] = [each for each in sys.path if each != str(folder)]
     inside = f"{folder}/".replace("\\", "/")
     for name, module in list(sys.modules.items()):
@@ -41,12 +41,12 @@ def take_from_path(folder: Path) -> None:
 
 
 def replace(folder: Path, new: Path) -> bool:
-    """Put the folder `new` in the place of another.
+    """Replace a folder by the folder `new`.
 
     Returns
     -------
     bool
-        Whether that could be done; if not, Windows holds a package that was loaded before.
+        Whether it was replaced. If not, Windows still uses a package in the old folder.
     """
     if not delete(folder):
         return False
@@ -56,12 +56,12 @@ def replace(folder: Path, new: Path) -> bool:
 
 
 def delete(folder: Path) -> bool:
-    """Delete a folder, or mark it so that it is not used again and deleted at the next start.
+    """Delete a folder, or mark it to be deleted at the next start, and not to be used until then.
 
     Returns
     -------
     bool
-        Whether the folder is gone.
+        Whether it was deleted.
     """
     take_from_path(folder)
     shutil.rmtree(folder, ignore_errors=True)

@@ -1,4 +1,4 @@
-"""LAZ support: lazrs in the user's profile, where the Python of QGIS has none."""
+"""LAZ support: installs lazrs in the user's profile if the Python of QGIS does not have it."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ REQUIREMENTS = Path(__file__).parents[2] / "requirements.txt"
 
 
 class LazSupport:
-    """Gets lazrs, tells whether it is there, and takes it away.
+    """Installs and removes lazrs, and tells whether it is installed.
 
     Parameters
     ----------
@@ -31,18 +31,18 @@ class LazSupport:
 
     @property
     def is_there(self) -> bool:
-        """Whether .laz files can be read, whoever's lazrs it is."""
+        """Whether any lazrs is installed, so that .laz files can be read."""
         return importlib.util.find_spec(PACKAGE) is not None
 
     @property
     def is_ours(self) -> bool:
-        """Whether it is that of the profile, which can be removed here."""
+        """Whether the installed lazrs is in the profile and can be removed."""
         spec = importlib.util.find_spec(PACKAGE)
         return bool(spec and spec.origin and self.folder in Path(spec.origin).parents)
 
     @property
     def state(self) -> str:
-        """What there is now, in a sentence."""
+        """The present state as a sentence."""
         if not self.is_there:
             return tr("Not installed yet: .laz and .copc.laz files cannot be read or written.")
         if self.is_ours:
@@ -50,23 +50,23 @@ class LazSupport:
         return tr("Ready. This QGIS has the package lazrs.")
 
     def use(self) -> None:
-        """Let Python find what was got before; costs nothing where there is nothing."""
+        """Let Python find lazrs in the profile."""
         folders.add_to_path(self.folder)
 
     def get_by_pip(self, run: pip.Run, proxy: str = "") -> None:
-        """Get lazrs from the package index.
+        """Install lazrs from the package index.
 
         Parameters
         ----------
         run : callable
             Runs a command, see `pip.Run`.
         proxy : str
-            Address of the proxy to use, or nothing.
+            Address of the proxy, or empty.
 
         Raises
         ------
         BareEarthError
-            If that fails, with the reason; nothing is left then.
+            If this fails, with the reason; nothing is left behind.
         """
         self._fill(
             lambda new, scratch: pip.get_by_pip(
@@ -75,23 +75,23 @@ class LazSupport:
         )
 
     def get_from_wheel(self, wheel: Path) -> None:
-        """Get lazrs from a wheel file.
+        """Install lazrs from a wheel file.
 
         Raises
         ------
         BareEarthError
-            If the file does not fit, with the reason; nothing is left then.
+            If the file does not fit, with the reason; nothing is left behind.
         """
         self._fill(lambda new, _: wheels.unpack(wheel, new, PACKAGE, Build.here()))
 
     def remove(self) -> str:
-        """Take lazrs out of the profile; return what there is to say about it."""
+        """Remove lazrs from the profile; return a message."""
         if folders.delete(self.folder):
             return tr("Removed.")
         return tr("Removed. Files that are in use are removed when QGIS starts next.")
 
     def _fill(self, put: Callable[[Path, Path], None]) -> None:
-        """Let `put` fill a new folder, put it in the place of the present one, and try it."""
+        """Let `put` fill a new folder, replace the present one by it, and import lazrs."""
         try:
             self.folder.parent.mkdir(parents=True, exist_ok=True)
             with tempfile.TemporaryDirectory(dir=self.folder.parent) as name:

@@ -1,4 +1,4 @@
-"""Getting packages with pip, by the Python that QGIS runs: `sys.executable` may be QGIS itself."""
+"""Installs packages with pip, run by the Python of QGIS (`sys.executable` may be QGIS itself)."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ from .build import Build
 
 
 class Finished(NamedTuple):
-    """What a command left: its exit code, and what it wrote."""
+    """Exit code and output of a command."""
 
     code: int
     output: str
 
 
-# Runs a command with additional environment variables, and waits for its end.
+# A function that runs a command with additional environment variables, and waits for its end.
 Run = Callable[[Sequence[str], Mapping[str, str]], Finished]
 
 _PROBE = (
     "import platform, sys, sysconfig;"
     "print(*sys.version_info[:2], sysconfig.get_platform(), platform.machine())"
 )
-# The settings of a user's pip are for another purpose.
+# These override settings of the user for pip.
 _SETTINGS = {
     "PIP_USER": "0",
     "PIP_REQUIRE_VIRTUALENV": "0",
@@ -38,7 +38,7 @@ _UNREACHED = mark(
     "the package index was not reached: check the connection, and the proxy in Settings > Options"
     " > Network, or choose a wheel file."
 )
-# What pip writes, and what it means; the first that is found counts.
+# Meanings of texts in the output of pip; the first text that is found counts.
 _REASONS = {
     "SOCKS": mark(
         "pip cannot work through the SOCKS proxy of QGIS's settings: choose a wheel file."
@@ -58,32 +58,32 @@ _REASONS = {
 def get_by_pip(
     requirements: Path, folder: Path, scratch: Path, run: Run, proxy: str, build: Build
 ) -> None:
-    """Let pip put packages, without what they depend on, into a folder.
+    """Install packages with pip into a folder, without their dependencies.
 
     Parameters
     ----------
     requirements : Path
-        The list of packages, in pip's words.
+        The requirements file.
     folder : Path
-        Where they go.
+        The folder for the packages.
     scratch : Path
-        A folder for pip itself, where this Python has none.
+        A folder for pip itself, if this Python has no pip.
     run : Run
         Runs a command.
     proxy : str
-        Address of the proxy, or nothing.
+        Address of the proxy, or empty.
     build : Build
-        The Python that they are for.
+        The build that the packages must fit.
 
     Raises
     ------
     BareEarthError
-        If there is no Python to run, no pip to be had, or pip fails; with the reason.
+        If no Python interpreter or no pip is found, or pip fails; with the reason.
     """
     python = find_python(run)
     settings = dict(_SETTINGS)
     if proxy:
-        # Not as an argument: every user of the machine could read the password there.
+        # Not as an argument, where every user of the machine could read the password.
         settings.update(http_proxy=proxy, https_proxy=proxy)
     done = run(
         [
@@ -99,12 +99,12 @@ def get_by_pip(
 
 
 def find_python(run: Run) -> str:
-    """Return the path of the interpreter that belongs to this Python.
+    """Return the path of the interpreter of this Python.
 
     Raises
     ------
     BareEarthError
-        If there is none beside QGIS.
+        If QGIS has none.
     """
     here = [*sys.version_info[:2], sysconfig.get_platform(), platform.machine()]
     for path in candidates():
@@ -120,7 +120,7 @@ def find_python(run: Run) -> str:
 
 
 def candidates() -> Iterator[Path]:
-    """Yield the files that may be this Python's interpreter, the likeliest first."""
+    """Yield files that may be the interpreter of this Python, the most likely first."""
     program, version = Path(sys.executable or "."), "{}.{}".format(*sys.version_info[:2])
     prefixes = [Path(each) for each in dict.fromkeys([sys.exec_prefix, sys.base_prefix])]
     if sys.platform == "win32":
@@ -128,7 +128,7 @@ def candidates() -> Iterator[Path]:
     else:
         folders, names = [each / "bin" for each in prefixes], [f"python{version}", "python3"]
     if sys.platform == "darwin":
-        # The bundles of QGIS 3.44 and later; and those before.
+        # The bundles of QGIS 3.44 and later, and older bundles.
         folders = [program.parent, program.parent / "bin", *folders]
         names.append("python")
     files = [folder / name for folder in folders for name in names]
@@ -138,10 +138,10 @@ def candidates() -> Iterator[Path]:
 
 
 def _pip_of(python: str, scratch: Path, run: Run) -> list[str]:
-    """Return the command that starts pip; where there is none, one that Python brings along."""
+    """Return the command that starts pip; if there is no pip, install it with ensurepip."""
     if run([python, "-m", "pip", "--version"], _SETTINGS).code == 0:
         return [python, "-m", "pip"]
-    # Below another root, so that it does not come among the packages of QGIS.
+    # With another root, so that it is not installed among the packages of QGIS.
     done = run([python, "-m", "ensurepip", "--root", str(scratch)], _SETTINGS)
     found = sorted(scratch.rglob("pip/__main__.py"))
     if done.code or not found:

@@ -1,4 +1,4 @@
-"""Wheels that the user chooses: checked, and unzipped without pip."""
+"""Checks and unpacks wheels that the user chooses, without pip."""
 
 from __future__ import annotations
 
@@ -15,33 +15,33 @@ from ..i18n import tr
 from .build import Build
 
 _MOST_BYTES = 1 << 26  # unzipped; lazrs has 2 MB
-# What zipfile raises when the file is not a zip, damaged or encrypted.
+# Errors of zipfile for files that are not zip files, damaged or encrypted.
 _UNREADABLE = (
     zipfile.BadZipFile, zlib.error, EOFError, KeyError, RuntimeError, UnicodeDecodeError
 )  # fmt: skip
 
 
 def unpack(wheel: Path, folder: Path, package: str, build: Build) -> None:
-    """Unzip a wheel into a folder.
+    """Unpack a wheel into a folder.
 
-    All that is believed stands inside: the name of the file may have been changed by a browser.
+    Only the contents are trusted, not the name of the file, since browsers can change it.
 
     Parameters
     ----------
     wheel : Path
         The file.
     folder : Path
-        Where it goes; what it holds stays.
+        The folder; files in it stay.
     package : str
-        The package that it must hold.
+        The package that the wheel must contain.
     build : Build
-        The Python that it must be for.
+        The build that the wheel must fit.
 
     Raises
     ------
     BareEarthError
-        If it is no wheel, of another package, for another Python or system, damaged, or would
-        write anywhere else.
+        If it is not a wheel, is damaged, contains another package, is for another Python or system,
+        or would write outside of the folder.
     """
     try:
         with zipfile.ZipFile(wheel) as archive:
@@ -102,7 +102,7 @@ def _check_tags(text: str, wheel: Path, build: Build) -> None:
 def _check_places(
     members: list[zipfile.ZipInfo], wheel: Path, folders: tuple[str, str, str]
 ) -> None:
-    """Refuse names that lead out of the folder, links, and more than a package can be."""
+    """Refuse names that lead out of the folder, links, and too large contents."""
     for member in members:
         parts = PurePosixPath(member.filename).parts
         odd = "\\" in member.filename or ":" in member.filename or ".." in parts
@@ -122,7 +122,7 @@ def _check_places(
 
 
 def _hashes(record: str) -> dict[str, str]:
-    """Return what a file RECORD says of the files: name, and kind and value of the hash."""
+    """Return the hashes ("kind=value") of files, by name, from a file RECORD."""
     return {row[0]: row[1] for row in csv.reader(record.splitlines()) if len(row) > 1}
 
 

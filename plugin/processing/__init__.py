@@ -1,4 +1,4 @@
-"""The Processing algorithms, each a thin wrapper of the classifier."""
+"""The Processing algorithms: thin wrappers of the classifier."""
 
 from .assess import AssessAlgorithm
 from .classify_tiles import ClassifyTilesAlgorithm

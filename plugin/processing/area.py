@@ -1,4 +1,4 @@
-"""Where the classes of points may change: an extent, a boundary, and what is known by hand."""
+"""Fields for the area to classify: an extent and a boundary."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _AREA_FIELDS = {
 
 
 def add_area(algorithm: QgsProcessingAlgorithm, advanced: Sequence[str] = ("BOUNDARY",)) -> None:
-    """Add the fields of an area to a dialog; the dialog folds away those that are `advanced`."""
+    """Add the fields of an area to a dialog; `advanced` names the advanced ones."""
     extent, boundary = (label for label, _ in _AREA_FIELDS.values())
     fields = (
         QgsProcessingParameterExtent("EXTENT", extent, None, True),
@@ -55,12 +55,12 @@ def area_of(
     context: QgsProcessingContext,
     crs: CloudCrs,
 ) -> Area | None:
-    """Return what the fields of `add_area` hold, in the CRS of the points.
+    """Return the area in the fields of `add_area`, in the CRS of the points; None if empty.
 
     Raises
     ------
     BareEarthError
-        If they hold no area, or the cloud cannot be read.
+        If the boundary has no polygon, or the cloud cannot be read.
     """
     given = [name for name in _AREA_FIELDS if not is_empty(parameters.get(name))]
     if not given:
@@ -80,7 +80,7 @@ def area_of(
 
 
 def check_area_only(parameters: dict[str, Any], chosen: Sequence[ParameterSet]) -> None:
-    """Refuse to write an area alone where the fields of `add_area` hold none."""
+    """Refuse to write only the points in the area if there is no area."""
     is_given = not all(is_empty(parameters.get(name)) for name in _AREA_FIELDS)
     for each in chosen:
         if isinstance(each, Output):
@@ -88,7 +88,7 @@ def check_area_only(parameters: dict[str, Any], chosen: Sequence[ParameterSet]) 
 
 
 def area_options(area: Area | None, progress: Progress) -> list[str]:
-    """Return the options of the command line that name an area; tell what they cannot say."""
+    """Return the options of the command line for an area; tell the user how to add a boundary."""
     if area is None:
         return []
     if area.polygons:
@@ -102,7 +102,7 @@ def area_options(area: Area | None, progress: Progress) -> list[str]:
 
 
 def add_limits(algorithm: QgsProcessingAlgorithm, advanced: Sequence[str] = ("BOUNDARY",)) -> None:
-    """Add the fields of an area, some of them `advanced`, and of `add_known` to a dialog."""
+    """Add the fields of `add_area` and `add_known` to a dialog."""
     add_area(algorithm, advanced)
     add_known(algorithm)
 
@@ -114,6 +114,6 @@ def limits_of(
     crs: CloudCrs,
     progress: Progress,
 ) -> dict[str, Any]:
-    """Return area, corrections and constraints, as `ClassifyRequest` names them."""
+    """Return area, corrections and constraints, by their names in `ClassifyRequest`."""
     known = known_of(algorithm, parameters, context, crs, progress)
     return {"area": area_of(algorithm, parameters, context, crs), **known}

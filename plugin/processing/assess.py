@@ -58,7 +58,7 @@ class AssessAlgorithm(BareEarthAlgorithm):
         self.add_numbers(_NUMBERS)
 
     def find_inputs(self, parameters, context):
-        """Find the files."""
+        """Find the input files."""
         self._files = [source_path(self, parameters, name, context) for name in _INPUTS]
         self.subject = name_of(self._files[0])
 

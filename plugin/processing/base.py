@@ -1,4 +1,4 @@
-"""What all Processing algorithms of the plugin have in common."""
+"""Base class of all Processing algorithms of the plugin."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _ICONS = Path(__file__).parents[1] / "icons"
 
 
 class BareEarthAlgorithm(QgsProcessingAlgorithm):
-    """Base of the algorithms: a subclass says what it is, declares its fields and computes.
+    """Base class of the algorithms. Subclasses set texts, declare fields and compute.
 
     Attributes
     ----------
@@ -50,16 +50,15 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
     page : str
         Its page in the folder docs.
     cancelled : str
-        What the log says after a cancel.
+        Message in the log after a cancel.
     run_name : str
-        What the group of its layers is called after the name of the input; the title if empty.
+        Name of the group of layers, after the name of the input; the title if empty.
     shown : tuple of str or None
-        The declared parameters that the dialog shows at once, the others being advanced; None for
-        all but those that are declared so.
+        The declared parameters that are not advanced. None: as they are declared.
     subject : str
-        The name of the input; `find_inputs` sets it.
+        Name of the input; set by `find_inputs`.
     class_counts : mapping of int to int
-        Points of each class of what was made, which the log ends with; `compute` sets it.
+        Points of each class in the output, for the end of the log; set by `compute`.
     """
 
     identifier = title = section = summary = about = page = run_name = subject = ""
@@ -76,11 +75,11 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> dict[str, Any]:
-        """Do the work, in whatever thread, and return the outputs."""
+        """Do the work, in any thread, and return the outputs."""
         raise NotImplementedError
 
     def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
-        """Find the input files, and name the run after them; raise BareEarthError if not there."""
+        """Find the input files, and set `subject`; raise BareEarthError if they do not exist."""
 
     def prepare(
         self,
@@ -88,11 +87,11 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> None:
-        """Read from the project what `compute` needs; runs in the main thread."""
+        """Read data from the project that `compute` needs; runs in the main thread."""
         self.find_inputs(parameters, context)
 
     def check(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
-        """Refuse values, before anything runs, by raising BareEarthError."""
+        """Check the values before a run; raise BareEarthError to refuse them."""
         check_area_only(parameters, self.chosen(parameters, context))
         self.find_inputs(parameters, context)
 
@@ -109,13 +108,13 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
                 super().addParameter(field_of(each, self._is_shown(each)))
 
     def addParameter(self, field: QgsProcessingParameterDefinition, help: str = "") -> bool:
-        """Add a field with its help to the dialog, in the user's language."""
+        """Add a field to the dialog, with label and help in the user's language."""
         field.setDescription(tr(field.description()))
         field.setHelp(tr(help or field.help()))
         return super().addParameter(field)
 
     def addOutput(self, output: QgsProcessingOutputDefinition) -> bool:
-        """Add a result, in the user's language."""
+        """Add an output, with its label in the user's language."""
         output.setDescription(tr(output.description()))
         return super().addOutput(output)
 
@@ -124,24 +123,24 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         return is_among and not declaration.advanced
 
     def add_numbers(self, numbers: Mapping[str, str]) -> None:
-        """Add results that are numbers, by their names, with their labels."""
+        """Add outputs that are numbers, given their names and labels."""
         for name, label in numbers.items():
             self.addOutput(QgsProcessingOutputNumber(name, label))
 
     def point_cloud_destination(
         self, parameters: dict[str, Any], name: str, context: QgsProcessingContext
     ) -> str:
-        """Return the path of a point cloud to be made; see that QGIS loads only what it can."""
+        """Return the path of an output point cloud; do not load it if QGIS cannot show it."""
         path = compat.point_cloud_output_path(self, parameters, name, context)
         if not compat.can_load(path):
             do_not_load(context, [path])
         return path
 
     def show(self, path: str, look: layers.Look) -> None:
-        """Say how the layer of a file is to look, if it is loaded; rasters have a look already."""
+        """Set the look of an output layer; rasters in `layers.RASTERS` do not need this."""
         self._looks[path] = look
 
-    # From here on, what QGIS asks.
+    # QGIS calls the following methods.
 
     def name(self) -> str:
         """Return the second half of the id."""
@@ -164,7 +163,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         return tr(self.summary)
 
     def tags(self) -> list[str]:
-        """Return what the search of the toolbox finds."""
+        """Return the words for the search of the toolbox."""
         return words_of(self.identifier)
 
     def helpUrl(self) -> str:
@@ -172,8 +171,8 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         return address_of(self.page)
 
     def shortHelpString(self) -> str:
-        """Return the help: what it does, and on each parameter a paragraph, as in the dialog."""
-        # What the dialog folds away comes after what it shows there, too, and the outputs last.
+        """Return the help: what the algorithm does, and a paragraph for each parameter."""
+        # In the order of the dialog: advanced parameters after the others, and outputs last.
         ordered = sorted(
             self.parameterDefinitions(),
             key=lambda each: (each.isDestination(), bool(each.flags() & compat.ADVANCED)),
@@ -190,22 +189,22 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         return type(self)()
 
     def icon(self) -> QIcon:
-        """Return the picture in the toolbox."""
+        """Return the icon in the toolbox."""
         return QIcon(self.svgIconPath())
 
     def svgIconPath(self) -> str:
-        """Return the file of that picture."""
+        """Return the file of the icon."""
         return str(_ICONS / f"{self.identifier}.svg")
 
     def canExecute(self) -> tuple[bool, str]:
-        """Return whether the needed packages are there, and if not how to get them."""
+        """Return whether all needed packages are installed, and if not, how to install them."""
         if missing_packages(["scipy"]):
             return False, tr(
                 "This QGIS has no scipy. On Windows, install python3-scipy with the OSGeo4W setup."
                 " Elsewhere, install the scipy of the system, or a newer QGIS."
             )
         missing = missing_packages(["laspy"])
-        # lazrs is needed for .laz only; who reads or writes one is told then.
+        # lazrs is needed only for .laz, and these give a message of their own.
         if missing:
             missing = missing_packages(["laspy", "lazrs"])
             needed = tr("{} must be installed first.").format(", ".join(missing))
@@ -215,7 +214,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
     def checkParameterValues(
         self, parameters: dict[str, Any], context: QgsProcessingContext
     ) -> tuple[bool, str]:
-        """Check values with the words of the declarations first, then as QGIS does."""
+        """Check values with the messages of the declarations first, then as QGIS does."""
         try:
             self.check(parameters, context)
         except BareEarthError as error:
@@ -244,7 +243,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         context: QgsProcessingContext,
         feedback: QgsProcessingFeedback,
     ) -> dict[str, Any]:
-        """Run `compute`; when cancelled or failed, no output is left to be loaded."""
+        """Run `compute`; if it is cancelled or fails, QGIS loads no output."""
         before, progress = set(context.layersToLoadOnCompletion()), FeedbackProgress(feedback)
         results: dict[str, Any] = {}
         try:
@@ -260,7 +259,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         return results
 
     def _arrange(self, results: dict[str, Any], context: QgsProcessingContext) -> None:
-        """See to names, colours and places of the layers."""
+        """Set names, styles and places of the layers."""
         looks, labels = {}, {}
         for name in filter(self.parameterDefinition, results):
             labels[results[name]] = self.parameterDefinition(name).description()
@@ -272,13 +271,13 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
 
 
 def _plain(text: str) -> str:
-    """Return a text for a page; quotes stay, as `qgis_process help` shows them as they are."""
+    """Return a text, escaped for HTML; quotes stay, since `qgis_process help` shows the source."""
     return escape(text, quote=False)
 
 
 @contextlib.contextmanager
 def _errors_for_qgis() -> Iterator[None]:
-    """Pass on errors as those that QGIS shows without a traceback."""
+    """Turn errors into exceptions that QGIS shows without a traceback."""
     try:
         yield
     except BareEarthError as error:
@@ -299,9 +298,9 @@ def command_line(
     files : list of str
         Its positional arguments.
     chosen : list of ParameterSet
-        Parameters; those at their default are left out.
+        Parameters; default values are left out.
     options : dict of str to str
-        Other options and their values; those without a value are left out.
+        Other options and their values; empty values are left out.
     """
     words = ["bare-earth", command, *files]
     for option, value in options.items():

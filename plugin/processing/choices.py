@@ -1,4 +1,4 @@
-"""Choices: dialogs show labels, while models, scripts and the history hold the values."""
+"""Choices: dialogs show labels; models, scripts and the history store values."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from typing import Any
 from qgis.core import QgsProcessingContext, QgsProcessingParameterEnum
 
 LABELS = "labels"
-# By its name: QGIS makes one for a dialog, and qgis_process imports no widgets.
+# As a name, so that the widget is imported only in dialogs, not in qgis_process.
 _WIDGET = f"{__package__}.widgets.ChoiceWidget"
 
 
 class ChoiceParameter(QgsProcessingParameterEnum):
-    """A choice among values; also by its number in the list of qgis_process."""
+    """A choice among values; the numbers in the list of qgis_process are accepted, too."""
 
     def clone(self) -> ChoiceParameter:
         """Return a copy; dialogs and models work with copies."""
@@ -21,13 +21,13 @@ class ChoiceParameter(QgsProcessingParameterEnum):
     def checkValueIsAcceptable(
         self, value: Any, context: QgsProcessingContext | None = None
     ) -> bool:
-        """Return whether `value` is a number of the list, or what QGIS itself accepts."""
+        """Return whether `value` is a number of the list, or QGIS accepts it."""
         value = value_of(value, self.options())
         return super().checkValueIsAcceptable(value, context)
 
 
 def value_of(given: Any, values: list[str]) -> Any:
-    """Return the value that a number of the list stands for, and all else as it is."""
+    """Return the value for a number of the list; anything else unchanged."""
     text = str(given)
     if isinstance(given, bool) or text in values or not text.isdecimal():
         return given
@@ -35,12 +35,12 @@ def value_of(given: Any, values: list[str]) -> Any:
 
 
 def values_of(given: Any, values: list[str]) -> list[Any]:
-    """Return the values of a choice of several: a list, or a text with commas, of them."""
+    """Return the values of a multiple choice, given as a list or as text with commas."""
     several = given.split(",") if isinstance(given, str) else given
     return [value_of(each, values) for each in several]
 
 
 def with_labels(field: ChoiceParameter, labels: list[str]) -> ChoiceParameter:
-    """Let dialogs show labels in place of the values; the modeler's goes on showing values."""
+    """Let dialogs show labels instead of values; the model designer shows values."""
     field.setMetadata({"widget_wrapper": {"class": _WIDGET}, LABELS: labels})
     return field

@@ -1,4 +1,4 @@
-"""Ground classification as a Processing algorithm, whichever method does it."""
+"""Ground classification of one file by any method, in the toolbox."""
 
 from __future__ import annotations
 
@@ -35,12 +35,12 @@ from .outputs import (
 
 
 class ClassificationAlgorithm(BareEarthAlgorithm):
-    """Base of the ground classifications; a subclass names its method.
+    """Base class of the ground classifications; subclasses set the method.
 
     Attributes
     ----------
     method : str
-        As on the command line.
+        Its name in the command line.
     """
 
     method = ""
@@ -48,16 +48,16 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
 
     @property
     def shown(self) -> tuple[str, ...]:
-        """Return the parameters that matter: preset, size of the largest object, cell size."""
+        """Return the main parameters: preset, size of the largest object, cell size."""
         return "preset", METHODS[self.method].size_parameter, "dtm_cell_size"
 
     @property
     def run_name(self) -> str:
-        """Return what the group of the layers is called."""
+        """Return the name of the group of layers."""
         return METHODS[self.method].label
 
     def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
-        """Return the method's parameters, then those that all methods share."""
+        """Return the parameters of the method, then those of all methods."""
         return METHODS[self.method].parameters, Selection, TerrainModel, Output, Resources
 
     def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
@@ -73,7 +73,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         self.addOutput(QgsProcessingOutputNumber("GROUND_COUNT", "Ground points"))
 
     def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
-        """Find the input's file."""
+        """Find the input file."""
         self._source = source_path(self, parameters, "INPUT", context)
         self.subject = name_of(self._source)
 
@@ -83,7 +83,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> None:
-        """Find the input, and read its area and what is known of it."""
+        """Find the input, and read area, corrections and constraints."""
         super().prepare(parameters, context, progress)
         if ignored_filter(self, parameters, "INPUT", context):
             progress.warning(tr("The layer's filter is not applied: all points are read."))
@@ -96,7 +96,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         progress: FeedbackProgress,
     ) -> dict[str, Any]:
         """Classify the file."""
-        # Not at the start of QGIS.
+        # Imported here, so that QGIS starts faster.
         from ...algorithms.engine.one_file import classify_file
         from ...algorithms.engine.requests import ClassifyRequest
 

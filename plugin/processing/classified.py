@@ -1,4 +1,4 @@
-"""What is seen of a classified point cloud: its points, or what takes their place."""
+"""Shows a classified point cloud: its points, or a raster of their classes."""
 
 from __future__ import annotations
 
@@ -33,25 +33,25 @@ def show_classified(
     Parameters
     ----------
     algorithm : BareEarthAlgorithm
-        Whose output it is.
+        The algorithm that made the cloud.
     cloud : str
-        The file; a virtual point cloud if it is of many.
+        The file, or a virtual point cloud of many files.
     classes : iterable of int
-        Its classes; the usual ones if there are none.
+        Its classes; the usual classes if empty.
     request : ClassifyRequest or MapRequest
-        Says the class of the ground, and the cells of the raster.
+        Holds the class of the ground, and the cell size of the raster.
     context : QgsProcessingContext
-        What takes the place of the points is made only where other layers are loaded.
+        The raster is made only if QGIS will load other layers.
     progress : FeedbackProgress
         Receives messages.
     hides : int
-        As for `layers.Look`.
+        As in `layers.Look`.
     """
     ground_class = request.selection.to_class
     classes = list(classes) or clouds.usual_classes(ground_class)
     is_virtual = cloud.endswith(".vpc")
     if is_virtual and hides == layers.CLOUD:
-        # Seen from afar it is outlines, through which the terrain is to be seen.
+        # At small scales QGIS shows outlines, and the terrain must be visible through these.
         hides = 0
     algorithm.show(cloud, layers.classes(classes, hides=hides))
     if compat.can_load(cloud):
@@ -61,7 +61,7 @@ def show_classified(
     progress.info(tr("This QGIS cannot show such a file as a layer. It is at {}.").format(cloud))
     if is_virtual or not context.layersToLoadOnCompletion():
         return
-    # Reads files, which takes packages that QGIS may lack when it starts.
+    # Imported here, since it needs packages that QGIS may lack when it starts.
     from ...algorithms.products.class_raster import write_class_raster
 
     path = QgsProcessingUtils.generateTempFilename("classes.tif")
@@ -69,7 +69,7 @@ def show_classified(
     try:
         write_class_raster(Path(cloud), Path(path), cell_size, ground_class, progress.beyond())
     except Cancelled:
-        # All that was asked for is there.
+        # All outputs of the run are complete.
         return
     hint = QgsProcessingUtils.LayerHint.Raster
     details = QgsProcessingContext.LayerDetails("classes", context.project(), "classes", hint)

@@ -33,7 +33,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
     )
 
     def parameter_sets(self):
-        """Return method, points and classes, files, outputs, and what may be used."""
+        """Return method, points and classes, files, outputs, and resources."""
         sets = TileMethod, Selection, TileInput, TileOutput, Output, TerrainModel, RasterOutput
         return (*sets, Resources)
 
@@ -47,12 +47,12 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         self.add_numbers(_NUMBERS)
 
     def find_inputs(self, parameters, context):
-        """Find the files."""
+        """Find the input files."""
         self._sources = clouds_of(self, parameters, context)
         self.subject = names_of(self._sources)
 
     def prepare(self, parameters, context, progress):
-        """Find the files, and read their area and what is known of them."""
+        """Find the files, and read area, corrections and constraints."""
         super().prepare(parameters, context, progress)
         recursive = self.parameterAsBool(parameters, "RECURSIVE", context)
         crs = CloudCrs(*self._sources, recursive=recursive)

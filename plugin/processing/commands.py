@@ -1,4 +1,4 @@
-"""The commands that do without QGIS what takes more than one of them."""
+"""Command lines for an algorithm that needs more than one command outside QGIS."""
 
 from __future__ import annotations
 
@@ -20,22 +20,22 @@ _OF_QGIS = ("RELIEF", "CONTOURS")
 def terrain_commands(
     sources: Sequence[Path], cloud: str, rasters: Mapping[str, str], chosen: Sequence[ParameterSet]
 ) -> Iterator[str]:
-    """Yield the commands for a classified cloud and its rasters, but for what QGIS alone makes.
+    """Yield the commands for a classified cloud and its rasters, except maps made only in QGIS.
 
     Parameters
     ----------
     sources : sequence of Path
         The raw files.
     cloud : str
-        The classified file, or the virtual point cloud of many; empty if none is kept.
+        The classified file, or the virtual point cloud of many files; empty if none is kept.
     rasters : mapping of str to str
-        Their files, by the names of their fields.
+        The raster files, by the names of their fields.
     chosen : sequence of ParameterSet
-        The parameters, each where one of its type belongs.
+        The parameters of all commands.
     """
     of_type: dict[type, Any] = {type(each): each for each in chosen}
     made = cloud or "classified.laz"
-    # Of many files, the folder that their virtual point cloud lies in.
+    # For many files, the folder of their virtual point cloud.
     target = str(Path(made).parent) if made.endswith(".vpc") else made
     finding = [of_type[each] for each in (TileMethod, Selection, Resources)]
     yield command_line("classify", [*map(str, sources), target], finding, {})
@@ -43,7 +43,7 @@ def terrain_commands(
     if models:
         ground = of_type[Selection].to_class
         options = {"ground-classes": "" if ground == GROUND else str(ground), **models}
-        # What is a default in one step need not be one of the command.
+        # The command has other defaults.
         model = TerrainModel(**vars(of_type[MapTerrain]))
         drawing = [model, *(of_type[each] for each in (SurfaceModel, Resources))]
         yield command_line("terrain", [made], drawing, options)

@@ -35,7 +35,7 @@ class CompareSettingsAlgorithm(BareEarthAlgorithm):
     )
 
     def parameter_sets(self):
-        """Return the settings, and what may be used."""
+        """Return the settings, and resources."""
         return TrialOptions, Resources
 
     def initAlgorithm(self, configuration=None):
@@ -54,13 +54,13 @@ class CompareSettingsAlgorithm(BareEarthAlgorithm):
         self.subject = name_of(self._source)
 
     def prepare(self, parameters, context, progress):
-        """Read the window in the CRS of the points, too."""
+        """Find the input, and read the window in the CRS of the points."""
         super().prepare(parameters, context, progress)
         self._window = area_of(self, parameters, context, CloudCrs(self._source)).box
 
     def compute(self, parameters, context, progress):
         """Make the page."""
-        # Not at the start of QGIS.
+        # Imported here, so that QGIS starts faster.
         from ...algorithms.engine.trial import compare_settings
 
         chosen = self.chosen(parameters, context)

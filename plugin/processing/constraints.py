@@ -1,4 +1,4 @@
-"""Layers that a terrain model must respect: breaklines, water, rivers, places without ground."""
+"""Fields for layers that change the terrain: breaklines, water, rivers, places without ground."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ _FIELDS = {
 
 
 def add_constraints(algorithm: QgsProcessingAlgorithm) -> None:
-    """Add the fields of the layers to a dialog, folded away."""
+    """Add the fields of the layers to a dialog, as advanced parameters."""
     for name, (label, kind, text) in _FIELDS.items():
         field = QgsProcessingParameterFeatureSource(name, label, [kind], None, True)
         field.setHelp(text)
@@ -58,7 +58,7 @@ def add_constraints(algorithm: QgsProcessingAlgorithm) -> None:
 
 
 def add_known(algorithm: QgsProcessingAlgorithm) -> None:
-    """Add the fields of these layers, and of corrections of the classes."""
+    """Add the fields of corrections and of these layers to a dialog."""
     add_corrections(algorithm)
     add_constraints(algorithm)
 
@@ -70,7 +70,7 @@ def known_of(
     crs: CloudCrs,
     progress: Progress,
 ) -> dict[str, Any]:
-    """Return corrections and constraints, as `MapRequest` names them; see their functions."""
+    """Return corrections and constraints, by their names in `MapRequest`."""
     given = parameters, context, crs, progress
     return {
         "corrections": corrections_of(algorithm, *given),
@@ -85,7 +85,9 @@ def constraints_of(
     crs: CloudCrs,
     progress: Progress,
 ) -> Constraints:
-    """Return what the layers hold, in the CRS of the points; progress is told what commands lack.
+    """Return the contents of the layers, in the CRS of the points.
+
+    Progress receives a message on how to give these layers in the command line.
 
     Raises
     ------
@@ -114,7 +116,7 @@ def constraints_of(
 
 
 def _option(name: str) -> str:
-    """Return the option of the command line for a field, with a file of the same name."""
+    """Return the option of the command line for a field, with a file named after it."""
     name = name.lower().replace("_", "-")
     return f"--{name} {name}.geojson"
 

@@ -1,4 +1,4 @@
-"""Polygons in which the class of the points is known, as a layer of a dialog."""
+"""Fields for a layer of polygons in which the class of the points is known."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ _TEXTS = {
 
 
 def add_corrections(algorithm: QgsProcessingAlgorithm) -> None:
-    """Add the fields of the layer to a dialog, folded away."""
+    """Add the fields of the layer to a dialog, as advanced parameters."""
     labels = {name: label for name, (label, _) in _TEXTS.items()}
     fields = (
         QgsProcessingParameterFeatureSource(_LAYER, labels[_LAYER], [compat.POLYGONS], None, True),
@@ -54,9 +54,9 @@ def corrections_of(
     crs: CloudCrs,
     progress: Progress = SILENT,
 ) -> Corrections:
-    """Return what the fields hold, in the CRS of the points.
+    """Return the corrections in the fields, in the CRS of the points.
 
-    Progress is told what the command line lacks.
+    Progress receives a message on how to give them in the command line.
 
     Raises
     ------

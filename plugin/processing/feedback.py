@@ -1,4 +1,4 @@
-"""Progress, messages and cancelling between the classifier and a Processing dialog."""
+"""Passes progress, messages and cancels between the classifier and a Processing dialog."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from ..styles.clouds import categories_of
 
 
 class FeedbackProgress(Progress):
-    """Shows a computation in the dialog, and stops it when the user wants.
+    """Shows progress and messages in the dialog, and stops the computation after a cancel.
 
     Parameters
     ----------
     feedback : QgsProcessingFeedback
-        The dialog's, or that of a model or of qgis_process.
+        The feedback of the dialog, of a model or of qgis_process.
     """
 
     def __init__(self, feedback: QgsProcessingFeedback) -> None:
@@ -31,14 +31,14 @@ class FeedbackProgress(Progress):
     def report(self, fraction: float) -> None:
         """Move the bar; raise `Cancelled` if the user pressed Cancel before the end.
 
-        At the end all is written, and it must not be said that nothing was.
+        At the end all outputs are written, so the message on cancelled runs would be wrong.
         """
         self._feedback.setProgress(100.0 * fraction)
         if fraction < 1.0 and self._feedback.isCanceled():
             raise Cancelled
 
     def beyond(self) -> Progress:
-        """Return one for what follows the outputs: the bar stays at the end, Cancel ends it."""
+        """Return a progress for work after the outputs: it can be cancelled, the bar stays full."""
         return _Beyond(self._feedback)
 
     def info(self, text: str) -> None:
@@ -46,32 +46,32 @@ class FeedbackProgress(Progress):
         self._feedback.pushInfo(text)
 
     def choice(self, text: str) -> None:
-        """Write a line into the log, and once more at its end."""
+        """Write a line into the log, and again at its end."""
         self._choices.append(text)
         self.info(text)
 
     def warning(self, text: str) -> None:
-        """Write a line that stands out into the log."""
+        """Write a highlighted line into the log."""
         self._feedback.pushWarning(text)
 
     def share(self, ground: int, count: int, in_area: bool = False) -> None:
-        """Tell how many of the points are ground."""
+        """Write the share of ground points into the log."""
         text = tr("{ground:,} of {count:,} points are ground ({share:.1%}).")
         if in_area:
             text = tr("{ground:,} of {count:,} points in the area are ground ({share:.1%}).")
         self.info(text.format(ground=ground, count=count, share=ground / max(count, 1)))
 
     def command(self, text: str) -> None:
-        """Keep a command that does the same without QGIS, for the end of the log."""
+        """Store a command that does the same without QGIS, for the end of the log."""
         self._commands.append(text)
 
     def end(self, class_counts: Mapping[int, int]) -> None:
-        """End the log with classes, what was chosen, time and commands.
+        """Write the end of the log: classes, automatic choices, time and commands.
 
         Parameters
         ----------
         class_counts : mapping of int to int
-            Points of each class of what was made; empty if no point cloud was.
+            Points of each class in the output; empty if no point cloud was made.
         """
         every = max(sum(class_counts.values()), 1)
         for value, (name, _) in categories_of(class_counts).items():
@@ -99,7 +99,7 @@ class _Beyond(Progress):
 def tell_of_unknown(
     algorithm: QgsProcessingAlgorithm, given: Iterable[str], feedback: QgsProcessingFeedback
 ) -> None:
-    """Warn of parameters that an algorithm does not have: QGIS ignores them without a word."""
+    """Warn of parameters that an algorithm does not have; QGIS ignores them silently."""
     known = [each.name() for each in algorithm.parameterDefinitions()]
     for name in sorted(set(given) - set(known)):
         text = tr("There is no parameter {name}: it is ignored.").format(name=name)

@@ -1,4 +1,4 @@
-"""Declared parameters as fields of a Processing dialog, and their values back."""
+"""Makes fields of a Processing dialog from declared parameters, and reads their values."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from .choices import ChoiceParameter, value_of, values_of, with_labels
 _SYMBOLS = {"deg": "°"}
 _LISTS = ("numbers", "integers")
 _FEWEST_DECIMALS = 3
-# A longer list of choices would hide the rest of the help: there the names have to do.
+# The help explains at most so many choices, and only names those of longer lists.
 _MOST_EXPLAINED = 12
 
 
@@ -33,9 +33,9 @@ def field_of(declaration: Declaration, is_shown: bool = True) -> QgsProcessingPa
     Parameters
     ----------
     declaration : Declaration
-        What is said of the parameter.
+        The declared parameter.
     is_shown : bool
-        Whether the dialog shows it at once; never if it is advanced.
+        False to make it an advanced parameter of the dialog.
 
     Returns
     -------
@@ -50,11 +50,11 @@ def field_of(declaration: Declaration, is_shown: bool = True) -> QgsProcessingPa
         )
         field = with_labels(field, list(map(tr, declaration.choices.values())))
     elif declaration.kind == "boolean":
-        # The designer asks for all that is not optional, in models of before it was there as well.
+        # Optional: in old models without this parameter, the designer would demand a value.
         field = QgsProcessingParameterBoolean(name, label, default, True)
     elif declaration.kind == "choice":
-        # The values themselves, not their places in the list: they stay true in saved models.
-        # As for booleans: what is advanced may be newer than a stored model.
+        # Stored as values, not as positions in the list, so that saved models stay valid.
+        # Advanced ones are optional as booleans are, since they can be newer than a saved model.
         optional = optional or declaration.advanced
         field = ChoiceParameter(
             name, label, list(declaration.choices), False, default, optional, True
@@ -81,7 +81,7 @@ def _number_field(declaration: Declaration, name: str, label: str) -> QgsProcess
     if declaration.maximum is not None:
         field.setMaximum(declaration.maximum)
     if declaration.kind == "number":
-        # The usual six decimals are noise in a dialog of metres and degrees.
+        # The usual six decimals are too many for metres and degrees.
         shown = (declaration.minimum, declaration.default)
         decimals = max(_FEWEST_DECIMALS, *(_decimals(each) for each in shown if each is not None))
         field.setMetadata({"widget_wrapper": {"decimals": decimals}})
@@ -100,7 +100,7 @@ def title_of(declaration: Declaration) -> str:
 
 
 def help_of(declaration: Declaration) -> str:
-    """Return the help, with what each choice is called in scripts, in the user's language."""
+    """Return the help in the user's language, with the names of choices in scripts."""
     text = tr(declaration.help)
     if not declaration.choices:
         return text
@@ -119,12 +119,12 @@ def parameters_of(
     parameters: dict[str, Any],
     context: QgsProcessingContext,
 ) -> ParameterSet:
-    """Return the declared parameters with the values that the user gave.
+    """Return the declared parameters with the values of the user.
 
     Raises
     ------
     BareEarthError
-        If a value is not allowed; the text says which and why.
+        If a value is not allowed.
     """
     return declared(
         **{
@@ -145,7 +145,7 @@ def _value(
     if declaration.kind == "boolean":
         return algorithm.parameterAsBool(parameters, name, context)
     if name in parameters and (compat.is_null(given) or given == ""):
-        # Emptied on purpose; parameterAs... would return the default instead.
+        # The user emptied the field; parameterAs... would return the default.
         return declaration.default if declaration.kind == "choice" else None
     if declaration.kind == "choice":
         if isinstance(given, (str, int)):
@@ -163,13 +163,13 @@ def _value(
     if name not in parameters:
         return declaration.default
     if isinstance(given, str) and not _is_number(given):
-        # parameterAsDouble would return the default without a word.
+        # parameterAsDouble would silently return the default.
         raise BareEarthError(
             tr("{label} must be a number, not {value}.").format(
                 label=tr(declaration.label), value=repr(given)
             )
         )
-    # As a number with decimals in either case: 2.5 is not to become 2 where a whole one is asked.
+    # Also for integers as a double, so that 2.5 is refused and does not become 2.
     return algorithm.parameterAsDouble(parameters, name, context)
 
 

@@ -1,4 +1,4 @@
-"""Each ground filter as an algorithm of the toolbox."""
+"""The algorithms of the toolbox for all ground filters."""
 
 from __future__ import annotations
 

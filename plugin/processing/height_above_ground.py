@@ -37,7 +37,7 @@ class HeightAboveGroundAlgorithm(ProductAlgorithm):
     )
 
     def parameter_sets(self):
-        """Return the ground classes, where the heights go, and what may be used."""
+        """Return the ground classes, the output of heights, and resources."""
         return GroundClasses, HeightOutput, Resources
 
     def compute(self, parameters, context, progress):

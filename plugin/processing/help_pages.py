@@ -1,4 +1,4 @@
-"""Where the page on an algorithm is: in the plugin, or else in its repository."""
+"""Addresses of help pages: in the plugin, or else in its repository."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 from qgis.PyQt.QtCore import QUrl
 
 _ROOT = Path(__file__).parents[2]
-# `make package` puts them there; a clone has none.
+# Only in the package, made by `make package`; not in a clone of the repository.
 _HELP = _ROOT / "help"
 
 
@@ -18,7 +18,7 @@ def address_of(page: str) -> str:
     Parameters
     ----------
     page : str
-        Its name, without ending.
+        Name of the page, without ending.
     """
     file = _HELP / f"{page}.html"
     if file.is_file():

@@ -1,4 +1,4 @@
-"""Point clouds as input, files among them that QGIS cannot load, and features of layers."""
+"""Input fields: point clouds, also files that QGIS cannot load, and features of layers."""
 
 from __future__ import annotations
 
@@ -36,9 +36,9 @@ from ...algorithms.survey.files import find_files, open_survey
 from .. import compat
 from ..i18n import tr
 
-# By its name: QGIS makes one for a dialog, and qgis_process imports no widgets.
+# As a name, so that the widget is imported only in dialogs, not in qgis_process.
 _WIDGET = f"{__package__}.widgets.PointCloudWidget"
-# Of the fields of `add_survey` and `add_clouds`.
+# Help of the fields of `add_survey` and `add_clouds`.
 _FILES_HELP = (
     ".las, .laz and .copc.laz files, virtual point clouds (.vpc), or text files (.txt) with one"
     " path in each line. May stay empty if a folder is given."
@@ -51,7 +51,7 @@ _SURVEY_HELP = (
     "A point cloud layer, a .las, .laz or .copc.laz file, a virtual point cloud (.vpc), or a text"
     " file (.txt) with one path in each line. May stay empty if a folder is given."
 )
-# Of others.
+# Help of other fields.
 CLOUD_HELP = "A point cloud layer, or a .las, .laz or .copc.laz file."
 ANY_CLOUD_HELP = (
     "A point cloud layer, or a .las, .laz or .copc.laz file; also a virtual point cloud (.vpc) or a"
@@ -62,8 +62,8 @@ ANY_CLOUD_HELP = (
 class PointCloudInput(QgsProcessingParameterPointCloudLayer):
     """A point cloud layer, or any existing file.
 
-    QGIS takes only what it can load, which without its `pdal` provider excludes .las and .laz, and
-    with it would index the whole file first.
+    QGIS itself accepts only files that it can load. Without its `pdal` provider, these do not
+    include .las and .laz; with it, QGIS would index the whole file first.
     """
 
     def __init__(self, *arguments: Any) -> None:
@@ -71,31 +71,31 @@ class PointCloudInput(QgsProcessingParameterPointCloudLayer):
         self.setMetadata({"widget_wrapper": {"class": _WIDGET}})
 
     def clone(self) -> PointCloudInput:
-        """Return a copy; dialogs and models work with copies, which must take files too."""
+        """Return a copy; dialogs and models work with copies."""
         return PointCloudInput(self)
 
     def checkValueIsAcceptable(
         self, value: Any, context: QgsProcessingContext | None = None
     ) -> bool:
-        """Return whether `value` is a file or what QGIS itself accepts."""
+        """Return whether `value` is a file, or QGIS accepts it."""
         if isinstance(value, (str, Path)) and _file(str(value)) is not None:
             return True
         return super().checkValueIsAcceptable(value, context)
 
     def createFileFilter(self) -> str:
-        """Return the file types for the dialog's "..."; those of QGIS depend on the build."""
+        """Return the file types for the button "..."; those of QGIS depend on the build."""
         return _filter("*.las *.laz *.LAS *.LAZ")
 
 
 class SurveyInput(PointCloudInput):
-    """The same, or a virtual point cloud, a folder of files, or a list of them."""
+    """A point cloud layer, or any file or folder, such as a virtual point cloud or a list."""
 
     def clone(self) -> SurveyInput:
         """Return a copy."""
         return SurveyInput(self)
 
     def createFileFilter(self) -> str:
-        """Return the file types for the dialog's "..."."""
+        """Return the file types for the button "..."."""
         return _filter("*.las *.laz *.vpc *.txt *.LAS *.LAZ")
 
 
@@ -146,12 +146,12 @@ def _add_folder(algorithm: QgsProcessingAlgorithm) -> None:
 def survey_of(
     algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], context: QgsProcessingContext
 ) -> list[Path]:
-    """Return what the fields of `add_survey` hold.
+    """Return the inputs in the fields of `add_survey`.
 
     Raises
     ------
     BareEarthError
-        If there is none, or one does not exist.
+        If there is no input, or one does not exist.
     """
     paths = []
     if not is_empty(parameters.get("INPUT")):
@@ -166,12 +166,12 @@ def survey_of(
 
 
 def name_of(path: Path) -> str:
-    """Return the name of a file, or folder, without what says its format."""
+    """Return the name of a file or folder, without the ending for its format."""
     return split_name(path)[0]
 
 
 def names_of(paths: Sequence[Path]) -> str:
-    """Return the name of the files of a run."""
+    """Return a name for the files of a run."""
     return (tr("{} and others") if paths[1:] else "{}").format(name_of(paths[0]))
 
 
@@ -185,12 +185,12 @@ def add_clouds(algorithm: QgsProcessingAlgorithm) -> None:
 def clouds_of(
     algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], context: QgsProcessingContext
 ) -> list[Path]:
-    """Return what the fields of `add_clouds` hold: files, and folders of them.
+    """Return the inputs in the fields of `add_clouds`: files and folders.
 
     Raises
     ------
     BareEarthError
-        If there is none, or one does not exist.
+        If there is no input, or one does not exist.
     """
     texts = algorithm.parameterAsFileList(parameters, "INPUT", context)
     texts.append(algorithm.parameterAsString(parameters, "INPUT_FOLDER", context))
@@ -211,17 +211,17 @@ def ignored_filter(
     name: str,
     context: QgsProcessingContext,
 ) -> str:
-    """Return the filter of the input layer, which does not reach its file; empty if none."""
+    """Return the filter of the input layer, which is ignored; empty if there is none."""
     layer = parameters.get(name)
     if not isinstance(layer, QgsMapLayer):
         text = algorithm.parameterAsString(parameters, name, context)
         layer = QgsProcessingUtils.mapLayerFromString(text, context, False)
-    # Point cloud layers have filters from 3.26 on.
+    # Point cloud layers have filters since QGIS 3.26.
     return layer.subsetString() if hasattr(layer, "subsetString") else ""
 
 
 def is_empty(value: Any) -> bool:
-    """Return whether a field holds nothing."""
+    """Return whether a field is empty."""
     return compat.is_null(value) or value == ""
 
 
@@ -233,7 +233,7 @@ class CloudCrs:
     *sources : Path
         Files, folders, and lists of files.
     recursive : bool
-        Whether the run searches the subfolders of a folder, too.
+        Whether subfolders are searched, too.
     """
 
     def __init__(self, *sources: Path, recursive: bool = False) -> None:
@@ -241,12 +241,12 @@ class CloudCrs:
 
     @functools.cached_property
     def value(self) -> QgsCoordinateReferenceSystem:
-        """The CRS; invalid, so that nothing is transformed, if no file states one.
+        """The CRS; if no file states one, an invalid CRS, so that nothing is transformed.
 
         Raises
         ------
         BareEarthError
-            If there is no file, or none can be read.
+            If there is no file, or no file can be read.
         """
         crs = self._stated()
         if crs.epsg:
@@ -254,14 +254,14 @@ class CloudCrs:
         return QgsCoordinateReferenceSystem.fromWkt(crs.wkt or "")
 
     def _stated(self) -> Crs:
-        """Return the CRS of the first file that states one: a run refuses files of another."""
+        """Return the CRS of the first file that states one; all files must have the same."""
         paths = find_files(self._sources, self._recursive)
         for path in paths:
-            with suppress(BareEarthError):  # The run tells of a file that cannot be read.
+            with suppress(BareEarthError):  # The run reports files that cannot be read.
                 crs = read_crs(open_las(path))
                 if crs != Crs():
                     return crs
-        return open_survey(paths).crs  # It says what is wrong if none can be read.
+        return open_survey(paths).crs  # This raises an error if no file can be read.
 
 
 def features_of(
@@ -271,12 +271,12 @@ def features_of(
     context: QgsProcessingContext,
     attributes: Sequence[str] = (),
 ) -> Iterator[QgsFeature]:
-    """Yield the features of a layer in a CRS, with some attributes.
+    """Yield the features of a layer, transformed to a CRS, with some attributes.
 
     Raises
     ------
     BareEarthError
-        If the layer, whose label is given, cannot be read.
+        If the layer cannot be read; the text has its label.
     """
     if source is None:
         raise BareEarthError(tr('The layer "{}" cannot be read.').format(tr(label)))
@@ -287,7 +287,7 @@ def features_of(
 
 def polygons_of(geometry: QgsGeometry) -> Iterator[Polygon]:
     """Yield the rings of each polygon."""
-    # A copy, with arcs as lines.
+    # A copy, in which arcs became lines.
     geometry = QgsGeometry(geometry.constGet().segmentize()) if geometry.constGet() else geometry
     if geometry.convertToMultiType():
         for rings in geometry.asMultiPolygon():
@@ -314,11 +314,11 @@ def _path_of(layer: QgsMapLayer) -> Path:
 
 
 def _filter(endings: str) -> str:
-    """Return the file types of point clouds with such endings, for a dialog."""
+    """Return the file types for a dialog, given the endings of point clouds."""
     return f"{tr('Point clouds')} ({endings});;{tr('All files')} (*.*)"
 
 
 def _file(text: str) -> Path | None:
-    """Return the file or folder that `text` names, if there is one."""
+    """Return the path in `text`, if the file or folder exists."""
     path = QUrl(text).toLocalFile() if text.startswith("file:") else text
     return Path(path) if path and Path(path).exists() else None

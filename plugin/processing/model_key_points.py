@@ -37,7 +37,7 @@ class ModelKeyPointsAlgorithm(ProductAlgorithm):
     )
 
     def parameter_sets(self):
-        """Return tolerances, ground classes, how points are marked, and what may be used."""
+        """Return tolerances, ground classes, the mark of key points, and resources."""
         return ModelKeyPoints, GroundClasses, KeyPointMark, Resources
 
     def compute(self, parameters, context, progress):

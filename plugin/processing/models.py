@@ -1,4 +1,4 @@
-"""The models that come with the plugin, in the toolbox."""
+"""The models of the plugin, in the toolbox."""
 
 from __future__ import annotations
 
@@ -26,35 +26,35 @@ from .outputs import do_not_load
 from .search_words import words_of
 
 _CHOICES = {each.name.upper(): each for each in TileMethod.declarations()}
-# Outputs that the models have, if they make such a thing.
+# Names of outputs in the models that make a classified cloud or contour lines.
 _CLASSIFIED, _LINES = "ground:OUTPUT", "contours:OUTPUT"
 _FOLDER = Path(__file__).parents[1] / "models"
 
 
 class ShippedModel(QgsProcessingModelAlgorithm):
-    """A model that was drawn in the designer of QGIS, as an algorithm of ours.
+    """A model that was made in the model designer of QGIS.
 
     Parameters
     ----------
     file : Path
-        The model; its name without underscores is the second half of the id.
+        The model file. Its name without underscores is the second half of the id.
     """
 
     page = "models"
-    # As those of all others: the address of the page, and the help.
+    # The same methods as in the other algorithms.
     helpUrl = BareEarthAlgorithm.helpUrl
     shortHelpString = BareEarthAlgorithm.shortHelpString
 
     def __init__(self, file: Path) -> None:
         super().__init__()
         self._file = file
-        # What it is made of is found once all providers are there: QGIS makes a new one to run.
+        # Its steps are found only when all providers are loaded; QGIS makes a new instance to run.
         self.fromFile(str(file))
         self.about = self.helpContent().get("ALG_DESC", "")
-        # Again all of them, for the order: choices show labels, as in other dialogs.
+        # All parameters are added again, to keep their order. Choices show labels, as elsewhere.
         for each in [each.clone() for each in self.parameterDefinitions()]:
             self.removeParameter(each.name())
-            # What a step says nothing of, the model does.
+            # The help of the step, or else of the model.
             each.setHelp(tr(each.help() or self.helpContent().get(each.name(), "")))
             each.setDescription(tr(each.description()))
             self.addParameter(_choice(each) if each.name() in _CHOICES else each)
@@ -62,7 +62,7 @@ class ShippedModel(QgsProcessingModelAlgorithm):
             each.setDescription(tr(each.description()))
 
     def name(self) -> str:
-        """Return the second half of the id; that of QGIS would be the title."""
+        """Return the second half of the id; QGIS would use the title."""
         return self._file.stem.replace("_", "")
 
     def displayName(self) -> str:
@@ -78,11 +78,11 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         return tr(super().shortDescription())
 
     def tags(self) -> list[str]:
-        """Return what the search of the toolbox finds."""
+        """Return the words for the search of the toolbox."""
         return words_of(self.name())
 
     def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
-        """Return no declared parameters: the fields are those that were drawn."""
+        """Return no declared parameters, since the fields are in the model."""
         return ()
 
     def prepareAlgorithm(
@@ -103,7 +103,7 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         context: QgsProcessingContext,
         feedback: QgsProcessingFeedback,
     ) -> dict[str, Any]:
-        """Run it; for an input that is not given QGIS would hand on nothing, not its default."""
+        """Run the model, with defaults for missing inputs, which QGIS would leave empty."""
         defaults = {each.name(): each.defaultValue() for each in self.parameterDefinitions()}
         tell_of_unknown(self, parameters, feedback)
         given = {**defaults, **parameters}
@@ -114,9 +114,9 @@ class ShippedModel(QgsProcessingModelAlgorithm):
     def _arrange(
         self, given: dict[str, Any], results: dict[str, Any], context: QgsProcessingContext
     ) -> None:
-        """See to names, colours and places of the layers: QGIS names them OUTPUT, DTM and so on."""
+        """Set names, styles and places of the layers; QGIS names them OUTPUT, DTM and so on."""
         looks = layers.looks_of(context)
-        # In place of clouds that QGIS cannot show; those of steps in between are not asked for.
+        # Rasters of classes, for clouds that QGIS cannot show. Those of inner steps are not wanted.
         extra = [path for path, look in looks.items() if look.title == layers.CLASSES]
         if _CLASSIFIED not in results:
             do_not_load(context, extra)
@@ -126,7 +126,7 @@ class ShippedModel(QgsProcessingModelAlgorithm):
             unit = rasters.unit_of(terrain) if terrain else ""
             interval = Interval(float(given["INTERVAL"]), unit)
             looks[results[_LINES]] = layers.contours(interval)
-            # Lines of the terrain, which is to be seen below them.
+            # The terrain must be visible below its contour lines.
             for path in {*extra, str(results.get(_CLASSIFIED))} & set(looks):
                 looks[path] = looks[path]._replace(hides=layers.BELOW_TERRAIN)
         labels = {path: context.layerToLoadOnCompletionDetails(path).name for path in looks}
@@ -144,7 +144,7 @@ class ShippedModel(QgsProcessingModelAlgorithm):
 
 
 def _choice(drawn: QgsProcessingParameterEnum) -> ChoiceParameter:
-    """Return a field that was drawn as those of the other dialogs are."""
+    """Return a choice of a model as a choice with labels and help, as in other dialogs."""
     declared = _CHOICES[drawn.name()]
     values, default = drawn.options(), drawn.defaultValue()
     field = ChoiceParameter(drawn.name(), drawn.description(), values, False, default, False, True)
@@ -153,5 +153,5 @@ def _choice(drawn: QgsProcessingParameterEnum) -> ChoiceParameter:
 
 
 def shipped_models() -> list[ShippedModel]:
-    """Return all of them."""
+    """Return all models of the plugin."""
     return [ShippedModel(each) for each in sorted(_FOLDER.glob("*.model3"))]

@@ -1,4 +1,4 @@
-"""What QGIS does with output files: their default format, and how they look as layers."""
+"""Output fields, and the files and layers of outputs."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from ..i18n import mark, tr
 NOTHING_STAYS = mark("Cancelled; nothing was written.")
 TILES_STAY = mark("Cancelled. The finished tiles stay, and a later run can continue with them.")
 _MODELS = {name.upper(): each for name, each in MODELS.items()}
-# Label and help of each raster that can be made, by the name of its field.
+# Label and help of each raster, by the name of its field.
 RASTERS = {
     **{name: (each.label, each.help) for name, each in _MODELS.items()},
     "RELIEF": (
@@ -37,7 +37,7 @@ RASTERS = {
 
 
 def after_cancel(sources: Sequence[Path]) -> str:
-    """Return what the log says after a cancel, of one file or of many."""
+    """Return the message in the log after a cancel, for one file or for many."""
     return NOTHING_STAYS if is_one_file(sources) else TILES_STAY
 
 
@@ -46,7 +46,7 @@ def add_rasters(
     names: Iterable[str] = _MODELS,
     default: Iterable[str] = ("DTM", "HILLSHADE"),
 ) -> None:
-    """Add fields for rasters, of which none has to be made; some are made by default."""
+    """Add optional fields for rasters; `default` names those that are made by default."""
     for name in names:
         label, text = RASTERS[name]
         algorithm.addParameter(
@@ -60,7 +60,7 @@ def add_cloud(
     text: str = "The same points with their new classes.",
     optional: bool = False,
 ) -> None:
-    """Add the field of a point cloud to be made, with its help."""
+    """Add the field of an output point cloud."""
     field = compat.point_cloud_output("OUTPUT", label, point_cloud_formats())
     if optional:
         field.setFlags(field.flags() | QgsProcessingParameterDefinition.Flag.FlagOptional)
@@ -68,7 +68,7 @@ def add_cloud(
 
 
 def add_tiles(algorithm: QgsProcessingAlgorithm) -> None:
-    """Add the fields of many point clouds to be made."""
+    """Add the fields of many output point clouds."""
     folder, vpc = "Folder of the classified point clouds", "Virtual point cloud"
     filters = tr("{} files (*.{})").format("VPC", "vpc")
     algorithm.addParameter(
@@ -83,7 +83,7 @@ def add_tiles(algorithm: QgsProcessingAlgorithm) -> None:
 
 
 def add_contours(algorithm: QgsProcessingAlgorithm) -> None:
-    """Add the field of contour lines to be made."""
+    """Add the field of contour lines."""
     field = QgsProcessingParameterVectorDestination(
         "CONTOURS", "Contour lines", optional=True, createByDefault=False
     )
@@ -97,7 +97,7 @@ def raster_paths(
     parameters: dict[str, Any],
     context: QgsProcessingContext,
 ) -> dict[str, str]:
-    """Return the paths of rasters and contour lines that are wanted, by their fields' names."""
+    """Return the paths of the wanted rasters and contour lines, by the names of their fields."""
     paths = {}
     for name in (*RASTERS, "CONTOURS"):
         if algorithm.parameterDefinition(name) is not None:
@@ -110,7 +110,7 @@ def raster_paths(
 def shown_rasters(
     paths: dict[str, str], output: RasterOutput, context: QgsProcessingContext
 ) -> dict[str, str]:
-    """Return what QGIS is to load of the rasters of many files: the virtual ones, if there are."""
+    """Return the rasters of many files that QGIS will load: the virtual rasters, if they exist."""
     if not output.raster_per_file:
         return paths
     layers = context.layersToLoadOnCompletion()
@@ -123,15 +123,15 @@ def shown_rasters(
 
 
 def raster_files(paths: dict[str, str]) -> RasterFiles:
-    """Return those of the same that the classifier makes."""
+    """Return the rasters of `raster_paths` that the classifier makes."""
     given = {name.lower(): Path(path) for name, path in paths.items() if name in _MODELS}
     return RasterFiles(**given)
 
 
 def point_cloud_formats() -> list[str]:
-    """Return the extensions of point clouds that can be written; the default comes first.
+    """Return the extensions of point clouds that can be written, with the default first.
 
-    The default is what this QGIS can load, if any, or else the smallest that can be written.
+    The default is a format that this QGIS can load, or else the format with the smallest files.
     """
     if missing_packages(WRITING_COPC):
         return ["las"]
@@ -141,7 +141,7 @@ def point_cloud_formats() -> list[str]:
 
 
 def do_not_load(context: QgsProcessingContext, paths: Iterable[str]) -> None:
-    """Take outputs off the list of layers to load."""
+    """Remove outputs from the list of layers to load."""
     layers = context.layersToLoadOnCompletion()
     for path in paths:
         layers.pop(path, None)

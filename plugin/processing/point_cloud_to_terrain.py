@@ -34,7 +34,7 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
     shown = "method", "preset", "dtm_cell_size"
 
     def parameter_sets(self):
-        """Return method, cells, and all that may be left as it is."""
+        """Return method and cell size, then parameters that rarely need a change."""
         return TileMethod, MapTerrain, Selection, SurfaceModel, Contours, LocalRelief, Resources
 
     def initAlgorithm(self, configuration=None):
@@ -48,12 +48,12 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         self.add_numbers({"POINT_COUNT": "Points", "GROUND_COUNT": "Ground points"})
 
     def find_inputs(self, parameters, context):
-        """Find the files."""
+        """Find the input files."""
         self._sources = survey_of(self, parameters, context)
         self.subject, self.cancelled = names_of(self._sources), outputs.after_cancel(self._sources)
 
     def compute(self, parameters, context, progress):
-        """Make what is wanted."""
+        """Make the wanted outputs."""
         from ...algorithms.engine.terrain_maps import MapFiles, MapRequest, make_maps
 
         known = known_of(self, parameters, context, CloudCrs(*self._sources), progress)

@@ -1,4 +1,4 @@
-"""The values of the presets, to be seen before a run."""
+"""Tables with the values of the presets, for the help."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ _BETWEEN = " / "
 
 
 def presets_of(sets: Sequence[type[ParameterSet]]) -> str:
-    """Return what the presets among some parameters stand for, in HTML; empty if there are none."""
+    """Return the values of all presets of some parameters as HTML; empty if there are none."""
     is_short = TileMethod in sets
     methods = [each for each in METHODS.values() if each.parameters in sets or is_short]
-    # In short there are neither fields for the values, nor the presets of one method alone.
+    # With `TileMethod` there are no fields for the values, and only presets of all methods.
     offered = next(each.choices for each in TileMethod.declarations() if each.name == "preset")
     tables = "".join(
         f"{tr(each.label)}:{_table(each, offered if is_short else each.presets)}"
@@ -37,11 +37,12 @@ def _table(method: Method, offered: Collection[str]) -> str:
     declared = {each.name: each for each in method.parameters.declarations()}
     labels = declared["preset"].choices
     rows = {name: _values_of(preset) for name, preset in method.presets.items() if name in offered}
-    # Too many columns do not fit; a classic preset alone, which differs in all, needs none.
+    # Only parameters in which the presets differ. The classic preset is not compared, since it
+    # differs in all of them, and that many columns would not fit.
     usual = [row for name, row in rows.items() if name != method.classic]
     columns = [name for name in declared if len({row.get(name) for row in usual}) > 1]
-    # All values in one column, and its title above both: beside the fields of a dialog, they would
-    # be narrower than a word else.
+    # All values share one column, and the titles are above both columns, because there is little
+    # space beside the fields of a dialog.
     head = _BETWEEN.join(escape(title_of(declared[name])) for name in columns)
     body = "".join(
         f"<tr><td>{escape(tr(labels[name]).partition(' (')[0], quote=False)}</td>"

@@ -1,4 +1,4 @@
-"""What the Processing algorithms that work on a classified point cloud have in common."""
+"""Base class of the Processing algorithms for classified point clouds."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from .outputs import add_cloud
 
 
 class ProductAlgorithm(BareEarthAlgorithm):
-    """Base of the algorithms that make something of a classified point cloud.
+    """Base class of the algorithms for classified point clouds.
 
     Attributes
     ----------
     cloud_label, cloud_help : str
-        What the point cloud to be made is called, and its help; empty if none is.
+        Label and help of the output point cloud; empty if there is none.
     numbers : tuple of (str, str)
-        Name and label of each number that is returned. In small letters, the name is that of the
-        attribute of the summary which holds it.
+        Name and label of each output that is a number. In lower case, the name is an attribute of
+        the summary.
     """
 
     section = "Products"
@@ -31,7 +31,7 @@ class ProductAlgorithm(BareEarthAlgorithm):
     numbers: tuple[tuple[str, str], ...] = ()
 
     def add_outputs(self) -> None:
-        """Add the fields of the files to be made."""
+        """Add the output fields."""
         add_cloud(self, self.cloud_label, self.cloud_help)
 
     def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
@@ -43,7 +43,7 @@ class ProductAlgorithm(BareEarthAlgorithm):
             self.addOutput(QgsProcessingOutputNumber(name, label))
 
     def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
-        """Find the input's file."""
+        """Find the input file."""
         self.source = source_path(self, parameters, "INPUT", context)
         self.subject = name_of(self.source)
 
@@ -53,7 +53,7 @@ class ProductAlgorithm(BareEarthAlgorithm):
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> None:
-        """Find the input, and tell what is ignored."""
+        """Find the input, and warn of a filter that is ignored."""
         super().prepare(parameters, context, progress)
         if ignored_filter(self, parameters, "INPUT", context):
             progress.warning(tr("The layer's filter is not applied: all points are read."))
@@ -64,7 +64,7 @@ class ProductAlgorithm(BareEarthAlgorithm):
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> str:
-        """Return the path of the point cloud to be made; say so if QGIS cannot show it."""
+        """Return the path of the output point cloud; tell the user if QGIS cannot show it."""
         output = self.point_cloud_destination(parameters, "OUTPUT", context)
         if not compat.can_load(output):
             text = tr("This QGIS cannot show such a file as a layer. It will be at {}.")
@@ -72,5 +72,5 @@ class ProductAlgorithm(BareEarthAlgorithm):
         return output
 
     def numbers_of(self, summary: Any) -> dict[str, Any]:
-        """Return the numbers that a summary holds."""
+        """Return the outputs that are numbers, from a summary."""
         return {name: getattr(summary, name.lower()) for name, _ in self.numbers}

@@ -1,4 +1,4 @@
-"""Removal of buildings and trees from the raster of a surface, in the toolbox."""
+"""Removal of buildings and trees from a surface raster, in the toolbox."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class RemoveOffTerrainObjectsAlgorithm(BareEarthAlgorithm):
     page = "remove-off-terrain-objects"
 
     def parameter_sets(self):
-        """Return what is an object."""
+        """Return the parameters."""
         return (OffTerrain,)
 
     def initAlgorithm(self, configuration=None):
@@ -52,7 +52,7 @@ class RemoveOffTerrainObjectsAlgorithm(BareEarthAlgorithm):
         self.addOutput(QgsProcessingOutputNumber("REMOVED_COUNT", "Cells of objects"))
 
     def find_inputs(self, parameters, context):
-        """Find the input's file."""
+        """Find the input file."""
         layer = self.parameterAsRasterLayer(parameters, "INPUT", context)
         if layer is None or layer.providerType() != "gdal":
             raise BareEarthError(

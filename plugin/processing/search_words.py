@@ -1,4 +1,4 @@
-"""The words that the search of the toolbox finds each algorithm by: those that people type."""
+"""Words for the search of the toolbox, for each algorithm."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _TILES = mark("vpc,tiles,batch,survey,folder,many files")
 _TIN = mark("tin,triangulation")
 _RASTER = mark("grid,raster,rasterize,interpolate")
 
-# Groups of words by the second half of the id.
+# Groups of words, by the second half of the id.
 _WORDS = {
     "pointcloudtoterrain": (
         _CLOUD, _GROUND, _TERRAIN, _CANOPY, _TILES, mark("contours,workflow"),

@@ -34,16 +34,16 @@ class TerrainModelAlgorithm(ProductAlgorithm):
     numbers = (("GROUND_COUNT", "Ground points"), ("SURFACE_COUNT", "Points of the surface"))
 
     def parameter_sets(self):
-        """Return ground classes, cells and light, what makes the surface, and what may be used."""
+        """Return ground classes, cells and light, points of the surface, files, and resources."""
         return GroundClasses, TerrainModel, SurfaceModel, RasterOutput, Resources
 
     def add_outputs(self):
-        """Add what the terrain must respect, and the rasters; none of them has to be made."""
+        """Add the fields of constraints and rasters; all of them are optional."""
         add_constraints(self)
         add_rasters(self)
 
     def compute(self, parameters, context, progress):
-        """Make those that are wanted."""
+        """Make the wanted rasters."""
         from ...algorithms.engine.requests import TerrainRequest
         from ...algorithms.engine.runs import terrain
 

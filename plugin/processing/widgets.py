@@ -1,7 +1,7 @@
-"""Widgets of fields, by the dialog that they are for; the one file that needs those of QGIS.
+"""Widgets of fields. Only this file imports qgis.gui for algorithms.
 
-QGIS imports a class by the name that a parameter's metadata holds, calls it with the parameter and
-the dialog, and takes what comes: for the designer of models another kind of thing than for others.
+QGIS imports the class named in the metadata of a parameter, calls it with parameter and dialog, and
+uses the result. The model designer needs another type of widget than other dialogs.
 """
 
 from __future__ import annotations
@@ -27,15 +27,15 @@ from .. import compat
 from .choices import LABELS, ChoiceParameter, value_of, values_of
 
 _STATE = Qt.ItemDataRole.CheckStateRole
-# Qt.CheckState as items keep it: PyQt 5 and 6 do not make the same of its names there.
+# Values of Qt.CheckState in items. The names do not work in the same way in PyQt 5 and 6.
 _UNCHECKED, _CHECKED = 0, 2
 
 
 class ChoiceWidget:
-    """That of a choice: with labels, but with values in the designer of models."""
+    """Makes the widget of a choice: with labels, but with values in the model designer."""
 
     def __new__(cls, parameter: ChoiceParameter, dialog: QWidget, *_: Any) -> Any:
-        """Return it, and nothing of this class."""
+        """Return a widget, not an instance of this class."""
         if _is_designer(dialog):
             return _designer_widget(parameter, dialog)
         box = _ChoicesBox if parameter.allowMultiple() else _ChoiceBox
@@ -43,14 +43,14 @@ class ChoiceWidget:
 
 
 class PointCloudWidget:
-    """That of QGIS for a point cloud; in the designer of models, files can be chosen for it, too.
+    """Makes the widget of QGIS for a point cloud, which accepts files in the model designer, too.
 
-    QGIS itself offers there the inputs that are layers, which can be no .las and .laz files where
-    it has no `pdal` provider.
+    QGIS itself only offers inputs that are layers there. Without its `pdal` provider, these cannot
+    be .las and .laz files.
     """
 
     def __new__(cls, parameter: QgsProcessingParameterDefinition, dialog: QWidget, *_: Any) -> Any:
-        """Return it, and nothing of this class."""
+        """Return a widget, not an instance of this class."""
         if not _is_designer(dialog):
             widget = QgsGui.processingGuiRegistry().createParameterWidgetWrapper(
                 parameter, _kind(dialog)
@@ -58,7 +58,7 @@ class PointCloudWidget:
             widget.setDialog(dialog)
             return widget
         widget = _designer_widget(parameter, dialog)
-        # More inputs; outputs that are files are there already.
+        # Adds inputs that are files; outputs that are files are already in the list.
         widget.populateSources([QgsProcessingParameterFile.typeName()], [], [])
         return widget
 
@@ -75,7 +75,7 @@ def _kind(dialog: QWidget) -> Any:
 def _designer_widget(
     parameter: QgsProcessingParameterDefinition, dialog: QWidget
 ) -> QgsProcessingModelerParameterWidget:
-    """Return what QGIS itself shows in the designer: a value, an input, or an output."""
+    """Return the widget of QGIS in the designer, for a value, an input or an output."""
     widget = QgsGui.processingGuiRegistry().createModelerParameterWidget(
         dialog.model, dialog.childId, parameter, dialog.context
     )
@@ -84,7 +84,7 @@ def _designer_widget(
 
 
 class _ChoiceBox(QgsAbstractProcessingParameterWidgetWrapper):
-    """A box with the labels that the parameter's metadata holds."""
+    """A box with the labels in the metadata of the parameter."""
 
     def createWidget(self) -> QWidget:
         """Return the box, with the default chosen."""
@@ -97,26 +97,26 @@ class _ChoiceBox(QgsAbstractProcessingParameterWidgetWrapper):
         return box
 
     def setWidgetValue(self, value: Any, context: QgsProcessingContext) -> None:
-        """Choose a value; called with those of a run before, too."""
-        # Asked for each time: QGIS owns it now, and a reference from before is of no use.
+        """Choose a value, also one of an earlier run."""
+        # Fetched each time: QGIS owns the box, so a stored reference would become invalid.
         box = self.wrappedWidget()
         if box is not None and not compat.is_null(value):
             value = value_of(value, self.parameterDefinition().options())
             box.setCurrentIndex(box.findData(value))
 
     def widgetValue(self) -> Any:
-        """Return the value that is chosen."""
+        """Return the chosen value."""
         return self.wrappedWidget().currentData()
 
 
 class _ChoicesBox(QgsAbstractProcessingParameterWidgetWrapper):
-    """A box with the labels that the parameter's metadata holds, of which several are chosen."""
+    """A box with the labels in the metadata of the parameter, for several choices."""
 
     def createWidget(self) -> QWidget:
         """Return the box, with the defaults chosen."""
         parameter = self.parameterDefinition()
         box = QgsCheckableComboBox()
-        # Labels have commas.
+        # Not a comma, which labels contain.
         box.setSeparator("; ")
         for label, value in zip(parameter.metadata()[LABELS], parameter.options()):
             box.addItemWithCheckState(label, Qt.CheckState.Unchecked, value)
@@ -125,13 +125,13 @@ class _ChoicesBox(QgsAbstractProcessingParameterWidgetWrapper):
         return box
 
     def setWidgetValue(self, value: Any, context: QgsProcessingContext) -> None:
-        """Choose values; called with those of a run before, too."""
+        """Choose values, also those of an earlier run."""
         box = self.wrappedWidget()
         if box is not None and not compat.is_null(value):
             _check(box, values_of(value, self.parameterDefinition().options()))
 
     def widgetValue(self) -> Any:
-        """Return the values that are chosen, in the order of the list."""
+        """Return the chosen values, in the order of the list."""
         box = self.wrappedWidget()
         states = [Qt.CheckState(box.itemData(place, _STATE)) for place in range(box.count())]
         chosen = [place for place, state in enumerate(states) if state == Qt.CheckState.Checked]
@@ -139,8 +139,8 @@ class _ChoicesBox(QgsAbstractProcessingParameterWidgetWrapper):
 
 
 def _check(box: QComboBox, values: list[str]) -> None:
-    """Choose the items of these values, and no others."""
-    # What QGIS gives back of the box is known as a QComboBox only, which has no word for it.
+    """Choose only the items with these values."""
+    # QGIS returns the box as a QComboBox, which has no method for this.
     for place in range(box.count()):
         is_chosen = box.itemData(place) in values
         box.setItemData(place, _CHECKED if is_chosen else _UNCHECKED, _STATE)

@@ -1,1 +1,1 @@
-"""How the layers of a run look: colours, legends, names and order in the tree of layers."""
+"""Styles of the layers of a run: colours, legends, names and order in the layer tree."""

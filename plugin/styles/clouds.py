@@ -1,4 +1,4 @@
-"""How point clouds look: by class, ground in front of all, or by height."""
+"""Styles of point clouds: by class, with ground on top, or by height."""
 
 from __future__ import annotations
 
@@ -24,27 +24,27 @@ from ...algorithms.las.copc_sample import sample_of
 from . import ramps
 
 _GROUND = 2
-# Brown of the ground, light enough for a hillshade below; QGIS's is dark. What says no more than
-# "not ground" is faint.
+# The brown of ground is light enough for a hillshade below, unlike that of QGIS. Classes that only
+# mean "not ground" are faint.
 _COLOURS = {
     0: "#8c9aa5b1", 1: "#8c9aa5b1", _GROUND: "#d2a368", 6: "#d9736a", 8: "#8f5a1e", 9: "#5fb4e5",
 }  # fmt: skip
 _METRES, _LEAST_MM, _MOST_MM = 0.6, 0.8, 2.0
-# Millimetres between points below which no more are drawn: more than QGIS's 0.3 show as holes.
+# QGIS draws no further points at this distance in millimetres. Its default of 0.3 leaves holes.
 _SCREEN_ERROR = 0.15
-# By the LAS specification, with no meaning yet; and of those a rare one.
+# Classes that are reserved in the LAS specification, or rare.
 _RESERVED = (0, 8, 12, 16)
-# Metres up to which heights are coloured, where it is not known up to which nearly all points are.
+# Heights are coloured up to this, in metres, if the usual height of the points is not known.
 _MOST_HEIGHT = 40.0
 _NEARLY_ALL, _STEP = 0.998, 0.5
 
 
 def categories_of(classes: Iterable[int]) -> dict[int, tuple[str, QColor]]:
-    """Return name and colour of each class, ground first."""
+    """Return the name and colour of each class, ground first."""
     known = {each.value(): each for each in QgsPointCloudClassifiedRenderer.defaultCategories()}
     found = {}
     for value in sorted(classes, key=lambda each: (each != _GROUND, each)):
-        # One without a usual colour gets one that differs with its number.
+        # A class without usual colour gets a colour that depends on its number.
         label, colour = f"{value}", QColor.fromHsv(47 * value % 360, 140, 200)
         if value in known:
             label, colour = known[value].label(), known[value].color()
@@ -53,18 +53,18 @@ def categories_of(classes: Iterable[int]) -> dict[int, tuple[str, QColor]]:
 
 
 def usual_classes(ground_class: int = _GROUND) -> list[int]:
-    """Return the classes of lidar, for clouds whose own are not known."""
+    """Return the usual classes of lidar, for clouds whose classes are not known."""
     known = (each.value() for each in QgsPointCloudClassifiedRenderer.defaultCategories())
     return sorted({each for each in known if each not in _RESERVED} | {ground_class})
 
 
 def by_class(classes: Iterable[int]) -> Callable[[QgsPointCloudLayer], None]:
-    """Return what colours a cloud by class.
+    """Return a function that colours a cloud by class.
 
     Parameters
     ----------
     classes : iterable of int
-        The classes to show: QGIS would list all that there could be, and hide those above 18.
+        The classes to show. QGIS itself would list all usual classes, and hide those above 18.
     """
     wanted = categories_of(classes)
 
@@ -77,10 +77,10 @@ def by_class(classes: Iterable[int]) -> Callable[[QgsPointCloudLayer], None]:
         renderer.setCategories(categories)
         _scale(renderer)
         if hasattr(renderer, "setDrawOrder2d"):  # 3.26
-            # The lowest last, so that ground is seen below trees, not trees above ground.
+            # The lowest points are drawn last, so that trees do not hide the ground.
             renderer.setDrawOrder2d(Qgis.PointCloudDrawOrder.TopToBottom)
         layer.setRenderer(renderer)
-        # Relief shows through, where there is a hillshade below.
+        # So that a hillshade below is visible.
         layer.setBlendMode(QPainter.CompositionMode.CompositionMode_Multiply)
 
     return dress
@@ -89,15 +89,15 @@ def by_class(classes: Iterable[int]) -> Callable[[QgsPointCloudLayer], None]:
 def by_height(
     attribute: str, highest: float, unit_size: float = 1.0
 ) -> Callable[[QgsPointCloudLayer], None]:
-    """Return what colours a cloud by heights above ground, in the unit of the CRS.
+    """Return a function that colours a cloud by heights above ground, in the unit of the CRS.
 
     Parameters
     ----------
     attribute : str
-        What holds them.
+        The attribute that holds the heights.
     highest : float
-        The highest of them. Birds are left out of the colours: in a COPC file, for its uppermost
-        node holds some points from everywhere.
+        The greatest height. For COPC files a usual height is used instead, so that birds do not
+        stretch the colours. It is found in the uppermost node, which has points from everywhere.
     unit_size : float
         Metres in that unit.
     """
@@ -108,7 +108,7 @@ def by_height(
         renderer.setAttribute(attribute)
         is_copc = layer.dataProvider() is not None and layer.dataProvider().name() == "copc"
         high = _usual_height(layer.source(), attribute) if is_copc else most
-        # In steps, for the legend.
+        # Rounded up, for the legend.
         high = max(math.ceil(high / _STEP) * _STEP, _STEP)
         renderer.setMinimum(0.0)
         renderer.setMaximum(high)
@@ -124,14 +124,14 @@ def by_height(
 
 
 def _usual_height(path: str, attribute: str) -> float:
-    """Return the height below which nearly all points of the uppermost node of a COPC file lie."""
+    """Return a height above nearly all points in the uppermost node of a COPC file."""
     values = sample_of(Path(path), "z" if attribute == "Z" else attribute)
     values = values[np.isfinite(values)]
     return float(np.quantile(values, _NEARLY_ALL)) if values.size else 0.0
 
 
 def _scale(renderer: QgsPointCloudRenderer) -> None:
-    """Let points grow with the scale of the map, as far as they neither vanish nor bulge."""
+    """Let points grow with the scale of the map, between a least and a greatest size."""
     units = Qgis.RenderUnit if hasattr(Qgis, "RenderUnit") else QgsUnitTypes.RenderUnit
     size = QgsMapUnitScale()
     size.minSizeMMEnabled = size.maxSizeMMEnabled = True

@@ -1,4 +1,4 @@
-"""The layers of a run: what each is, how it looks, its name, and its place in a group of them."""
+"""The layers of a run: style, name, and place in the group of the run."""
 
 from __future__ import annotations
 
@@ -20,31 +20,31 @@ from ...algorithms.products.contours import Interval
 from ..i18n import mark, tr
 from . import clouds, rasters, vectors
 
-# QGIS calls them after the algorithm is gone, and owns the C++ half of each: one for each layer,
-# and a reference here that keeps the Python half.
+# QGIS calls post-processors after the algorithm was deleted. It owns only their C++ objects, so
+# their Python objects are kept here.
 _KEPT: list[QgsProcessingLayerPostProcessorInterface] = []
 
 
-# What a classified cloud hides; the terrain is shown first where that is what was asked for.
+# Values of `Look.hides` for a classified cloud. The second is for runs whose result is the terrain.
 CLOUD, BELOW_TERRAIN = 6, 4
 
 
 class Look(NamedTuple):
-    """What a layer is.
+    """Title, place and style of a layer.
 
     Attributes
     ----------
     title : str
-        What it is called, after the name of the input.
+        Its name, after the name of the input.
     height : int
-        Its place from below: the highest lies on top.
+        Its place in the group; the greatest is on top.
     dress : callable
-        ``dress(layer)`` gives it its colours, in the main thread.
+        ``dress(layer)`` sets the style, in the main thread.
     hides : int
-        Of layers that hide each other only the one with the highest of these is shown at first; 0
-        for one that hides nothing.
+        Some layers hide each other. Of these, only the one with the greatest value is visible at
+        first. 0 for a layer that hides nothing.
     shows : str
-        What the colours stand for, in the user's language; rasters say it themselves.
+        Meaning of the colours, in the user's language; empty for rasters, whose files state it.
     """
 
     title: str
@@ -56,7 +56,7 @@ class Look(NamedTuple):
 
 HILLSHADE = Look(mark("hillshade"), 0, rasters.hillshade)
 TERRAIN = Look(mark("terrain model"), 1, rasters.terrain, 5)
-# Alone, over whatever is there.
+# The only layer of its run, shown on top of other layers.
 BARE = Look(mark("without objects"), 1, rasters.surface)
 SURFACE = Look(mark("surface model"), 2, rasters.surface, 1)
 CANOPY = Look(mark("canopy height"), 3, rasters.canopy, 3)
@@ -73,24 +73,24 @@ CLASSES = mark("classes")
 
 
 def classes(values: Iterable[int], title: str = CLASSES, hides: int = CLOUD) -> Look:
-    """Return what a cloud of such classes is."""
+    """Return the look of a classified cloud."""
     return Look(title, 7, clouds.by_class(values), hides)
 
 
 def class_raster(values: Iterable[int], hides: int = CLOUD) -> Look:
-    """Return what a raster of such classes is."""
+    """Return the look of a raster of classes."""
     return Look(CLASSES, 7, rasters.classes(clouds.categories_of(values)), hides)
 
 
 def heights(attribute: str, highest: float, unit_size: float) -> Look:
-    """Return what a cloud is with such heights, up to the highest, in units of so many metres."""
+    """Return the look of a cloud with heights above ground; see `clouds.by_height`."""
     dress = clouds.by_height(attribute, highest, unit_size)
     shows = f"{tr('Height above ground')}, {unit_symbol(unit_size)}"
     return Look(mark("height above ground"), 7, dress, CLOUD, shows)
 
 
 def contours(interval: Interval) -> Look:
-    """Return what contour lines are."""
+    """Return the look of contour lines."""
     return Look(mark("contour lines"), 8, vectors.contours(interval))
 
 
@@ -101,21 +101,21 @@ def arrange(
     subject: str,
     group: str,
 ) -> None:
-    """See that the layers of a run get colours, names, and a group if there are some of them.
+    """Give styles and names to the layers of a run, and a group if there are several.
 
     Parameters
     ----------
     context : QgsProcessingContext
-        Its layers that QGIS is going to load.
+        Holds the layers that QGIS will load.
     looks : mapping of str to Look
-        What they are, by their paths.
+        The looks of the layers, by path.
     labels : mapping of str to str
-        The name that QGIS gives each, by the same. One with another name has got it from a model:
-        it keeps it, and goes where the model's layers go.
+        The names that QGIS gives to the layers, by path. A layer with another name got it from a
+        model. It keeps this name, and is not put into the group.
     subject : str
-        The name of the input.
+        Name of the input.
     group : str
-        The name of the group.
+        Name of the group.
     """
     looks = {path: look for path, look in looks.items() if context.willLoadLayerOnCompletion(path)}
     shown = max((look.hides for look in looks.values()), default=0)
@@ -139,14 +139,14 @@ def arrange(
 
 
 def looks_of(context: QgsProcessingContext) -> dict[str, Look]:
-    """Return what the layers are that steps of a model have arranged, by their paths."""
+    """Return the looks of layers that steps of a model have arranged, by path."""
     loaded = context.layersToLoadOnCompletion()
     shows = {path: details.postProcessor() for path, details in loaded.items()}
     return {path: each.look for path, each in shows.items() if isinstance(each, _Show)}
 
 
 def free_name(context: QgsProcessingContext, name: str) -> str:
-    """Return a name that no group of the project has yet; asked for in the main thread."""
+    """Return a name that no group of the project has yet; only in the main thread."""
     if context.project() is None:
         return name
     root = context.project().layerTreeRoot()
@@ -155,7 +155,7 @@ def free_name(context: QgsProcessingContext, name: str) -> str:
 
 
 class _Show(QgsProcessingLayerPostProcessorInterface):
-    """Gives a layer its look, once it is loaded, and where QGIS does not, its place."""
+    """Gives a loaded layer its style, and its place in the group before QGIS 3.32."""
 
     def __init__(self, look: Look, group: str, is_visible: bool) -> None:
         super().__init__()
@@ -164,7 +164,7 @@ class _Show(QgsProcessingLayerPostProcessorInterface):
     def postProcessLayer(
         self, layer: QgsMapLayer, context: QgsProcessingContext, feedback: QgsProcessingFeedback
     ) -> None:
-        """Do so; called by QGIS in the main thread."""
+        """Set style and place; QGIS calls this in the main thread."""
         self.look.dress(layer)
         layer.triggerRepaint()
         project = context.project() or layer.project()
@@ -178,7 +178,7 @@ class _Show(QgsProcessingLayerPostProcessorInterface):
         if isinstance(layer, QgsRasterLayer):
             shown = rasters.shown_by(layer)
         if shown:
-            # In place of "Band 1 (Gray)", or the attribute.
+            # Instead of "Band 1 (Gray)", or the name of the attribute.
             QgsMapLayerLegendUtils.setLegendNodeUserLabel(node, 0, shown)
             layer.legendChanged.emit()
         node.setItemVisibilityChecked(self._is_visible)
@@ -189,7 +189,7 @@ _HEIGHT = "bare_earth/height"
 
 
 def _moved(node: Any, name: str, height: int) -> Any:
-    """Move a layer to its place in a group of the project, made if needed; return its new node."""
+    """Move a layer to its place in a group, which is made if needed; return its new node."""
     group = _group_of(node, name)
     copy = node.clone()
     group.insertChildNode(_place_in(group, node, height), copy)
@@ -198,7 +198,7 @@ def _moved(node: Any, name: str, height: int) -> Any:
 
 
 def _group_of(node: Any, name: str) -> QgsLayerTreeGroup:
-    """Return the group with this name: on top of the tree, or of the group that users chose."""
+    """Return the group with this name; make it on top of the tree, or in the user's group."""
     home = node
     while home.parent() is not None:
         home = home.parent()
@@ -208,9 +208,9 @@ def _group_of(node: Any, name: str) -> QgsLayerTreeGroup:
 
 
 def _place_in(group: QgsLayerTreeGroup, node: Any, height: int) -> int:
-    """Return the place of the first layer that lies below, or -1, for the end.
+    """Return the index of the first layer that must be below, or -1 for the end.
 
-    QGIS puts a new layer above the current one, so the node may stand in the group, out of order.
+    The node itself is skipped: QGIS may have put it into the group already, in another place.
     """
     for place, child in enumerate(group.children()):
         if child != node and int(child.layer().customProperty(_HEIGHT, 0)) < height:

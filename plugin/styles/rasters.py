@@ -1,4 +1,4 @@
-"""How rasters look: each kind of them with its own colours and legend."""
+"""Styles of rasters: colours and legend for each kind."""
 
 from __future__ import annotations
 
@@ -24,14 +24,13 @@ from ..i18n import mark, tr
 from . import ramps
 
 _MULTIPLY = QPainter.CompositionMode.CompositionMode_Multiply
-# Shares of the cells below and above those that the colours spread over, and how many cells of a
-# row, and rows, are looked at.
+# Colours spread between these quantiles of a sample with at most so many rows and columns.
 _LOW, _HIGH, _SAMPLE = 0.02, 0.98, 600
-# The light of a hillshade from where it is black to where it is white: level land is nearly white,
-# so that colours over it stay what they are in the legend.
+# Values of a hillshade that are black and white. Level land is nearly white, so that colours above
+# it look as in the legend.
 _DARK, _BRIGHT = 20.0, 210.0
 _LEAST_RANGE = 0.5
-# What bands say that they show, besides units.
+# Parts of the descriptions of bands, except units.
 SHOWN = (
     mark("Height"), mark("Height above ground"), mark("Local relief"),
     mark("Confidence"), mark("Share of wrong points"), mark("Brightness"), mark("Class"),
@@ -40,20 +39,20 @@ SHOWN = (
 
 
 def shown_by(layer: QgsRasterLayer) -> str:
-    """Return what a raster shows, as its file says it, in the user's language; empty if nothing."""
+    """Return the description of the band in the user's language; empty if there is none."""
     raster = gdal.Open(layer.source())
     said = raster.GetRasterBand(1).GetDescription()
     return ", ".join(tr(each) if each in SHOWN else each for each in said.split(", "))
 
 
 def unit_of(path: str) -> str:
-    """Return the symbol of the unit that a raster of ours says its heights have."""
+    """Return the symbol of the unit of heights, from the description of a band."""
     raster = gdal.Open(path)
     return raster.GetRasterBand(1).GetDescription().partition(", ")[2]
 
 
 def terrain(layer: QgsRasterLayer) -> None:
-    """Colour heights from low to high; what lies below, the hillshade, shines through."""
+    """Colour heights from low to high; the hillshade below stays visible."""
     _spread(layer, ramps.TERRAIN, *_cut(layer))
     layer.setBlendMode(_MULTIPLY)
     compat.mark_as_elevation(layer)
@@ -66,22 +65,22 @@ def surface(layer: QgsRasterLayer) -> None:
 
 
 def canopy(layer: QgsRasterLayer) -> None:
-    """Colour heights above ground; bare ground is clear."""
+    """Colour heights above ground; bare ground is transparent."""
     _spread(layer, ramps.CANOPY, 0.0, _cut(layer)[1])
 
 
 def confidence(layer: QgsRasterLayer) -> None:
-    """Colour what is not sure; what is stays clear."""
+    """Colour cells with low confidence; cells with high confidence are transparent."""
     _spread(layer, ramps.CONFIDENCE, 0.0, 1.0)
 
 
 def errors(layer: QgsRasterLayer) -> None:
-    """Colour shares of wrong points; cells without one are clear."""
+    """Colour shares of wrong points; cells without errors are transparent."""
     _spread(layer, ramps.ERRORS, 0.0, 1.0)
 
 
 def local_relief(layer: QgsRasterLayer) -> None:
-    """Colour what stands above its surroundings, and lies below, by the same steps."""
+    """Colour heights above and below the surroundings, with the same range for both."""
     largest = max(map(abs, _cut(layer)))
     _spread(layer, ramps.RELIEF, -largest, largest)
 
@@ -99,7 +98,7 @@ def hillshade(layer: QgsRasterLayer) -> None:
 
 
 def classes(categories: Mapping[int, tuple[str, QColor]]) -> Callable[[QgsRasterLayer], None]:
-    """Return what gives each class of a raster its name and colour."""
+    """Return a function that gives each class of a raster its name and colour."""
 
     def dress(layer: QgsRasterLayer) -> None:
         entries = [
@@ -113,10 +112,10 @@ def classes(categories: Mapping[int, tuple[str, QColor]]) -> Callable[[QgsRaster
 
 
 def _cut(layer: QgsRasterLayer) -> tuple[float, float]:
-    """Return the heights between which all but the few lowest and highest cells lie.
+    """Return the limits of the heights, without the few lowest and highest cells.
 
-    QGIS's own asks GDAL for a histogram, which GDAL keeps beside the file: one that takes the place
-    of another would get the limits of that.
+    The method of QGIS is not used, because GDAL would store a histogram beside the file. A new file
+    with the same name would get the limits of the old one.
     """
     raster = gdal.Open(layer.source())
     band = raster.GetRasterBand(1)
@@ -124,7 +123,7 @@ def _cut(layer: QgsRasterLayer) -> tuple[float, float]:
     values = band.ReadAsArray(0, 0, band.XSize, band.YSize, *size)
     values = values[np.isfinite(values) & (values != band.GetNoDataValue())]
     low, high = np.quantile(values, (_LOW, _HIGH)).tolist() if values.size else (0.0, 0.0)
-    # Level land stays of one colour: millimetres of noise are no relief.
+    # In level land the range is wider, so that noise of millimetres does not look like relief.
     return (low, high) if high - low >= _LEAST_RANGE else (low, low + _LEAST_RANGE)
 
 
@@ -140,7 +139,7 @@ def _spread(layer: QgsRasterLayer, stops: ramps.Stops, low: float, high: float) 
 
 
 def _legend(extent: float) -> QgsColorRampLegendNodeSettings:
-    """Return a legend whose numbers have no more digits than tell them apart."""
+    """Return a legend whose numbers have only as many digits as needed."""
     numbers = QgsBasicNumericFormat()
     numbers.setNumberDecimalPlaces(max(0, 2 - math.floor(math.log10(extent))))
     numbers.setShowTrailingZeros(False)

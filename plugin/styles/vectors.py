@@ -1,4 +1,4 @@
-"""How contour lines look."""
+"""Style of contour lines."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _THICK = {"line_color": "110,72,36,220", "line_width": "0.35"}
 
 
 def contours(interval: Interval) -> Callable[[QgsVectorLayer], None]:
-    """Return what draws contour lines in brown, each fifth of them thicker."""
+    """Return a function that draws contour lines in brown, every fifth line thicker."""
 
     def dress(layer: QgsVectorLayer) -> None:
         root = QgsRuleBasedRenderer.Rule(None)
