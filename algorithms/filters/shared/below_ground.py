@@ -54,7 +54,7 @@ def below_ground(
 
 
 def _rise(surface: np.ndarray) -> np.ndarray:
-    """Return the most that a surface rises over a cell, at each and those round it."""
+    """Return the largest rise of a surface over a cell, at each cell and those round it."""
     from scipy import ndimage
 
     return ndimage.maximum_filter(steepness(surface, 1.0), 3, mode="nearest")
