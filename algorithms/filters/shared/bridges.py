@@ -186,7 +186,7 @@ def _surface(relief: Relief, known: np.ndarray) -> np.ndarray:
 
 
 def _grown(relief: Relief, decks: np.ndarray, crossed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the same as `_decks` with what is raised beside the decks, up to a few metres off."""
+    """Return the grids of `_decks`, extended by raised cells up to a few metres beside decks."""
     from scipy import ndimage
 
     reach = round(max(_GROWTH, _GROWTH_SPACINGS * relief.spacing) / relief.cell)

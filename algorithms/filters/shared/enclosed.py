@@ -84,7 +84,7 @@ def pits_in_roofs(filled: np.ndarray, raised: np.ndarray, surveyed: np.ndarray) 
 
 
 def is_even(filled: np.ndarray) -> np.ndarray:
-    """Return which cells (rows, columns) lie between two neighbours at about their mean height."""
+    """Return which cells are about as high as the mean of two opposite neighbours."""
     even = np.zeros(filled.shape, dtype=bool)
     for to, z in ((even, filled), (even.T, filled.T)):
         to[1:-1] |= np.abs(z[2:] + z[:-2] - 2.0 * z[1:-1]) <= 2.0 * _BEND

@@ -22,9 +22,9 @@ class LowestPoints:
     Parameters
     ----------
     points : Points
-        All of them.
+        All points.
     size : float
-        Side in metres of the cells whose lowest points are wanted.
+        Side of the cells in metres.
     classic : bool
         True for the rules of other programs' presets: every pit is a low outlier, and less of the
         border of an object must be a drop.
@@ -36,11 +36,11 @@ class LowestPoints:
     spacing : float
         Usual distance between points in metres.
     cells : Cells
-        Those whose lowest points are wanted.
+        The cells.
     lowest : numpy.ndarray of intp
         The lowest point of each occupied cell.
     cell : numpy.ndarray of int32
-        That cell, in the flattened grid.
+        The cell of each, in the flattened grid.
     heights : numpy.ndarray of float64, shape (rows, columns)
         Their heights, without low outliers; NaN where there is none.
     """
