@@ -119,7 +119,7 @@ class NearVertices:
             which, counts = which[order], counts[order]
         start = 0
         while start < len(which):
-            # Queries are sorted by their vertices: this one has the most of the part.
+            # Queries are sorted by their vertices: none of the part has more than this one.
             most = min(start + _TOGETHER // int(counts[start]), len(which)) - 1
             stop = start + max(_TOGETHER // int(counts[most]), 1)
             yield which[start:stop]

@@ -81,7 +81,7 @@ def _bilinear(
 
 
 def _lower(place: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return the centre before each place, and how far behind it the place lies."""
+    """Return the centre before each place, and how far beyond it the place lies."""
     place = np.clip(place, 0.0, count - 1.0)
     lower = np.minimum(place.astype(np.intp), max(count - 2, 0))
     return lower, (place - lower)[:, None]

@@ -61,7 +61,7 @@ class Border(NamedTuple):
         return self._total(all_, all_) / 3.0
 
     def faces(self, slope: np.ndarray | float = 0.0) -> tuple[np.ndarray, np.ndarray]:
-        """Return the share of each region's drops that are part of a face, steeper than a slope.
+        """Return the share of each region's drops on faces steeper than a slope, and what is known.
 
         The first is a share of the drops of which faces are known; the second is the share of these
         among all drops. The slope may be one for each region.
