@@ -11,7 +11,7 @@ from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from .shared.scattered import scattered_lows
 
-# Share of the points from which on low outliers are told.
+# If more than this share of the points are scattered low outliers, the log says so.
 _MANY_OUTLIERS = 1e-4
 # Usual width in metres of the largest building; few are wider.
 _USUAL_OBJECT = 50.0
@@ -58,7 +58,7 @@ class Method(NamedTuple):
     reach : callable
         ``reach(parameters)``, the distance in metres within which points affect each other.
     largest_object : callable
-        ``largest_object(parameters)``, the width in metres of the largest object looked for.
+        ``largest_object(parameters)``, the width in metres of the largest object that is searched.
     size_parameter : str
         Name of the parameter with this width.
     classic : str
@@ -68,8 +68,8 @@ class Method(NamedTuple):
     toolbox : Toolbox
         Its texts in the toolbox.
     takes_known_ground : bool
-        Whether `classify` takes the keyword ``known_ground``, a mask of points that are surely
-        ground, and starts from them.
+        Whether `classify` takes the keyword ``known_ground``, a mask of known ground points, and
+        starts from these.
     """
 
     name: str
@@ -102,7 +102,7 @@ class Method(NamedTuple):
         progress : Progress
             Receives progress and messages.
         known : numpy.ndarray of bool, shape (n,), optional
-            Points that are surely ground.
+            Points that are known to be ground.
         """
         starts = known is not None and known.any() and self.takes_known_ground
 

@@ -13,6 +13,7 @@ from ..core.points import Points
 from ..core.progress import SILENT
 from ..core.threads import over_parts, parts_of
 
+# Most cells of a grid: a larger one would not fit into memory.
 _MOST_CELLS = 200_000_000
 _POINTS_A_PART = 1 << 17
 _POINTS_A_COUNT = 1 << 20

@@ -41,13 +41,16 @@ _NEARLY = 0.05
 _DENSITY_BLOCK = 10.0
 # Side in metres of the blocks in which tall objects are searched; a block has at least 2 x 2 cells.
 _BLOCK = 1.0
+# Passes over low objects: the first removal uncovers more.
 _FINAL_PASSES = 2
 # The unevenness of the terrain is added so many times to the height of rims that are removed.
 _RIM_ROUGHNESS = 2.0
 # Low noise is narrower than this, and so far below the usual lowest points round it, in metres.
 _NOISE_WIDTH = 10.0
 _NOISE_DEPTH = 2.0
+# A pit of one cell with steeper sides (rise over run) is a low outlier.
 _OUTLIER_SLOPE = 5.0
+# Largest slope (rise over run) of the surface that counts, and relaxations across its gaps.
 _STEEPEST = 5.0
 _RELAXATIONS = 2
 # From so many points per square metre on, pits with this gentler slope are noise, too: in dense
@@ -223,7 +226,7 @@ class GridMinimum(ParameterSet):
 
 
 def largest_object(parameters: GridMinimum) -> float:
-    """Return the width in metres of the largest building that is looked for."""
+    """Return the width in metres of the largest building that is searched."""
     return parameters.max_object_size or PRESETS[parameters.preset].max_object_size
 
 

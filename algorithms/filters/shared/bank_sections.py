@@ -14,7 +14,7 @@ _RAISED, _CREST = 0.5, 0.7
 # measured, and the least and largest width.
 _HIGHEST, _FOOT_HEIGHT, _NARROWEST, _WIDEST = 1.6, 0.1, 1.0, 6.0
 # Largest standard deviation of the points from the cross-section: in metres, or for each metre of
-# the bank's height, whichever is more. For each unit of slope (rise over run) the last is added,
+# the bank's height, whichever is more. The last is added for each unit of slope (rise over run),
 # because the middle line is not exact.
 _SCATTER, _SCATTER_HEIGHT, _SCATTER_SLOPE = 0.06, 0.1, 0.12
 # The same at the crest: in metres, or as a multiple of that of the ground beside the bank.

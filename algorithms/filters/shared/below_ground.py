@@ -11,6 +11,7 @@ from ...grids.cells import Cells
 from ...grids.gradient import steepness
 from ...grids.inpaint import inpaint
 
+# Side of a cell in metres, and points that are compared at a time.
 _CELL = 1.0
 _CHUNK = 1 << 20
 

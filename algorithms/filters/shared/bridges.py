@@ -25,6 +25,8 @@ _DROP, _DROP_SLOPE, _DROP_SPACING = 0.5, 1.0, 0.75
 # A deck that was found is extended by at most so many metres, or spacings if that is more, where
 # cross-sections meet this weaker rule.
 _GROWTH, _GROWTH_SPACINGS, _WEAK_RULE = 8.0, 4.0, Rule(0.25, 0.9, False)
+# A deck has at least so many square metres and so many cells, and is at least so many metres, and
+# so many spacings of the points, long.
 _LEAST_AREA, _LEAST_CELLS, _LEAST_SPAN, _LEAST_SPACINGS = 12.0, 4, 3.0, 2.0
 # The ground at an end may differ in height from the deck by so many metres, and so many for each
 # metre of distance.

@@ -11,6 +11,7 @@ from ...core.points import Points
 from ...core.progress import Progress
 from ...grids.cells import Cells
 
+# Side in metres of the cells in which ground is counted.
 _CELL = 1.0
 # Least usual share of the cells with points that have ground.
 _LEAST_GROUND = 0.02

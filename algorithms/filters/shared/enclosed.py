@@ -10,9 +10,9 @@ from .allowance import Allowance
 _ISLAND_SHARE = 0.5
 # Most cells of a pit.
 _PIT_CELLS = 10
-# A pit is in a roof if at least the last share of the raised cells up to so many to each side is
-# even. A cell is even if it is within so many metres of the mean of two opposite neighbours. Crowns
-# are hardly ever even.
+# Cells to each side of a pit that are tested; metres from the mean of two opposite neighbours
+# within which a cell is even; and the least share of even cells among the raised ones if the pit is
+# in a roof. In crowns hardly any cell is even.
 _AROUND, _BEND, _EVEN_SHARE = 3, 0.15, 0.4
 
 # A courtyard has at least so many square metres, lies at most so many metres above the ground round

@@ -16,7 +16,7 @@ from .slopes import on_slope
 
 # Passes in which regions join the ground or regions that have joined it.
 _JOINING_PASSES = 4
-# Metres over which the surface is smoothed to tell a step from the terrain's own rise.
+# Metres over which the surface is smoothed for the terrain's own rise, which is no step.
 _TREND_SMOOTHING = 2.0
 # A trend is that of the terrain if the ground round about rises by at least this share of it.
 _LEAST_OF_TREND = 0.25

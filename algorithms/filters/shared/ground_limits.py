@@ -18,8 +18,8 @@ from .noise import below_middle, from_middle, middle_of_noise, noise_of_squares
 _SLOPE_SMOOTHING, _MOVES, _STEEPEST = 1.5, 2, 1.5
 # Metres over which the surface is smoothed for the slope that is added to the tolerances.
 _FACET_SMOOTHING = 0.7
-# Between these two spacings of the points, in metres, the tolerance on slopes is proportional to
-# it.
+# The tolerance on slopes is proportional to the spacing of the points, between these two spacings
+# in metres.
 _SPARSE, _DENSE = 1.0, 0.25
 # Largest spacing in metres at which the noise is measured in each cell, because the lowest of many
 # points in a cell lies below the ground.

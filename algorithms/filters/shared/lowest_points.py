@@ -11,6 +11,7 @@ from ...grids.cells import Cells, spacing
 from .objects import PLATEAU_HEIGHT, Objects, raised_objects
 from .outliers import lone_points, low_outliers
 
+# A pit with steeper sides (rise over run) is a low outlier: no terrain is so steep.
 _OUTLIER_SLOPE = 5.0
 # Heights in metres of the drops that bound an object, the tall ones first.
 _OBJECT_HEIGHTS = (5.0, 4.5, 2.0)
@@ -74,8 +75,8 @@ class LowestPoints:
     def objects(self, max_size: float, progress: Progress) -> Objects:
         """Return which of `cells` belong to objects or plateaus, with drops all round.
 
-        Plateaus are looked for on cells twice as wide as well. Narrow cells see no drop where the
-        rim of a roof has a gap, or where little of the drop lies between two of them.
+        Plateaus are searched on cells twice as wide as well. Narrow cells see no drop where the rim
+        of a roof has a gap, or where little of the drop lies between two of them.
         """
         cells, heights = self._wide()
         part, classic = progress.part(0.0, 0.7), self._classic

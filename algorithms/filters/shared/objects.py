@@ -73,10 +73,10 @@ def raised_objects(
     first : tuple of int
         Row and column of the first cell in the grid of the CRS.
     classic : bool
-        See `Regions.raised`. Plateaus are not looked for then.
+        See `Regions.raised`. If True, plateaus are not searched.
     plateau_height : float, optional
-        Least height in metres of a drop that bounds a plateau, for a last pass. Halls are looked
-        for as well then.
+        Least height in metres of a drop that bounds a plateau, for a last pass. Then halls are
+        searched as well.
 
     Returns
     -------
@@ -103,7 +103,7 @@ def raised_objects(
 
 
 def covered(known: np.ndarray) -> np.ndarray:
-    """Return which cells were surveyed: those with a height (rows, columns), and small gaps."""
+    """Return which cells were surveyed: cells with a height (rows, columns), and small gaps."""
     from scipy import ndimage
 
     closed = np.pad(known, _GAP).astype(np.uint8)

@@ -121,7 +121,7 @@ def supported(
     grid, size, first
         As for `low_outliers`, and so is the result.
     pits : numpy.ndarray of bool, shape (rows, columns)
-        Cells that lie far below those next to them.
+        Cells that lie far below the cells next to them.
     depth : numpy.ndarray of float, shape (rows, columns)
         The depth of the pits in metres.
     even : numpy.ndarray of bool, shape (rows, columns), optional

@@ -234,7 +234,7 @@ class SlopeFilter(ParameterSet):
 
 
 def largest_object(parameters: SlopeFilter) -> float:
-    """Return the width in metres of the largest building that is looked for."""
+    """Return the width in metres of the largest building that is searched."""
     given = parameters.search_radius
     if parameters.preset == CLASSIC:
         return _WIDEST * (given or _WHITEBOX_RADIUS)

@@ -37,7 +37,7 @@ def stands_above(
     points : Points
         All points.
     rule : Rule
-        Which points are compared, and what counts.
+        When a point stands far above a neighbour.
     at_least : int
         See `Neighbourhood`.
     progress : Progress

@@ -227,7 +227,7 @@ class TinDensification(ParameterSet):
 
 
 def largest_object(parameters: TinDensification) -> float:
-    """Return the width in metres of the largest building that is looked for."""
+    """Return the width in metres of the largest building that is searched."""
     return parameters.max_building_size or PRESETS[parameters.preset].max_building_size
 
 
