@@ -292,7 +292,7 @@ def _limits(surface: np.ndarray, parameters: GridMinimum) -> np.ndarray:
 
 
 class _Grids(NamedTuple):
-    """What is found by the rims of objects; grids of shape (rows, columns).
+    """Results from the rims of objects; grids of shape (rows, columns).
 
     Attributes
     ----------

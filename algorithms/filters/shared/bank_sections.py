@@ -133,7 +133,7 @@ def _sections(strip: Strip, kept: np.ndarray, length: float) -> _Sections:
     count = total(kept)
     with np.errstate(invalid="ignore", divide="ignore"):
         along, across, z = (total(np.where(kept, each, 0.0)) / count for each in strip[1:4])
-        # Without the fall of the land along the line.
+        # The fall of the land along the line is removed.
         beyond = np.where(kept, strip.along - along[step], 0.0)
         fall = strip.total(beyond * strip.z) / strip.total(beyond * beyond)
         height = (z - np.repeat(fall, steps) * along).reshape(-1, steps)

@@ -61,10 +61,11 @@ class Border(NamedTuple):
         return self._total(all_, all_) / 3.0
 
     def faces(self, slope: np.ndarray | float = 0.0) -> tuple[np.ndarray, np.ndarray]:
-        """Return the share of each region's drops on faces steeper than a slope, and what is known.
+        """Return the share of each region's drops on steep faces, and the share that is known.
 
-        The first is a share of the drops of which faces are known; the second is the share of these
-        among all drops. The slope may be one for each region.
+        Steep faces are steeper than `slope`, which may have a value for each region. The first
+        share is among the drops whose faces are known; the second is the share of these among all
+        drops.
         """
         slopes = np.broadcast_to(slope, self.regions)
         first, second = (self.sign == sign for sign in (-1, 1))

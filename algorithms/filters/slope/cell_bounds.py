@@ -29,7 +29,7 @@ class Rule(NamedTuple):
     height : float
         Least difference in height in metres.
     slope : float
-        The rise over run must be more than this. One neighbour must meet both.
+        The rise over run must be more than this. The same neighbour must meet height and slope.
     top_hat : bool
         Whether heights above the opening are compared (white top-hat). The opening is the highest
         erosion among the neighbours.

@@ -21,8 +21,8 @@ def low_clusters(
 
     The grid is closed by discs (the opening of -z). Where this raises cells by more than `slope`
     times the radius, there is a pit. A pit holds outliers if it is no longer than the disc's
-    diameter in either direction, unlike ditches and streets between houses, and so deep below the
-    surroundings without it, too, unlike a courtyard.
+    diameter in either direction, unlike ditches and streets between houses, and also so deep below
+    its surroundings, unlike a courtyard.
 
     Parameters
     ----------
