@@ -1,4 +1,4 @@
-"""What is said of a ground filter: the command line, the dialogs and the runs go by it."""
+"""The description of a ground filter, for the command line, the dialogs and the runs."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from .shared.scattered import scattered_lows
 
-# Share of the points from which on low outliers are told.
+# If more than this share of the points are scattered low outliers, the log says so.
 _MANY_OUTLIERS = 1e-4
-# Metres: few buildings are wider.
+# Usual width in metres of the largest building; few are wider.
 _USUAL_OBJECT = 50.0
 
 
@@ -31,7 +31,7 @@ class Toolbox(NamedTuple):
     page : str
         Its page in the folder docs.
     words : tuple of str
-        What people search it by, with commas between; each is translated as a whole.
+        Search words, separated by commas; each text is translated as a whole.
     """
 
     identifier: str
@@ -52,24 +52,24 @@ class Method(NamedTuple):
     label : str
         As in the toolbox.
     parameters : type
-        Its `ParameterSet`, of which one field is `preset`, with a choice ``automatic``.
+        Its `ParameterSet`. It has a field `preset` with a choice ``automatic``.
     classify : callable
         ``classify(points, parameters, progress)``, a pure function that returns the ground mask.
     reach : callable
-        ``reach(parameters)``, the metres beyond which a point does not matter for another.
+        ``reach(parameters)``, the distance in metres within which points affect each other.
     largest_object : callable
-        ``largest_object(parameters)``, the width in metres of the largest object looked for.
+        ``largest_object(parameters)``, the width in metres of the largest object that is searched.
     size_parameter : str
-        Name of the parameter that says so.
+        Name of the parameter with this width.
     classic : str
-        The preset that does just what an original does: nothing is added to it.
+        The preset that does the same as the original program or paper, without additions.
     presets : mapping of str to dataclass or NamedTuple
         The values of each preset that has some, for the help.
     toolbox : Toolbox
-        What the toolbox says of it.
+        Its texts in the toolbox.
     takes_known_ground : bool
-        Whether `classify` takes the keyword ``known_ground``, a mask of points that are surely
-        ground, and starts from them.
+        Whether `classify` takes the keyword ``known_ground``, a mask of known ground points, and
+        starts from these.
     """
 
     name: str
@@ -91,18 +91,18 @@ class Method(NamedTuple):
         progress: Progress = SILENT,
         known: np.ndarray | None = None,
     ) -> np.ndarray:
-        """Return the ground mask of points (n,): low outliers all over a dense cloud go first.
+        """Return the ground mask (n,), without low outliers that are scattered over a dense cloud.
 
         Parameters
         ----------
         points : Points
             All points that take part.
         parameters : ParameterSet
-            Those of the method.
+            Parameters of the method.
         progress : Progress
             Receives progress and messages.
         known : numpy.ndarray of bool, shape (n,), optional
-            Points that are surely ground.
+            Points that are known to be ground.
         """
         starts = known is not None and known.any() and self.takes_known_ground
 
@@ -124,13 +124,13 @@ class Method(NamedTuple):
         return ground
 
     def is_classic(self, parameters: ParameterSet) -> bool:
-        """Return whether parameters ask for what an original does."""
+        """Return whether the parameters select the classic preset."""
         return vars(parameters)["preset"] == self.classic
 
     def largest(self, parameters: ParameterSet) -> tuple[float, str]:
-        """Return the width in metres of the largest object to be expected, and what says so.
+        """Return the width in metres of the largest expected object, and the parameter's name.
 
-        Where nobody said so, it is that of a usual one: larger ones are looked for, but are few.
+        If the user gave no width, it is a usual one: wider objects are searched, but rare.
         """
         labels = {each.name: each.label for each in parameters.declarations()}
         size = self.largest_object(parameters)

@@ -1,4 +1,4 @@
-"""Blocks of the cells of a grid: their lowest heights, and values between their middles."""
+"""Square blocks of grid cells: their lowest heights, and interpolation between their middles."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class CellBlocks(NamedTuple):
 
     @classmethod
     def over(cls, cells: Cells, size: float, least: int = 2) -> CellBlocks:
-        """Return blocks of about a size in metres, at least some cells wide."""
+        """Return blocks of about `size` metres that are at least `least` cells wide."""
         side = max(round(size / cells.size), least)
         blocks, within = zip(*(divmod(each, side) for each in cells.first))
         return cls(side * cells.size, side, within, blocks)
@@ -45,16 +45,16 @@ class CellBlocks(NamedTuple):
         return lowest
 
     def total(self, counts: np.ndarray) -> np.ndarray:
-        """Return the sum of a count of each cell over each block."""
+        """Return the sum of the cells' counts in each block."""
         return self._reduced(np.add, counts, 0)
 
     def repeated(self, values: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
-        """Return the value of its block for each cell of a grid of some shape."""
+        """Return a grid of the given shape in which each cell has the value of its block."""
         repeated = np.repeat(np.repeat(values, self.side, axis=0), self.side, axis=1)
         return repeated[self._cells(shape)]
 
     def interpolated(self, values: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
-        """Return values of blocks, interpolated to each cell of a grid of some shape."""
+        """Return a grid of the given shape, interpolated between the middles of the blocks."""
         rows, columns = (np.arange(first, first + count) for first, count in zip(self.first, shape))
         return between_blocks(values, self.side, rows, columns)
 
@@ -66,7 +66,7 @@ class CellBlocks(NamedTuple):
         ]
         padded = np.full(shape, neutral, dtype=grid.dtype)
         padded[self._cells(grid.shape)] = grid
-        # Slices, as numpy is slow at reducing axes so short.
+        # By slices, because NumPy is slow at reducing short axes.
         rows = functools.reduce(function, (padded[at :: self.side] for at in range(self.side)))
         return functools.reduce(function, (rows[:, at :: self.side] for at in range(self.side)))
 

@@ -1,4 +1,4 @@
-"""A rectangle of the cells that are anchored at (0, 0)."""
+"""A rectangular window of square cells that are anchored at (0, 0)."""
 
 from __future__ import annotations
 
@@ -7,19 +7,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-# Share of a cell by which a coordinate on a border may be rounded to the wrong side.
+# Rounding error of a coordinate on the border of a cell, as a share of the cell.
 _ROUNDING = 1e-6
 
 
 class CellWindow(NamedTuple):
-    """Square cells of some side: which of them, counted from (0, 0) to the north and to the east.
+    """A rectangle of square cells, which are counted from (0, 0) to the north and to the east.
 
     Attributes
     ----------
     row, column : int
-        The first of them, in the southwest.
+        The first cell, in the southwest.
     rows, columns : int
-        How many.
+        Size of the window.
     """
 
     row: int
@@ -29,7 +29,7 @@ class CellWindow(NamedTuple):
 
     @classmethod
     def with_centres_in(cls, box: tuple[float, float, float, float], cell: float) -> CellWindow:
-        """Return the cells whose centres lie in a box; its largest x and y belong to the next."""
+        """Return the cells whose centres lie in a box, without its largest x and y."""
         west, south, east, north = (math.ceil(each / cell - 0.5) for each in box)
         return cls(south, west, max(north - south, 0), max(east - west, 0))
 
@@ -57,7 +57,7 @@ class CellWindow(NamedTuple):
         )
 
     def within(self, other: CellWindow) -> CellWindow:
-        """Return the cells that both windows have; none or fewer than none if they are apart."""
+        """Return the cells that both windows share; its size is 0 or negative if they are apart."""
         row, column = max(self.row, other.row), max(self.column, other.column)
         north = min(self.row + self.rows, other.row + other.rows)
         east = min(self.column + self.columns, other.column + other.columns)
@@ -66,21 +66,21 @@ class CellWindow(NamedTuple):
     def places(
         self, x: np.ndarray, y: np.ndarray, corner: tuple[float, float], cell: float
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Return row and column in the window of the cell of each place.
+        """Return the row and the column, in the window, of the cell that holds each place.
 
         Parameters
         ----------
         x, y : numpy.ndarray of float64, shape (n,)
             Metres from the corner.
         corner : tuple of float
-            Where that is.
+            x and y of that corner in metres.
         cell : float
             Side of a cell in metres.
 
         Returns
         -------
         rows, columns : numpy.ndarray of int64, shape (n,)
-            Below 0, or too large, outside the window.
+            Negative or too large for places outside the window.
         """
         start_x, start_y = (at - by for at, by in zip(self.corner(cell), corner))
         rows = np.floor((y - start_y) / cell + _ROUNDING).astype(np.int64)

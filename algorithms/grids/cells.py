@@ -1,4 +1,4 @@
-"""Square cells over points: which cell each point lies in, the lowest point of each, and back."""
+"""Square grid cells over points: the cell of each point, and the lowest point of each cell."""
 
 from __future__ import annotations
 
@@ -13,18 +13,22 @@ from ..core.points import Points
 from ..core.progress import SILENT
 from ..core.threads import over_parts, parts_of
 
+# Most cells of a grid: a larger one would not fit into memory.
 _MOST_CELLS = 200_000_000
 _POINTS_A_PART = 1 << 17
 _POINTS_A_COUNT = 1 << 20
-# Before, `ufunc.at` took three times as long as it takes to do without.
+# In older NumPy, `ufunc.at` takes three times as long as a loop without it.
 _HAS_FAST_AT = np.lib.NumpyVersion(np.__version__) >= "1.25.0"
-# Side in metres of the blocks that are a gap in the survey where they have no point.
+# Side in metres of the blocks in which points are counted. A block without a point is a gap in the
+# survey.
 _BLOCK = 10.0
-# Times as many points as are dense, on average, where surely most blocks are.
+# If the bounding box has so many times the points of a dense survey, most blocks are dense, and the
+# points need not be counted.
 _SURELY = 4.0
-# Metres of which the usual distance between points is a multiple, if nothing else is said.
+# Step in metres to which the usual distance between points is rounded by default.
 _SPACING_STEP = 0.5
-# Cells along the gap between groups of points, an even number, and the least side of one in metres.
+# To divide points into groups: cells along the reach (even, because points are dilated by half of
+# them), and the least side of a cell in metres.
 _CELLS_A_REACH, _LEAST_GAP = 10, 5.0
 
 
@@ -62,13 +66,12 @@ class Cells:
         size : float
             Side of a cell in metres.
         shift : float
-            Metres by which the cells begin farther west and south: they are those of points that
-            lie so much farther east and north.
+            Metres by which the borders of the cells are shifted to the west and south.
 
         Raises
         ------
         BareEarthError
-            If they would not fit into memory.
+            If the cells would not fit into memory.
         """
         first_column, first_row, last_column, last_row = (
             math.floor((extreme + shift) / size) for extreme in points.box
@@ -102,9 +105,9 @@ class Cells:
         return self.rows, self.columns
 
     def minimum(self, z: np.ndarray, which: np.ndarray | slice = slice(None)) -> np.ndarray:
-        """Return the lowest of `z` (n,) in each cell, shape (rows, columns); NaN where none is.
+        """Return the lowest of `z` (n,) in each cell, shape (rows, columns); NaN in empty cells.
 
-        `which`, a mask or an index array, names the points to look at; by default all.
+        `which` selects the points, as a mask or an index array; by default all.
         """
         lowest = np.full(self.rows * self.columns, np.inf)
         lower_at(lowest, self.index[which], z[which])
@@ -132,15 +135,15 @@ class Cells:
         """Return the number of points in each cell; int32, shape (rows, columns)."""
         counts = np.zeros(self.rows * self.columns, dtype=np.int32)
         for part in parts_of(len(self.index), _POINTS_A_COUNT):
-            # In steps, as bincount takes 8 bytes for each.
+            # Part by part, because bincount copies the indices to 8 bytes each.
             step = np.bincount(self.index[part])
             counts[: len(step)] += step
         return counts.reshape(self.shape)
 
     def spacing(self, counts: np.ndarray, dense: float = 1.0, step: float = _SPACING_STEP) -> float:
-        """Return the usual distance between points, as `spacing`, from how many each cell holds.
+        """Return the usual distance between points in metres, from the count of each cell.
 
-        Blocks of whole cells are taken.
+        As the function `spacing`, with blocks of whole cells.
         """
         side = max(1, round(_BLOCK / self.size))
         for axis, (first, count) in enumerate(zip(self.first, self.shape)):
@@ -157,7 +160,7 @@ class Cells:
         return self.holding(slice(None))
 
     def holding(self, which: np.ndarray | slice) -> np.ndarray:
-        """Return which cells hold one of some points; boolean, shape (rows, columns)."""
+        """Return which cells hold any of the selected points; boolean, shape (rows, columns)."""
         holding = np.zeros(self.rows * self.columns, dtype=bool)
         holding[self.index[which]] = True
         return holding.reshape(self.shape)
@@ -174,7 +177,7 @@ class Cells:
         return ndimage.map_coordinates(grid, (row, column), order=1, mode="nearest")
 
     def resampled(self, grid: np.ndarray, other: Cells) -> np.ndarray:
-        """Return for each cell of `other` the value of the cell here in which its centre lies.
+        """Return a grid on the cells of `other`, with the value of the cell that holds the centre.
 
         Beyond this grid the value of the border is taken.
         """
@@ -188,22 +191,22 @@ class Cells:
 
 
 def apart(points: Points, reach: float) -> tuple[np.ndarray, int]:
-    """Part points into groups between which there is a gap.
+    """Divide points into groups that are separated by gaps.
 
     Parameters
     ----------
     points : Points
         At least one.
     reach : float
-        Metres: no point of another group is as close; groups are surely told apart where the gap
-        is a quarter wider, and at least 65 m.
+        Points of different groups are farther apart than this, in metres. Gaps that are a quarter
+        wider, and at least 65 m wide, always separate groups.
 
     Returns
     -------
     numpy.ndarray of int32, shape (n,)
-        The group of each point; of length 0 if there is but one.
+        The group of each point; empty if there is only one group.
     int
-        How many there are.
+        Number of groups.
     """
     from scipy import ndimage
 
@@ -220,7 +223,7 @@ def apart(points: Points, reach: float) -> tuple[np.ndarray, int]:
 
 
 def first_of_each(index: np.ndarray, size: int, *keys: np.ndarray) -> np.ndarray:
-    """Return which of the elements in each of `size` cells is the first, in the order of the cells.
+    """Return the index of the first element of each cell, in the order of the cells.
 
     Parameters
     ----------
@@ -229,12 +232,13 @@ def first_of_each(index: np.ndarray, size: int, *keys: np.ndarray) -> np.ndarray
     size : int
         Number of cells.
     *keys : numpy.ndarray of float, shape (n,)
-        The first of a cell has the least of the first key; of equals, the least of the next.
+        Sort keys. The first element of a cell has the least first key; the next key decides between
+        equal ones.
 
     Returns
     -------
     numpy.ndarray of intp, shape (m,)
-        One element of each cell that has any.
+        One element for each occupied cell.
     """
     which = np.arange(len(index))
     for key in keys:
@@ -244,17 +248,17 @@ def first_of_each(index: np.ndarray, size: int, *keys: np.ndarray) -> np.ndarray
         which = which[values == least[cell]]
     index = index[which]
     found = np.full(size, -1, dtype=np.intp)
-    found[index] = which  # the last one of elements that are all the same
+    found[index] = which  # of elements with equal keys, the last one
     return found[found >= 0]
 
 
 def are_inside(row: np.ndarray, column: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
-    """Return which places, by row and column, lie in a grid of some shape; boolean, shape (n,)."""
+    """Return which rows and columns lie in a grid of the given shape; boolean, shape (n,)."""
     return (row >= 0) & (row < shape[0]) & (column >= 0) & (column < shape[1])
 
 
 def numbered(counts: np.ndarray) -> np.ndarray:
-    """Return 0, 1, ... up to each count, one after the other.
+    """Return 0, 1, ... to each count (which is not included), one run after the other.
 
     Examples
     --------
@@ -266,14 +270,14 @@ def numbered(counts: np.ndarray) -> np.ndarray:
 
 
 def lower_at(target: np.ndarray, index: np.ndarray, values: np.ndarray) -> None:
-    """Lower the elements of an array to the least of the values that are given for each.
+    """Lower each element of an array to the least value given for it, as `numpy.minimum.at`.
 
     Parameters
     ----------
     target : numpy.ndarray, shape (m,)
         Changed in place.
     index : numpy.ndarray of int, shape (n,)
-        Which element each value is for.
+        The element that each value belongs to.
     values : numpy.ndarray, shape (n,)
         The values.
     """
@@ -283,25 +287,25 @@ def lower_at(target: np.ndarray, index: np.ndarray, values: np.ndarray) -> None:
     left = np.flatnonzero(values < target[index])
     while len(left):
         at, some = index[left], values[left]
-        target[at] = some  # of several for one element, any stays
+        target[at] = some  # of several values for one element, one is stored
         left = left[some < target[at]]
 
 
 def spacing(points: Points, dense: float = 1.0, step: float = _SPACING_STEP) -> float:
     """Return the usual distance between points in metres, in coarse steps.
 
-    It is that of the median of the blocks within the survey, so that neither gaps nor the extent
-    nor a few points matter, and in steps (below a metre by a factor of two of the points per square
-    metre), so that a crop hardly ever does.
+    It follows from the median number of points in blocks of 10 m within the survey. So gaps, the
+    extent and a few points do not change it. It is rounded, below a metre to densities that differ
+    by a factor of two, so that it is hardly ever different in a crop.
 
     Parameters
     ----------
     points : Points
         All points.
     dense : float
-        Metres: a smaller spacing is as good as any.
+        Least distance to return, in metres.
     step : float
-        Metres of which it is a multiple, from a metre on.
+        Distances of a metre and more are multiples of this, in metres.
     """
     area = math.prod(points.sides)
     if _SURELY * area <= dense**2 * points.count:
@@ -311,7 +315,7 @@ def spacing(points: Points, dense: float = 1.0, step: float = _SPACING_STEP) -> 
 
 
 def usual_count(counts: np.ndarray) -> float:
-    """Return the median of the points in blocks, a grid of them; of those within the survey."""
+    """Return the median number of points of the blocks within the survey, from a grid of counts."""
     from scipy import ndimage
 
     within = ndimage.binary_erosion(counts > 0, np.ones((3, 3)))

@@ -1,9 +1,9 @@
 """Heights on the TIN of thinned points, mostly without a triangulation.
 
-Where points lie in most cells of the lattice, the triangle round a query follows from the few
-vertices near it (`enclosing`). What is left is round gaps: only the vertices near these are
-triangulated. The heights are those of the one Delaunay triangulation of all vertices, but where
-four vertices round a query are taken for all that matter (`heights_of_four`).
+Where most cells of the lattice hold a point, the few vertices near a query give its triangle
+(`enclosing`). The other queries lie near gaps. For them, the vertices round the gaps are
+triangulated. The heights are those of the Delaunay triangulation of all vertices, except where only
+the four vertices round a query are used (`heights_of_four`).
 """
 
 from __future__ import annotations
@@ -20,14 +20,16 @@ from .near_vertices import WIDEST, NearVertices, Queries
 from .surface import CellLattice, Surface
 from .thinned import TILE, ThinnedPoints
 
-# Cells of the lattice along a side of the raster's cells: the centre of one is a corner of four.
+# Cells of the lattice along the side of a raster cell, so that the centre of a raster cell is a
+# corner of four lattice cells.
 VERTICES_A_SIDE = 2
-# Cells of the lattice round queries that are left whose vertices are triangulated. The circle round
-# a triangle over a gap holds no vertex, and reaches hardly a cell into where each has one.
+# Vertices within so many lattice cells of the remaining queries are used. The circumcircle of a
+# triangle over a gap holds no vertex, so it hardly reaches into land where each cell has one.
 _RIM = WIDEST
-# Those among them that are triangulated; the others are looked at where a circle holds any.
+# Only vertices within so many cells are triangulated. The others are needed where a circle holds
+# any.
 _NARROW_RIM = 2
-# Cells by which a vertex may seem to lie outside its tile, because of rounding.
+# Rounding error of a vertex at the border of a tile, in lattice cells.
 _A_LITTLE = 0.01
 
 
@@ -37,10 +39,10 @@ class DenseSurface:
     Parameters
     ----------
     points : Points
-        At least one. The point nearest to the centre of each cell of the lattice is a vertex, and
-        so are the corners of the convex hull.
+        At least one point. The vertices are the point nearest to the centre of each lattice cell,
+        and the corners of the convex hull.
     cell : float
-        Metres: twice the side of a cell of the lattice.
+        Side of a raster cell in metres; a lattice cell has half of it.
     anchor : tuple of float
         x and y of a corner of cells in metres.
     progress : Progress
@@ -151,7 +153,7 @@ class DenseSurface:
     def nearest(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Return the height of the vertex nearest to each query.
 
-        Only tiles are searched in which it may lie: none is farther than a corner of the hull.
+        Only tiles that may hold it are searched: it is never farther than the nearest hull corner.
         """
         from scipy.spatial import cKDTree
 
@@ -176,18 +178,18 @@ class DenseSurface:
 
     @property
     def vertices(self) -> np.ndarray:
-        """Which of the points are vertices, in ascending order."""
+        """Indices of the points that are vertices, ascending."""
         return np.flatnonzero(self._are_vertices())
 
     @property
     def hull(self) -> np.ndarray:
-        """Which of the points are the corners of the convex hull."""
+        """Indices of the points that are corners of the convex hull."""
         return self._thinned.hull
 
     def _in_tile(
         self, place: tuple[int, int], queries: Queries, are_corners: bool, max_edge: float | None
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Return heights of the queries in a tile, and which of them are sure."""
+        """Return the heights of the queries in a tile, and which of them are certain."""
         longest = np.inf if max_edge is None else max_edge / self._thinned.side
         return NearVertices(self._thinned, place, are_corners, longest).heights(queries)
 
@@ -199,7 +201,7 @@ class DenseSurface:
         progress: Progress,
         cells: CellLattice | None = None,
     ) -> np.ndarray:
-        """Return heights of the queries that are left, on a triangulation of the vertices near."""
+        """Return heights of the remaining queries, on a triangulation of the vertices near them."""
         vertices = np.flatnonzero(self._are_vertices((x, y), _RIM))
         meshed = self._are_vertices((x, y), _NARROW_RIM)[vertices]
         progress(0.15)
@@ -210,7 +212,7 @@ class DenseSurface:
     def _are_vertices(
         self, near: tuple[np.ndarray, np.ndarray] | None = None, rim: int = 0
     ) -> np.ndarray:
-        """Return which points are vertices (n,); all, or those near some places."""
+        """Return a mask (n,) of the vertices, or only of the vertices near some places."""
         is_vertex = np.zeros(self._points.count, dtype=bool)
         is_vertex[self._thinned.hull] = True
         marked = None if near is None else _marked(self._thinned, *near, rim)
@@ -225,7 +227,7 @@ class DenseSurface:
 def _by_tile(
     thinned: ThinnedPoints, x: np.ndarray, y: np.ndarray
 ) -> list[tuple[tuple[int, int], np.ndarray]]:
-    """Return the tiles in which queries lie, as row and column, and the queries of each."""
+    """Return row and column of each tile that holds queries, with the indices of its queries."""
     row, column = (
         np.floor(thinned.cells(each, axis)).astype(np.int64) // TILE
         for axis, each in ((1, y), (0, x))
@@ -240,7 +242,7 @@ def _by_tile(
 def _marked(
     thinned: ThinnedPoints, x: np.ndarray, y: np.ndarray, rim: int
 ) -> dict[tuple[int, int], np.ndarray]:
-    """Return for each tile which of its cells lie near places; boolean, shape (TILE * TILE,)."""
+    """Return a mask (TILE * TILE,) of the cells near places for each tile that has any."""
     marked: dict[tuple[int, int], np.ndarray] = {}
     for place, which in _by_tile(thinned, x, y):
         row, column = (

@@ -12,15 +12,15 @@ import numpy as np
 
 from .tin import opposite_areas
 
-# x and y that stand for no vertex.
+# x and y of a missing vertex.
 NOWHERE = 1e6
-# Each step lowers the plane at the query; few triangles need more than ten. Rounding on a circle
-# through many vertices could make it go round and round.
+# Most exchanges of a vertex. Few triangles need more than ten. With many vertices on one circle,
+# rounding could make the search endless.
 _MOST_STEPS = 60
-# Share of the squared distances by which a vertex may lie in the circle and count as on it.
+# A vertex inside the circle by less than this share of the squared distances counts as on it.
 _ON_CIRCLE = 1e-9
 _NO_WEIGHT = 1e-12
-# Added to a squared distance, tells that the vertex lies in another quarter.
+# Added to the squared distance of a vertex in another quarter, so that it is never the nearest.
 _FAR = 1e13
 
 
@@ -30,18 +30,18 @@ def enclosing_triangles(
     window: np.ndarray,
     quarters: list[np.ndarray] | None = None,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the triangles of the Delaunay triangulation at queries, and whether they are sure.
+    """Return the Delaunay triangles that hold queries, and whether they are certain.
 
     Parameters
     ----------
     x, y : numpy.ndarray of float64, shape (k, q)
         Vertices near each query, relative to it; `NOWHERE` in the place of one that is missing.
     window : numpy.ndarray of float64, shape (4,) or (4, q)
-        Distance from the query to the west, south, east and north border of the window that the
-        vertices are all vertices of.
+        Distances from the query to the west, south, east and north border of the window. All
+        vertices in the window must be given.
     quarters : list of numpy.ndarray of int, optional
-        Which of the k vertices can lie southwest, southeast, northeast and northwest of the query;
-        if it is not given, that is looked up.
+        Indices of the vertices that can lie southwest, southeast, northeast and northwest of the
+        query. By default they are found from x and y.
 
     Returns
     -------
@@ -87,22 +87,22 @@ def enclosing_triangles(
 
 
 def picked(values: np.ndarray, which: np.ndarray) -> np.ndarray:
-    """Return one value a column, or several: `which`, shape (q,) or (n, q), of values (k, q)."""
+    """Return the values in rows `which`, shape (q,) or (n, q), of each column of values (k, q)."""
     return values.ravel().take(which * values.shape[1] + np.arange(values.shape[1]))
 
 
 def heights_of_four(
     x: np.ndarray, y: np.ndarray, z: np.ndarray, max_edge: float = np.inf
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return heights at queries on the triangulation of four vertices round each, and where it is.
+    """Return heights on the triangulation of the four vertices round each query.
 
-    That is nearly always the triangulation of all vertices: in dense land 99 of 100 heights are the
-    same, and those of the others differ by some millimetres.
+    It nearly always equals the triangulation of all vertices: in dense land 99 of 100 heights are
+    the same, and the others differ by some millimetres.
 
     Parameters
     ----------
     x, y, z, max_edge
-        As for `enclosing_heights`; k is 4, for the vertices southwest, southeast, northeast and
+        As for `enclosing_triangles`, with k = 4: the vertices southwest, southeast, northeast and
         northwest.
 
     Returns
@@ -117,8 +117,8 @@ def heights_of_four(
     behind_x, behind_y = -np.roll(ahead_x, 1, axis=0), -np.roll(ahead_y, 1, axis=0)
     dot = ahead_x * behind_x + ahead_y * behind_y
     cross = ahead_x * behind_y - ahead_y * behind_x
-    # The diagonal from southwest to northeast, if the other two angles are together no more than
-    # half a turn.
+    # Use the diagonal from southwest to northeast if the angles at the other two vertices add up to
+    # at most 180 degrees.
     is_first = cross[1] * dot[3] + dot[1] * cross[3] >= 0.0
     start = np.where(is_first, 0, 1)
     one, other = start, start + 2
@@ -139,10 +139,10 @@ def heights_of_four(
 def _nearest_of_quarters(
     x: np.ndarray, y: np.ndarray, distance: np.ndarray, quarters: list[np.ndarray] | None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return which vertices are the nearest in the four quarters (4, q), and whether all are."""
+    """Return the nearest vertex of each quarter (4, q), and whether all quarters have one (q,)."""
     corners, are_there = np.empty((4, x.shape[1]), dtype=np.intp), np.ones(x.shape[1], dtype=bool)
     if quarters is None:
-        # Adding these is ten times as fast as choosing.
+        # To add a large distance is ten times as fast as to select the vertices of a quarter.
         west, south = (np.multiply(each >= 0.0, _FAR) for each in (x, y))
         east, north = _FAR - west, _FAR - south
         beyond = ((west, south), (east, south), (east, north), (west, north))
@@ -158,10 +158,10 @@ def _nearest_of_quarters(
 
 
 def _lowest(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the lowest of each column of values (k, q), which are changed, and its row.
+    """Return the lowest value of each column (k, q), and its row; changes `values`.
 
-    The number of the row is kept in the last bits: an argmin down the columns takes ten times as
-    long as a minimum.
+    The number of the row is stored in the last bits of the values, because an argmin down the
+    columns takes ten times as long as a minimum.
     """
     mask = (1 << int(len(values) - 1).bit_length()) - 1
     bits = values.view(np.int64)
@@ -172,7 +172,7 @@ def _lowest(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _first_triangle(x: np.ndarray, y: np.ndarray, corners: np.ndarray) -> np.ndarray:
-    """Return the three of four corners, one in each quarter, whose triangle holds the query."""
+    """Return three of the four corners (one in each quarter) whose triangle holds the query."""
     west_x, west_y = picked(x, corners[0]), picked(y, corners[0])
     east_x, east_y = picked(x, corners[2]), picked(y, corners[2])
     is_left = (east_y - west_y) * west_x - (east_x - west_x) * west_y > 0.0
@@ -221,7 +221,7 @@ def leaving_corner(a: np.ndarray, b: np.ndarray, x: np.ndarray, y: np.ndarray) -
     a, b : numpy.ndarray of float64, shape (3, q)
         x and y of the corners, relative to the query.
     x, y : numpy.ndarray of float64, shape (q,)
-        Those of the new vertices.
+        x and y of the new vertices, relative to the query.
     """
     shares, weights = _opposite_areas(a - x, b - y), _opposite_areas(a, b)
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -18,7 +18,7 @@ def gradient(surface: np.ndarray, size: float) -> tuple[np.ndarray, np.ndarray]:
     Returns
     -------
     north, east : numpy.ndarray of float, shape (rows, columns)
-        Central differences, one-sided at the border; 0 along a side of a single cell.
+        Central differences, one-sided at the border; 0 along an axis of one cell.
     """
     north, east = (
         np.gradient(surface, size, axis=axis) if surface.shape[axis] > 1 else np.zeros_like(surface)
@@ -33,5 +33,5 @@ def steepness(surface: np.ndarray, size: float) -> np.ndarray:
 
 
 def length(north: np.ndarray, east: np.ndarray) -> np.ndarray:
-    """Return the length of vectors; `numpy.hypot`, which minds overflow, takes far longer."""
+    """Return the length of vectors, faster than `numpy.hypot`, which guards against overflow."""
     return np.sqrt(north * north + east * east)

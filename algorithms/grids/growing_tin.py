@@ -1,4 +1,4 @@
-"""A TIN that takes more vertices, many at a time, without being triangulated anew."""
+"""A TIN to which many vertices are added at a time, without triangulating it again."""
 
 from __future__ import annotations
 
@@ -9,20 +9,21 @@ from ..core.progress import SILENT
 from ..core.threads import in_threads, over_parts, parts_of
 from .tin import Tin, opposite_areas
 
-# Share of the sum of the terms of a determinant that may be rounding.
+# Rounding error of a determinant, as a share of the sum of its terms.
 _ROUNDING = 1e-12
-# Share of the squared length of an edge by which twice the area beside it may differ from 0 where a
-# point lies on the edge.
+# A point lies on an edge if twice the area between them is at most this share of the squared length
+# of the edge.
 _ON_EDGE = 1e-10
-# Twice the area, in m2, by which a query may lie outside an edge and count as on it: rounding.
+# Rounding: a query outside an edge still counts as on it if twice the area between them is below
+# this, in m2.
 _OUTSIDE = 1e-11
-# Triangles that a query walks through at once. Those that are left are better asked for together.
+# Triangles that a query walks through in one call. It is faster to repeat the rest together.
 _STEPS = 6
 # Edges whose arrays stay in the processor's cache.
 _EDGES_A_PART = 1 << 15
-# Edges are flipped until all are right: long before, unless rounding makes them go round and round.
+# Most rounds of flips. Far fewer are enough, unless rounding makes the flips endless.
 _MOST_STEPS = 1000
-# Steps of a metre to which coordinates are compared where four vertices lie on one circle.
+# Where four vertices lie on one circle, coordinates are compared in so many steps a metre.
 _STEPS_A_METRE = 1e5
 
 
@@ -31,25 +32,25 @@ class GrowingTin:
 
     A vertex splits the triangle that holds it into three; then edges are flipped until no vertex
     lies in the circumcircle of a triangle (Lawson 1977). All splits, and all flips that do not
-    touch each other, are done at once. Where four vertices lie on one circle, the edge is the one
-    that ends in the westernmost: so the triangles depend on the vertices only.
+    touch each other, are done at once. Where four vertices lie on one circle, the diagonal from the
+    westernmost is used, so that the triangles depend on the vertices only.
 
     Half-edge `3 * t + k` is the side of triangle `t` opposite to its corner `k`.
 
     Parameters
     ----------
     vertices : Points
-        The first vertices in metres, near the origin; at least three off one line, the corners of
-        the convex hull of all that are going to be added among them. No two at one place.
+        The first vertices in metres, near the origin. No two are at the same place, and not all are
+        on one line. They include the corners of the convex hull of all vertices to come.
 
     Attributes
     ----------
     vertices : Points
-        All of them so far, in the order in which they came.
+        All vertices so far, in the order in which they were added.
     corners : numpy.ndarray of int32, shape (3 * t,)
         The vertex opposite to each half-edge; those of a triangle run counterclockwise.
     twins : numpy.ndarray of int32, shape (3 * t,)
-        The same edge as a half-edge of the neighbour; -1 on the hull.
+        The half-edge of the neighbouring triangle on the same edge; -1 on the hull.
     """
 
     def __init__(self, vertices: Points) -> None:
@@ -84,15 +85,15 @@ class GrowingTin:
         triangle : numpy.ndarray of int, shape (n,)
             The triangle that holds each, no two the same.
         rank : numpy.ndarray of float, shape (n,)
-            The greater, the more it is wanted: of two that lie in neighbouring triangles, one of
-            them on the edge between, only one is added.
+            Of two vertices in neighbouring triangles, one of which lies on the common edge, only
+            the one with the greater rank is added.
 
         Returns
         -------
         added : numpy.ndarray of bool, shape (n,)
             Which of them were added.
         changed : numpy.ndarray of bool, shape (t,)
-            Which triangles are others than before.
+            Which triangles have changed.
         """
         edge, is_on_edge = self._nearest_edge(points, triangle)
         added = self._apart(triangle, edge, is_on_edge, rank)
@@ -114,12 +115,14 @@ class GrowingTin:
         x, y : numpy.ndarray of float64, shape (q,)
             Queries.
         triangle : numpy.ndarray of int32, shape (q,)
-            A triangle near each; changed, in place, to the one that holds it, or to a nearer one.
+            A triangle near each query. Changed in place to the one that holds it, or to a nearer
+            one.
 
         Returns
         -------
         numpy.ndarray of float64, shape (q,)
-            Linear in each triangle; NaN where it is farther away, and to be asked for again.
+            Heights, linear in each triangle. NaN where the triangle is farther away: call again for
+            these.
         """
         heights = np.full(len(x), np.nan)
         which, here = np.arange(len(x)), triangle
@@ -142,11 +145,11 @@ class GrowingTin:
         return heights
 
     def ambiguous_edges(self) -> np.ndarray:
-        """Return which half-edges (3 * t,) might as well be flipped: four vertices on a circle."""
+        """Return which half-edges (3 * t,) could be flipped too: four vertices on one circle."""
         ambiguous = np.zeros(len(self.twins), dtype=bool)
 
         def look(part: slice) -> None:
-            # Each edge from one of its sides.
+            # Each edge once, by one of its half-edges.
             edges = np.arange(part.start, part.stop)
             edges = edges[self.twins[part] > edges]
             _, equal, is_convex = self._circles(self._quadrangles(edges))
@@ -157,7 +160,7 @@ class GrowingTin:
         return ambiguous
 
     def flipped_heights(self, x: np.ndarray, y: np.ndarray, edges: np.ndarray) -> np.ndarray:
-        """Return the heights (q,) of queries beside half-edges if these were flipped."""
+        """Return the heights (q,) that queries beside half-edges have if these are flipped."""
         p, b, c, q = self._quadrangles(edges)
         vertices = self.vertices
         to_x, to_y = vertices.x[q] - vertices.x[p], vertices.y[q] - vertices.y[p]
@@ -173,7 +176,7 @@ class GrowingTin:
         return opposite_areas(to_x, to_y)
 
     def _interpolated(self, corners: list[np.ndarray], areas: list[np.ndarray]) -> np.ndarray:
-        # Places may lie outside by rounding: nothing is extrapolated.
+        # Places may lie outside by rounding. Heights must not be extrapolated.
         weights = [np.maximum(each, 0.0) for each in areas]
         height = sum(each * self.vertices.z.take(at) for each, at in zip(weights, corners))
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -185,7 +188,8 @@ class GrowingTin:
         worst = np.where(areas[2] < lowest, 2, areas[1] < areas[0])
         twin = self.twins.take(3 * triangle + worst)
         into = twin // 3
-        # Rounding, beyond the hull; or another edge lies between as well.
+        # The hull is beyond the edge, because of rounding or because the place is beyond another
+        # edge, too.
         hull = np.flatnonzero(twin < 0)
         for k in range(3):
             twin = self.twins[3 * triangle[hull] + k]
@@ -194,7 +198,7 @@ class GrowingTin:
         return into
 
     def _nearest_edge(self, points: Points, triangle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the half-edge of its triangle next to each point, and if it lies on that."""
+        """Return the nearest half-edge of each point's triangle, and if the point lies on it."""
         corners = [self.corners[3 * triangle + k] for k in range(3)]
         areas = np.stack(self._opposite_areas(points.x, points.y, corners))
         x, y = (np.stack([values[each] for each in corners]) for values in self.vertices[:2])
@@ -228,7 +232,8 @@ class GrowingTin:
         second = self.count + np.arange(len(triangle), dtype=np.int32)
         parts = np.stack((triangle, second, triangle))
         parts[2, inner] = second[-1] + 1 + np.arange(len(inner))
-        # On the hull, in two: its edge is then opposite to the first corner, in both.
+        # A triangle on the hull is split in two. Turn it so that its hull edge is opposite to
+        # corner 0.
         turn = np.where(on_hull, edge % 3, 0)
         outer = np.stack([3 * triangle + (turn + k) % 3 for k in range(3)])
         old = self.corners[outer]
@@ -252,7 +257,7 @@ class GrowingTin:
         self._moved = np.arange(len(self.corners), dtype=np.int32)
 
     def _move(self, before: np.ndarray, after: np.ndarray) -> None:
-        """Renumber half-edges, for themselves and for their twins."""
+        """Renumber half-edges, also in their twins."""
         self._moved[before] = after
         twins = self.twins[before]
         twins = np.where(twins < 0, -1, self._moved[twins])
@@ -276,7 +281,7 @@ class GrowingTin:
             edges = np.concatenate([each[some] for each, some in zip(parts, wrong)] or [edges])
             if not len(edges):
                 return
-            # A triangle takes part in one flip at a time: that which is written last.
+            # A triangle takes part in one flip at a time: the last one that is written.
             pair = np.column_stack((edges, self.twins[edges])) // 3
             numbers = np.arange(len(edges))
             owner[pair.ravel()] = np.repeat(numbers, 2)
@@ -285,9 +290,9 @@ class GrowingTin:
             changed[pair[now].ravel()] = True
 
     def _flipped(self, edges: np.ndarray, later: np.ndarray) -> np.ndarray:
-        """Flip half-edges of which no two touch a triangle; return the edges to look at next.
+        """Flip half-edges, no two in the same triangle; return the edges to check next.
 
-        `later` are others; what they are now is returned as well.
+        `later` are other edges to check; they are returned too, with their new numbers.
         """
         t, k = np.divmod(edges, 3)
         u, j = np.divmod(self.twins[edges], 3)
@@ -316,8 +321,10 @@ class GrowingTin:
         return wrong
 
     def _circles(self, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return of quadrangles (4, n) whether the fourth corner lies in the circle of the others,
-        which of them have all four on one circle, and whether the other diagonal lies inside.
+        """Return three masks of quadrangles (4, n).
+
+        They tell whether the fourth corner lies in the circle of the others, whether all four lie
+        on one circle, and whether the other diagonal lies inside.
         """
         x, y = (values.take(corners) for values in self.vertices[:2])
         bx, by, cx, cy, qx, qy = (each[k] - each[0] for k in (1, 2, 3) for each in (x, y))
@@ -341,7 +348,7 @@ class GrowingTin:
 
 
 def _without_flat(tin: Tin) -> tuple[np.ndarray, np.ndarray]:
-    """Return triangles and neighbours without those on the hull that have no area."""
+    """Return triangles and neighbours without the triangles on the hull that have no area."""
     x, y = tin.x[tin.triangles], tin.y[tin.triangles]
     ux, uy, vx, vy = (each[:, k] - each[:, 0] for k in (1, 2) for each in (x, y))
     longest = np.maximum(np.maximum(ux**2 + uy**2, vx**2 + vy**2), (ux - vx) ** 2 + (uy - vy) ** 2)

@@ -56,13 +56,13 @@ def multidirectional_hillshade(
     References
     ----------
     Mark, R. K. (1992): A multidirectional, oblique-weighted, shaded-relief image of the Island of
-    Hawaii. U.S. Geological Survey Open-File Report 92-422. The four lights are his. He weighs them
-    by the squared sine between light and aspect, the latter of a smooth surface; that of each cell
-    would leave little contrast. The weights here, squared cosines, and the altitude are those of
-    ``gdaldem hillshade -multidirectional``.
+    Hawaii. U.S. Geological Survey Open-File Report 92-422. The four lights are his. He weights them
+    by the squared sine of the angle between light and aspect, with the aspect of a smoothed
+    surface: the aspect of each cell would leave little contrast. The weights here (squared cosines)
+    and the altitude are those of ``gdaldem hillshade -multidirectional``.
     """
     dx, dy = _gradient(heights, cell_size)
-    # Level land has no aspect, and is as bright from all sides.
+    # Level land has no aspect, and is equally bright from all sides.
     aspect = np.arctan2(dx, dy)
     # The angles are 45 degrees apart, so that the sum of the weights is 2.
     lit = sum(

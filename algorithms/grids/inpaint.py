@@ -1,28 +1,29 @@
-"""Filling the empty cells of a grid with a smooth surface through the others."""
+"""Fill the empty cells of a grid with a smooth surface through the known ones."""
 
 from __future__ import annotations
 
 import numpy as np
 
 _RELAXATIONS = 12
-# Share of unknown cells above which computing all is faster than picking them out.
+# Share of unknown cells above which it is faster to compute all cells.
 _MANY = 0.15
 _SAMPLES = 1000
-# Metres of which the usual height is a multiple.
+# Step in metres to which the usual height is rounded, so that a few cells do not change it.
 _LEVEL = 128.0
 _QUARTER, _THREE_QUARTERS = np.float32(0.25), np.float32(0.75)
 
 
-# Row and column, in the grid of the CRS, of the first cell of a grid.
+# Row and column of the first cell of a grid, counted in the grid of the CRS.
 First = tuple[int, int]
 
 
 def inpaint(grid: np.ndarray, relaxations: int = _RELAXATIONS, first: First = (0, 0)) -> np.ndarray:
     """Return `grid` with its NaN cells filled by an approximate membrane.
 
-    Coarser and coarser means of the known cells are interpolated back into the gaps ("push-pull";
-    Gortler et al. 1996), and relaxed towards the mean of the four neighbours (Laplace's equation)
-    on each level. Cost and reach follow the number of cells and the width of the gaps.
+    The known cells are averaged to coarser and coarser grids. These are interpolated back into the
+    gaps ("push-pull"; Gortler et al. 1996), and on each level relaxed towards the mean of the four
+    neighbours (Laplace's equation). The cost grows with the number of cells, the reach with the
+    width of the gaps.
 
     Parameters
     ----------
@@ -31,7 +32,8 @@ def inpaint(grid: np.ndarray, relaxations: int = _RELAXATIONS, first: First = (0
     relaxations : int
         Sweeps on each level.
     first : tuple of int
-        Row and column of the first cell: coarser cells begin at even ones, wherever the grid does.
+        Row and column of the first cell in the grid of the CRS: coarser cells begin at even rows
+        and columns there.
 
     Returns
     -------
@@ -52,16 +54,16 @@ def inpaint(grid: np.ndarray, relaxations: int = _RELAXATIONS, first: First = (0
 
 
 def _usual(values: np.ndarray) -> float:
-    """Return about the median of many values, in steps so coarse that a few do not move it."""
+    """Return the approximate median, rounded so coarsely that a few values do not change it."""
     usual = float(np.median(values[:: max(len(values) // _SAMPLES, 1)]))
     return _LEVEL * round(usual / _LEVEL)
 
 
 def _filled(grid: np.ndarray, known: np.ndarray, relaxations: int, first: First) -> np.ndarray:
-    """Return a grid (float32) of which some cells are known, with the others filled."""
+    """Return a grid (float32) with its unknown cells filled."""
     if known.all():
         return grid
-    if max(grid.shape) <= 2:  # where a coarser cell begins between two, they stay two
+    if max(grid.shape) <= 2:  # two cells can fall into two coarser ones, endlessly
         return np.where(known, grid, grid[known].mean())
     odd = first[0] % 2, first[1] % 2
     half = first[0] // 2, first[1] // 2
@@ -80,9 +82,9 @@ def _filled(grid: np.ndarray, known: np.ndarray, relaxations: int, first: First)
 
 
 def _relax_all(padded: np.ndarray, unknown: np.ndarray, relaxations: int) -> None:
-    """Set the unknown cells to the mean of their neighbours, again and again."""
+    """Set the unknown cells to the mean of their four neighbours, repeatedly."""
     inner, mean = padded[1:-1, 1:-1], np.empty(unknown.shape, dtype=padded.dtype)
-    # A sum of products takes a third of the time of copying the unknown ones.
+    # A sum of products takes a third of the time of copying the unknown cells.
     kept, share = np.where(unknown, np.float32(0.0), inner), _QUARTER * unknown
     for _ in range(relaxations):
         np.add(padded[1:-1, :-2], padded[1:-1, 2:], out=mean)
@@ -94,7 +96,7 @@ def _relax_all(padded: np.ndarray, unknown: np.ndarray, relaxations: int) -> Non
 
 
 def _relax_some(padded: np.ndarray, row: np.ndarray, column: np.ndarray, relaxations: int) -> None:
-    """Do as `_relax_all` where the unknown cells are few, given by their places."""
+    """Do the same as `_relax_all` for few unknown cells, given by row and column."""
     width = padded.shape[1]
     place = (row + 1) * width + column + 1
     flat = padded.ravel()
@@ -112,9 +114,9 @@ def _pad_again(padded: np.ndarray) -> None:
 
 
 def _coarser(grid: np.ndarray, known: np.ndarray, odd: First) -> tuple[np.ndarray, np.ndarray]:
-    """Return the mean of the known ones of each 2 x 2 cells, and where there is one.
+    """Return the mean of the known cells in each 2 x 2 cells, and where there is a mean.
 
-    Where the first row or column is an odd one, it is by itself.
+    A first row or column with an odd number has no partner and is averaged alone.
     """
     total, count = np.where(known, grid, np.float32(0.0)), known.astype(np.uint8)
     for axis in (0, 1):
@@ -123,7 +125,7 @@ def _coarser(grid: np.ndarray, known: np.ndarray, odd: First) -> tuple[np.ndarra
 
 
 def _pairs(grid: np.ndarray, axis: int, odd: int) -> np.ndarray:
-    """Return the sums of two rows or columns each; what is left at the ends is by itself."""
+    """Return the sums of pairs of rows or columns; one without a partner at an end stays alone."""
     shape = list(grid.shape)
     shape[axis] = (shape[axis] + odd + 1) // 2
     pairs = np.zeros(shape, dtype=grid.dtype)
@@ -149,9 +151,9 @@ def _finer(coarse: np.ndarray, shape: tuple[int, int], odd: First) -> np.ndarray
 
 
 def _finer_at(coarse: np.ndarray, row: np.ndarray, column: np.ndarray) -> np.ndarray:
-    """Do as `_finer` for single cells, in the same order, so that they are rounded alike."""
+    """Do the same as `_finer` for single cells, in the same order, so that rounding is equal."""
     width = coarse.shape[1]
-    # The coarse cell in which it lies, and the next one on its side of the middle.
+    # The coarse cell that holds the fine one, and its neighbour on the side of the fine one.
     own_row, own_column = row >> 1, column >> 1
     next_row = np.clip(own_row + 2 * (row & 1) - 1, 0, coarse.shape[0] - 1)
     next_column = np.clip(own_column + 2 * (column & 1) - 1, 0, width - 1)

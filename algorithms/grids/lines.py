@@ -1,4 +1,4 @@
-"""Lines as points: places along them, and the level of water that falls along one."""
+"""Places along lines, and water levels that fall along a river."""
 
 from __future__ import annotations
 
@@ -7,25 +7,25 @@ import numpy as np
 from ..core.points import Box
 from .cells import numbered
 
-# Stations to each side of one along a river that say how high the water is there.
+# The water level at a station is taken from so many stations on each side of it.
 _STATIONS = 5
 
 _SHIFT = 32
-# Points near a place on a line among which one is looked for on each side of it.
+# Number of nearest points of a place among which one on each side of the line is searched.
 _NEAREST = 16
-# Metres from a line to the places on each side of it.
+# Distance in metres of the places beside a line.
 _BESIDE = 0.01
 
 
 class NearPlaces:
-    """The squares that hold any of some places, and those round them.
+    """The squares that hold places, and the squares round these.
 
     Parameters
     ----------
     x, y : numpy.ndarray of float64, shape (n,)
         The places.
     side : float
-        Side of a square: what is no farther from a place lies in one of the squares.
+        Side of a square. Anything within this distance of a place lies in one of the squares.
     """
 
     def __init__(self, x: np.ndarray, y: np.ndarray, side: float) -> None:
@@ -39,13 +39,13 @@ class NearPlaces:
 
 
 def squares(x: np.ndarray, y: np.ndarray, side: float) -> np.ndarray:
-    """Return one number for the square that holds each place; int64, shape (n,)."""
+    """Return the number of the square that holds each place; int64, shape (n,)."""
     column, row = (np.floor(each / side).astype(np.int64) for each in (x, y))
     return (row << _SHIFT) + column
 
 
 def along(line: np.ndarray, step: float, is_closed: bool = False) -> np.ndarray:
-    """Return places along a line, its corners among them, no farther apart than a step.
+    """Return places along a line, at most a step apart, including its corners.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def along(line: np.ndarray, step: float, is_closed: bool = False) -> np.ndarray:
     Returns
     -------
     numpy.ndarray of float64, shape (m, 3)
-        z lies on the line as well; NaN between corners of which one has none.
+        z is interpolated along the line; NaN between two corners if one has no z.
 
     Examples
     --------
@@ -124,9 +124,8 @@ class NearestHeights:
         Returns
         -------
         numpy.ndarray of float64, shape (2 n, 3)
-            Those on the left, then those on the right, a little beside the line. z is NaN where
-            there is no point on either side; where there is one on one side only, it counts for
-            both.
+            The places on the left, then those on the right, a little beside the line. A point on
+            one side only gives z for both sides; z is NaN if there is none on either side.
         """
         across = np.zeros((len(line), 2))
         if len(line) > 1:
@@ -152,7 +151,7 @@ class NearestHeights:
 
 
 def inside_grid(box: Box, step: float) -> np.ndarray:
-    """Return places of a grid in a box whose lines are multiples of a step, shape (n, 2)."""
+    """Return the places in a box whose x and y are multiples of a step, shape (n, 2)."""
     west, south, east, north = box
     x, y = (
         np.arange(np.ceil(low / step), np.floor(high / step) + 1) * step
@@ -168,7 +167,7 @@ def falling(
     places: np.ndarray,
     percentile: float,
 ) -> np.ndarray:
-    """Return the level of water at some places, which falls along a line and nowhere rises.
+    """Return the water level at places along a river; downstream it never rises.
 
     Parameters
     ----------
@@ -177,7 +176,7 @@ def falling(
     border : numpy.ndarray of float64, shape (m, 2)
         Places on its banks.
     heights : numpy.ndarray of float64, shape (m,)
-        Heights of the ground there; NaN where it is not known, but not everywhere.
+        Heights of the ground there; NaN where unknown. At least one is known.
     places : numpy.ndarray of float64, shape (k, 2)
         Where the level is wanted.
     percentile : float
@@ -194,7 +193,7 @@ def falling(
     order = np.argsort(station, kind="stable")
     station, heights = station[order], heights[order]
     every = np.arange(len(line))
-    # The usual fall is taken out first: else the lowest bank near a station is the one downstream.
+    # Remove the mean fall first. Otherwise the lowest bank near a station is the one downstream.
     slope = np.polyfit(station, heights, 1)[0] if np.ptp(station) else 0.0
     heights = heights - slope * station
     firsts = np.searchsorted(station, every - _STATIONS)

@@ -1,4 +1,4 @@
-"""Model key points: the few ground points whose TIN is as good as that of all of them."""
+"""Model key points: few ground points whose TIN is as good as the TIN of all ground points."""
 
 from __future__ import annotations
 
@@ -17,24 +17,25 @@ from .cells import Cells, first_of_each
 from .growing_tin import GrowingTin
 from .tin import hull_corners, lowest_of_duplicates
 
-# Metres by which a point may lie beyond the tolerance, or outside its cell: rounding.
+# Rounding error in metres, at the tolerance and at the borders of cells.
 _ROUNDING = 1e-6
-# About the sides of cells in metres, of each of which one point is looked at, before every point
-# is; and so many cells at most.
+# Before all points, one point of each cell is tested, first in wide and then in narrow cells. About
+# the sides of these cells in metres, and the most cells for which this is done.
 _LEVELS = (4.0, 1.0)
 _MOST_CELLS = 1e8
-# Squared distances to the centre of a cell are told apart to this share of its squared side.
+# Squared distances to the centre of a cell are rounded to this share of its squared side.
 _CENTRAL = 1e-6
-# Cells of the grid, and the least metres, beyond which points do not matter.
+# Points farther away than so many cells of the grid, and than so many metres, have no effect.
 _REACH, _LEAST_REACH = 4.0, 40.0
-# Factors that mix the bits of numbers, and how many of the bits tell places apart.
+# Factors of a hash of x and y, and how many of its bits are used.
 _MIX = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F], dtype=np.uint64)
 _BITS = 20
-# Numbers of 16 bits are sorted fastest.
+# NumPy sorts integers of 16 bits fastest.
 _MOST_SMALL = 1 << 16
 # Points whose arrays stay in the processor's cache.
 _POINTS_A_PART = 1 << 16
-# Times that points walk on through the TIN: far fewer, unless rounding makes them go round.
+# Most repetitions of the walk through the TIN. Far fewer are enough, unless rounding makes it
+# endless.
 _MOST_WALKS = 1000
 
 
@@ -71,10 +72,11 @@ class ModelKeyPoints(ParameterSet):
 
 
 def reach(parameters: ModelKeyPoints) -> float:
-    """Return how far away, in metres, a ground point may matter to the choice at a place.
+    """Return the distance in metres within which a ground point affects the choice.
 
-    Measured: with so much round it, a part of a survey gets the key points that it gets within the
-    whole, but for about one of a thousand: at the border of the survey and beside wide gaps.
+    Measured: with a buffer of this width, a part of a survey gets the same key points as in the
+    whole survey, except for about one of a thousand at the border of the survey and beside wide
+    gaps.
     """
     return max(_REACH * parameters.grid_size, _LEAST_REACH)
 
@@ -87,13 +89,14 @@ def model_key_points(
 ) -> np.ndarray:
     """Choose the ground points that a terrain model needs.
 
-    It starts with the lowest point of each cell of a grid, the outermost of each cell beside an
-    empty one, and the corners of the convex hull. In rounds, every triangle of their TIN takes the
-    point that lies farthest beyond the tolerance: first of few points, at last of all. Then every
-    ground point lies within the tolerance of the TIN of the chosen ones. Where several points lie
-    at one place, only the lowest is looked at. Where four chosen ones lie on one circle, this holds
-    whichever way the TIN divides these; where more than four do, on a regular lattice, a few ground
-    points of ten thousand may lie some centimetres beyond.
+    The first key points are the lowest point of each cell of a grid, the outermost point of each
+    cell beside an empty one, and the corners of the convex hull. In rounds, every triangle of their
+    TIN takes the point that lies farthest beyond the tolerance. The first rounds test few points,
+    the last ones all. In the end every ground point lies within the tolerance of the TIN. Of points
+    at one place only the lowest is used.
+
+    If four key points lie on one circle, this holds for either diagonal. If more than four do, as
+    on a regular lattice, a few ground points of ten thousand may lie some centimetres beyond.
 
     Parameters
     ----------
@@ -104,12 +107,13 @@ def model_key_points(
     progress : Progress
         Receives progress.
     anchor : tuple of float
-        x and y of a corner of cells of the grid in metres; the same cells in each part of a survey.
+        x and y of a corner of the grid's cells in metres, so that each part of a survey has the
+        same cells.
 
     Returns
     -------
     numpy.ndarray of bool, shape (n,)
-        Which points were chosen; whatever their order, the same.
+        Which points were chosen. Their order does not matter.
     """
     chosen = np.zeros(points.count, dtype=bool)
     if not points.count:
@@ -117,7 +121,7 @@ def model_key_points(
     points, cells, order = _sorted(points, parameters.grid_size, anchor, progress.part(0.0, 0.2))
     hull = _hull_corners(points, cells)
     if len(hull) < 3:
-        # Points on one line: no TIN can stand for them.
+        # Points on one line have no TIN.
         chosen[order] = True
         return chosen
     lowest = cells.lowest_points(points)
@@ -141,9 +145,9 @@ def model_key_points(
 def _sorted(
     points: Points, grid_size: float, anchor: tuple[float, float], progress: Progress
 ) -> tuple[Points, Cells, np.ndarray]:
-    """Return points cell by cell, with x and y from a corner of cells; the cells; and the order.
+    """Return points sorted by cell, relative to a corner of cells; the cells; and the indices.
 
-    Only the lowest of the points at one place is kept.
+    Of points at one place only the lowest is kept.
     """
     kept = _lowest_of_places(points)
     progress(0.4)
@@ -163,8 +167,8 @@ def _sorted(
 
 
 def _lowest_of_places(points: Points) -> np.ndarray:
-    """Return the indices of the points below which there is no other at the same place."""
-    # Numbers that are the same for the same place, and hardly ever for two.
+    """Return the indices of the lowest point at each place, ascending."""
+    # A hash: equal for the same place, and hardly ever for two.
     number = np.empty(points.count, dtype=np.uint64)
     shift = np.uint64(64 - _BITS)
 
@@ -197,9 +201,9 @@ def _hull_corners(points: Points, cells: Cells) -> np.ndarray:
 
 
 def _outermost(points: Points, cells: Cells) -> np.ndarray:
-    """Return of each cell beside an empty one the point that is the nearest to that.
+    """Return the point nearest to the empty cell, for each cell beside an empty one.
 
-    Without them the triangles along a border reach from one corner of the hull to the next.
+    Without these points, triangles along a border reach from one corner of the hull to the next.
     """
     occupied, found = np.pad(cells.occupied, 1), []
     for axis, along, across in ((1, points.x, points.y), (0, points.y, points.x)):
@@ -212,7 +216,7 @@ def _outermost(points: Points, cells: Cells) -> np.ndarray:
 
 
 def _levels(points: Points, grid_size: float) -> list[tuple[np.ndarray, Cells]]:
-    """Return which points to look at first, which then, and so on, and the cells they stand for."""
+    """Return the points to test at each level, from wide to narrow cells, and these cells."""
     levels: list[tuple[np.ndarray, Cells]] = []
     spread = math.prod(points.sides)
     which, left = np.arange(points.count, dtype=np.int32), points
@@ -228,7 +232,7 @@ def _levels(points: Points, grid_size: float) -> list[tuple[np.ndarray, Cells]]:
 
 
 def _most_central(points: Points, size: float, index: np.ndarray) -> np.ndarray:
-    """Return which point of each cell, of some size, is the nearest to its centre."""
+    """Return the index of the point nearest to the centre of each cell."""
     distance = np.empty(points.count)
 
     def measure(part: slice) -> None:
@@ -239,13 +243,13 @@ def _most_central(points: Points, size: float, index: np.ndarray) -> np.ndarray:
 
     over_parts(measure, points.count, _POINTS_A_PART, SILENT)
     if index.max() >= points.count:
-        # Most cells are empty: only those with points get a number.
+        # Most cells are empty: only cells with points are numbered.
         index = np.unique(index, return_inverse=True)[1]
     return first_of_each(index, int(index.max()) + 1, distance, points.z, points.x, points.y)
 
 
 def _of_cells(cells: Cells, points: np.ndarray) -> np.ndarray:
-    """Return for each cell the one of some points that lies in it."""
+    """Return for each cell the index of its point, from at most one point a cell."""
     found = np.zeros(cells.rows * cells.columns, dtype=np.int32)
     found[cells.index[points]] = points
     return found
@@ -254,7 +258,7 @@ def _of_cells(cells: Cells, points: np.ndarray) -> np.ndarray:
 class _Keys:
     """The points chosen so far (`are_keys`, a mask), and their TIN.
 
-    No two points lie at one place; the corners of the convex hull are among the seeds.
+    No two points may be at the same place. The seeds must include the corners of the convex hull.
     """
 
     def __init__(self, points: Points, seeds: np.ndarray, parameters: ModelKeyPoints) -> None:
@@ -262,7 +266,7 @@ class _Keys:
         self._tin = GrowingTin(points.take(seeds))
         self.are_keys = np.zeros(points.count, dtype=bool)
         self.are_keys[seeds] = True
-        # The triangle of each point that has been looked at.
+        # The triangle of each point that has been tested.
         self._triangle = np.zeros(points.count, dtype=np.int32)
         self._triangle[seeds] = self._tin.triangles_of_vertices()
         self._beyond = np.zeros(points.count, dtype=np.float32)
@@ -272,7 +276,7 @@ class _Keys:
     ) -> None:
         """Choose points until none of the pending (k,) lies beyond the tolerance.
 
-        `near` is for each a point that has been looked at.
+        `near` (k,) is a point near each of them that has been tested already.
         """
         points, triangle, beyond = self._points, self._triangle, self._beyond
         triangle[pending] = triangle[near]
@@ -292,7 +296,7 @@ class _Keys:
             look = self._within(changed, pending)
 
     def _look_at(self, which: np.ndarray, progress: Progress) -> None:
-        """Find the triangles of points, and how far these are beyond the tolerance."""
+        """Find the triangle of each point, and how far the point lies beyond the tolerance."""
         for _ in range(_MOST_WALKS):
             over_parts(partial(self._walk, which), len(which), _POINTS_A_PART, progress)
             which, progress = which[np.isnan(self._beyond[which])], SILENT
@@ -307,17 +311,17 @@ class _Keys:
         self._triangle[some] = triangle
 
     def _over(self, above: np.ndarray) -> np.ndarray:
-        """Return how far points so far above the TIN are beyond the tolerance."""
+        """Return how far points lie beyond the tolerance, from their heights above the TIN."""
         parameters = self._parameters
         return np.maximum(above - parameters.tolerance_above, -above - parameters.tolerance_below)
 
     def _violating(self, which: np.ndarray) -> np.ndarray:
         """Return which of some points lie beyond the tolerance."""
-        # Rounding may put a vertex into a triangle of others that has no area.
+        # Rounding may put a vertex into a triangle without area.
         return which[(self._beyond[which] > _ROUNDING) & ~self.are_keys[which]]
 
     def _within(self, triangles: np.ndarray, pending: np.ndarray) -> np.ndarray:
-        """Return which of the pending lie in the triangles that a mask (t,) names."""
+        """Return the pending points that lie in the triangles of a mask (t,)."""
 
         def within(part: slice) -> np.ndarray:
             some = pending[part]
@@ -326,9 +330,9 @@ class _Keys:
         return np.concatenate(in_threads(within, parts_of(len(pending), _POINTS_A_PART)))
 
     def _ambiguous(self, pending: np.ndarray) -> np.ndarray:
-        """Measure how far points are beyond the tolerance where the TIN might as well be another.
+        """Test points against the other diagonal, too, where four vertices lie on one circle.
 
-        Returns which they are.
+        Returns these points.
         """
         edges = self._tin.ambiguous_edges()
         some = self._within(edges.reshape(-1, 3).any(axis=1), pending)

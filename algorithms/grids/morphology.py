@@ -6,30 +6,31 @@ import numpy as np
 
 from ..core.threads import in_threads
 
-# Heights are compared in steps of so many metres, or twice, four times ... as many where their
-# range is too large for so many steps. Half of the range begins at a multiple of some steps:
-# what a height becomes does not depend on the others.
+# Heights are rounded to steps of so many metres. The step is doubled until the range has at most so
+# many steps, which fit into 16 bits. The middle of the range is put on a multiple of so many steps,
+# so that the rounding of a height does not depend on the other heights.
 _STEP, _MOST_STEPS, _LEVEL_STEPS = 0.01, 65_000, 12_800
-# What stands this far above nearly all others, or below, does so by any measure.
+# Heights more than so many metres above or below all but this share of the cells are clipped: they
+# stand out anyway.
 _BEYOND, _NEARLY_ALL = 200.0, 0.001
-# Cells that are worked on at a time, those round them included: they stay in the processor's cache.
+# Cells of a strip with its margin, so few that they stay in the processor's cache.
 _CELLS_A_STRIP = 1 << 17
 
 
 def in_steps(grid: np.ndarray) -> tuple[np.ndarray, float]:
-    """Return heights as whole numbers of small steps, on which morphology is three times as fast.
+    """Return heights as whole numbers of small steps: morphology on them is three times as fast.
 
     Parameters
     ----------
     grid : numpy.ndarray of float, shape (rows, columns)
-        Heights in metres without NaN. The few that lie hundreds of metres above or below the
-        others are drawn near, as the steps would be coarse otherwise.
+        Heights in metres without NaN. The few that lie hundreds of metres above or below the others
+        are clipped, because the steps would be coarse otherwise.
 
     Returns
     -------
     steps : numpy.ndarray of int16, shape (rows, columns)
     step : float
-        Metres of a step: a centimetre, or more if the others span more than 500 m.
+        Size of a step in metres: 0.01, or more if the heights span more than 500 m.
     """
     low, high = float(grid.min()), float(grid.max())
     if high - low > _BEYOND:
@@ -49,7 +50,7 @@ def in_steps(grid: np.ndarray) -> tuple[np.ndarray, float]:
 
 
 def opening(grid: np.ndarray, radius: float) -> np.ndarray:
-    """Return the opening of a grid by a disc: what is narrower than the disc is cut off.
+    """Return the opening of a grid by a disc, which cuts off what is narrower than the disc.
 
     Parameters
     ----------
@@ -61,8 +62,8 @@ def opening(grid: np.ndarray, radius: float) -> np.ndarray:
     Returns
     -------
     numpy.ndarray of the same type, shape (rows, columns)
-        Nowhere higher than `grid`, which is continued by its border cells: far enough for a disc
-        to stand outside, or the upper border of a plain slope would be cut off.
+        Nowhere higher than `grid`. The grid is continued with its border cells, far enough for a
+        disc outside it. Otherwise the upper border of a plain slope would be cut off.
     """
     padded = np.pad(grid, 2 * _reach(radius), mode="edge")
     return _extreme(np.maximum, _extreme(np.minimum, padded, radius), radius)
@@ -81,9 +82,9 @@ def within_square(which: np.ufunc, grid: np.ndarray, reach: int) -> np.ndarray:
     which : numpy.ufunc
         `numpy.minimum` or `numpy.maximum`.
     grid : numpy.ndarray of bool, int or float, shape (rows, columns)
-        Beyond it there is nothing.
+        Cells beyond the grid are ignored.
     reach : int
-        Half the side of the square: it is `2 * reach + 1` cells long.
+        The square is `2 * reach + 1` cells wide.
 
     Returns
     -------
@@ -105,19 +106,19 @@ def within_square(which: np.ufunc, grid: np.ndarray, reach: int) -> np.ndarray:
 def median_of_nine(grid: np.ndarray) -> np.ndarray:
     """Return the median of the 3 x 3 cells round each, as `scipy.ndimage.median_filter` does.
 
-    That takes ten times as long, as it sorts the nine anew for each cell.
+    This takes a tenth of the time, because it does not sort nine cells anew for each cell.
 
     Parameters
     ----------
     grid : numpy.ndarray of float, shape (rows, columns)
-        Without NaN. Beyond it the cells at its border go on.
+        Without NaN. The grid is continued with its border cells.
 
     Returns
     -------
     numpy.ndarray of the same type, shape (rows, columns)
     """
     padded = np.pad(grid, 1, mode="edge")
-    # The lowest, middle and highest of three rows; of these, the three columns.
+    # Rank each three rows first, then combine the ranks of each three columns.
     lowest, middle, highest = _ranked(padded[:-2], padded[1:-1], padded[2:])
     left, centre, right = (slice(k, k + grid.shape[1]) for k in range(3))
     return _ranked(
@@ -135,10 +136,10 @@ def _ranked(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> tuple[np.ndarray, ..
 
 
 def _spread(which: np.ufunc, grid: np.ndarray, reach: int) -> np.ndarray:
-    """Return the extreme of so many rows before and after each, in steps that double."""
+    """Return the extreme of `reach` rows before and after each row, in steps that double."""
     done = 0
     while done < reach:
-        step = min(done + 1, reach - done)  # farther ones would miss some cells at the border
+        step = min(done + 1, reach - done)  # a longer step would skip some cells at the border
         spread = grid.copy(order="K")
         which(spread[step:], grid[:-step], out=spread[step:])
         which(spread[:-step], grid[step:], out=spread[:-step])
@@ -147,11 +148,11 @@ def _spread(which: np.ufunc, grid: np.ndarray, reach: int) -> np.ndarray:
 
 
 def _reach(radius: float) -> int:
-    return int(round(radius, 6))  # one that is whole but for rounding is whole
+    return int(round(radius, 6))  # without rounding, 2.9999999 would be 2
 
 
 def _extreme(which: np.ufunc, padded: np.ndarray, radius: float) -> np.ndarray:
-    """Return the minimum or the maximum within a disc round each cell that has a whole one."""
+    """Return the minimum or the maximum within a disc round each cell whose disc is in the grid."""
     reach = _reach(radius)
     rows, columns = (side - 2 * reach for side in padded.shape)
     result = np.empty((rows, columns), dtype=padded.dtype)
@@ -167,7 +168,7 @@ def _extreme(which: np.ufunc, padded: np.ndarray, radius: float) -> np.ndarray:
 
 
 def _rows_of_disc(radius: float) -> list[tuple[int, list[int]]]:
-    """Return half the length of a disc's rows, ascending, and which rows are as long."""
+    """Return the half-lengths of a disc's rows, ascending, with the rows of each half-length."""
     reach = _reach(radius)
     squares = round(radius, 6) ** 2 - np.arange(-reach, reach + 1) ** 2
     halves = np.floor(np.sqrt(squares) + 1e-9).astype(int)
@@ -179,10 +180,10 @@ def _in_strip(
 ) -> None:
     """Fill `result` with the extreme within a disc round each cell of a strip.
 
-    A disc is a stack of rows: the extreme along rows of each needed length is found once by
-    doubling, so that the cost grows with the radius and not with its square. All is done on the
-    flattened strip, several times as fast as row by row: what runs on from the end of a row into
-    the next one comes to lie beyond the columns of the result.
+    A disc is a stack of rows. The extreme along rows of each length is found once, by doubling the
+    length, so that the cost grows with the radius and not with its square. This works on the
+    flattened strip, several times as fast as row by row. Runs that continue from the end of a row
+    into the next one end up outside the columns of the result.
     """
     rows, columns = result.shape
     width = padded.shape[1]

@@ -17,14 +17,15 @@ from .enclosing import (
 )
 from .thinned import ThinnedPoints
 
-# Widths of the windows in which the triangle is looked for, and queries a vertex of the tile above
-# which triangulating these takes less time.
+# Widths in cells of the windows in which triangles are searched, one after the other. With each,
+# the number of queries for each vertex of the tile above which a triangulation takes less time.
 _WINDOWS = ((2, 6.0), (4, 5.0), (6, 3.0), (8, 2.0), (12, 0.5), (16, 0.5))
 WIDEST = _WINDOWS[-1][0]
 _MARGIN = WIDEST // 2 + 1
-# Of windows so wide the vertices are listed, as many of their cells are empty.
+# The vertices of windows this wide are listed first, because many of their cells are empty.
 _LEAST_LISTED = 6
-# Vertices that are looked at together for some queries: their arrays stay in the processor's cache.
+# Vertices of the queries that are computed at a time, so few that they stay in the processor's
+# cache.
 _TOGETHER = 1 << 16
 
 
@@ -34,9 +35,9 @@ class Queries(NamedTuple):
     Attributes
     ----------
     x, y : numpy.ndarray of float64, shape (q,)
-        In cells of the lattice from the corner of the tile.
+        Coordinates in cells of the lattice, from the corner of the tile.
     column, row : numpy.ndarray of intp, shape (q,)
-        The corner of cells next to each.
+        The corner of cells nearest to each query.
     """
 
     x: np.ndarray
@@ -45,12 +46,12 @@ class Queries(NamedTuple):
     row: np.ndarray
 
     def take(self, which: np.ndarray | slice) -> Queries:
-        """Return some of them."""
+        """Return the selected queries."""
         return Queries(*(each[which] for each in self))
 
 
 class NearVertices:
-    """The vertices of a tile, which tell heights at queries in it from those near each.
+    """The vertices of a tile. They give heights at queries from the vertices near each.
 
     Parameters
     ----------
@@ -59,7 +60,8 @@ class NearVertices:
     place : tuple of int
         Row and column of the tile.
     are_corners : bool
-        Whether the queries lie on corners of cells: each quarter of a window is one of the plane.
+        Whether the queries lie on corners of cells, so that each quarter of a window is a quarter
+        of the plane round the query.
     max_edge : float
         Triangles with a longer edge, in cells, are gaps.
     """
@@ -72,14 +74,14 @@ class NearVertices:
         max_edge: float = np.inf,
     ) -> None:
         window = thinned.window(place, _MARGIN)
-        # Row by row, so that those of some cells in a row follow one another. The number -1 of an
-        # empty cell is that of the last vertex.
+        # Row by row, so that the vertices of cells in a row follow one another. Empty cells have
+        # the number -1: it is the index of the last element, which is no vertex.
         lattice = window.lattice.ravel()
         order = lattice[lattice >= 0]
         self._x, self._y = (np.append(each[order], NOWHERE) for each in window[1:3])
         self._z = np.append(thinned.points.z[window.which[order]], 0.0)
         self._before = np.concatenate(([0], np.cumsum(lattice >= 0)))
-        # Vertices southwest of each corner of cells.
+        # Number of vertices southwest of each corner of cells.
         self._counts = np.zeros(np.add(window.lattice.shape, 1), dtype=np.intp)
         self._counts[1:, 1:] = (window.lattice >= 0).cumsum(axis=0).cumsum(axis=1)
         self._lattice = np.where(lattice >= 0, self._before[:-1], -1)
@@ -87,7 +89,7 @@ class NearVertices:
         self._are_corners, self._max_edge = are_corners, max_edge
 
     def heights(self, queries: Queries) -> tuple[np.ndarray, np.ndarray]:
-        """Return heights at queries, NaN where there is none, and which of them are sure."""
+        """Return heights at queries, NaN where there is none, and which of them are certain."""
         heights = np.full(len(queries.x), np.nan)
         sure = np.zeros(len(queries.x), dtype=bool)
         left = np.arange(len(queries.x))
@@ -100,7 +102,7 @@ class NearVertices:
         return heights, sure
 
     def _promising(self, queries: Queries, which: np.ndarray, width: int) -> Iterator[np.ndarray]:
-        """Yield those of some queries with vertices in each quarter of a window, part by part."""
+        """Yield, part by part, the queries with vertices in all quarters of their window."""
         if width > 2:
             some = queries.take(which)
             west, middle, east = (
@@ -117,24 +119,24 @@ class NearVertices:
             which, counts = which[order], counts[order]
         start = 0
         while start < len(which):
-            # No query of those before the last has more vertices than this.
+            # Queries are sorted by their vertices: none of the part has more than this one.
             most = min(start + _TOGETHER // int(counts[start]), len(which)) - 1
             stop = start + max(_TOGETHER // int(counts[most]), 1)
             yield which[start:stop]
             start = stop
 
     def _counts_southwest(self, queries: Queries, half: int, across: int) -> np.ndarray:
-        """Return how many vertices lie southwest of the south, middle and north corner of windows.
+        """Return the number of vertices southwest of three corners of windows, shape (3, q).
 
-        That is of shape (3, q). With `across` -1 they are corners in the west, with 0 in the
-        middle, with 1 in the east.
+        The corners are the south, middle and north one in the west (`across` -1), in the middle (0)
+        or in the east (1).
         """
         start = queries.column + across * half + _MARGIN
         rows = queries.row + _MARGIN + np.array([[-half], [0], [half]])
         return self._counts.take(rows * (self._columns + 1) + start)
 
     def _in_windows(self, queries: Queries, width: int) -> tuple[np.ndarray, np.ndarray]:
-        """Return heights of queries in a window of so many cells, and which of them are sure."""
+        """Return heights from windows of `width` cells, and which of them are certain."""
         half, quarters = width // 2, None
         if width < _LEAST_LISTED:
             across = np.arange(width)
@@ -167,7 +169,7 @@ class NearVertices:
 
 
 def _listed(first: np.ndarray, count: np.ndarray) -> np.ndarray:
-    """Return the numbers in runs (rows, q) as a column for each query, with -1 below them."""
+    """Return the numbers in runs (rows, q) in one column for each query, filled up with -1."""
     total = count.sum(axis=0)
     first, count = first.T.ravel(), count.T.ravel()
     listed = np.full((max(total.max(), 1), len(total)), -1)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-# So many cells suffice, about.
+# About so many cells are enough for the fit.
 _CELLS = 100_000
 
 

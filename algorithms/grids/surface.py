@@ -1,4 +1,4 @@
-"""Heights on the TIN of so many points that one triangulation of them all would be too much."""
+"""Heights on the TIN of many points, which is triangulated block by block."""
 
 from __future__ import annotations
 
@@ -14,18 +14,19 @@ from .enclosing import circumcircles, interpolated, leaving_corner, longest_edge
 from .tin import Tin, hull_corners, is_one_line, lowest_of_duplicates
 from .tin_cells import triangles_of_cells
 
-# Few enough that all threads have work, and neither a cancel nor the progress has to wait.
+# Most vertices of a block: so few that all threads have work, and that progress and cancel do not
+# have to wait.
 _VERTICES_A_BLOCK = 25_000
-# Vertices round a block that are triangulated with it, as a share of its longer side.
+# Width of the margin that is triangulated with a block, as a share of the block's longer side.
 _MARGIN = 0.06
-# A search ends long before, unless rounding makes it go round and round.
+# Most steps of a search. Far fewer are enough, unless rounding makes it endless.
 _MOST_STEPS = 1000
-# Metres from the hull within which a query may be outside by rounding.
+# Rounding error in metres of a query on the hull.
 _ON_HULL = 1e-6
-# Share of its radius by which a vertex may lie inside a circle and count as on it: rounding.
+# Rounding: a vertex inside a circle by less than this share of the radius counts as on it.
 _ON_CIRCLE = 1e-9
-# Cells over which the queries of a block may spread, as a multiple of these, so that going through
-# all of the cells is faster than looking for each query.
+# Most cells for each query in the rectangle of a block's queries. With more, it is faster to locate
+# each query than to go through all cells.
 _MOST_CELLS = 30.0
 
 
@@ -45,20 +46,20 @@ class CellLattice(NamedTuple):
 
 
 class Surface:
-    """The TIN of points, of which only blocks are triangulated at a time.
+    """The TIN of points, which is triangulated block by block.
 
-    The heights are those of the one Delaunay triangulation of all points. A triangle of a block is
-    used only if no point, of the block or not, lies inside its circumcircle, which makes it a
-    triangle of that one (where four points lie on a circle either diagonal may be taken). Where
-    it is not, around lakes for example, the triangle is searched for, beginning with it.
+    The heights are those of the Delaunay triangulation of all points. A triangle of a block is used
+    only if its circumcircle holds no point inside, of the block or not: then it is a triangle of
+    that triangulation (if four points lie on a circle, either diagonal may be used). Otherwise, for
+    example round lakes, the right triangle is searched from there.
 
     Parameters
     ----------
     points : Points
-        Vertices. Of those with the same x and y the lowest is kept; their order does not matter.
+        Vertices. Of points with the same x and y the lowest is kept. The order does not matter.
     meshed : numpy.ndarray of bool, shape (n,), optional
-        Which of them are triangulated, the corners of the convex hull among them; the triangles
-        are checked against all of them. All are, if it is not given.
+        Which points are triangulated, including the corners of the convex hull. The triangles are
+        checked against all points. By default all are triangulated.
     """
 
     def __init__(self, points: Points, meshed: np.ndarray | None = None) -> None:
@@ -89,7 +90,7 @@ class Surface:
         progress : Progress
             Receives progress.
         cells : CellLattice, optional
-            The cells at whose centres the queries lie, if they do: they are found faster then.
+            Cells at whose centres the queries lie. With them the triangles are found faster.
 
         Returns
         -------
@@ -100,7 +101,7 @@ class Surface:
         if is_one_line(np.column_stack(self._vertices[:2])):
             return heights
         blocks = list(self._blocks(x, y))
-        # A single block reports its own progress; of several, each is one step.
+        # A single block reports its own progress. Of several blocks, each is one step.
         within = progress if len(blocks) == 1 else SILENT
 
         def fill(block: tuple[np.ndarray, float]) -> None:
@@ -128,8 +129,9 @@ class Surface:
 
     @property
     def _hull(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """The lower and the upper border, each as x and y (2, k) from west to east, and which
-        vertices are its corners, counterclockwise.
+        """The lower and the upper border of the hull, and the indices of its corners.
+
+        Borders are x and y (2, k) from west to east; the corners are counterclockwise.
         """
         with self._lock:
             if self._border_of_all is None:
@@ -142,8 +144,8 @@ class Surface:
     def _blocks(self, x: np.ndarray, y: np.ndarray) -> Iterator[tuple[np.ndarray, float]]:
         """Yield the indices of the queries in each block, and the longer side of its vertices.
 
-        Blocks are halved until they have few enough vertices, wherever these lie: a stray vertex
-        far away makes no difference.
+        Blocks are halved by the number of their vertices until these are few enough, so that a
+        stray vertex far away makes no difference.
         """
         vertices = self._vertices
         waiting = [(self._meshed, np.arange(len(x)))]
@@ -199,7 +201,7 @@ class Surface:
         return heights
 
     def _fan(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Return corners (3, q) of the hull whose triangle holds each query."""
+        """Return three corners of the hull (3, q) whose triangle holds each query."""
         corners = self._hull[2]
         first, others = corners[0], corners[1:]
         at = self._vertices.x[first], self._vertices.y[first]
@@ -217,10 +219,11 @@ class Surface:
     def _searched(
         self, x: np.ndarray, y: np.ndarray, corners: np.ndarray, max_edge: float | None
     ) -> np.ndarray:
-        """Return heights on the triangles that hold queries, beginning with any that does.
+        """Return heights on the triangles that hold queries, searched from `corners` on.
 
-        As in `enclosing`, but of all vertices: the one nearest to the centre of a circle tells
-        whether any lies in it.
+        `corners` are any triangles that hold the queries. The search is as in `enclosing`, but
+        among all vertices: the vertex nearest to the centre of a circle shows whether any lies in
+        it.
         """
         vertices, active = self._vertices, np.arange(len(x))
         for _ in range(_MOST_STEPS):
@@ -262,19 +265,19 @@ class Surface:
     def _are_delaunay(
         self, tin: Tin, triangle: np.ndarray, window: tuple[float, ...] | None
     ) -> np.ndarray:
-        """Return whether triangles of a block (k,) are such of the triangulation of all points.
+        """Return which triangles of a block (k,) belong to the triangulation of all points.
 
-        If a window is given, all points in it are vertices of the block.
+        If a window is given, the block has all points in it.
         """
         used, back = np.unique(triangle, return_inverse=True)
         corners = tin.triangles[used].T
-        # Relative to a corner, so that no digit is lost to the size of the coordinates.
+        # Relative to a corner, because large coordinates lose digits.
         x, y, radius = circumcircles(*(each[corners] - each[corners[0]] for each in (tin.x, tin.y)))
         x, y = x + tin.x[corners[0]], y + tin.y[corners[0]]
         delaunay = np.zeros(len(x), dtype=bool)
         if window is not None:
             west, south, east, north = window
-            # In the circles that lie in the window there is none.
+            # Circles within the window hold no point.
             delaunay = (x - radius > west) & (x + radius < east)
             delaunay &= (y - radius > south) & (y + radius < north)
         # Three vertices on one line have no circle; they only occur along the hull.
@@ -318,7 +321,7 @@ def _border(x: np.ndarray, y: np.ndarray, sign: float) -> np.ndarray:
 
 
 def _without_long(tin: Tin, triangle: np.ndarray, max_edge: float | None) -> np.ndarray:
-    """Return the triangles of queries, -1 for those that have an edge longer than `max_edge`."""
+    """Return the triangles of queries, -1 for triangles with an edge longer than `max_edge`."""
     if max_edge is None or not len(tin.triangles):
         return triangle
     longest = np.zeros(len(tin.triangles))

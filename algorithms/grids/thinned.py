@@ -17,10 +17,10 @@ from .tin import hull_corners
 # Cells along the side of a tile: its lattice stays in the processor's cache.
 TILE = 256
 _POINTS_A_PART = 1 << 17
-# Share of a cell by which a coordinate on a border may be rounded to the wrong side.
+# Rounding error of a coordinate on the border of a cell, as a share of the cell.
 _ROUNDING = 1e-6
-# Distances to the centre of a cell are told apart to this share of its squared side: how they are
-# rounded depends on where the origin is.
+# Squared distances to the centre of a cell, in squared cells, are rounded to so many decimals.
+# Further decimals depend on the origin of the coordinates.
 _DECIMALS = 6
 _MOST_SMALL = 1 << 16
 
@@ -33,11 +33,11 @@ class Tile(NamedTuple):
     slots : numpy.ndarray of int32, shape (n,)
         The cell of each point, in the flattened lattice of the tile; ascending.
     x, y : numpy.ndarray of float64, shape (n,)
-        In cells from the corner of the tile.
+        Coordinates in cells, from the corner of the tile.
     which : numpy.ndarray of intp, shape (n,)
-        Which of the points that were thinned they are.
+        Their indices in the points before thinning.
     outer : numpy.ndarray of intp, shape (m,)
-        Which of all points of the tile may be corners of its convex hull.
+        Indices of the points of the tile that may be corners of the convex hull.
     """
 
     slots: np.ndarray
@@ -48,7 +48,7 @@ class Tile(NamedTuple):
 
 
 class ThinnedPoints:
-    """The point nearest to the centre of each cell that has any; of equals, the lowest.
+    """The point nearest to the centre of each occupied cell; of equally near points, the lowest.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ class ThinnedPoints:
     points, side, anchor
         As given.
     tiles : dict of (int, int) to Tile
-        Those with points, by row and column of the tile.
+        The tiles with points, by row and column.
     """
 
     def __init__(
@@ -98,7 +98,7 @@ class ThinnedPoints:
             for axis, each in ((1, self.points.y), (0, self.points.x))
         )
         rows, columns = last_row - first_row + 1, last_column - first_column + 1
-        # Two bytes a point, that numpy sorts fastest.
+        # NumPy sorts integers of two bytes fastest.
         kind = np.uint16 if rows * columns <= _MOST_SMALL else np.int64
         numbers = np.empty(self.points.count, dtype=kind)
 
@@ -114,7 +114,7 @@ class ThinnedPoints:
 
         over_parts(place, self.points.count, _POINTS_A_PART, progress)
         if kind is np.int64:
-            # Of tiles far apart, only those that have points get a number.
+            # If tiles are far apart, only tiles with points are numbered.
             found, numbers = np.unique(numbers, return_inverse=True)
         else:
             found = np.arange(rows * columns)
@@ -122,7 +122,7 @@ class ThinnedPoints:
         return numbers, list(zip((row + first_row).tolist(), (column + first_column).tolist()))
 
     def cells(self, values: np.ndarray, axis: int) -> np.ndarray:
-        """Return x (`axis` 0) or y (1) in metres as cells from the anchor."""
+        """Convert x (`axis` 0) or y (1) from metres to cells from the anchor."""
         return (values - self.anchor[axis]) / self.side + _ROUNDING
 
     def _tile(self, which: np.ndarray, place: tuple[int, int]) -> Tile:
@@ -137,12 +137,12 @@ class ThinnedPoints:
 
     @property
     def count(self) -> int:
-        """Number of points that are left."""
+        """Number of points after thinning."""
         return sum(len(each.which) for each in self.tiles.values())
 
     @cached_property
     def hull(self) -> np.ndarray:
-        """Return which of all points are the corners of their convex hull."""
+        """Return the indices of the corners of the convex hull of all points."""
         outer = np.concatenate([each.outer for each in self.tiles.values()])
         return outer[hull_corners(self.points.x[outer], self.points.y[outer])]
 
@@ -187,9 +187,9 @@ class Window(NamedTuple):
     lattice : numpy.ndarray of int32, shape (rows, columns)
         The number of the point in each cell; -1 where there is none.
     x, y : numpy.ndarray of float64, shape (n,)
-        In cells from the corner of the tile.
+        Coordinates in cells, from the corner of the tile.
     which : numpy.ndarray of intp, shape (n,)
-        Which of the points that were thinned they are.
+        Their indices in the points before thinning.
     """
 
     lattice: np.ndarray
@@ -199,9 +199,9 @@ class Window(NamedTuple):
 
 
 def _is_inner(slots: np.ndarray) -> np.ndarray:
-    """Return for each cell of a tile whether others lie in all four quarters of the plane round it.
+    """Return which cells of a tile have points in all four quarters of the plane round them.
 
-    Points there are no corners of the convex hull.
+    Their own points are no corners of the convex hull.
     """
     occupied = np.zeros((TILE, TILE), dtype=bool)
     occupied.ravel()[slots] = True

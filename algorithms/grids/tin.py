@@ -8,9 +8,10 @@ import numpy as np
 
 from ..core.threads import parts_of
 
-# Queries are walked this many at a time: the arrays of one step then stay in the processor's cache.
+# Queries of one walk, so few that the arrays of a step stay in the processor's cache.
 _QUERIES_A_STEP = 200_000
-# Twice the area, in m2, by which a query may lie outside an edge and count as on it: rounding.
+# Rounding: a query outside an edge still counts as on it if twice the area between them is below
+# this, in m2.
 _ON_EDGE = 1e-11
 
 
@@ -31,11 +32,11 @@ class Tin:
     Attributes
     ----------
     x, y, z : numpy.ndarray of float64, shape (v,)
-        The vertices that were kept, in an order of the TIN's own.
+        The vertices that were kept, in the order of the TIN.
     source : numpy.ndarray of intp, shape (v,)
-        Where each vertex stands in the input.
+        Index of each vertex in the input.
     triangles : numpy.ndarray of int32, shape (t, 3)
-        Vertices of each triangle; empty if there are no three vertices off one line.
+        Vertices of each triangle; empty if all vertices lie on one line.
     neighbours : numpy.ndarray of int32, shape (t, 3)
         The triangle opposite to each vertex; -1 beyond the convex hull.
     """
@@ -47,7 +48,7 @@ class Tin:
         order = np.lexsort((x[kept], y[kept], strip))
         self.source = kept[order]
         self.x, self.y, self.z = x[self.source], y[self.source], z[self.source]
-        # Close to the origin, Qhull and the walk lose no digits to the size of the coordinates.
+        # Relative to the median, because Qhull and the walk lose digits in large coordinates.
         self._origin = (np.median(self.x), np.median(self.y)) if len(kept) else (0.0, 0.0)
         self._x, self._y = self.x - self._origin[0], self.y - self._origin[1]
         self.triangles, self.neighbours = _triangulate(np.column_stack((self._x, self._y)))
@@ -88,7 +89,7 @@ class Tin:
         x, y
             As for `locate`.
         triangle : numpy.ndarray of int, shape (q,), optional
-            What `locate` returned for them, if it is known.
+            The result of `locate`, if it is known.
 
         Returns
         -------
@@ -116,7 +117,7 @@ class Tin:
         return height
 
     def lost(self, triangles: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Return which triangles are lost when more vertices join: their circles hold one.
+        """Return which triangles disappear when vertices are added: their circles hold one.
 
         Parameters
         ----------
@@ -128,7 +129,7 @@ class Tin:
         Returns
         -------
         numpy.ndarray of bool, shape (q,)
-            True where one lies within the circumcircle, or on it.
+            True where a new vertex lies in the circumcircle or on it.
         """
         from scipy.spatial import cKDTree
 
@@ -207,7 +208,7 @@ def lowest_of_duplicates(x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndar
 
 
 def _strips(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Cut vertices into strips of equally many along x; return the strip of each, and the borders.
+    """Divide vertices along x into strips of equal counts; return their strips and the borders.
 
     Quantiles, not equal widths: one stray point far away must not put all others into one strip.
     """
@@ -252,7 +253,7 @@ def hull_corners(x: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 
 def _triangle_of_vertex(triangles: np.ndarray, count: int) -> np.ndarray:
-    """Return a triangle at each vertex; at a vertex that Qhull left out, that of the one before."""
+    """Return a triangle at each vertex; a vertex that Qhull left out has that of the one before."""
     triangle = np.full(count, -1, dtype=np.int32)
     triangle[triangles.ravel()] = np.repeat(np.arange(len(triangles), dtype=np.int32), 3)
     known = np.flatnonzero(triangle >= 0)

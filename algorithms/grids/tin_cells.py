@@ -1,4 +1,4 @@
-"""Which triangle of a TIN holds the centre of each cell: one row of each triangle after another."""
+"""The triangle of a TIN that holds the centre of each cell, found row by row of each triangle."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ import numpy as np
 from .cells import numbered
 from .tin import Tin
 
-# Share of a cell by which a centre on an edge counts as inside: rounding.
+# Rounding: a centre outside an edge by less than this share of a cell counts as inside.
 _ON_EDGE = 1e-9
-# Pairs of a triangle and a row that are worked on at a time.
+# Pairs of a triangle and a row that are computed at a time.
 _PAIRS = 1 << 18
 
 
@@ -32,10 +32,10 @@ def triangles_of_cells(
     Returns
     -------
     numpy.ndarray of int32, shape (rows, columns)
-        Rows of `tin.triangles`; -1 where none holds it. On an edge, one of both.
+        Rows of `tin.triangles`; -1 for none. On an edge, one of the two.
     """
     found = np.full(shape, -1, dtype=np.int32)
-    # Cells from the centre of the first one.
+    # In cells, from the centre of the first cell.
     x, y = ((each - at) / cell - 0.5 for each, at in zip((tin.x, tin.y), corner))
     corners_y = y[tin.triangles]
     first = np.maximum(np.ceil(corners_y.min(axis=1) - _ON_EDGE), 0).astype(np.int64)
@@ -65,19 +65,19 @@ def _crossed(
         with np.errstate(divide="ignore", invalid="ignore"):
             share = np.where(end_y == start_y, 0.0, (row - start_y) / (end_y - start_y))
         meets = (share >= -_ON_EDGE) & (share <= 1.0 + _ON_EDGE)
-        # An edge along the row counts where it lies on it.
+        # An edge parallel to the row counts if it lies on the row.
         meets &= (end_y != start_y) | (np.abs(row - start_y) <= _ON_EDGE)
         at = start_x + np.clip(share, 0.0, 1.0) * (end_x - start_x)
         np.minimum(west, at, out=west, where=meets)
         np.maximum(east, at, out=east, where=meets)
-    # Where rounding lets no edge meet the row, no cell is inside.
+    # If no edge meets the row because of rounding, no cell is inside.
     none = west > east
     west[none], east[none] = 0.0, -1.0
     return west, east
 
 
 def _parts(counts: np.ndarray) -> list[slice]:
-    """Cut triangles into parts of about as many pairs with rows."""
+    """Divide triangles into parts with about equally many pairs of triangle and row."""
     if not len(counts):
         return []
     part = np.cumsum(counts) // _PAIRS

@@ -1,4 +1,4 @@
-"""The trend of the terrain in a height grid: what walls and trees do not move."""
+"""The slope and the unevenness of the terrain in a height grid, in spite of walls and trees."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ from .morphology import median_of_nine
 
 # Side in metres of the blocks whose median slope is the trend of the terrain.
 _BLOCK = 15.0
-# Differences of a block that suffice for its median, along each axis.
+# Number of differences along each axis of a block that are enough for its median.
 _SAMPLES = 7
 
 
 class Rises(NamedTuple):
-    """What the terrain rises over one cell, in metres, at some cells.
+    """The rise of the terrain over one cell in metres, at some cells.
 
     Attributes
     ----------
     north, east : numpy.ndarray of float32
         Towards north and east.
     steepest : numpy.ndarray of float32
-        Towards where it is steepest.
+        In the steepest direction.
     roughness : numpy.ndarray of float32
-        How much single rises usually depart from that.
+        Usual difference between single rises and these.
     """
 
     north: np.ndarray
@@ -39,10 +39,10 @@ class Rises(NamedTuple):
 class Trend:
     """The slope of the terrain and its unevenness.
 
-    Within blocks of some metres the slope is the median of that between neighbours, which walls
-    and trees do not move, and the unevenness the median of what departs from it. Between the
-    middles of the blocks they are interpolated, for some cells at a time: grids as large as that
-    of the heights would cost more than all else.
+    The slope of a block of 15 m is the median slope between neighbouring cells, on which walls and
+    trees have no effect. Its unevenness is the median difference from this slope. Both are
+    interpolated between the middles of the blocks, for some cells at a time, because whole grids
+    would cost more than everything else.
 
     Parameters
     ----------
@@ -51,8 +51,8 @@ class Trend:
     size : float
         Side of a cell in metres.
     first : tuple of int
-        Row and column of the first cell: blocks begin at multiples of their side, wherever the
-        grid does.
+        Row and column of the first cell in the grid of the CRS: blocks begin at multiples of their
+        side there.
     """
 
     def __init__(self, heights: np.ndarray, size: float, first: First = (0, 0)) -> None:
@@ -65,7 +65,7 @@ class Trend:
         self._across = [_interpolated(each, columns, self._block, -1) for each in self._blocks]
 
     def _of_axis(self, heights: np.ndarray, axis: int) -> np.ndarray:
-        """Return slope along an axis and departure from it, of each block (2, rows, columns)."""
+        """Return the slope along an axis and the unevenness of each block, (2, rows, columns)."""
         if heights.shape[axis] == 1:  # a grid one cell wide has no slope across
             return np.zeros((2, 1, 1), dtype=heights.dtype)
         slopes = np.diff(heights, axis=axis) / heights.dtype.type(self._size)
@@ -75,7 +75,7 @@ class Trend:
         return np.stack([median_of_nine(each) for each in (slope, departure)])
 
     def of_rows(self, first: int, last: int) -> Rises:
-        """Return the rises at all cells of some rows, `last` not among them."""
+        """Return the rises at all cells of the rows from `first` on, before `last`."""
         rows = np.arange(first, last) + self._within[0]
         return self._rises([_interpolated(each, rows, self._block, -2) for each in self._across])
 
@@ -85,7 +85,7 @@ class Trend:
         return self._rises([_at_places(each, self._block, row, column) for each in self._blocks])
 
     def along(self, row: np.ndarray, column: np.ndarray, north: int, east: int) -> np.ndarray:
-        """Return what the terrain rises from cells to others, some cells farther north and east."""
+        """Return the rise of the terrain from cells to the cells `north` and `east` of them."""
         rise = np.float32(0.0)
         row, column = row + self._within[0], column + self._within[1]
         for cells, values in zip((north, east), self._blocks):
@@ -95,7 +95,7 @@ class Trend:
         return rise
 
     def _rises(self, fields: list[np.ndarray]) -> Rises:
-        """Return the rises where slope and departure (2, ...) along both axes are known."""
+        """Return the rises from slope and unevenness (2, ...) along both axes."""
         for each in fields:
             each *= np.float32(self._size)
             each[1] /= 2
@@ -115,7 +115,7 @@ def between_blocks(
     block : int
         Cells along the side of a block.
     rows, columns : numpy.ndarray of int
-        Which cells, counted from the first of the first block.
+        Cells, counted from the first cell of the first block.
 
     Returns
     -------
@@ -137,7 +137,7 @@ def _interpolated(values: np.ndarray, cells: np.ndarray, block: int, axis: int) 
 
 
 def _at_places(values: np.ndarray, block: int, row: np.ndarray, column: np.ndarray) -> np.ndarray:
-    """Interpolate as `between_blocks` to single cells."""
+    """Interpolate to single cells, as `between_blocks`."""
     south, north, up = _neighbours(row, block, values.shape[-2], values.dtype)
     west, east, right = _neighbours(column, block, values.shape[-1], values.dtype)
     south_side = values[..., south, west] * (1 - right) + values[..., south, east] * right
@@ -148,7 +148,7 @@ def _at_places(values: np.ndarray, block: int, row: np.ndarray, column: np.ndarr
 def _neighbours(
     cells: np.ndarray, block: int, count: int, kind: np.dtype
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the blocks whose middles lie on either side, and the weight of the second."""
+    """Return the two blocks between whose middles each cell lies, and the second's weight."""
     place = np.clip((cells + 0.5) / block - 0.5, 0.0, count - 1.0)
     first = np.minimum(place.astype(int), max(count - 2, 0))
     return first, np.minimum(first + 1, count - 1), (place - first).astype(kind)

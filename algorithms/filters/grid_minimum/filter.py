@@ -2,8 +2,8 @@
 
 References
 ----------
-Prabhath, Perera and Arachchige: a rule-based minimum-Z grid filter. Only its abstract is public;
-what it leaves open is ours, see docs/grid-minimum.md.
+Prabhath, Perera and Arachchige: a rule-based minimum-Z grid filter. Only its abstract is public.
+The rest is ours, see docs/grid-minimum.md.
 """
 
 from __future__ import annotations
@@ -33,46 +33,51 @@ from ..shared.outliers import low_outliers, supported
 
 # Points that a cell should hold on average: with fewer, gaps break the rims.
 _POINTS_PER_CELL = 1.0
-# Metres, of which cells are a multiple where points are sparse.
+# Where points are sparse, the side of a cell is a multiple of this, in metres.
 _CELL_STEP = 0.5
-# Cells smaller than that by so small a share of themselves are not made larger.
+# Cells are not enlarged if they are too small by less than this share of their side.
 _NEARLY = 0.05
-# Least side in metres of the blocks that the density is counted in.
+# Least side in metres of the blocks in which the density is measured.
 _DENSITY_BLOCK = 10.0
-# Side in metres of the blocks of cells, two at least, that tall objects are looked for in.
+# Side in metres of the blocks in which tall objects are searched; a block has at least 2 x 2 cells.
 _BLOCK = 1.0
+# Passes over low objects: the first removal uncovers more.
 _FINAL_PASSES = 2
-# How many times the unevenness of the terrain is added where rims are taken out for good.
+# The unevenness of the terrain is added so many times to the height of rims that are removed.
 _RIM_ROUGHNESS = 2.0
-# Low noise: narrower than this, and this far below the lowest points of the neighbourhood.
+# Low noise is narrower than this, and so far below the usual lowest points round it, in metres.
 _NOISE_WIDTH = 10.0
 _NOISE_DEPTH = 2.0
+# A pit of one cell with steeper sides (rise over run) is a low outlier.
 _OUTLIER_SLOPE = 5.0
+# Largest slope (rise over run) of the surface that counts, and relaxations across its gaps.
 _STEEPEST = 5.0
 _RELAXATIONS = 2
-# Points per square metre from which a pit is noise at a gentler slope: a lowest point has others
-# close by, which would lie in the pit as well.
+# From so many points per square metre on, pits with this gentler slope are noise, too: in dense
+# points, a real pit would hold other points as well.
 _DENSE, _OUTLIER_SLOPE_WHERE_DENSE = 3.0, 2.0
-# Share of the rise over a wide cell by which its points may lie off the surface.
+# The lowest point of a fine cell may lie off the surface by this share of the rise over a wide
+# cell.
 _UNEVENNESS = 0.6
-# Least side in metres of the cells of the surface that points are compared with.
+# Side in metres of the cells of the final surface, unless the cells of the filter are smaller.
 _FINE_CELL = 1.0
-# Metres beyond which points do not matter: so many times the largest object, but at least this.
+# Points affect each other within so many times the largest object, and within at least so many
+# metres.
 _REACH_OBJECTS, _LEAST_REACH = 2.0, 100.0
 
-# The preset that keeps to the paper.
+# The preset with the rules of the paper.
 CLASSIC = "paper"
 
 
 class Preset(NamedTuple):
-    """What a kind of terrain asks for.
+    """The values of a preset.
 
     Attributes
     ----------
     label : str
         As in the dialog.
     cell_size : float
-        Least cell size in metres; larger where points are sparse, but in the paper's preset.
+        Least cell size in metres. It grows where points are sparse, except in the paper's preset.
     height_thresholds : tuple of float
         In metres.
     final_height, max_object_size : float
@@ -105,7 +110,7 @@ PRESETS = {
 class GridMinimum(ParameterSet):
     """Parameters of the minimum-Z grid filter.
 
-    Those left empty are taken from the preset; `resolve` says which.
+    `resolve` fills empty ones from the preset.
     """
 
     preset: str = parameter(
@@ -197,12 +202,13 @@ class GridMinimum(ParameterSet):
             )
 
     def resolve(self, points: Points) -> GridMinimum:
-        """Return the parameters with a value for each that was left empty.
+        """Return the parameters with values in place of empty ones.
 
         Parameters
         ----------
         points : Points
-            The whole survey: its blocks must all be classified with the same values.
+            All points of the survey, because all its blocks must be classified with the same
+            values.
 
         Returns
         -------
@@ -220,22 +226,23 @@ class GridMinimum(ParameterSet):
 
 
 def largest_object(parameters: GridMinimum) -> float:
-    """Return the width in metres of the largest building that is looked for."""
+    """Return the width in metres of the largest building that is searched."""
     return parameters.max_object_size or PRESETS[parameters.preset].max_object_size
 
 
 def reach(parameters: GridMinimum) -> float:
-    """Return the metres beyond which a point does not matter for another."""
+    """Return the distance in metres within which points affect each other."""
     return max(_LEAST_REACH, _REACH_OBJECTS * largest_object(parameters))
 
 
 def classify(points: Points, parameters: GridMinimum, progress: Progress = SILENT) -> np.ndarray:
-    """Tell ground from other points.
+    """Return which points are ground.
 
-    Noise is taken out of the grid of lowest points, then objects, the tall ones first and last
-    what is left of rims; cells that are level with the ground beside them grow back. What is wider
-    than its rims tell is sought by openings, and what passes gently into the ground comes back.
-    Every point close to the surface through the remaining lowest points is ground.
+    First noise is removed from the grid of lowest points. Then objects are removed, the tall ones
+    first, and last the rims that are left. Removed cells grow back if they are level with the
+    ground beside them. Openings find objects without a rim on all sides, and regions that continue
+    gently into the ground come back. Every point close to the surface through the remaining lowest
+    points is ground.
 
     Parameters
     ----------
@@ -277,7 +284,7 @@ def classify(points: Points, parameters: GridMinimum, progress: Progress = SILEN
 
 
 def _limits(surface: np.ndarray, parameters: GridMinimum) -> np.ndarray:
-    """Return between which heights points are ground, shape (rows, columns, 2)."""
+    """Return the lowest and the highest height of ground points, shape (rows, columns, 2)."""
     tolerance = np.minimum(steepness(surface, parameters.cell_size), _STEEPEST)
     tolerance *= parameters.slope_tolerance * parameters.cell_size
     tolerance += parameters.ground_tolerance
@@ -285,12 +292,12 @@ def _limits(surface: np.ndarray, parameters: GridMinimum) -> np.ndarray:
 
 
 class _Grids(NamedTuple):
-    """What the rims tell of each cell, grids of shape (rows, columns).
+    """Results from the rims of objects; grids of shape (rows, columns).
 
     Attributes
     ----------
     heights, ground : numpy.ndarray of float64
-        Lowest heights without noise, and those of the ground; NaN where there is none.
+        Lowest heights without noise, and only those of the ground; NaN elsewhere.
     objects : Objects
         What the passes of the height thresholds find.
     """
@@ -307,7 +314,7 @@ def _by_rims(cells: Cells, z: np.ndarray, parameters: GridMinimum, progress: Pro
     count, classic = np.count_nonzero(np.isfinite(heights)), parameters.preset == CLASSIC
     heights[_noise(heights, cells, blocks, classic)] = np.nan
     if not classic and _density(cells) >= _DENSE:
-        # After the clusters, which would lose their rims.
+        # After the clusters are removed, because they would lose their rims.
         slope = _OUTLIER_SLOPE_WHERE_DENSE
         heights[low_outliers(heights, cells.size, slope, cells.first)] = np.nan
     tell_of_outliers(count, heights, progress)
@@ -323,8 +330,8 @@ def _candidates(
 ) -> tuple[Candidates, Cells]:
     """Return the lowest points of fine cells that may be ground, and these cells.
 
-    Rims want cells without gaps; the surface may have finer ones. Their lowest points are ground
-    if their wide cell is, and they are about as low.
+    Rims need cells without gaps, but the surface can have finer cells. The lowest point of a fine
+    cell is ground if its wide cell is ground and the point is near the surface of the wide cells.
     """
     heights, widest = grids.heights, parameters.max_object_size
     ground = ground_cells(
@@ -357,7 +364,7 @@ def _in_words(parameters: GridMinimum) -> str:
 
 
 def _tell_of_gaps(density: float, parameters: GridMinimum, progress: Progress) -> None:
-    """Warn of cells that are too small for the points per square metre."""
+    """Warn if cells are too small for the number of points per square metre."""
     size = parameters.cell_size
     multiple = _multiple(density, size)
     if multiple > 1:
@@ -368,7 +375,7 @@ def _tell_of_gaps(density: float, parameters: GridMinimum, progress: Progress) -
 
 
 def _multiple(density: float, size: float) -> int:
-    """Return how many times larger cells must be to hold a point, or nearly so."""
+    """Return by how many times cells must be enlarged to hold about one point."""
     return max(math.ceil(math.sqrt(_POINTS_PER_CELL / density) / size - _NEARLY), 1)
 
 
@@ -389,8 +396,8 @@ def _density(cells: Cells) -> float:
 def _noise(heights: np.ndarray, cells: Cells, blocks: CellBlocks, classic: bool) -> np.ndarray:
     """Return the cells of narrow pits far below the usual lowest points around.
 
-    A gap in the canopy, a yard or a street between roofs is a pit too, but has others as low near
-    it; noise stands alone.
+    A gap in the canopy, a yard or a street between roofs is a pit too, but others near it are as
+    low. Noise is alone.
     """
 
     from scipy import ndimage
@@ -418,10 +425,10 @@ def _noise(heights: np.ndarray, cells: Cells, blocks: CellBlocks, classic: bool)
 def _tall_objects(
     heights: np.ndarray, blocks: CellBlocks, parameters: GridMinimum, progress: Progress
 ) -> Objects:
-    """Return the cells of what the passes of the height thresholds find.
+    """Return the objects that the passes of the height thresholds find.
 
-    They look at the lowest points of blocks, so that the gaps of a tree's crown and points
-    half-way down a wall hide no rim; single cells far above the ground of their block go as well.
+    The passes use the lowest points of blocks, so that gaps in a tree's crown and points half-way
+    down a wall hide no rim. Single cells far above the ground of their block are objects as well.
     """
     lowest = blocks.lowest(heights)
     thresholds, size, first = parameters.height_thresholds, blocks.size, blocks.first_block
@@ -452,8 +459,8 @@ def _without_low_objects(
 ) -> np.ndarray:
     """Return the heights of the ground, NaN elsewhere.
 
-    What stands out by the final height is cut out, with the rims that are left of larger objects;
-    of these cells those that are level with the rest grow back.
+    Objects of the final height are removed, with the rims that are left of larger objects. Removed
+    cells grow back if they are level with the rest.
     """
     inside = covered(np.isfinite(heights))
     for done in range(_FINAL_PASSES):

@@ -9,59 +9,59 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Allowance:
-    """How high something may stand out of an opening's window and still be terrain.
+    """How much openings may cut off terrain, and which raised regions are terrain after all.
 
     Attributes
     ----------
     base : float
-        Height in metres, whatever the window.
+        Height in metres for any window.
     per_radius : float
-        What each metre of the window's radius adds, in metres.
+        Metres that each metre of the window's radius adds.
     per_slope : float
-        What each metre of the radius adds on a slope of 45 degrees (in proportion on others).
+        Metres that each metre of the radius adds on a slope of 45 degrees; in proportion on others.
     largest : float
-        No allowance is larger, in metres.
+        The largest allowance in metres.
     gentle_step : float
-        A step between cells of up to a metre that is not an edge, in metres, on top of the
-        terrain's own rise; in proportion between larger cells.
+        Largest step between cells, in metres beyond the terrain's own rise, that is not an edge. It
+        is for cells of up to 1 m, and in proportion larger for larger cells.
     gentle_share : float
         Share of the border of a region that must be gentle for it to be terrain.
     gentle_area : float
-        Smallest region, in square metres, that may be terrain for that reason.
+        Least area of such a region in square metres.
     wide_share, wide_area : float
-        The share level with the ground that suffices for regions of so many square metres or more:
-        a plateau that a ramp joins with the ground. From the area of a house on, the share falls
+        Regions of at least this area in square metres are terrain if this share of their border is
+        level with the ground: a plateau with a ramp. From the area of a house on, the share falls
         to this one with the logarithm of the area.
     usual_window : float
-        Radius in metres of windows up to which all of this holds; larger ones are for halls.
+        Largest radius in metres of the windows for which all this holds; larger windows are for
+        halls.
     hall_height : float
-        Larger windows cut off only what is higher by so many metres.
+        Least height in metres that larger windows cut off.
     hall_per_slope : float
-        What each metre of their radius adds on a slope of 45 degrees, in metres: where the
-        contours of a steep slope bend, a wide window cuts off the slope.
+        Metres that each metre of their radius adds to it on a slope of 45 degrees: a wide window
+        cuts off a steep slope where its contours bend.
     rise_counts : bool
-        Whether a border that rises to the ground counts as a gentle one: the tread of a terrace.
+        Whether a border that rises to the ground counts as gentle, as at the tread of a terrace.
     border_area : float
-        A region of so many square metres or more is terrain as well where much of its border is
-        that of the survey: too little is known of it.
+        A region of at least so many square metres is terrain as well if much of its border is the
+        border of the survey, because too little is known of it.
     border_height : float
-        But not if it stands so many metres above the ground, on average: the border of the survey
-        cuts buildings.
+        Such a region is no terrain if its mean height above the ground, in metres, is larger: it
+        may be a building cut by the border of the survey.
     island_area : float
-        What is left within a region, level with it and no larger in square metres, is part of it:
-        an opening cuts off most of a wide roof on a slope, but not all.
+        A patch within a region and level with it belongs to the region if it has at most so many
+        square metres: an opening cuts off most of a wide roof on a slope, but not all.
     rock_area, ramp_area, link_area : float
-        A region of so many square metres or more is terrain as well if it has the shape of a rock,
+        A region of at least so many square metres is terrain as well if it has the shape of a rock,
         of a long ramp, or of a ramp between two levels.
     follows_slopes : bool
-        Whether a step between cells is no edge where those before or after it are as high: a
-        steep slope, or a cliff, of which points lie on the face; or where the terrain at large
-        rises as much.
+        Whether a step between cells is no edge if the steps before or after it are as high (a steep
+        slope, or a cliff with points on its face), or if the trend of the terrain rises as much.
     slopes_taken : int
-        How often the slope of the terrain is taken, each time from what was not cut off before.
+        How often the slope of the terrain is computed, each time from cells that are not cut off.
     judges_gaps : bool
-        Whether cells without a point are told apart as well: they are raised where what fills them
-        is, and beyond the survey they are no border.
+        Whether cells without a point are judged as well. They are raised if their filled height is,
+        and outside the survey they are no border.
     """
 
     base: float = 0.15
@@ -88,11 +88,11 @@ class Allowance:
     judges_gaps: bool = True
 
     def for_cells(self, size: float) -> Allowance:
-        """Return what is allowed between cells whose side is `size` metres."""
+        """Return the allowance for cells of `size` metres."""
         return replace(self, gentle_step=self.gentle_step * max(size, 1.0))
 
 
-# For presets of other programs: large windows and slopes are treated as all others.
+# For presets of other programs, without rules for large windows and steep slopes.
 CLASSIC = Allowance(
     gentle_share=0.5,
     wide_share=0.5,

@@ -1,4 +1,4 @@
-"""What tells a low bank from plants, walls and cars: its cross-section, measured in strips."""
+"""Tell low banks from plants, walls and cars by their cross-section, measured in strips."""
 
 from __future__ import annotations
 
@@ -6,40 +6,41 @@ from typing import NamedTuple
 
 import numpy as np
 
-# Metres to both sides over which a cross-section is measured, and beside a bank over which the
-# ground is.
+# Width in metres of a cross-section on each side, and of the ground that is measured beside a bank.
 _HALF, _BESIDE = 6.0, 2.0
-# Shares of the points of a step that stand out: where a bank is, and at its crest.
+# Least share of a step's points that stand out, on a bank and at its crest.
 _RAISED, _CREST = 0.5, 0.7
-# Metres: the highest bank, and its width where it is higher than the second.
+# In metres: the largest height of a bank, the height above the ground at which its width is
+# measured, and the least and largest width.
 _HIGHEST, _FOOT_HEIGHT, _NARROWEST, _WIDEST = 1.6, 0.1, 1.0, 6.0
-# Standard deviation of the points from the cross-section in metres, or for each metre of height,
-# whichever is more; and for each unit of slope (rise over run), as the middle line is not exact.
+# Largest standard deviation of the points from the cross-section: in metres, or for each metre of
+# the bank's height, whichever is more. The last is added for each unit of slope (rise over run),
+# because the middle line is not exact.
 _SCATTER, _SCATTER_HEIGHT, _SCATTER_SLOPE = 0.06, 0.1, 0.12
-# The same at the crest: in metres, or times that of the ground beside the bank.
+# The same at the crest: in metres, or as a multiple of that of the ground beside the bank.
 _CREST_SCATTER, _CREST_FACTOR = 0.05, 2.0
-# Metres above the cross-section from which on points are plants, how often they are taken out, and
-# how many there are at most for each other point.
+# Points more than so many metres above the cross-section are plants; how often these are removed;
+# and the most plants for each other point.
 _PLANT, _TRIMS, _MOST_PLANTS = 0.25, 2, 0.2
-# On its gentler side a bank nowhere rises by more metres than that within half a metre.
+# On its gentler side a bank rises by at most so many metres within half a metre.
 _RISE, _RISE_LENGTH = 0.6, 0.5
-# Points so many metres from the cross-section are of the bank.
+# Points within so many metres of the cross-section belong to the bank.
 _NEAR = 0.15
 
 
 class Strip(NamedTuple):
-    """Points of squares, seen along the middle line of each; arrays of shape (n,).
+    """Points of squares, along and across the middle line of each; arrays of shape (n,).
 
     Attributes
     ----------
     square : numpy.ndarray of int
-        Numbers from 0.
+        The square of each point, numbered from 0.
     along, across, z : numpy.ndarray of float64
         Metres.
     stands_out : numpy.ndarray of bool
-        Not ground.
+        Which points stand out of the ground.
     number : int
-        How many squares there are.
+        Number of squares.
     """
 
     square: np.ndarray
@@ -50,7 +51,7 @@ class Strip(NamedTuple):
     number: int
 
     def take(self, which: np.ndarray) -> Strip:
-        """Return some points of the same squares."""
+        """Return the selected points of the same squares."""
         square, along, across, z, stands_out = (each[which] for each in self[:5])
         return Strip(square, along, across, z, stands_out, self.number)
 
@@ -67,12 +68,12 @@ def on_banks(strip: Strip, length: float) -> np.ndarray:
     strip : Strip
         The points.
     length : float
-        Metres from one step of a cross-section to the next.
+        Length in metres of a step of a cross-section.
 
     Returns
     -------
     numpy.ndarray of bool, shape (n,)
-        All of them stand out.
+        Only points that stand out are on a bank.
     """
     kept = np.ones(len(strip.square), dtype=bool)
     for _ in range(_TRIMS):
@@ -98,13 +99,14 @@ class _Sections(NamedTuple):
     step : numpy.ndarray of int, shape (n,)
         The step of each point, in the flattened grids.
     rest : numpy.ndarray of float64, shape (n,)
-        Metres of each point above the cross-section.
+        Height of each point above the cross-section in metres.
     points, plants : numpy.ndarray of float64, shape (squares, steps)
-        How many were kept, and how many were not.
+        Numbers of points that were kept, and of plants.
     across, height, slope, scatter : numpy.ndarray of float64, shape (squares, steps)
-        Means in metres, rise over run, and the sum of the squares of `rest`.
+        Mean place and mean height in metres, slope (rise over run), and the sum of the squares of
+        `rest`.
     share : numpy.ndarray of float64, shape (squares, steps)
-        Of the points, those that stand out.
+        Share of the points that stand out.
     """
 
     step: np.ndarray
@@ -119,7 +121,7 @@ class _Sections(NamedTuple):
 
 
 def _sections(strip: Strip, kept: np.ndarray, length: float) -> _Sections:
-    """Return the cross-section of each square, of points that are kept; NaN where there is none."""
+    """Return the cross-section of each square from the points that are kept; NaN at empty steps."""
     half = int(_HALF / length)
     steps = 2 * half + 1
     step = np.clip(np.rint(strip.across / length).astype(np.int64) + half, 0, steps - 1)
@@ -131,7 +133,7 @@ def _sections(strip: Strip, kept: np.ndarray, length: float) -> _Sections:
     count = total(kept)
     with np.errstate(invalid="ignore", divide="ignore"):
         along, across, z = (total(np.where(kept, each, 0.0)) / count for each in strip[1:4])
-        # The land may fall along the line.
+        # The fall of the land along the line is removed.
         beyond = np.where(kept, strip.along - along[step], 0.0)
         fall = strip.total(beyond * strip.z) / strip.total(beyond * beyond)
         height = (z - np.repeat(fall, steps) * along).reshape(-1, steps)
@@ -150,7 +152,7 @@ def _sections(strip: Strip, kept: np.ndarray, length: float) -> _Sections:
 def _is_bank(
     sections: _Sections, raised: np.ndarray, body: np.ndarray, length: float
 ) -> np.ndarray:
-    """Return which cross-sections are those of banks."""
+    """Return which cross-sections are banks."""
     steps = np.arange(raised.shape[1])
     first = np.argmax(raised, axis=1)[:, None]
     last = steps[-1] - np.argmax(raised[:, ::-1], axis=1)[:, None]
@@ -199,7 +201,7 @@ def _gentler_rise(
 def _is_smooth(
     sections: _Sections, body: np.ndarray, heights: np.ndarray, beside: np.ndarray, top: np.ndarray
 ) -> np.ndarray:
-    """Return where points scatter no more from the cross-section than those of the ground do."""
+    """Return which cross-sections have points that scatter no more than points of the ground."""
     count, scatter = sections.points, sections.scatter
     total = np.sum(np.where(body, count, 0), axis=1)
     is_bare = np.sum(np.where(body, sections.plants, 0), axis=1) <= _MOST_PLANTS * total

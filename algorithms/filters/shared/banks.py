@@ -1,9 +1,9 @@
 """Low banks, dykes of fields and rims of ditches: narrow, as hedges and rows of plants are.
 
-Morphology cuts off what is narrow and higher than the tolerance of the ground. A cross-section
-tells a bank from a plant: it stays the same for some metres, its points do not scatter, and on one
-side at least it is no wall. It is looked for in squares, along the middle line of what stands out
-there, which may be bent.
+Morphology cuts off banks, because they are narrow and higher than the tolerance of the ground. A
+cross-section tells a bank from a plant: on a bank it stays the same for some metres, its points do
+not scatter, and at least one side is no wall. It is measured in squares, along the middle line of
+the points that stand out. This line may be bent.
 """
 
 from __future__ import annotations
@@ -18,23 +18,25 @@ from ...core.threads import in_threads, over_parts
 from ...grids.cells import Cells
 from .bank_sections import Strip, on_banks
 
-# Side in metres of a tile. A square is of two by two tiles, and squares overlap by one tile.
+# Side of a tile in metres. A square has 2 x 2 tiles, and squares overlap by one tile.
 _TILE = 4.0
-# Points are looked at up to so many metres above the ground and its tolerance.
+# Points up to so many metres above the tolerance of the ground are tested.
 _LOOK_UP = 1.8
-# In a square, so many points stand out at least, and as many as lie on so many square metres.
+# Least number of points of a square that stand out; and at least as many as usually lie on so many
+# square metres.
 _LEAST_POINTS, _LEAST_AREA = 8, 2.0
-# Where the share of others that stand out is so large within so many metres: others are plants.
+# Points that stand out are tested if they are at least this share of the points within so many
+# metres. Where fewer stand out, they are plants.
 _SHARE, _AROUND = 0.15, 1.0
-# In metres, their standard deviation along the middle line is at least the first, across it at
-# most the second. Their variances have this ratio.
+# Least standard deviation in metres of the points along the middle line, largest one across it, and
+# least ratio of the variances.
 _LEAST_LENGTH, _LARGEST_WIDTH, _LONG = 1.6, 1.6, 2.5
-# Half of the sharpest curvature in 1 / metres, how often the middle line is fitted, and standard
-# deviations from it within which points count the second time.
+# Half of the sharpest curvature of the middle line in 1 / metres; how often the line is fitted; and
+# the standard deviations from it within which points count in the second fit.
 _SHARPEST, _FITS, _NEAR_LINE = 0.12, 2, 1.8
-# A cross-section is measured in steps of half the spacing, but of so many metres at least.
+# Steps of a cross-section are half of the spacing, but at least so many metres.
 _LEAST_STEP = 0.25
-# Metres between points: less is as good as that.
+# Least spacing of points in metres; a smaller one counts as this.
 _CLOSEST = 0.01
 _POINTS_AT_ONCE = 1 << 18
 _POINTS_A_PART = 1 << 16
@@ -86,7 +88,7 @@ def banks(points: Points, ground: np.ndarray, cells: Cells, limits: np.ndarray) 
 
 
 def _stands_out(points: Points, ground: np.ndarray, cells: Cells, limits: np.ndarray) -> np.ndarray:
-    """Return which points lie above the ground, but not far."""
+    """Return which points lie a little above the ground."""
     low, high = (each.ravel().astype(np.float32) for each in np.moveaxis(limits, -1, 0))
     high += np.float32(_LOOK_UP)
     stands_out = ~ground
@@ -100,7 +102,7 @@ def _stands_out(points: Points, ground: np.ndarray, cells: Cells, limits: np.nda
 
 
 def _among_others(raised: np.ndarray, level: np.ndarray, cells: Cells) -> np.ndarray:
-    """Return which points are where more than a few stand out, unlike under trees."""
+    """Return which points lie where many points stand out, unlike under trees."""
     from scipy import ndimage
 
     width = 2 * round(_AROUND / cells.size) + 1
@@ -111,18 +113,18 @@ def _among_others(raised: np.ndarray, level: np.ndarray, cells: Cells) -> np.nda
 
 
 class _Squares(NamedTuple):
-    """Squares in which what stands out is long and narrow.
+    """Squares in which the points that stand out form a long, narrow band.
 
     Attributes
     ----------
     first : tuple of int
-        Row and column, from the zero of the frame, of the first tile.
+        Row and column of the first tile, counted from (0, 0) of the frame.
     shape : tuple of int
         Rows and columns of tiles.
     row, column : numpy.ndarray of int, shape (squares,)
         The tile in the south-west of each square.
     x, y, angle : numpy.ndarray of float64, shape (squares,)
-        Centre and direction (radians from east) of what stands out.
+        Centre and direction (radians from east) of the points that stand out.
     """
 
     first: tuple[int, int]
@@ -135,7 +137,7 @@ class _Squares(NamedTuple):
 
     @classmethod
     def where(cls, raised: Points, least: float) -> _Squares:
-        """Return the squares, from the points that stand out, so many at least."""
+        """Return the squares in which at least `least` points stand out in a band."""
         none = np.zeros(0)
         if not raised.count:
             return cls((0, 0), (0, 0), none, none, none, none, none)
@@ -164,7 +166,7 @@ class _Squares(NamedTuple):
     def members(
         self, points: Points, wanted: np.ndarray, cells: Cells
     ) -> list[tuple[np.ndarray, np.ndarray]]:
-        """Return the indices of the wanted points in squares and the squares they are in, in parts.
+        """Return the indices of the wanted points and the squares that hold them, in parts.
 
         A part holds whole squares. A point is in several squares.
         """
@@ -219,7 +221,7 @@ def _tiles(points: Points) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _strip(points: Points, stands_out: np.ndarray, square: np.ndarray, squares: _Squares) -> Strip:
-    """Return points in the directions of their squares, less the bend of what stands out."""
+    """Return points along and across the middle lines of their squares."""
     cosine, sine = np.cos(squares.angle)[square], np.sin(squares.angle)[square]
     east, north = points.x - squares.x[square], points.y - squares.y[square]
     along, across = east * cosine + north * sine, north * cosine - east * sine
@@ -229,7 +231,7 @@ def _strip(points: Points, stands_out: np.ndarray, square: np.ndarray, squares: 
 
 
 def _line(strip: Strip) -> np.ndarray:
-    """Return the parabola through what stands out of each square, shape (3, squares)."""
+    """Return the parabola through the points of each square that stand out, shape (3, squares)."""
     strip = strip.take(np.flatnonzero(strip.stands_out))
     line, most = np.zeros((3, strip.number)), np.full(strip.number, 2.0 * _LARGEST_WIDTH)
     for _ in range(_FITS):
@@ -248,13 +250,13 @@ def _parabola(strip: Strip) -> np.ndarray:
     totals = [strip.total(each) for each in powers]
     matrix = np.stack([np.stack(totals[row : row + 3], axis=-1) for row in range(3)], axis=-2)
     right = np.stack([strip.total(powers[row] * strip.across) for row in range(3)], axis=-1)
-    # A little stiffness: there may be no point.
+    # A small term on the diagonal, because a square may have no point.
     line = np.linalg.solve(matrix + 1e-6 * np.eye(3), right[..., None])[..., 0].T
     line[2] = np.clip(line[2], -_SHARPEST, _SHARPEST)
     return line
 
 
 def _off(line: np.ndarray, strip: Strip) -> np.ndarray:
-    """Return how far a parabola lies across at each point."""
+    """Return how far across the parabola lies at each point."""
     start, turn, bend = line[:, strip.square]
     return start + (turn + bend * strip.along) * strip.along

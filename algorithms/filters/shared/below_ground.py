@@ -11,6 +11,7 @@ from ...grids.cells import Cells
 from ...grids.gradient import steepness
 from ...grids.inpaint import inpaint
 
+# Side of a cell in metres, and points that are compared at a time.
 _CELL = 1.0
 _CHUNK = 1 << 20
 
@@ -54,7 +55,7 @@ def below_ground(
 
 
 def _rise(surface: np.ndarray) -> np.ndarray:
-    """Return the most that a surface rises over a cell, at each and those round it."""
+    """Return the largest rise of a surface over a cell, at each cell and those round it."""
     from scipy import ndimage
 
     return ndimage.maximum_filter(steepness(surface, 1.0), 3, mode="nearest")

@@ -1,4 +1,4 @@
-"""Land between narrow ditches, which drops on all sides as an object does."""
+"""Land between narrow ditches, which has drops on all sides as an object has."""
 
 from __future__ import annotations
 
@@ -7,19 +7,21 @@ import numpy as np
 from ...grids.morphology import within_square
 from .enclosed import is_even
 
-# The widest ditch (m), the deepest (m), and the least land between ditches (m2, and m wide).
+# The largest width and depth of a ditch in metres, and the least area (m2) and width (m) of the
+# land between ditches.
 _DITCH_WIDTH, _DITCH_DEPTH = 6.0, 2.2
 _LEAST_AREA, _LEAST_WIDTH = 100.0, 2.5
-# Share of its border that must be a drop into a ditch; of the drop, what the land beyond may miss.
+# Least share of the land's border that drops into a ditch. The land beyond the ditch may be lower
+# by this share of the drop.
 _DITCH_SHARE, _BEYOND = 0.5, 0.35
-# Share of its cells that are even: plants are not.
+# Least share of its cells that are even; plants are not even.
 _EVEN_SHARE = 0.6
 
 
 def between_ditches(
     filled: np.ndarray, raised: np.ndarray, surface: np.ndarray, size: float
 ) -> np.ndarray:
-    """Return the raised cells of even land from which ditches drop, with land beyond as high.
+    """Return the raised cells of even land that has ditches beside it and land as high beyond them.
 
     Parameters
     ----------
@@ -28,7 +30,7 @@ def between_ditches(
     raised : numpy.ndarray of bool, shape (rows, columns)
         Cells that stand out.
     surface : numpy.ndarray of float, shape (rows, columns)
-        Height of the ground in metres, through what is not raised.
+        Height of the ground in metres, through the cells that are not raised.
     size : float
         Side of a cell in metres.
 

@@ -1,8 +1,8 @@
-"""Seeds of the ground, judged by the ground on each side of them.
+"""Check the seeds of the ground against the ground on each side of them.
 
 The lowest point of a cell may be a plant, or lie below the ground. And at a break (the edge of a
 terrace, a ridge, the top of a wall) morphology cuts off ground. The planes through the ground on
-either side tell both.
+each side show both.
 """
 
 from __future__ import annotations
@@ -17,19 +17,19 @@ from ...grids.inpaint import inpaint
 from ...grids.morphology import within_square
 from .half_planes import Sides
 
-# Metres within which seeds are neighbours: so many times their spacing, but at least this.
+# Seeds are neighbours within so many times their spacing, and within at least so many metres.
 _SPACINGS, _LEAST_REACH = 5.0, 6.0
-# Metres above the planes of all sides from which on a seed is a plant, and below them from which
-# on it is an outlier; the misfit of the plane is added.
+# A seed more than so many metres above the planes of all sides is a plant, and so far below all of
+# them an outlier. The misfit of the plane is added.
 _PLANT, _FAULT = 0.2, 0.7
-# Spacings over which the mean surface is taken that tells which seeds are worth a look.
+# Half the width, in spacings, of the windows of a mean surface. Only seeds far from it are checked.
 _MEAN_SPACINGS = 1.5
 # Metres from the plane of one side within which a point joins the ground, and the largest misfit
 # of that plane.
 _LEVEL, _LARGEST_MISFIT = 0.25, 0.3
-# How often points join the ground that joined before, each time as many spacings farther.
+# How often points join the ground, each time within so many spacings of it.
 _PASSES, _STEP_SPACINGS = 2, 1.5
-# Rise over run: no point joins that lies higher above all seeds as near as that, or deeper below.
+# Largest rise over run from the seeds within that distance to a point that joins.
 _STEEPEST = 1.5
 
 
@@ -48,19 +48,19 @@ def checked_seeds(
     points : Points
         All points.
     seeds, waiting : numpy.ndarray of int
-        Indices of the points taken for ground, and of those that may be ground.
+        Indices of the points taken for ground, and of other points that may be ground.
     cells : Cells
         A grid over the points.
     spacing : float
         Usual distance between points in metres, at least the side of a cell.
     has_gaps : bool
-        Whether there are gaps between the seeds in which breaks may be lost: none are looked for
-        where there are not.
+        Whether there are gaps between the seeds in which breaks may be lost. Only then breaks are
+        searched.
 
     Returns
     -------
     seeds, waiting : numpy.ndarray of int
-        The same after some changed sides.
+        The same after the check.
     """
     reach = max(_LEAST_REACH, _SPACINGS * spacing)
     wrong = _wrong(points, seeds, cells, spacing, reach)
@@ -81,7 +81,7 @@ def _wrong(
     surface = inpaint(np.where(np.isfinite(lowest), lowest, np.nan), 2, cells.first)
     width = 2 * int(np.ceil(_MEAN_SPACINGS * spacing / cells.size)) + 1
     mean = ndimage.uniform_filter(surface, width, mode="nearest")
-    # On a slope a seed departs from the mean by where it lies in its cell.
+    # On a slope, the height of a seed above the mean depends on its place in the cell.
     allowed = steepness(mean, cells.size) * cells.size
     cell, z = cells.index[seeds], points.z[seeds]
     above, allowed = z - mean.ravel()[cell], allowed.ravel()[cell]
@@ -130,7 +130,7 @@ def _level(
 def _extreme(cells: Cells, points: Points, which: np.ndarray, sign: float = 1.0) -> np.ndarray:
     """Return the lowest of some points in each cell; infinite where there is none.
 
-    With a sign of -1, the highest, as the lowest of the negative heights.
+    With a sign of -1, return the highest, as the lowest of the negative heights.
     """
     lowest = np.full(cells.rows * cells.columns, np.inf, dtype=np.float32)
     lower_at(lowest, cells.index[which], (sign * points.z[which]).astype(np.float32))
@@ -138,7 +138,7 @@ def _extreme(cells: Cells, points: Points, which: np.ndarray, sign: float = 1.0)
 
 
 def _near(cells: Cells, seeds: np.ndarray, judged: np.ndarray, reach: float) -> np.ndarray:
-    """Return which seeds may be neighbours of points that are judged: most are not."""
+    """Return which seeds may be neighbours of the judged points; most are not."""
     steps = int(np.ceil(reach / cells.size)) + 1
     around = within_square(np.maximum, cells.holding(judged), steps)
     return around.ravel()[cells.index[seeds]]

@@ -3,9 +3,9 @@
 References
 ----------
 Sithole, G., Vosselman, G. (2006): Bridge detection in airborne laser scanner data. ISPRS Journal of
-Photogrammetry and Remote Sensing 61 (1), 33-46. From there: a bridge shows in cross-sections of the
-landscape that are raised at both ends, whatever its shape, and these are joined to decks. What
-tells a deck from a dam or a house is ours.
+Photogrammetry and Remote Sensing 61 (1), 33-46. From there: a bridge of any shape has
+cross-sections that are raised at both ends, and these are joined to decks. The rules that tell a
+deck from a dam or a house are ours.
 """
 
 from __future__ import annotations
@@ -19,39 +19,45 @@ from ...grids.morphology import within_square
 from .cross_sections import Rule, Sections, raised_sections
 from .relief import Relief
 
-# At the sides of a deck the ground lies at least so much lower, and so much more for each metre of
-# distance, to which this share of the spacing of the points is added.
+# At the sides of a deck the ground is lower by at least so many metres, and so many for each metre
+# of distance. This share of the spacing of the points is added to the distance.
 _DROP, _DROP_SLOPE, _DROP_SPACING = 0.5, 1.0, 0.75
-# Where a deck is proven, it goes on for so many metres, or spacings, if it is raised by this.
+# A deck that was found is extended by at most so many metres, or spacings if that is more, where
+# cross-sections meet this weaker rule.
 _GROWTH, _GROWTH_SPACINGS, _WEAK_RULE = 8.0, 4.0, Rule(0.25, 0.9, False)
+# A deck has at least so many square metres and so many cells, and is at least so many metres, and
+# so many spacings of the points, long.
 _LEAST_AREA, _LEAST_CELLS, _LEAST_SPAN, _LEAST_SPACINGS = 12.0, 4, 3.0, 2.0
-# Ground at an end must be level with the deck: metres, and metres a metre.
+# The ground at an end may differ in height from the deck by so many metres, and so many for each
+# metre of distance.
 _LEVEL, _LEVEL_SLOPE = 0.25, 0.03
-# Cross-sections at this angle to the deck are across, and at least this share must be.
+# Cross-sections at this angle to a deck, or a larger one, lie across it. More than this share of
+# them must.
 _OBLIQUE, _MOSTLY = math.radians(30.0), 0.5
-# So many of them cross each cell of a deck, on average. On a table mountain a few meet no point on
-# the face of the cliff by chance.
+# Least number of cross-sections through each cell of a deck, on average. On a table mountain there
+# are a few, which meet no point on the face of the cliff by chance.
 _CROSSING = 2.5
-# Metres of ground that must lie within some metres of an end, over this share of the deck's width.
+# Least length of the ground, in metres, within so many metres of an end, over this share of the
+# deck's width.
 _GROUND, _END, _CARRIED = 4.0, 12.0, 0.5
-# Points so near to the surface of a deck in metres are on it.
+# Points within so many metres of the surface of a deck are on it.
 _NEAR = 0.5
 
 
 def bridge_decks(points: Points, ground: np.ndarray) -> np.ndarray:
     """Return which points lie on decks of bridges.
 
-    A deck is level along short cross-sections, and falls at both ends of them to ground of
-    nearly one height, without ground on the face; it goes on into ground of its own height at
-    both of its own ends. Ramps, dams and embankments have slopes at their sides, houses and piers
-    no ground at the ends: they stay what they are.
+    A deck is level along short cross-sections. At both ends of these the land drops to ground of
+    nearly one height, without ground on the drop. At both ends of the deck, ground continues at the
+    height of the deck. Ramps, dams and embankments have slopes at their sides, and houses and piers
+    have no ground at their ends: they are no decks.
 
     Parameters
     ----------
     points : Points
         All points.
     ground : numpy.ndarray of bool, shape (n,)
-        Which of them a filter takes for ground: all of the deck, some of it or nothing.
+        Which points a filter takes for ground: all of a deck, some of it or nothing.
 
     Returns
     -------
@@ -72,9 +78,9 @@ def bridge_decks(points: Points, ground: np.ndarray) -> np.ndarray:
 
 
 def _decks(relief: Relief) -> tuple[np.ndarray, np.ndarray]:
-    """Return the cells of decks, and those that cross-sections cross.
+    """Return the cells of decks, and the cells that cross-sections cross.
 
-    Other cells of decks are holes: cars, or what is seen through gaps.
+    Other cells of decks are holes: cars, or points that are seen through gaps.
     """
     from scipy import ndimage
 
@@ -84,7 +90,7 @@ def _decks(relief: Relief) -> tuple[np.ndarray, np.ndarray]:
     if not len(sections.steps):
         return decks, decks
     crossed = sections.cells_of(relief)
-    # Along the uneven edge of a terrace what is raised at both ends is narrow.
+    # Areas that are raised at both ends along the uneven edge of a terrace are narrow.
     narrowest = np.ones((relief.apart + 2, relief.apart + 2))
     wide = ndimage.binary_opening(ndimage.binary_closing(crossed, square), narrowest)
     label, _ = ndimage.label(wide, square)
@@ -105,7 +111,7 @@ def _decks(relief: Relief) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _joins_ground(relief: Relief) -> np.ndarray:
-    """Return the cells of smooth surfaces of which some is ground, unlike most roofs."""
+    """Return the cells of smooth surfaces that are partly ground, unlike most roofs."""
     from scipy import ndimage
 
     lowest, highest = (within_square(each, relief.heights, 1) for each in (np.fmin, np.fmax))
@@ -116,11 +122,11 @@ def _joins_ground(relief: Relief) -> np.ndarray:
 
 
 def _is_carried(relief: Relief, row: np.ndarray, column: np.ndarray, sections: Sections) -> bool:
-    """Return whether the ground goes on level with some cells at both of their ends.
+    """Return whether ground continues at the height of some cells at both of their ends.
 
-    They are sought along the greatest extent of the cells and across: an underpass below a wide
-    road is a deck that is shorter than it is wide. Most of the cross-sections must lie across:
-    along the uneven edge of a terrace they run with it.
+    The ends are searched along the greatest extent of the cells and across it: the deck of a wide
+    road over an underpass is shorter than wide. Most of the cross-sections must lie across the
+    deck; along the uneven edge of a terrace they run with it.
     """
     _, axes = np.linalg.eigh(np.cov(row, column))
     for up, right in axes.T:
@@ -154,7 +160,7 @@ def _has_ends(relief: Relief, row: np.ndarray, column: np.ndarray, up: float, ri
 def _comes_to_ground(
     relief: Relief, row: np.ndarray, column: np.ndarray, up: float, right: float
 ) -> np.ndarray:
-    """Return from which cells lines in a direction come to ground without a step, and stay on."""
+    """Return from which cells a line in a direction meets enough level ground without a step."""
     start = last = relief.heights[row, column]
     on, ground = np.ones(len(row), dtype=bool), np.zeros(len(row), dtype=np.intp)
     for step in range(1, int(_END / relief.cell) + 1):
@@ -173,7 +179,7 @@ def _comes_to_ground(
 
 
 def _surface(relief: Relief, known: np.ndarray) -> np.ndarray:
-    """Return the heights of the decks, for each cell that of the nearest known one."""
+    """Return the heights of the decks: each cell has the height of the nearest known cell."""
     from scipy import ndimage
 
     unknown = ~known | np.isnan(relief.heights)
@@ -182,7 +188,7 @@ def _surface(relief: Relief, known: np.ndarray) -> np.ndarray:
 
 
 def _grown(relief: Relief, decks: np.ndarray, crossed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the same as `_decks` with what is raised beside the decks, up to a few metres off."""
+    """Return the grids of `_decks`, extended by raised cells up to a few metres beside decks."""
     from scipy import ndimage
 
     reach = round(max(_GROWTH, _GROWTH_SPACINGS * relief.spacing) / relief.cell)

@@ -1,8 +1,8 @@
-"""How sure the terrain is that ground points make: a probability for each cell.
+"""The confidence of a terrain model: the probability that it is right, for each cell.
 
-It is told from labelled points alone, whatever labelled them. The weights are fitted by
-``python -m benchmarks.confidence``, which also prints how often the terrain is right where so
-much confidence is stated; docs/confidence.md has the figures.
+It follows from labelled points alone, labelled by any method. The weights are fitted by ``python -m
+benchmarks.confidence``, which also prints how often the terrain is right at each level of
+confidence; docs/confidence.md has the figures.
 """
 
 from __future__ import annotations
@@ -16,32 +16,32 @@ from ...grids.cells import Cells
 from ...grids.gradient import steepness
 from ...grids.inpaint import inpaint
 
-# Metres: side of the cells. All that follows was fitted with it.
+# Side of the cells in metres. All values below were fitted with it.
 CELL = 1.0
-# Metres within which a cell's terrain counts as right, and the share of the terrain's rise over a
-# cell that is added: the height is meant for the middle of the cell.
+# The terrain of a cell is right within so many metres, plus this share of the terrain's rise over
+# the cell, because the height is that of the middle of the cell.
 TOLERANCE, RISE_SHARE = 0.3, 0.5
-# Cells to each side of a cell that are near it, and that are round it.
+# Cells up to so many to each side are near a cell, and up to so many are round it.
 _NEAR, _AROUND = 2, 8
 # Weight of the cells round a cell, where the weight of those near it is 1.
 _AROUND_SHARE = 0.05
-# Metres above the ground up to which a rejected point may well be ground.
+# A rejected point up to so many metres above the ground may be ground.
 _DOUBTFUL_HEIGHT = 1.0
 _RELAXATIONS = 2
-# Roughness and steps do not count beyond.
+# Largest roughness (m) and steepest step (rise over run) that count.
 _ROUGHEST, _STEEPEST = 2.0, 8.0
 _TINY = 1e-6
 
 
 class Weights(NamedTuple):
-    """What each piece of `Evidence` adds to the logit of the confidence.
+    """The weight of each piece of `Evidence` in the logit of the confidence.
 
     Attributes
     ----------
     level : float
         The logit on smooth ground without a gap.
     holes, roughness, gap, gap_at_step, doubtful : float
-        Times the piece of evidence of this name.
+        Factors of the pieces of evidence of these names.
     """
 
     level: float = 5.7
@@ -53,7 +53,7 @@ class Weights(NamedTuple):
 
 
 class Evidence(NamedTuple):
-    """What tells how sure the terrain of a cell is; each a grid of float32, (rows, columns).
+    """The evidence for the confidence of each cell; grids of float32, shape (rows, columns).
 
     Attributes
     ----------
@@ -63,12 +63,12 @@ class Evidence(NamedTuple):
         Mean distance in metres of the ground near the cell from the mean of the 3 x 3 cells round
         it.
     gap : numpy.ndarray
-        Square of log(1 + d), d being the distance in metres to the nearest cell with ground.
+        Square of log(1 + d), where d is the distance in metres to the nearest cell with ground.
     gap_at_step : numpy.ndarray
         log(1 + d) times the steepest rise over run of the ground within 8 m.
     doubtful : numpy.ndarray
-        Share of the cells with points within 8 m whose lowest point is no more than 1 m above the
-        ground, or below it, and is not ground.
+        Share of the cells with points within 8 m whose lowest point is not ground, although it lies
+        below the ground or at most 1 m above it.
     """
 
     holes: np.ndarray
@@ -79,7 +79,7 @@ class Evidence(NamedTuple):
 
 
 class Confidence(NamedTuple):
-    """How sure the terrain is.
+    """The confidence of a terrain model.
 
     Attributes
     ----------
@@ -96,15 +96,15 @@ class Confidence(NamedTuple):
 def confidence(points: Points, ground: np.ndarray) -> Confidence:
     """Return the probability that the terrain made of ground points is right, for cells of 1 m.
 
-    It is right where the height of the TIN of the ground points at the middle of a cell lies within
-    0.3 m, and half of the terrain's rise over the cell, of the true terrain.
+    It is right if the TIN of the ground points, at the middle of a cell, differs from the true
+    terrain by at most 0.3 m plus half of the terrain's rise over the cell.
 
     Parameters
     ----------
     points : Points
         All points that took part, at least one.
     ground : numpy.ndarray of bool, shape (n,)
-        Which of them were taken for ground, by any method.
+        Which points were taken for ground, by any method.
 
     Returns
     -------
@@ -123,19 +123,19 @@ def confidence(points: Points, ground: np.ndarray) -> Confidence:
 
 
 def probability(pieces: Sequence[np.ndarray], weights: Weights = Weights()) -> np.ndarray:
-    """Return the confidence that pieces of evidence give, in the order of `Evidence`.
+    """Return the confidence from pieces of evidence, in the order of `Evidence`.
 
     Parameters
     ----------
     pieces : sequence of numpy.ndarray of float
         All of the same shape.
     weights : Weights
-        Those that were fitted.
+        By default the fitted weights.
 
     Returns
     -------
     numpy.ndarray of float32
-        Of that shape; the logistic function of the weighted sum.
+        The logistic function of the weighted sum, in the same shape.
     """
     logit = np.full(pieces[0].shape, weights.level, dtype=np.float32)
     for weight, values in zip(weights[1:], pieces):
@@ -144,7 +144,7 @@ def probability(pieces: Sequence[np.ndarray], weights: Weights = Weights()) -> n
 
 
 def evidence(cells: Cells, z: np.ndarray, ground: np.ndarray) -> Evidence:
-    """Return what tells how sure the terrain of each cell is.
+    """Return the evidence for the confidence of each cell.
 
     Parameters
     ----------
@@ -174,7 +174,7 @@ def evidence(cells: Cells, z: np.ndarray, ground: np.ndarray) -> Evidence:
 
 
 def _roughness(surface: np.ndarray, has_ground: np.ndarray) -> np.ndarray:
-    """Return how far the ground near each cell, or else round it, is from a smoother one."""
+    """Return how far the ground near each cell, or else round it, is from a smoothed surface."""
     from scipy import ndimage
 
     apart = np.abs(surface - ndimage.uniform_filter(surface, 3, mode="nearest"))
@@ -185,7 +185,7 @@ def _roughness(surface: np.ndarray, has_ground: np.ndarray) -> np.ndarray:
 
 
 def _mean(values: np.ndarray, reach: int) -> np.ndarray:
-    """Return the mean of the cells up to so many to each side; beyond the grid it is 0."""
+    """Return the mean of the cells up to `reach` to each side; cells beyond the grid are 0."""
     from scipy import ndimage
 
     return ndimage.uniform_filter(values.astype(np.float32), 2 * reach + 1, mode="constant")

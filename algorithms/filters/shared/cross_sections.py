@@ -3,8 +3,8 @@
 References
 ----------
 Sithole, G., Vosselman, G. (2006): Bridge detection in airborne laser scanner data. ISPRS Journal of
-Photogrammetry and Remote Sensing 61 (1), 33-46: cross-sections in many directions. What a raised
-end is, is ours.
+Photogrammetry and Remote Sensing 61 (1), 33-46: cross-sections in many directions. The definition
+of a raised end is ours.
 """
 
 from __future__ import annotations
@@ -23,20 +23,22 @@ from .relief import BORDER, STEP, STEP_SLOPE, Relief
 _DIRECTIONS, _LONGEST = 96, 70.0
 # Along a cross-section the surface may be unknown over so many metres.
 _GAP = 3.0
-# How far in metres beyond an edge its foot may lie, and how far beyond water or another void.
+# Largest distance in metres from an edge to its foot, and to its foot beyond water or another void.
 _FOOT, _VOID_FOOT = 6.0, 60.0
-# There the ground must be lower by so much, and so much a metre.
+# Beyond a void the ground must be lower by so many metres, and so many for each metre of distance.
 _VOID_DROP, _VOID_SLOPE = 2.0, 0.05
-# The ends of a cross-section may differ in height by so much, and so much a metre.
+# The ends of a cross-section may differ in height by so many metres, and so many for each metre of
+# its length.
 _TILT, _TILT_SLOPE = 0.5, 0.08
-# The feet may differ by this share of the lower drop.
+# The feet may differ in height by this share of the lower drop.
 _FEET = 0.5
-# No ground may lie beside the edge between this share of a drop and the rest of it.
+# No ground may lie on a drop, except in the lowest and the highest part, which have this share of
+# it.
 _FACE = 0.25
-# Beyond the foot the ground must stay below this share of the drop for so many metres: else the
-# foot lies in a pit. The border of the relief reaches no farther.
+# For so many metres beyond the foot, the ground must be lower than the edge by at least this share
+# of the drop. Otherwise the foot lies in a pit. The border of the relief is just wide enough.
 _PIT, _BEYOND = 0.5, BORDER - _FOOT
-# Rings in which the lowest ground is compared with an edge, in cells from it.
+# Radii in cells of the rings round an edge in which the lowest ground is compared with it.
 _RINGS = (0, 1, 2, 4)
 
 
@@ -46,9 +48,9 @@ class Rule(NamedTuple):
     Attributes
     ----------
     drop, slope : float
-        Metres, and metres a metre of distance.
+        Metres, and metres for each metre of distance.
     is_strict : bool
-        Whether there must be no ground between, beside the edge, and no rise beyond.
+        Whether no ground may lie on the drop, and none may rise beyond the foot.
     """
 
     drop: float
@@ -64,7 +66,7 @@ class Sections(NamedTuple):
     start, direction : numpy.ndarray of int, shape (n,)
         The first cell in the flattened grid, and the number of the direction.
     steps : numpy.ndarray of int, shape (n,)
-        How many steps the last cell is off.
+        Number of steps to the last cell.
     """
 
     start: np.ndarray
@@ -77,7 +79,7 @@ class Sections(NamedTuple):
         return 2.0 * math.pi / _DIRECTIONS * self.direction
 
     def take(self, which: np.ndarray | slice) -> Sections:
-        """Return those that a mask, an index array or a slice names."""
+        """Return the cross-sections that a mask, an index array or a slice selects."""
         return Sections(*(each[which] for each in self))
 
     def middles(self, relief: Relief) -> np.ndarray:
@@ -96,7 +98,7 @@ class Sections(NamedTuple):
 def raised_sections(relief: Relief, within: Callable[[Relief], np.ndarray], rule: Rule) -> Sections:
     """Return the cross-sections of smooth surfaces that are raised at both ends.
 
-    Beyond both ends the ground must be lower, and nearly as low at one as at the other.
+    Beyond both ends the ground must be lower, and nearly equally low.
 
     Parameters
     ----------
@@ -104,15 +106,16 @@ def raised_sections(relief: Relief, within: Callable[[Relief], np.ndarray], rule
         Heights.
     within : callable
         Returns the cells in which a cross-section may begin: boolean, shape (rows, columns). It is
-        not asked where none could.
+        not called if there can be none.
     rule : Rule
-        What is lower.
+        How much lower the ground must be.
     """
     start = np.flatnonzero(_edges(relief, rule))
     if len(start):
         start = start[within(relief).ravel()[start]]
     compass = _Compass.of(relief)
-    # Half a turn will do: it is found from one end or the other. Neighbours share the directions.
+    # Half a turn is enough, because a cross-section is found from either end. Neighbours share the
+    # directions.
     row, column = np.divmod(start, relief.heights.shape[1])
     odd = (row + column + relief.parity) % 2
     direction = (np.arange(0, _DIRECTIONS // 2, 2) + odd[:, None]).ravel()
@@ -147,9 +150,10 @@ class _Compass(NamedTuple):
     Attributes
     ----------
     rows, columns, offsets : numpy.ndarray of int, shape (directions, steps)
-        How far a cell is off after so many steps: in rows, in columns and in the flattened grid.
+        Offset of the cell after each number of steps: in rows, in columns and in the flattened
+        grid.
     length : numpy.ndarray of float, shape (directions,)
-        Metres of a step.
+        Length of a step in metres.
     """
 
     rows: np.ndarray
@@ -174,12 +178,12 @@ class _Compass(NamedTuple):
         return lines.start + self.offsets[lines.direction, step]
 
     def back(self, lines: Sections) -> Sections:
-        """Return those that go the other way."""
+        """Return the lines in the opposite direction."""
         return lines._replace(direction=(lines.direction + _DIRECTIONS // 2) % _DIRECTIONS)
 
 
 def _edges(relief: Relief, rule: Rule) -> np.ndarray:
-    """Return which cells of smooth surfaces may have their foot near, or a void beside."""
+    """Return which cells of smooth surfaces may have a foot near them or a void beside them."""
     heights = relief.heights
     known = np.isfinite(heights)
     lowest = np.where(relief.is_ground, heights, np.float32(np.inf))
@@ -188,23 +192,24 @@ def _edges(relief: Relief, rule: Rule) -> np.ndarray:
     for near, far in zip(_RINGS, (*_RINGS[1:], farthest)):
         lowest = within_square(np.minimum, lowest, far - near)
         edges |= heights - lowest >= rule.drop + rule.slope * (near + 1) * relief.cell
-    # Few are left: which of them continue some of the eight that lie a spacing off?
+    # Keep the cells that are level with at least three of the eight cells at the distance of the
+    # spacing.
     cells = np.flatnonzero(edges)
     off, columns = relief.apart, heights.shape[1]
     like = np.zeros(len(cells), dtype=np.int8)
     for up, right in itertools.product((-off, 0, off), repeat=2):
         beside = heights.ravel()[cells + (up * columns + right)]
         like += np.abs(beside - heights.ravel()[cells]) <= relief.step
-    edges.ravel()[cells] = like > 3  # each is like itself
+    edges.ravel()[cells] = like > 3  # each also counts itself
     return edges
 
 
 def _feet(
     relief: Relief, compass: _Compass, lines: Sections, rule: Rule
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return the height of the ground below the edges where lines begin, and how many steps off.
+    """Return the height of the foot below the edge where each line begins, and the steps to it.
 
-    It is 0 steps off where there is none.
+    The number of steps is 0 where there is no foot.
     """
     heights, is_ground = relief.heights.ravel(), relief.is_ground.ravel()
     foot = np.full(len(lines.start), np.inf, dtype=np.float32)
@@ -239,7 +244,7 @@ def _feet(
 
 
 def _lengths(relief: Relief, compass: _Compass, lines: Sections) -> np.ndarray:
-    """Return how many steps a surface goes on along lines; -1 where it goes on too far."""
+    """Return how many steps a surface continues along lines; -1 where it continues too far."""
     heights = relief.heights.ravel()
     last, length = heights[lines.start], compass.length[lines.direction]
     steps, left = np.zeros(len(last), dtype=np.intp), np.arange(len(last))
@@ -261,7 +266,7 @@ def _lengths(relief: Relief, compass: _Compass, lines: Sections) -> np.ndarray:
 def _is_clear(
     relief: Relief, compass: _Compass, lines: Sections, foot: np.ndarray, off: np.ndarray
 ) -> np.ndarray:
-    """Return where no ground beside an edge lies between it and its foot, which is in no pit."""
+    """Return where no ground lies between an edge and its foot, and the foot is in no pit."""
     heights, is_ground = relief.heights.ravel(), relief.is_ground.ravel()
     edge = heights[lines.start]
     drop = edge - foot

@@ -1,6 +1,6 @@
-"""What to tell of points for which a ground filter is not sure, in the same words for all filters.
+"""Warnings about results of which a ground filter is not sure, in the same words for all filters.
 
-The texts hold no figure that differs from block to block: equal ones are told once.
+The texts have no figures that differ from block to block, so that equal texts are shown once.
 """
 
 from __future__ import annotations
@@ -11,28 +11,30 @@ from ...core.points import Points
 from ...core.progress import Progress
 from ...grids.cells import Cells
 
+# Side in metres of the cells in which ground is counted.
 _CELL = 1.0
-# Share of the cells with points that have ground, below which there is hardly any.
+# Least usual share of the cells with points that have ground.
 _LEAST_GROUND = 0.02
-# Above this share of the points, cells need not be counted: they hold much the same of each.
+# If more than this share of the points is ground, cells need not be counted: enough have ground.
 _SURELY_ENOUGH = 0.1
-# Share of the lowest points that may be low outliers, and so few cells that a share says nothing.
+# Largest usual share of low outliers among the lowest points, and the least number of cells for
+# which a share means something.
 _MOST_OUTLIERS, _LEAST_CELLS = 0.02, 500
 
 
 def tell_of_extent(points: Points, largest: float, name: str, progress: Progress) -> None:
-    """Warn where the points reach no farther than the largest object that is to be expected.
+    """Warn if the survey is no wider than the largest expected object.
 
     A building that is as wide as the survey has no ground on two sides of it.
 
     Parameters
     ----------
     points : Points
-        All that the filter sees.
+        All points that the filter sees.
     largest : float
-        Its width in metres.
+        Width of that object in metres.
     name : str
-        What the parameter is called that says so.
+        Name of the parameter with this width.
     progress : Progress
         Receives the warning.
     """
@@ -46,7 +48,7 @@ def tell_of_extent(points: Points, largest: float, name: str, progress: Progress
 
 
 def tell_of_little_ground(points: Points, ground: np.ndarray, progress: Progress) -> None:
-    """Warn where hardly any of the cells with points have ground.
+    """Warn if hardly any of the cells with points have ground.
 
     Parameters
     ----------
@@ -68,14 +70,14 @@ def tell_of_little_ground(points: Points, ground: np.ndarray, progress: Progress
 
 
 def tell_of_outliers(count: int, left: np.ndarray, progress: Progress) -> None:
-    """Warn where many of the lowest points are taken for low outliers.
+    """Warn if many of the lowest points are taken for low outliers.
 
     Parameters
     ----------
     count : int
-        Cells that have a point.
+        Number of cells with a point.
     left : numpy.ndarray of float, shape (rows, columns)
-        Lowest height of each cell; NaN where it is taken for an outlier, or there is none.
+        Lowest height of each cell; NaN for outliers and in empty cells.
     progress : Progress
         Receives the warning.
     """

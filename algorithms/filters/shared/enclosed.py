@@ -6,17 +6,17 @@ import numpy as np
 
 from .allowance import Allowance
 
-# Share of the border of an island at which what is raised beside it is as high.
+# Least share of an island's border at which the raised cells beside it are level with it.
 _ISLAND_SHARE = 0.5
-# Cells of the largest pit.
+# Most cells of a pit.
 _PIT_CELLS = 10
-# The cells round a pit (so many on each side) are a roof if this share of the raised ones lies no
-# farther, in metres, from the middle between two neighbours than twice the bend. Of crowns hardly
-# any do.
+# Cells to each side of a pit that are tested; metres from the mean of two opposite neighbours
+# within which a cell is even; and the least share of even cells among the raised ones if the pit is
+# in a roof. In crowns hardly any cell is even.
 _AROUND, _BEND, _EVEN_SHARE = 3, 0.15, 0.4
 
-# A courtyard has so many square metres, lies no more metres above the ground round the building,
-# and has walls of such a height in metres on so much of its border.
+# A courtyard has at least so many square metres, lies at most so many metres above the ground round
+# the building, and has walls of at least so many metres on this share of its border.
 _COURTYARD_AREA, _COURTYARD_HEIGHT, _WALL_HEIGHT, _WALL_SHARE = 100.0, 1.5, 2.0, 0.6
 
 
@@ -57,9 +57,9 @@ def islands(
 
 
 def pits_in_roofs(filled: np.ndarray, raised: np.ndarray, surveyed: np.ndarray) -> np.ndarray:
-    """Return the small patches within raised cells that are even.
+    """Return the small patches that are enclosed by even raised cells.
 
-    Points there lie on walls between roofs, or on the ground that is seen through a hole.
+    Points there lie on walls between roofs, or on the ground below a hole.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def pits_in_roofs(filled: np.ndarray, raised: np.ndarray, surveyed: np.ndarray) 
 
 
 def is_even(filled: np.ndarray) -> np.ndarray:
-    """Return which cells (rows, columns) lie between two neighbours at about their mean height."""
+    """Return which cells are about as high as the mean of two opposite neighbours."""
     even = np.zeros(filled.shape, dtype=bool)
     for to, z in ((even, filled), (even.T, filled.T)):
         to[1:-1] |= np.abs(z[2:] + z[:-2] - 2.0 * z[1:-1]) <= 2.0 * _BEND
@@ -94,14 +94,14 @@ def is_even(filled: np.ndarray) -> np.ndarray:
 def courtyards(
     filled: np.ndarray, raised: np.ndarray, surface: np.ndarray, size: float
 ) -> np.ndarray:
-    """Return the wide patches of raised cells that are level with the ground, within walls.
+    """Return the wide patches of raised cells that are level with the ground and within walls.
 
     Parameters
     ----------
     filled, raised, size
         As for `islands`.
     surface : numpy.ndarray of float, shape (rows, columns)
-        Height of the ground in metres, through what is not raised.
+        Height of the ground in metres, through the cells that are not raised.
 
     Returns
     -------
@@ -125,7 +125,7 @@ def courtyards(
 
 
 def _patches(raised: np.ndarray, surveyed: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the number of the patch of each cell, the cells of each, and which are enclosed.
+    """Return each cell's patch number, the cells of each patch, and which patches are enclosed.
 
     Raised cells have number 0.
     """
@@ -134,7 +134,7 @@ def _patches(raised: np.ndarray, surveyed: np.ndarray) -> tuple[np.ndarray, np.n
     number, count = ndimage.label(~raised)
     cells_of = np.bincount(number.ravel(), minlength=count + 1)
     enclosed = np.ones(count + 1, dtype=bool)
-    # Nothing is known of what lies beyond the survey.
+    # Patches at the border of the survey are not enclosed.
     for each in (number[~surveyed], number[[0, -1]], number[:, [0, -1]], 0):
         enclosed[each] = False
     return number, cells_of, enclosed

@@ -1,7 +1,7 @@
 """Regions of a height grid that pass into the ground without an edge.
 
-What an opening cuts off is terrain after all where it passes gently into the ground round it: a
-dike, a terrace, a plateau with a ramp.
+A region that an opening cuts off is terrain after all if it continues gently into the ground round
+it: a dike, a terrace, a plateau with a ramp.
 """
 
 from __future__ import annotations
@@ -14,20 +14,21 @@ from .allowance import Allowance
 from .landforms import RaisedCells, landforms
 from .slopes import on_slope
 
-# How often regions join the ground that others have joined before.
+# Passes in which regions join the ground or regions that have joined it.
 _JOINING_PASSES = 4
-# Metres over which the surface is smoothed to tell a step from the terrain's own rise.
+# Metres over which the surface is smoothed for the terrain's own rise, which is no step.
 _TREND_SMOOTHING = 2.0
-# Share of the trend that the ground round must rise, so that a trend is that of the terrain.
+# A trend is that of the terrain if the ground round about rises by at least this share of it.
 _LEAST_OF_TREND = 0.25
-# Share of a large region's border above which that of the survey tells too little to be judged by:
-# less than half, as the sides of cells make a slanted edge longer than it is.
+# If more than this share of a large region's border is the border of the survey, too little is
+# known of the region. The share is less than half, because the sides of cells make a slanted edge
+# longer than it is.
 _OPEN_SHARE = 0.45
-# What is as small (m2) and stands as high (m) as a house must have such a share of its border
-# gentle: on a slope one side of a roof may be level with the ground.
+# A region may be a house if it is smaller (m2) and higher (m) than this. Then at least this share
+# of its border must be gentle: on a slope one side of a roof may be level with the ground.
 _HOUSE_AREA, _HOUSE_HEIGHT, _HOUSE_SHARE = 400.0, 2.5, 0.5
-# What is as large (m2), with such a share on a mountain, is part of it: its faces are beside it,
-# and trees are smaller.
+# A region of at least this area (m2), with at least this share on a mountain, is part of the
+# mountain: it has cliffs beside it, and trees are smaller.
 _MOUNTAIN_AREA, _MOUNTAIN_SHARE = 100.0, 0.3
 
 
@@ -45,9 +46,9 @@ def gentle_regions(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Find the raised cells whose region passes into the ground without an edge.
 
-    A region is what hangs together without a step. Its border is gentle where it touches the
-    ground without a step, and sharp where it drops to anything. Rocks, ramps and mountains are
-    ground whatever their border.
+    A region is a group of raised cells without steps between them. Its border is gentle where it
+    touches the ground without a step, and sharp where it drops. Rocks, ramps and mountains are
+    ground with any border.
 
     Parameters
     ----------
@@ -56,13 +57,13 @@ def gentle_regions(
     known : numpy.ndarray of bool, shape (rows, columns)
         Cells with a point.
     surveyed : numpy.ndarray of bool, shape (rows, columns)
-        These and the small gaps between them.
+        Cells with a point, and small gaps between them.
     raised : numpy.ndarray of bool, shape (rows, columns)
         Cells that are judged.
     surface : numpy.ndarray of float, shape (rows, columns)
         Heights of the ground in metres, gaps filled.
     trend : Trend or None
-        That of the heights: where much is raised, the surface tells nothing of the slope.
+        Trend of the heights: where much is raised, the surface does not show the slope.
     size : float
         Side of a cell in metres.
     allowance : Allowance
@@ -70,17 +71,17 @@ def gentle_regions(
     first : tuple of int
         Row and column of the first cell in the grid of the CRS.
     mountains : numpy.ndarray of bool, shape (rows, columns), optional
-        Cells of what has faces of cliffs all round.
+        Cells of landforms with cliffs all round.
 
     Returns
     -------
     terrain, landforms : numpy.ndarray of bool, shape (rows, columns)
-        All cells that are ground after all, and those of them that are rocks or ramps.
+        Raised cells that are ground after all, and those of them that are rocks or ramps.
     """
     allowance = allowance.for_cells(size)
     seen = np.ones(known.size, dtype=bool)
     if allowance.judges_gaps:
-        # A gap in a roof is not the ground beside it.
+        # A gap in a roof must not count as ground beside the roof.
         raised = raised | (~known & (filled - surface > allowance.gentle_step))
     smooth = smoothed(surface, size, _TREND_SMOOTHING)
     sides = [
@@ -89,7 +90,7 @@ def gentle_regions(
     ]
     one, other, sign = (np.concatenate(each) for each in zip(*sides))
     if allowance.judges_gaps:
-        # What fills a gap in the survey, or beside a wall, slopes down gently from any roof.
+        # The filling of a gap in the survey, or beside a wall, slopes down gently from any roof.
         both = surveyed.ravel()[one] & surveyed.ravel()[other]
         one, other, sign = one[both], other[both], sign[both]
         seen = known.ravel()
@@ -128,7 +129,7 @@ def _numbered(up: np.ndarray, one: np.ndarray, other: np.ndarray) -> tuple[np.nd
     up : numpy.ndarray of bool, shape (cells,)
         Raised cells.
     one, other : numpy.ndarray of intp, shape (pairs,)
-        Raised cells that hang together.
+        Pairs of raised cells without a step between them.
     """
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
@@ -143,13 +144,13 @@ def _numbered(up: np.ndarray, one: np.ndarray, other: np.ndarray) -> tuple[np.nd
 
 
 def _unsurveyed(surveyed: np.ndarray) -> np.ndarray:
-    """Return how many of the four cells round each lie beyond the survey."""
+    """Return how many of the four neighbours of each cell lie outside the survey."""
     beyond = np.pad(~surveyed, 1, constant_values=True).astype(np.int8)
     rows = beyond[:-2, 1:-1] + beyond[2:, 1:-1]
     return rows + beyond[1:-1, :-2] + beyond[1:-1, 2:]
 
 
-# Regions of the cells on either side of some pairs of cells; -1 for what is not raised.
+# Regions of the first and of the second cell of pairs of cells; -1 for cells that are not raised.
 _Pairs = tuple[np.ndarray, np.ndarray]
 
 
@@ -159,9 +160,9 @@ def _borders(
     steps: tuple[np.ndarray, np.ndarray, np.ndarray],
     seen: np.ndarray,
 ) -> list[list[_Pairs]]:
-    """Return the pairs of regions that level steps, drops and rises lead from and to.
+    """Return the pairs of regions between which there are level steps, drops and rises.
 
-    Those of either direction apart.
+    The two directions are separate.
     """
     one, other, sign = steps
     borders = []
@@ -195,7 +196,7 @@ def _joined(
     open_ : numpy.ndarray of float, shape (regions,)
         Sides of cells at the border of the survey.
     terrain : numpy.ndarray of bool, shape (regions,)
-        Which are ground whatever their border.
+        Which are ground with any border.
     allowance : Allowance
         Which share of the border must be gentle.
 
@@ -205,7 +206,7 @@ def _joined(
     """
     count = len(area)
     sharp = sum(np.bincount(drop[0], minlength=count) for _, drop, _ in borders)
-    # As high as that it may be a building that the border of the survey cuts.
+    # A higher region may be a building cut by the border of the survey.
     is_open = (area >= allowance.border_area) & (above <= allowance.border_height)
     open_ = np.where(is_open, open_, 0.0)
     is_house = (area < _HOUSE_AREA) & (above > _HOUSE_HEIGHT)
@@ -217,7 +218,7 @@ def _joined(
     )
     joined = terrain.copy()
     for _ in range(_JOINING_PASSES):
-        ground = np.append(joined, True)  # the last one is what is not raised
+        ground = np.append(joined, True)  # the last one stands for cells that are not raised
         level, rising = np.zeros((2, count))
         for flat, _, rise in borders:
             level += np.bincount(flat[0][ground[flat[1]]], minlength=count)
@@ -225,7 +226,7 @@ def _joined(
         gentle = level + rising if allowance.rise_counts else level
         bounded = gentle + sharp
         new = gentle >= share * bounded
-        # A ramp is level with the ground: the side of a roof rises to the next one.
+        # A ramp is level with the ground. Rises do not count: a roof rises to the next roof.
         new |= (level >= level_share * bounded) & (area >= _HOUSE_AREA)
         new &= gentle > 0
         new |= open_ > _OPEN_SHARE * (bounded + open_)
@@ -247,7 +248,7 @@ def _steps(
     allowance: Allowance,
     first: First,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Compare neighbouring cells along an axis, of which one at least is raised.
+    """Compare neighbouring cells along an axis if at least one of them is raised.
 
     Returns
     -------
@@ -272,7 +273,7 @@ def _steps(
         rises, usual = trend.at(*np.divmod(one[stepped], filled.shape[1])), usual[stepped]
         along = rises.east if axis else rises.north
         alike = np.abs(rise[stepped] + usual - along) <= allowance.gentle_step + rises.steepest
-        # A building makes a trend of its own, that the ground round it knows nothing of.
+        # A building makes a trend of its own, although the ground round it does not rise.
         alike &= usual * np.sign(along) >= _LEAST_OF_TREND * np.abs(along)
         sign[stepped[alike]] = 0
     if allowance.follows_slopes:
@@ -282,7 +283,7 @@ def _steps(
 
 
 def smoothed(surface: np.ndarray, size: float, smoothing: float) -> np.ndarray:
-    """Return a surface smoothed over so many metres."""
+    """Return a surface smoothed over `smoothing` metres."""
     from scipy import ndimage
 
     return ndimage.gaussian_filter(surface, smoothing / size, mode="nearest")

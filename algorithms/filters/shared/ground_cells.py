@@ -1,9 +1,9 @@
 """Which cells of a grid of lowest points are ground: the seeds of a terrain surface.
 
-Three views of the same grid are combined. A progressive opening cuts off whatever is narrower than
-a window and higher than an allowance, which grows with the window and with the slope of the
-terrain. Regions bounded by drops all round are objects whatever their size. And what the opening
-cut off, but passes gently into the ground round it, is ground after all: a dike, a terrace.
+Three rules are combined. A progressive opening cuts off cells that are narrower than a window and
+higher than an allowance, which grows with the window and with the slope of the terrain. Regions
+with drops all round are objects of any size. Cells that the opening cut off are ground after all if
+they continue gently into the ground round them: a dike, a terrace.
 
 References
 ----------
@@ -30,15 +30,15 @@ from .roofs import flat_roofs
 
 # A first, strict opening (rise over run) gives the surface from which the terrain's slope is taken.
 _FIRST_SLOPE = 0.12
-# Cells that are taken together for the largest windows, and radii in cells from which on so many
-# are: what is cut off then is large.
+# For large windows cells are taken together in squares, because the objects are large: cells along
+# the side of the largest squares, and for each size the first and the last radius in cells.
 _TOGETHER = 4
 _RADII = ((1, 1, 24), (2, 26, 48), (4, 52, 10_000))
-# Metres over which that slope is smoothed, and the most of it that counts.
+# Metres over which the surface is smoothed for this slope, and the largest slope that counts.
 _SLOPE_SMOOTHING, _LARGEST_SLOPE = 5.0, 0.6
-# Of a plateau, all is cut off if a window cuts off so much: its uphill side is low.
+# All of a plateau is cut off if openings cut off at least this share: its uphill side is low.
 _CUT_SHARE = 0.3
-# Metres above the ground round it from which on a pit in a roof is no ground.
+# A pit in a roof is no ground if it is more than so many metres above the ground round it.
 _PIT_HEIGHT = 0.5
 
 
@@ -61,8 +61,8 @@ def ground_cells(
     size : float
         Side of a cell in metres.
     objects : Objects
-        What stands out all round. A plateau is an object if a window cuts off part of it, and a
-        mountain is ground whatever a window cuts off.
+        Objects with drops all round. A plateau is an object if openings cut off part of it. A
+        mountain is ground even if openings cut it off.
     largest_window : float
         Radius in metres of the largest window.
     allowance : Allowance
@@ -72,20 +72,20 @@ def ground_cells(
     first : tuple of int
         Row and column of the first cell in the grid of the CRS.
     suspects : numpy.ndarray of bool, shape (rows, columns), optional
-        Cells that stand out by another rule: like those that an opening cut off, they are ground
-        if they pass gently into it.
+        Cells that stand out by another rule. Like cells that an opening cut off, they are ground
+        after all if they continue gently into the ground.
 
     Returns
     -------
     numpy.ndarray of bool, shape (rows, columns)
-        False also where there is no height.
+        False in cells without a height, too.
     """
     from scipy import ndimage
 
     known = np.isfinite(heights)
     surveyed = covered(known)
     filled = _filled(heights, surveyed, allowance, first)
-    # Cells are taken together in fours, wherever the grid starts.
+    # Squares of cells begin at multiples of their side, wherever the grid starts.
     south, west = (each % _TOGETHER for each in first)
     padded = np.pad(filled, ((south, 0), (west, 0)), mode="edge")
     part = progress.part(0.0, 0.5)
@@ -94,7 +94,8 @@ def ground_cells(
     which, raised = np.flatnonzero(limit > 0.0), strict | objects.raised
     numbers = ndimage.label(objects.plateaus)[0]
     for part in progress.part(0.5, 0.8).shares(*[1.0] * allowance.slopes_taken):
-        # The rim of a roof that is left makes a slope of its own, until what is round it is gone.
+        # A rim of a roof that is left makes a slope of its own, until the cells round it are
+        # removed.
         surface = inpaint(np.where(known & ~raised, heights, np.nan), first=first)
         smooth = smoothed(surface, size, _SLOPE_SMOOTHING)
         slope = np.hypot(*(slope_at(smooth, axis, which, size) for axis in (0, 1)))
@@ -117,7 +118,7 @@ def ground_cells(
     if allowance.island_area:
         raised &= ~courtyards(filled, raised, surface, size)
         raised &= ~between_ditches(filled, raised, surface, size)
-        # Last, as the drops to pits tell that a roof is round them.
+        # Last, because the drops to pits show that there is a roof round them.
         pits = known & pits_in_roofs(filled, raised, surveyed)
         if pits.any():
             surface = inpaint(np.where(known & ~raised & ~pits, heights, np.nan), first=first)
@@ -129,19 +130,19 @@ def ground_cells(
 def _filled(
     heights: np.ndarray, surveyed: np.ndarray, allowance: Allowance, first: First
 ) -> np.ndarray:
-    """Return the heights as float32, and those of gaps from what is round them."""
+    """Return the heights as float32, with gaps filled from the cells round them."""
     from scipy import ndimage
 
     filled = inpaint(heights, first=first).astype(np.float32)
     if not allowance.judges_gaps or surveyed.all():
         return filled
-    # Beyond the survey a roof at its border must not grow wider than it is.
+    # The filling must not make a roof at the border of the survey wider than it is.
     nearest = ndimage.distance_transform_edt(~surveyed, return_distances=False, return_indices=True)
     return filled[tuple(nearest)]
 
 
 def _of_cut_plateaus(numbers: np.ndarray, raised: np.ndarray) -> np.ndarray:
-    """Return the cells of the plateaus, numbered from 1, of which so much is raised that all is."""
+    """Return the cells of the plateaus (numbered from 1) of which a large share is raised."""
     total = np.bincount(numbers.ravel())
     is_cut = np.bincount(numbers[raised], minlength=len(total)) >= _CUT_SHARE * total
     is_cut[0] = False
@@ -156,7 +157,7 @@ def _standing_out(
     Returns
     -------
     first : numpy.ndarray of bool, shape (rows, columns)
-        What stands out by the strict slope of the first look.
+        Cells that stand out by the strict slope of the first opening.
     limit : numpy.ndarray of float32, shape (rows, columns)
         The terrain's slope (rise over run) below which a cell stands out by the allowance.
     """
@@ -175,8 +176,8 @@ def _standing_out(
         metres = radius * size
         level = allowance.base + allowance.per_radius * metres
         if zoom > 1:
-            # What is cut off a block tells of its neighbours as well, whose lowest cell may lie
-            # beside the object.
+            # A block counts for its neighbours as well, because their lowest cell may lie beside
+            # the object.
             most = _finer(within_square(np.maximum, cut, 1), zoom, filled.shape)
             own = steps.astype(np.int32) - _finer(opened, zoom, filled.shape)
             cut = np.clip(own, 0, most)
@@ -208,7 +209,7 @@ def _radii(largest: float) -> list[tuple[int, int]]:
 
 
 def _lowest_of_blocks(grid: np.ndarray, width: int) -> np.ndarray:
-    """Return the lowest of each square of so many cells."""
+    """Return the lowest value of each square of `width` x `width` cells."""
     rows, columns = grid.shape
     padded = np.pad(grid, ((0, -rows % width), (0, -columns % width)), mode="edge")
     rows = np.minimum.reduce([padded[k::width] for k in range(width)])
@@ -216,6 +217,6 @@ def _lowest_of_blocks(grid: np.ndarray, width: int) -> np.ndarray:
 
 
 def _finer(grid: np.ndarray, zoom: int, shape: tuple[int, int]) -> np.ndarray:
-    """Return the value of its square for each cell of a grid of some shape."""
+    """Return a grid of the given shape in which each cell has the value of its square."""
     fine = np.repeat(np.repeat(grid, zoom, axis=0), zoom, axis=1)
     return fine[: shape[0], : shape[1]].astype(np.int32)

@@ -1,4 +1,4 @@
-"""Between which heights points are ground: the surface through its vertices, and a tolerance."""
+"""The limits of the heights of ground points: a surface through vertices, and a tolerance."""
 
 from __future__ import annotations
 
@@ -13,28 +13,33 @@ from ...grids.inpaint import inpaint
 from ...grids.morphology import within_square
 from .noise import below_middle, from_middle, middle_of_noise, noise_of_squares
 
-# Metres over which the surface is smoothed for the slope along which vertices are moved, how often
-# they are moved, and the steepest slope (rise over run).
+# Metres over which the surface is smoothed to move vertices along its slope, how often they are
+# moved, and the steepest slope for this (rise over run).
 _SLOPE_SMOOTHING, _MOVES, _STEEPEST = 1.5, 2, 1.5
-# Metres over which it is smoothed for the slope that adds to the tolerances.
+# Metres over which the surface is smoothed for the slope that is added to the tolerances.
 _FACET_SMOOTHING = 0.7
-# The tolerance on slopes follows the distance between points between these two, in metres.
+# The tolerance on slopes is proportional to the spacing of the points, between these two spacings
+# in metres.
 _SPARSE, _DENSE = 1.0, 0.25
-# Metres between points up to which their noise is measured: the lowest of many in a cell is biased.
+# Largest spacing in metres at which the noise is measured in each cell, because the lowest of many
+# points in a cell lies below the ground.
 NOISE_SPACING = 0.36
-# Metres between points up to which narrow cells hold enough of them, and show breaks by themselves.
+# Largest spacing in metres at which narrow cells hold enough points, and show breaks by themselves.
 DENSE_SPACING = 0.17
-# Metres of curvature over a cell from which on there is a break, and what each more adds.
+# Curvature over a cell, in metres, above which there is a break, and the tolerance that each metre
+# above it adds.
 _BREAK, _BREAK_FACTOR = 0.25, 1.5
-# Metres above a surface through the middle of the noise, and how often the noise adds to them.
+# Tolerance in metres above a surface through the middle of the noise, and the multiple of the noise
+# that is added to it.
 _ABOVE, _ABOVE_FACTOR = 0.05, 3.0
-# The same where few points lie in a cell, and metres by which less is needed: plants that are lower
-# than the noise can't be told.
+# The same multiple where few points lie in a cell, and metres that are subtracted: plants lower
+# than the noise cannot be recognised.
 _SPARSE_FACTOR, _USUAL_NOISE = 2.5, 0.07
-# Metres, and at most which share, that the tolerance above is less where the ground is even.
+# Where the ground is even, the tolerance above is smaller by so many metres, but at most by this
+# share.
 _EVEN_LESS, _EVEN_SHARE = 0.07, 0.4
-# Ground is even up to so many metres of curvature, where this share of the cells round about is
-# known.
+# Ground is even if its curvature is at most so many metres, and at least this share of the cells
+# round about is known.
 _EVEN_CURVATURE, _EVEN_KNOWN = 0.45, 0.6
 
 
@@ -48,7 +53,7 @@ class Tolerance(NamedTuple):
     on_slopes : float
         Metres that a slope of 45 degrees adds, where points are a metre apart or more.
     below : float
-        Metres in level terrain; more than above, as the surface is smooth where points are not.
+        Metres in level terrain; more than above, because the surface is smoother than the ground.
     """
 
     above: float
@@ -59,7 +64,7 @@ class Tolerance(NamedTuple):
 def plain_limits(
     points: Points, vertices: np.ndarray, cells: Cells, tolerance: Tolerance
 ) -> np.ndarray:
-    """Return the limits for the surface through the lowest vertex of each cell, as it lies.
+    """Return the limits for a surface through the lowest vertex of each cell, without moving it.
 
     Parameters, returns
         As for `ground_limits`.
@@ -76,22 +81,22 @@ def ground_limits(
     spacing: float,
     tolerance: Tolerance,
 ) -> np.ndarray:
-    """Return between which heights points are ground.
+    """Return the lowest and the highest height of ground points.
 
-    Each vertex is moved to the middle of its cell along the slope: the lowest point of a cell lies
-    on its lower side. Where points are dense, the surface between them is known better, and the
-    tolerance on slopes is less in proportion. At breaks the surface of cells is too smooth, and
-    more is tolerated. Where the ground is even, however steep, low plants stand out, and less is
-    tolerated above it. Where many points lie in a cell, the lowest lies far below the ground: the
-    surface is laid through the middle of their noise. The tolerance above grows with the noise that
-    is measured.
+    Each vertex is moved to the middle of its cell along the slope, because the lowest point of a
+    cell lies on its lower side. Where points are dense, the surface between them is known better,
+    so the tolerance on slopes is smaller in proportion. At breaks the surface is too smooth, so the
+    tolerance is larger. On even ground, level or sloping, low plants stand out, so the tolerance
+    above is smaller. Where many points lie in a cell, the lowest lies far below the ground, so the
+    surface goes through the middle of their noise. The tolerance above grows with the measured
+    noise.
 
     Parameters
     ----------
     points : Points
         All points.
     vertices : numpy.ndarray of int
-        Indices of those of the ground that the surface goes through.
+        Indices of the ground points that the surface goes through.
     cells : Cells
         A grid over the points.
     spacing : float
@@ -114,7 +119,7 @@ def ground_limits(
         above = on_even if spacing <= DENSE_SPACING else max(above, on_even)
     elif spacing <= _SPARSE:
         noise = noise_of_squares(points, cells, surface, slopes)
-        # The surface goes through the lowest of so many points.
+        # The surface goes through the lowest point of a cell, which has about so many.
         number = np.asarray(max(cells.size / spacing, 1.0) ** 2)
         least = (_SPARSE_FACTOR + float(below_middle(number))) * noise - _USUAL_NOISE
         above, on_even = max(above, least), max(on_even, least)
@@ -123,14 +128,14 @@ def ground_limits(
     rise = factor * slope
     if spacing < _SPARSE:
         rise += _BREAK_FACTOR * np.maximum(curvature - _BREAK, 0.0)
-    # Steeper than vertices are moved along, the middle of a cell is not known that well.
+    # On slopes too steep to move vertices along, the middle of a cell is not known well enough.
     uneven = np.where(slope <= _STEEPEST, _unevenness(curvature, known), np.inf)
     highest = np.minimum(above + rise, on_even + uneven)
     return np.stack((surface - tolerance.below - rise, surface + highest), axis=-1)
 
 
 def _unevenness(curvature: np.ndarray, known: np.ndarray) -> np.ndarray:
-    """Return by how many metres the ground round each cell is uneven; infinity if by too much."""
+    """Return the unevenness of the ground round each cell in metres; infinity if too large."""
     from scipy import ndimage
 
     between = ndimage.binary_erosion(known, border_value=1)
@@ -146,12 +151,12 @@ def _smooth(surface: np.ndarray, metres: float, cells: Cells) -> np.ndarray:
 
 
 def _smooth_steepness(surface: np.ndarray, cells: Cells) -> np.ndarray:
-    """Return the slope of the smoothed surface: between single points it is too uneven."""
+    """Return the slope of the smoothed surface; between single points the slope is too uneven."""
     return steepness(_smooth(surface, _FACET_SMOOTHING, cells), cells.size)
 
 
 def _curvature(surface: np.ndarray) -> np.ndarray:
-    """Return by how many metres each cell departs from the line between its neighbours."""
+    """Return how many metres each cell lies off the lines between opposite neighbours."""
     around = np.pad(surface, 1, mode="edge")
     north = around[2:, 1:-1] + around[:-2, 1:-1]
     east = around[1:-1, 2:] + around[1:-1, :-2]

@@ -1,8 +1,8 @@
-"""Planes through the ground on one side of a point: what the terrain would be there if it went on.
+"""Planes through the ground on one side of a point, which continue this ground to the point.
 
 At a break (the edge of a terrace, a ridge, the top of a wall) the surface through the ground all
-round a point is wrong, but that of one side is right. What lies above the planes of all sides is
-not ground; what lies on the plane of one side may be.
+round a point is wrong, but the plane of one side is right. A point above the planes of all sides is
+not ground; a point on the plane of one side may be ground.
 """
 
 from __future__ import annotations
@@ -13,27 +13,28 @@ from ...core.points import Points
 from ...core.progress import SILENT
 from ...core.threads import over_parts
 
-# Neighbours that are looked at, and how many of them a side must have to be judged by.
+# Nearest neighbours that are used, and how many of them a side needs for a plane.
 _NEIGHBOURS, _LEAST = 16, 4
-# Sides that are looked at, evenly spread.
+# Number of sides, in evenly spread directions.
 _SIDES = 8
 # Points that are judged at a time.
 _AT_ONCE = 1 << 13
-# Points of a leaf of the tree: more than usual, as it is made for few queries.
+# Points of a leaf of the tree: more than usual, because there are few queries.
 _LEAF = 32
-# Square metres that are added to the spread of the neighbours.
+# Square metres that are added to the variances of the neighbours' places, so that there is always a
+# plane.
 _STIFFNESS = 0.1
 
 
 class Sides:
-    """The ground round points, side by side.
+    """The ground round points, separately for each side.
 
     Parameters
     ----------
     ground : Points
         Points of the ground.
     reach : float
-        Metres within which they are neighbours.
+        Metres within which ground points are neighbours.
     """
 
     def __init__(self, ground: Points, reach: float) -> None:
@@ -53,14 +54,14 @@ class Sides:
         points : Points
             The points to judge.
         own : bool
-            Whether the points are of the ground themselves: they are no neighbours of their own.
+            Whether the points are ground points themselves. Then no point is its own neighbour.
 
         Returns
         -------
         rise : numpy.ndarray of float64, shape (n, 8)
             Metres; NaN where a side has too few neighbours.
         misfit : numpy.ndarray of float64, shape (n, 8)
-            Root mean square of what the neighbours depart from the plane, in metres.
+            Root mean square distance of the neighbours from the plane, in metres.
         """
         rise = np.full((points.count, _SIDES), np.nan)
         misfit = np.full((points.count, _SIDES), np.nan)
@@ -80,7 +81,8 @@ class Sides:
         )
         if own:
             distance, which = distance[:, 1:], which[:, 1:]
-        # The tree returns any of several that are equally far away: then none of them counts.
+        # If several are equally far away, the tree may return any of them. Then none of them
+        # counts.
         there = distance[:, :-1] < distance[:, -1:]
         which = np.where(there, which[:, :-1], 0)
         x, y, z = (
@@ -101,7 +103,7 @@ def _plane(sums: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     x, y, z = x / total, y / total, z / total
     xx, xy, yy = xx / total - x * x, xy / total - x * y, yy / total - y * y
     xz, yz, zz = xz / total - x * z, yz / total - y * z, zz / total - z * z
-    # A little stiffness: neighbours on one line have no slope across it.
+    # A small term on the diagonal, because neighbours on one line have no slope across it.
     stiff_xx, stiff_yy = xx + _STIFFNESS, yy + _STIFFNESS
     determinant = stiff_xx * stiff_yy - xy * xy
     east = (stiff_yy * xz - xy * yz) / determinant

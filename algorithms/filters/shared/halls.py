@@ -7,17 +7,20 @@ import numpy as np
 from ...grids.inpaint import First, inpaint
 from .height_steps import HeightSteps
 
-# Heights in metres of the drops that bound a roof: where it is that low above the ground, higher
-# ones would leave a gap in its rim.
+# Least heights in metres of the drops that bound a roof, one for each pass. Where a roof is only so
+# high above the ground, higher ones would leave a gap in its rim.
 _DROPS = (0.5, 0.2)
-# Cells: where a roof hangs together with the ground, or with another roof, by fewer, it is cut off.
+# A roof is cut off from the ground or from another roof where fewer cells than this join them.
 _NECK = 3
-# Metres of the shorter side of a roof: the treads of terraces are narrower.
+# Least width (shorter side) of a roof in metres; the treads of terraces are narrower.
 _LEAST_WIDTH = 25.0
-# Halls side by side have at least so many square metres, and stand so many metres above the ground
-# on average, by their area: raised squares are lower, and few of them are as large.
+# A group of halls with the first area, in square metres, stands at least the first height above the
+# ground on average, in metres; with the second area or more, the second height; in between, a
+# height in between. Smaller groups are no halls. Raised squares are lower, and few of them are as
+# large.
 _AREAS, _LEAST_HEIGHTS = (2000.0, 8000.0), (6.5, 3.5)
-# Cells round a hall that do not tell of the ground: their lowest points may lie on its walls.
+# Cells round a hall that are not taken for ground, because their lowest points may lie on its
+# walls.
 _WALLS = 2
 
 
@@ -29,19 +32,19 @@ def halls(
     size: float,
     first: First,
 ) -> np.ndarray:
-    """Return the cells of halls: low drops bound them, and they stand high above the ground round.
+    """Return the cells of halls, which are bounded by low drops and stand high above the ground.
 
-    Where the roof is level with the ground, no drop bounds it. Such a place is mostly short, so
-    that regions are cut at their necks.
+    Where a roof is level with the ground, no drop bounds it. Such places are mostly short, so
+    regions are cut at their necks.
 
     Parameters
     ----------
     steps : HeightSteps
-        Those of the heights without the objects that are known.
+        The steps of the heights without the known objects.
     heights : numpy.ndarray of float, shape (rows, columns)
         Lowest height of each cell in metres; NaN where there is none.
     raised : numpy.ndarray of bool, shape (rows, columns)
-        Cells of objects and plateaus that are known.
+        Cells of known objects and plateaus.
     max_size : float
         Largest width (shorter side) of a hall in metres.
     size : float
@@ -52,7 +55,7 @@ def halls(
     Returns
     -------
     numpy.ndarray of bool, shape (rows, columns)
-        Those of objects and plateaus that touch them as well.
+        Objects and plateaus that touch halls are included.
     """
     from scipy import ndimage
 

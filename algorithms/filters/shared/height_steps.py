@@ -13,8 +13,8 @@ from .regions import Border, Regions
 
 # East, north and the two diagonals: with their opposites, the eight neighbours of a cell.
 _DIRECTIONS = ((0, 1), (1, 0), (1, 1), (1, -1))
-# Distance in metres at which heights are compared, unless cells are larger: over less a wall hit
-# half-way up, or a gap filled between roof and ground, makes a staircase of low steps.
+# Distance in metres over which heights are compared, unless cells are larger. Over a shorter one, a
+# point half-way up a wall, or a filled gap between roof and ground, makes a staircase of low steps.
 _STEP = 1.0
 # Cells whose steps are computed at a time, so that they stay in the processor's cache.
 _CELLS_A_STRIP = 1 << 15
@@ -22,15 +22,17 @@ _CELLS_A_STRIP = 1 << 15
 _JOINING_PASSES = 2
 # Passes in which cells that are level with the ground grow back.
 _GROWING_PASSES = 4
-# Points lie on the face of a cliff: of five steps across it, none makes up more than a share of
-# their sum, and none leads back by more than some metres. At the wall of a building one step does.
+# A drop is the face of a cliff if none of five steps across it is more than this share of their
+# sum, and none leads back by more than so many metres. At the wall of a building, one step is
+# nearly all of the drop.
 _LARGEST_STEP, _STEP_BACK = 0.7, 0.3
-# Relaxations of the surface across gaps; what bounds objects is their rim, not the filling.
+# Relaxations of the surface across gaps. Few are enough, because rims bound objects, not the
+# filling.
 _RELAXATIONS = 2
 
 
 class HeightSteps:
-    """The steps of a height grid, as against what the trend of the terrain explains.
+    """The steps of a height grid that the trend of the terrain does not explain.
 
     Parameters
     ----------
@@ -50,7 +52,7 @@ class HeightSteps:
         surface = inpaint(heights, _RELAXATIONS, first).astype(np.float32)
         self._trend = Trend(surface, size, first)
         self._size, self._step = size, max(round(_STEP / size), 1)
-        # A frame without height ends each row, so that neighbours are an offset apart.
+        # A frame without heights round the grid, so that each neighbour is at a fixed offset.
         self._inside = np.pad(inside, self._step)
         self._heights = np.pad(surface, self._step, constant_values=np.nan).ravel()
         self._known = np.pad(np.isfinite(heights), self._step).ravel()
@@ -58,17 +60,16 @@ class HeightSteps:
     def regions(self, threshold: float, neck: int = 1) -> Regions:
         """Return the regions between the rims of a threshold.
 
-        Rim cells belong to the region that they are level with, like the edge of a roof; those
+        Rim cells belong to the region that they are level with, like the edge of a roof. Rim cells
         that are level with none, like a thin tree, form regions of their own.
 
         Parameters
         ----------
         threshold : float
-            By how many metres a cell must be higher than one of its eight neighbours to be a rim,
-            on level and even ground; the rise of the terrain between the two and its usual
-            unevenness are added.
+            A cell is a rim if it is higher than one of its eight neighbours by more than so many
+            metres, plus the rise of the terrain between the two and its usual unevenness.
         neck : int
-            Regions are cut where they hang together by fewer cells than this odd number.
+            Regions are cut where fewer cells than this odd number join their parts.
         """
         return self._regions(*self._steps(threshold), neck)
 
@@ -77,7 +78,7 @@ class HeightSteps:
     ) -> tuple[Regions, np.ndarray]:
         """Return the `regions`, and which cells are rims if more unevenness is allowed.
 
-        That many times (`roughness_factor`) its usual unevenness is added for the rims.
+        For these rims, the usual unevenness is added `roughness_factor` times.
         """
         steps, large = self._steps(threshold, (1.0, roughness_factor))
         return self._regions(steps), self._unframed(self._rims(large))
@@ -103,12 +104,12 @@ class HeightSteps:
         return Regions(self._unframed(regions), border, self._size, self._step)
 
     def pits(self, candidates: np.ndarray, threshold: float, max_size: float) -> np.ndarray:
-        """Return the cells of patches that lie below what is round them on all sides.
+        """Return the cells of patches that lie below the cells round them on all sides.
 
         Parameters
         ----------
         candidates : numpy.ndarray of bool, shape (rows, columns)
-            Cells that may be a pit; those that touch are one patch, however uneven.
+            Cells that may be in a pit. Cells that touch are one patch, even if they are uneven.
         threshold : float
             Least height in metres of the rise round it (see `regions`).
         max_size : float
@@ -127,14 +128,14 @@ class HeightSteps:
         return patches.sunken(max_size) & candidates
 
     def regrown(self, kept: np.ndarray, heights: np.ndarray, threshold: float) -> np.ndarray:
-        """Return the ground that is kept and the cells beside it that are level with it.
+        """Return the kept ground and the cells beside it that are level with it.
 
         Parameters
         ----------
         kept : numpy.ndarray of bool, shape (rows, columns)
             Cells of the ground.
         heights : numpy.ndarray of float, shape (rows, columns)
-            Lowest heights, those of cells that may grow back included; NaN where there is none.
+            Lowest heights, including cells that may grow back; NaN where there is none.
         threshold : float
             As for `regions`; a cell is compared with the mean of its kept neighbours.
         """
@@ -193,7 +194,7 @@ class HeightSteps:
         threshold: float,
         roughness_factors: Sequence[float],
     ) -> None:
-        """Fill in the signs of one direction for the cells from `start` on that a trend is of."""
+        """Fill in the signs of one direction for the cells of a trend, from cell `start` on."""
         step = steps[0]
         end = min(start + trend.north.size, step.sign.size)
         if end <= start:
@@ -227,7 +228,7 @@ class HeightSteps:
         return Rises(*framed)
 
     def _places(self, cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return row and column of cells; for those in the frame, of the cells beside it."""
+        """Return row and column of cells; a cell of the frame has those of the cell beside it."""
         rows, columns = (side - 2 * self._step for side in self._inside.shape)
         row, column = np.divmod(cells, self._inside.shape[1])
         row, column = row - self._step, column - self._step
@@ -248,7 +249,7 @@ class HeightSteps:
         return rim.reshape(self._inside.shape) & self._inside
 
     def _join(self, regions: np.ndarray, cells: np.ndarray, steps: list[_Steps]) -> None:
-        """Let cells without a region join that of the neighbour they are most level with."""
+        """Let cells without a region join the region of the neighbour that is nearest in height."""
         least = np.full(len(cells), np.inf, dtype=np.float32)
         joined = np.zeros(len(cells), dtype=regions.dtype)
         for each in steps:
@@ -264,7 +265,7 @@ class HeightSteps:
         regions[cells] = joined
 
     def _face_slopes(self, cells: np.ndarray, offset: int) -> np.ndarray:
-        """Return how steep a face is that steps from cells to neighbours are part of.
+        """Return the slope of the face that the steps from cells to neighbours are part of.
 
         As `Border.face`: NaN beside cells without a point.
         """

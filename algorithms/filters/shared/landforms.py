@@ -1,4 +1,4 @@
-"""Raised regions that are terrain by their shape, whatever their border: rocks and ramps."""
+"""Raised regions that are terrain because of their shape, with any border: rocks and ramps."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ import numpy as np
 
 from .allowance import Allowance
 
-# Standard deviation in metres of the heights of a rock. A roof is lower, or level: a band of so
-# many metres holds more than a share of it.
+# Least standard deviation in metres of the heights of a rock. A roof is lower, or level: then a
+# band of so many metres holds more than this share of its cells.
 _ROCK_DEVIATION, _BAND, _BAND_SHARE = 5.0, 3.0, 1.0 / 3.0
-# A ramp is so many times as long as wide, and rises by so many metres at least. Its height above
-# the ground follows from the place along it: this share of the variance.
+# A ramp is at least so many times as long as wide, and rises by at least so many metres. The place
+# along it explains at least this share of the variance of its height above the ground.
 _RAMP_LENGTH, _RAMP_RISE, _RAMP_SHARE = 4.0, 2.0, 0.9
-# It begins on the ground, but for this share of its rise, and is level with it there along so much
-# of its width.
+# It begins at the height of the ground, within this share of its rise, and is level with the ground
+# along at least this share of its width.
 _RAMP_START, _RAMP_FOOT = 0.25, 0.5
-# A ramp between two levels: slope (rise over run) and rise in metres at least; such a share of its
-# cells is within so many metres of a plane. Within a share of its length from each end it is level
-# with the ground along a share of its width.
+# A ramp between two levels has at least this slope (rise over run) and this rise in metres. At
+# least this share of its cells lies within so many metres of a plane. Within this share of its
+# length from each end, it is level with the ground along at least this share of its width.
 _LINK_SLOPE, _LINK_RISE = 0.06, 1.0
 _LINK_EVEN, _LINK_BAND = 0.8, 0.3
 _LINK_END, _LINK_FOOT = 0.3, 0.35
@@ -33,7 +33,7 @@ class RaisedCells(NamedTuple):
     region : numpy.ndarray of int64, shape (n,)
         Region of each cell.
     north, east : numpy.ndarray of float, shape (n,)
-        Place of each in metres.
+        Coordinates of each cell in metres.
     heights, above : numpy.ndarray of float, shape (n,)
         Height of each, and its height above the ground, in metres.
     """
@@ -55,11 +55,11 @@ def landforms(
     cells : RaisedCells
         All cells of the regions.
     feet : numpy.ndarray of intp, shape (sides,)
-        Which of the cells are level with the ground beside them, once for each such side.
+        Indices of the cells that are level with the ground beside them, once for each such side.
     size : float
         Side of a cell in metres.
     allowance : Allowance
-        How large they are at least.
+        Least areas of rocks and ramps.
 
     Returns
     -------
@@ -84,7 +84,7 @@ def landforms(
 
 
 class _Regions:
-    """Raised regions that are large, each of which has a cell.
+    """Large raised regions, each with at least one cell.
 
     Parameters
     ----------
@@ -109,9 +109,9 @@ class _Regions:
         return values - self._mean(values)[self._cells.region]
 
     def rocks(self, least_area: float) -> np.ndarray:
-        """Return which regions rise by themselves as no roof, bridge or wood does.
+        """Return which regions rise more unevenly than roofs, bridges and woods.
 
-        A roof or a bridge is level; a wood on a slope is as high above the ground all over.
+        A roof or a bridge is level; a wood on a slope is equally high above the ground everywhere.
         """
         region, heights = self._cells.region, self._cells.heights
         is_rock = self._area >= least_area
@@ -126,13 +126,13 @@ class _Regions:
     def ramps(self, least_area: float) -> np.ndarray:
         """Return which regions are straight strips that rise evenly from the ground.
 
-        Such is a road on a dam with walls that climbs to a bridge: all of its border but one end
-        drops. The height of a bridge or of a roof does not grow from one end to the other.
+        An example is a road on a dam with walls that climbs to a bridge: all of its border except
+        one end drops. The height of a bridge or a roof does not grow from one end to the other.
         """
         above = self._cells.above
         y, x = (self._centred(each) for each in (self._cells.north, self._cells.east))
         yy, xy, xx = (self._mean(one * other) for one, other in ((y, y), (y, x), (x, x)))
-        # Variances along the longer and the shorter axis, and where the longer points.
+        # Variances along the longer and the shorter axis, and the direction of the longer one.
         apart = np.hypot((xx - yy) / 2.0, xy)
         along, across = ((xx + yy) / 2.0 + sign * apart for sign in (1.0, -1.0))
         angle = np.arctan2(2.0 * xy, xx - yy) / 2.0
@@ -151,8 +151,8 @@ class _Regions:
     def links(self, least_area: float) -> np.ndarray:
         """Return which regions are even slopes that lead from the ground to higher ground.
 
-        Such is a ramp or a flight of stairs between two levels. A roof on a slope drops at one end
-        at least, and a bridge is level.
+        Examples are a ramp or a flight of stairs between two levels. A roof on a slope drops at
+        least at one end, and a bridge is level.
         """
         cells, feet = self._cells, self._feet
         y, x, z = (self._centred(each) for each in (cells.north, cells.east, cells.heights))

@@ -11,6 +11,7 @@ from ...grids.cells import Cells, spacing
 from .objects import PLATEAU_HEIGHT, Objects, raised_objects
 from .outliers import lone_points, low_outliers
 
+# A pit with steeper sides (rise over run) is a low outlier: no terrain is so steep.
 _OUTLIER_SLOPE = 5.0
 # Heights in metres of the drops that bound an object, the tall ones first.
 _OBJECT_HEIGHTS = (5.0, 4.5, 2.0)
@@ -22,9 +23,9 @@ class LowestPoints:
     Parameters
     ----------
     points : Points
-        All of them.
+        All points.
     size : float
-        Side in metres of the cells whose lowest points are wanted.
+        Side of the cells in metres.
     classic : bool
         True for the rules of other programs' presets: every pit is a low outlier, and less of the
         border of an object must be a drop.
@@ -36,11 +37,11 @@ class LowestPoints:
     spacing : float
         Usual distance between points in metres.
     cells : Cells
-        Those whose lowest points are wanted.
+        The cells.
     lowest : numpy.ndarray of intp
         The lowest point of each occupied cell.
     cell : numpy.ndarray of int32
-        That cell, in the flattened grid.
+        The cell of each, in the flattened grid.
     heights : numpy.ndarray of float64, shape (rows, columns)
         Their heights, without low outliers; NaN where there is none.
     """
@@ -74,8 +75,8 @@ class LowestPoints:
     def objects(self, max_size: float, progress: Progress) -> Objects:
         """Return which of `cells` belong to objects or plateaus, with drops all round.
 
-        Plateaus are looked for on cells twice as wide as well. Narrow cells see no drop where the
-        rim of a roof has a gap, or where little of the drop lies between two of them.
+        Plateaus are searched on cells twice as wide as well. Narrow cells see no drop where the rim
+        of a roof has a gap, or where little of the drop lies between two of them.
         """
         cells, heights = self._wide()
         part, classic = progress.part(0.0, 0.7), self._classic

@@ -1,4 +1,4 @@
-"""Which points are ground, from lowest points that were found to be: the last steps of a filter."""
+"""Find all ground points from lowest points that are ground: the last steps of a filter."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .breaks import checked_seeds
 from .ground_limits import DENSE_SPACING, Tolerance, ground_limits
 from .near_surface import near_surface
 
-# Metres between points: less is as good as that.
+# Least spacing of points in metres; a smaller one counts as this.
 _CLOSEST = 0.01
 
 
@@ -26,9 +26,10 @@ class Candidates(NamedTuple):
     lowest : numpy.ndarray of intp, shape (n,)
         Indices of the points.
     ground : numpy.ndarray of bool, shape (n,)
-        Those that a filter takes for ground.
+        Which of them a filter takes for ground.
     free : numpy.ndarray of bool, shape (n,)
-        Those that may be ground nevertheless: no outliers, no parts of a large object.
+        Which of them may be ground even if the filter says otherwise: no outliers, no parts of a
+        large object.
     """
 
     lowest: np.ndarray
@@ -52,15 +53,16 @@ def near_ground(
 ) -> np.ndarray:
     """Return which points lie close to the surface through the ground.
 
-    Where points are sparse, the candidates are first looked at from each side: those above the
-    ground on every side go, and those level with the ground of one side, at a break, come back.
+    Where points are sparse, the candidates are first compared with the ground on each side.
+    Candidates above the ground on every side are removed. Candidates level with the ground on one
+    side, at a break, come back.
 
     Parameters
     ----------
     points : Points
         All points that take part.
     cells : Cells
-        Those of the surface.
+        Cells of the surface.
     candidates : Candidates
         Lowest points of cells.
     tolerance : Tolerance

@@ -11,19 +11,19 @@ from ...grids.cells import Cells
 from ...grids.morphology import within_square
 
 _POINTS_A_PART = 1 << 16
-# Metres by which single precision may be wrong, of heights up to 16 km: what it leaves in doubt is
-# looked at again.
+# Largest error of single precision in metres, for heights up to 16 km. Points so close to a limit
+# are tested again.
 _IN_DOUBT = np.float32(0.005)
 
 
 def near_surface(
     points: Points, cells: Cells, limits: np.ndarray, progress: Progress = SILENT
 ) -> np.ndarray:
-    """Return which points lie between two surfaces, those of the ground less and more a tolerance.
+    """Return which points lie between two surfaces, the lower and the upper limit of the ground.
 
     Both are interpolated bilinearly between the centres of the cells, and level beyond the
-    outermost. Most points are decided by the least and the greatest of both round their cell; only
-    the others need that.
+    outermost centres. The extremes of both round a cell decide most points; only the others need
+    the interpolation.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def _bilinear(
 
 
 def _lower(place: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return the lower of the centres on either side of a place, and how far on it lies."""
+    """Return the centre before each place, and how far beyond it the place lies."""
     place = np.clip(place, 0.0, count - 1.0)
     lower = np.minimum(place.astype(np.intp), max(count - 2, 0))
     return lower, (place - lower)[:, None]
@@ -90,8 +90,9 @@ def _lower(place: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
 def _bounds(limits: np.ndarray) -> np.ndarray:
     """Return the extremes of two surfaces round each cell, float32, shape (cells, 4).
 
-    What no point near the surface is below, what it may be below only if it lies between the cells
-    so, and the same two from above.
+    They are the lowest and the highest height of the lower surface, then of the upper surface.
+    Points between the second and the third lie between the surfaces, and points outside the first
+    and the fourth do not. Other points are in doubt.
     """
     rows, columns, _ = limits.shape
     bounds = np.empty((rows * columns, 4), dtype=np.float32)

@@ -1,4 +1,4 @@
-"""How noisy points of the ground are."""
+"""The noise of ground points."""
 
 from __future__ import annotations
 
@@ -11,16 +11,17 @@ from ...core.threads import in_threads, parts_of
 from ...grids.cell_blocks import CellBlocks
 from ...grids.cells import Cells
 
-# Metres round the lowest points within which noise is measured, the points that a cell must have
-# for that, and the percentile of the cells: most have plants as well.
+# Noise is measured within so many metres of the lowest points, in cells with at least so many
+# points. This percentile of the cells is used, because most have plants as well.
 _NOISE_WINDOW, _NOISE_POINTS, _NOISE_PERCENTILE = 0.6, 8, 25
-# Metres from the lowest points beyond which no point is noise, and how finely rises are told.
+# Largest distance in metres of noise from the lowest points, and the steps a metre to which rises
+# are rounded.
 _FARTHEST, _STEPS_A_METRE = 2.4, 1 << 14
-# Cells along the side of a square in which noise is measured where few points lie in a cell, and
-# the percentile of the squares: more of them than of the cells have plants.
+# Where few points lie in a cell, noise is measured in squares of so many cells along a side. This
+# percentile of the squares is used, because more squares than cells have plants.
 _SQUARE, _SQUARE_PERCENTILE = 3, 10
-# Points within so many times the noise belong to the ground; a mean needs so many of them, and is
-# taken so often.
+# Points within so many times the noise belong to the ground. A mean needs at least so many of them,
+# and is computed so often.
 _NOISE_FACTOR, _MEAN_POINTS, _MEANS = 2.5, 4, 2
 # The lowest of n points lies below the ground by so many times the noise, times sqrt(2 ln n).
 _LOWEST_FACTOR = 0.8
@@ -32,8 +33,8 @@ def middle_of_noise(
 ) -> tuple[np.ndarray, float]:
     """Return the middle of the ground points of each cell, and their noise, both in metres.
 
-    The lowest points give a first guess, as they lie below by a multiple of the noise that their
-    number tells; then the points round the guess are averaged.
+    The first guess lies above the lowest point of a cell by a multiple of the noise, which follows
+    from the number of its points. Then the points near the guess are averaged.
 
     Parameters
     ----------
@@ -68,7 +69,8 @@ def noise_of_squares(
 ) -> float:
     """Return the noise of ground points where few of them lie in a cell.
 
-    It is measured in squares of 3 x 3 cells, and too large by the little that the surface is off.
+    It is measured in squares of 3 x 3 cells. It is a little too large, because it includes the
+    errors of the surface.
 
     Parameters
     ----------
@@ -78,8 +80,8 @@ def noise_of_squares(
     Returns
     -------
     float
-        Standard deviation in whole centimetres, in metres: the border of a survey hardly moves it.
-        0 if no square has enough points.
+        Standard deviation in metres, rounded to centimetres, so that the border of a survey hardly
+        changes it. 0 if no square has enough points.
     """
     rises = _rises(points, cells, surface, slopes)
     sums = _sums(rises, np.zeros(surface.size, np.float32), _NOISE_WINDOW)
@@ -89,12 +91,12 @@ def noise_of_squares(
 
 
 def below_middle(number: np.ndarray) -> np.ndarray:
-    """Return by how many times the noise the lowest of some points lies below their middle."""
+    """Return how far the lowest of some points lies below their middle, as a multiple of noise."""
     return _LOWEST_FACTOR * np.sqrt(2.0 * np.log(number))
 
 
 def _noise(sums: np.ndarray, percentile: float) -> float:
-    """Return the noise of a percentile of squares, whose points, rises and squares are summed."""
+    """Return a percentile of the noise, from counts, sums and sums of squares of the rises."""
     count, total, square = sums[:, sums[0] >= _NOISE_POINTS]
     if not len(count):
         return 0.0
@@ -103,7 +105,7 @@ def _noise(sums: np.ndarray, percentile: float) -> float:
 
 
 def from_middle(points: Points, cells: Cells, cell: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return how many metres north and east of the middle of their cell points lie."""
+    """Return the distances of points north and east of the middle of their cell, in metres."""
     row, column = np.divmod(cell, cells.columns)
     north = points.y - (row + (cells.first_row + 0.5)) * cells.size
     east = points.x - (column + (cells.first_column + 0.5)) * cells.size
@@ -113,10 +115,10 @@ def from_middle(points: Points, cells: Cells, cell: np.ndarray) -> tuple[np.ndar
 def _rises(
     points: Points, cells: Cells, surface: np.ndarray, slopes: tuple[np.ndarray, np.ndarray]
 ) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Return the cells of the points that may be noise of the ground, and how far they rise.
+    """Return the cells of the points that may be noise of the ground, and their rises.
 
-    For each part of the points there are cells, int32, and rises above the surface, float32. These
-    are multiples of a power of two: their sums are exact, in whatever order they are taken.
+    Each part of the points has cells (int32) and rises above the surface (float32). Rises are
+    multiples of a power of two, so that their sums are exact in any order.
     """
     height, to_north, to_east = (each.ravel() for each in (surface, *slopes))
 
@@ -144,7 +146,7 @@ def _rises(
 def _sums(
     rises: list[tuple[np.ndarray, np.ndarray]], level: np.ndarray, most: float, powers: int = 2
 ) -> np.ndarray:
-    """Return how many rises of each cell lie near its level, their sum, and that of their squares.
+    """Return the count, the sum and the sum of squares of the rises near the level of each cell.
 
     Parameters
     ----------
@@ -153,9 +155,9 @@ def _sums(
     level : numpy.ndarray of float, shape (cells,)
         Metres.
     most : float
-        Metres from the level.
+        Largest distance from the level in metres.
     powers : int
-        2, or 1 if nobody asks for the squares.
+        2, or 1 without the squares.
 
     Returns
     -------

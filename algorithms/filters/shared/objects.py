@@ -1,8 +1,8 @@
 """Objects that stand on the ground, found in a grid of lowest points by the rims round them.
 
-A roof, a tree or a car ends in a drop on all sides; a hill, a terrace or a bank does not. A *rim*
-is where the drop is: of two neighbouring cells that differ by more than a threshold, the higher.
-Rims cut the grid into *regions*, and a region whose border is mostly a drop is a raised object.
+A roof, a tree or a car ends in a drop on all sides; a hill, a terrace or a bank does not. The drop
+is at a *rim*: the higher of two neighbouring cells that differ by more than a threshold. Rims cut
+the grid into *regions*, and a region whose border is mostly a drop is a raised object.
 """
 
 from __future__ import annotations
@@ -16,24 +16,25 @@ from ...grids.inpaint import First
 from .halls import halls
 from .height_steps import HeightSteps
 
-# Least height in metres of the drops round a plateau, on cells so wide that most points on its
-# walls share a cell with the ground: a hall may stand that little above the ground uphill.
+# Least height in metres of the drops round a plateau: a hall may be so low above the ground uphill.
+# The cells must be so wide that most points on its walls share a cell with the ground.
 PLATEAU_HEIGHT = 1.2
-# Gaps up to twice as many cells wide count as surveyed.
+# Gaps up to twice this width, in cells, count as surveyed.
 _GAP = 4
 
 
 class Objects(NamedTuple):
-    """What stands out all round, grids of shape (rows, columns).
+    """Cells that stand out on all sides; grids of shape (rows, columns).
 
     Attributes
     ----------
     raised : numpy.ndarray of bool
         Cells of objects.
     plateaus : numpy.ndarray of bool
-        Cells of what is too low for its width to be one for that alone: a roof, or a mound.
+        Cells of regions that are too low for their width to be objects for certain: a roof, or a
+        mound.
     mountains : numpy.ndarray of bool
-        Cells of what has faces of cliffs all round: a table mountain, or a stack in the sea.
+        Cells of landforms with cliffs all round: a table mountain, or a stack in the sea.
     halls : numpy.ndarray of bool
         Cells of objects that are large halls.
     """
@@ -54,7 +55,7 @@ def raised_objects(
     classic: bool = False,
     plateau_height: float | None = None,
 ) -> Objects:
-    """Find what stands out all round in a minimum grid.
+    """Find the cells of a minimum grid that stand out on all sides.
 
     Parameters
     ----------
@@ -63,8 +64,8 @@ def raised_objects(
     size : float
         Side of a cell in metres.
     thresholds : sequence of float
-        Least height in metres of a drop that bounds an object, one for each pass. What one pass
-        finds is cut out before the next: the tall first.
+        Least heights in metres of the drops that bound an object, one for each pass, the largest
+        first. Objects that one pass finds are removed before the next.
     max_size : float
         Largest width (shorter side) of an object in metres.
     progress : Progress
@@ -72,10 +73,10 @@ def raised_objects(
     first : tuple of int
         Row and column of the first cell in the grid of the CRS.
     classic : bool
-        See `Regions.raised`. Plateaus are not looked for then.
+        See `Regions.raised`. If True, plateaus are not searched.
     plateau_height : float, optional
-        Least height in metres of a drop that bounds a plateau, for a last pass. Halls are looked
-        for as well then.
+        Least height in metres of a drop that bounds a plateau, for a last pass. Then halls are
+        searched as well.
 
     Returns
     -------
@@ -102,7 +103,7 @@ def raised_objects(
 
 
 def covered(known: np.ndarray) -> np.ndarray:
-    """Return which cells were surveyed: those with a height (rows, columns), and small gaps."""
+    """Return which cells were surveyed: cells with a height (rows, columns), and small gaps."""
     from scipy import ndimage
 
     closed = np.pad(known, _GAP).astype(np.uint8)

@@ -8,20 +8,22 @@ from ...grids.cells import Cells
 from ...grids.inpaint import First, inpaint
 from ...grids.morphology import median_of_nine, within_square
 
-# Metres from a pit between which cells bear witness: nearer ones may belong to the same fault.
+# Cells between so many metres from a pit are its witnesses; nearer ones may belong to the same
+# fault.
 _NEAREST, _FARTHEST = 3.0, 10.0
 # Metres between witnesses.
 _APART = 0.5
-# A cell is as low as a pit within so many metres, and so much for each metre of distance, but
-# within this share of the depth of the pit.
+# A witness is as low as a pit if they differ by at most so many metres, plus so many for each metre
+# of distance, and by at most this share of the depth of the pit.
 _LEVEL, _LEVEL_SLOPE, _DEPTH_SHARE = 0.5, 0.2, 0.33
-# A pit is ground if so many cells are as low, and at least this share of the cells of an even
-# surface above it.
+# A pit is ground if at least so many witnesses are as low, and at least this share of the number of
+# witnesses on an even surface above it.
 _LEAST_WITNESSES, _LEAST_SHARE = 4, 0.15
-# A point that lies alone is so many metres below the cells round it, of which so many are even, in
-# a cell of so many points, the next one of which is higher by this share of that.
+# A lone point is more than so many metres below the cells round it, of which at least so many are
+# even. Its cell has at least so many points, and the next one is higher by at least this share of
+# its depth.
 _LONE_DEPTH, _LEAST_EVEN, _LEAST_POINTS, _LONE_GAP = 0.6, 6, 4, 0.7
-# Metres by which a cell of an even surface departs from the median of the 3 x 3 cells round it.
+# A cell of an even surface is at most so many metres off the median of the 3 x 3 cells round it.
 _EVEN = 0.3
 
 
@@ -32,10 +34,10 @@ def low_outliers(
     first: First = (0, 0),
     spares_supported: bool = True,
 ) -> np.ndarray:
-    """Return which cells of a minimum grid lie in a narrow pit that terrain does not have.
+    """Return which cells of a minimum grid lie in a narrow pit that is too deep for terrain.
 
-    The grid is closed by 3 x 3 cells (the opening of -z). What the closing fills deeper than
-    `slope` times the cell size is an outlier, unless it is `supported`.
+    The grid is closed by 3 x 3 cells (the opening of -z). Cells that the closing raises by more
+    than `slope` times the cell size are outliers, unless they are `supported`.
 
     Parameters
     ----------
@@ -48,7 +50,7 @@ def low_outliers(
     first : tuple of int
         Row and column of the first cell in the grid of the CRS.
     spares_supported : bool
-        False takes every pit for an outlier.
+        If False, every pit is an outlier.
 
     Returns
     -------
@@ -65,17 +67,17 @@ def low_outliers(
 
 
 def lone_points(grid: np.ndarray, cells: Cells, z: np.ndarray) -> np.ndarray:
-    """Return which cells have one point alone below an even surface: scattered points of images.
+    """Return which cells have a lone point below an even surface, as in points from images.
 
-    The others of its cell lie on the surface, as do most cells next to it, and hardly any other
-    cell some metres away is as low.
+    The other points of its cell and most cells next to it lie on the surface. Hardly any other cell
+    some metres away is as low.
 
     Parameters
     ----------
     grid : numpy.ndarray of float, shape (rows, columns)
         Lowest height of each cell in metres; NaN where there is none.
     cells : Cells
-        Those of the grid.
+        Cells of the grid.
     z : numpy.ndarray of float, shape (n,)
         Heights of all points in metres.
 
@@ -108,10 +110,10 @@ def supported(
     first: First = (0, 0),
     even: np.ndarray | None = None,
 ) -> np.ndarray:
-    """Return the pits that are ground: others lie as low, some metres away.
+    """Return the pits that are ground, because other cells some metres away are as low.
 
-    Under dense canopy the few cells that see the ground are pits, but they lie on one surface.
-    Faults are scattered: hardly any other lies at their level, or far fewer than lie on the even
+    Under dense canopy the few cells with ground points are pits, but they lie on one surface.
+    Faults are scattered: hardly any other cell lies at their level, or far fewer than on the even
     surface above them.
 
     Parameters
@@ -119,11 +121,11 @@ def supported(
     grid, size, first
         As for `low_outliers`, and so is the result.
     pits : numpy.ndarray of bool, shape (rows, columns)
-        Cells that lie far below those next to them.
+        Cells that lie far below the cells next to them.
     depth : numpy.ndarray of float, shape (rows, columns)
-        How far, in metres.
+        The depth of the pits in metres.
     even : numpy.ndarray of bool, shape (rows, columns), optional
-        Cells that lie on an even surface, where they are known.
+        Cells that lie on an even surface, if they are known already.
     """
     result = np.zeros(grid.shape, dtype=bool)
     row, column = np.nonzero(pits)
@@ -151,9 +153,9 @@ def supported(
 
 
 def _witnesses(size: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the offsets of the cells that bear witness, in rows and columns, and their level."""
+    """Return the offsets of witnesses in rows and columns, and the largest height differences."""
     reach = int(np.ceil(_FARTHEST / size))
-    # Of narrow cells not all, as many as there are of wide ones.
+    # Not all narrow cells, but as many as there are of wide ones.
     stride = max(round(_APART / size), 1)
     steps = np.arange(-(reach // stride), reach // stride + 1) * stride
     rows, columns = (each.ravel() for each in np.meshgrid(steps, steps, indexing="ij"))

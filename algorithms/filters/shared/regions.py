@@ -6,22 +6,25 @@ from typing import NamedTuple
 
 import numpy as np
 
-# Share of a pit's border that must be a rise.
+# Least share of a pit's border that must be a rise.
 _PIT_SHARE = 0.9
-# Share of an object's border that must be a drop: as far as it is known, and of the whole with
-# what lies beyond the survey. The one drop of a topmost tread winds: it is longer than half.
+# Least share of an object's border that must be a drop: first of the known border, then of the
+# whole border, including the border of the survey. It is more than half, because the one drop of a
+# topmost terrace tread winds.
 _OBJECT_SHARE = 0.65
 _WHOLE_SHARE, _CLASSIC_WHOLE_SHARE = 0.55, 0.4
-# Mean height of the drop over the width of the region: what is lower and wider is terrain.
+# Least mean height of the drop over the width of the region; lower and wider regions are terrain.
 _LEAST_STEEPNESS = 0.15
-# Regions as wide (m) are terrain if they have such a share of their drops on the face of a cliff.
-# Few plants hide the walls of a large building.
+# Regions of at least this width (m) are terrain if at least this share of their drops is on the
+# face of a cliff. The share is lower for wide regions: few plants hide the walls of a large
+# building.
 _FACE_WIDTHS, _FACE_SHARES = (10.0, 25.0), (0.4, 0.25)
-# With such a share they are table mountains or stacks, if it can be told of so many drops.
+# With at least this share they are table mountains or stacks, if faces are known for at least the
+# second share of the drops.
 _MOUNTAIN_SHARE, _TOLD_SHARE = 0.4, 0.5
-# Their faces are steeper (rise over run) than steep roofs are, by their width in metres.
+# Their faces are steeper than steep roofs: least slope (rise over run) by their width in metres.
 _MOUNTAIN_WIDTHS, _MOUNTAIN_SLOPES = (20.0, 40.0), (2.0, 1.2)
-# Rounds in which regions are looked at again that others hid.
+# Rounds in which regions that others hid are tested again.
 _ROUNDS = 3
 
 
@@ -33,15 +36,15 @@ class Border(NamedTuple):
     regions : int
         One more than the largest number of a region.
     first, second : numpy.ndarray of int32, shape (pairs,)
-        Region of either cell; 0 is the unknown.
+        Region of the first and of the second cell; 0 where nothing is known.
     sign : numpy.ndarray of int8, shape (pairs,)
         1 where the second is higher by more than is allowed, -1 where it is lower, else 0.
     rise : numpy.ndarray of float32, shape (pairs,)
         Height of the second above the first in metres, beyond the trend.
     face : numpy.ndarray of float32, shape (pairs,)
-        Slope (rise over run) of the face that the step between them is part of: that of the second
-        of its steps, for the first may be a wall below a roof. 0 where there is no face, NaN where
-        that cannot be told.
+        Slope (rise over run) of the face that the step between them is part of. It is the slope of
+        the face's second step, because the first may be a wall below a roof. 0 where there is no
+        face, NaN where this is unknown.
     """
 
     regions: int
@@ -58,10 +61,11 @@ class Border(NamedTuple):
         return self._total(all_, all_) / 3.0
 
     def faces(self, slope: np.ndarray | float = 0.0) -> tuple[np.ndarray, np.ndarray]:
-        """Return the share of each region's drops that are part of a face, steeper than a slope.
+        """Return the share of each region's drops on steep faces, and the share that is known.
 
-        Of those of which it can be told; and the share of these. The slope may be one for each
-        region.
+        Steep faces are steeper than `slope`, which may have a value for each region. The first
+        share is among the drops whose faces are known; the second is the share of these among all
+        drops.
         """
         slopes = np.broadcast_to(slope, self.regions)
         first, second = (self.sign == sign for sign in (-1, 1))
@@ -75,10 +79,10 @@ class Border(NamedTuple):
     def drops(
         self, removed: np.ndarray, sign: int
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Sum up where each region drops (sign 1) or rises (-1) to those that are not removed.
+        """Count where each region drops (sign 1) or rises (-1) to regions that are not removed.
 
-        Returns, for each region, the pairs of cells where it does, those where the neighbour is
-        known, and all; and the mean height of the drops in metres.
+        Returns, for each region, the number of pairs of cells with a drop, with a known neighbour,
+        and of all pairs; and the mean height of the drops in metres.
         """
         pairs = ~(removed[self.first] | removed[self.second])
         known = pairs & (self.first > 0) & (self.second > 0)
@@ -90,7 +94,7 @@ class Border(NamedTuple):
     def _total(
         self, first: np.ndarray, second: np.ndarray, weights: np.ndarray | None = None
     ) -> np.ndarray:
-        """Count, or add up the weights of, some pairs for the region of either cell."""
+        """Count pairs, or add up their weights, for the region of each of their cells."""
         total = np.zeros(self.regions)
         for region, which in ((self.first, first), (self.second, second)):
             counted = weights if weights is None else weights[which]
@@ -116,18 +120,19 @@ class Regions:
         self.width = _shorter_side(area, border.length() / step) * size
 
     def raised(self, max_size: float, classic: bool = False) -> np.ndarray:
-        """Return the cells of the regions whose border is mostly a drop, but no cliff.
+        """Return the cells of the regions whose border is mostly a drop, but not a cliff.
 
-        More than half of the border, what lies beyond the survey included, must be a drop: the
-        topmost tread of a terrace has one drop, and the border of the survey.
+        More than half of the border, including the border of the survey, must be a drop: the
+        topmost tread of a terrace has a drop on one side, and the border of the survey on the
+        other.
 
         Parameters
         ----------
         max_size : float
             Largest width in metres.
         classic : bool
-            True for the rules of other programs' presets: less than half suffices, and cliffs are
-            no different.
+            True for the rules of other programs' presets: less than half is enough, and cliffs are
+            not treated differently.
 
         Returns
         -------
@@ -138,9 +143,9 @@ class Regions:
         return self._bounded(max_size, 1, _OBJECT_SHARE, share, _LEAST_STEEPNESS, fits)
 
     def plateaus(self, max_size: float, least_size: float = 0.0) -> np.ndarray:
-        """Return the cells of the same regions and of those that are too low for their width.
+        """Return the cells of the same regions, and of regions too low for their width.
 
-        None is narrower than `least_size` metres.
+        Regions narrower than `least_size` metres are left out.
         """
         fits = self._is_no_cliff() & (self.width >= least_size)
         return self._bounded(max_size, 1, _OBJECT_SHARE, _WHOLE_SHARE, 0.0, fits)
@@ -151,7 +156,7 @@ class Regions:
         return (self.width < _FACE_WIDTHS[0]) | (self._border.faces()[0] < most)
 
     def mountains(self, max_size: float) -> np.ndarray:
-        """Return the cells of the regions that drop all round, and on faces of cliffs."""
+        """Return the cells of the regions with drops all round, on faces of cliffs."""
         slope = np.interp(self.width, _MOUNTAIN_WIDTHS, _MOUNTAIN_SLOPES)
         on_face, told = self._border.faces(slope)
         fits = (self.width >= _FACE_WIDTHS[0]) & (told >= _TOLD_SHARE)
@@ -159,7 +164,7 @@ class Regions:
         return self._bounded(max_size, 1, _OBJECT_SHARE, _WHOLE_SHARE, 0.0, fits)
 
     def sunken(self, max_size: float) -> np.ndarray:
-        """Return the cells of the regions whose border is a rise nearly all round: of pits."""
+        """Return the cells of pits: regions whose border is a rise nearly all round."""
         return self._bounded(max_size, -1, _PIT_SHARE, _PIT_SHARE, 0.0, True)
 
     def _bounded(
@@ -173,8 +178,8 @@ class Regions:
     ) -> np.ndarray:
         """Return the cells of regions bounded by drops (1) or rises (-1).
 
-        What one round finds is the unknown to the next, which sees what it hid: a roof below a
-        tower, a pit within a pit.
+        Regions that one round finds are unknown in the next, which finds regions that they hid: a
+        roof below a tower, a pit within a pit.
         """
         fits = fits & (self.width <= max_size)
         fits[0] = False
@@ -190,7 +195,7 @@ class Regions:
 
 
 def _shorter_side(area: np.ndarray, perimeter: np.ndarray) -> np.ndarray:
-    """Return the shorter side of rectangles; the square's for what is rounder than any."""
+    """Return the shorter side of rectangles; for rounder shapes, the side of a square."""
     quarter = perimeter / 4.0
     rest = quarter**2 - area
     return np.where(rest < 0, np.sqrt(area), quarter - np.sqrt(np.maximum(rest, 0.0)))

@@ -1,4 +1,4 @@
-"""Heights on a grid: of the ground where there is any, else of what is lowest; gaps filled."""
+"""Heights on a grid: of the lowest ground point, else of the lowest point; gaps are filled."""
 
 from __future__ import annotations
 
@@ -11,15 +11,18 @@ import numpy as np
 from ...core.points import Points
 from ...grids.cells import Cells, spacing
 
-# Least side of a cell in metres; half the spacing of the points where they are sparse, in steps.
+# Least side of a cell in metres. Where points are sparse, it is half of their spacing, in steps of
+# so many metres.
 _CELL, _CELL_STEP = 1.0, 0.5
-# Steps of the spacing in metres: finer than elsewhere, as it tells how far a surface may rise.
+# Step in metres to which the spacing is rounded. It is finer than elsewhere, because the largest
+# rise of a surface depends on it.
 _SPACING_STEP = 0.25
-# A cell has the height of the nearest one that has a point, up to so many spacings off.
+# A cell has the height of the nearest cell with a point, up to so many spacings away.
 _FILLED = 1.5
-# A surface may rise so much from point to point (m, and m a metre) to be one.
+# From point to point, a surface rises by at most so many metres, plus so many for each metre of
+# distance.
 STEP, STEP_SLOPE = 0.2, 0.2
-# Cells of the border, in metres beyond the spacing: what is looked at round a cell.
+# Width of the border in metres, in addition to the spacing: as much as is tested round a cell.
 BORDER = 10.0
 
 
@@ -31,15 +34,16 @@ class Relief(NamedTuple):
     cell, spacing : float
         Side of a cell, and the distance between points if that is larger, in metres.
     border : int
-        Cells of the border.
+        Width of the border in cells.
     parity : int
-        0 or 1, so that a cell is even or odd wherever the grid begins.
+        0 or 1. It is added to row and column, so that the same cells are even wherever the grid
+        begins.
     level : float
-        What is to be added to the heights, in metres.
+        Metres to add to the heights.
     heights : numpy.ndarray of float32, shape (rows, columns)
-        Of the lowest ground, else of the lowest point; NaN where there is none near.
+        Height of the lowest ground point, else of the lowest point; NaN where none is near.
     is_ground : numpy.ndarray of bool, shape (rows, columns)
-        Whether it is ground.
+        Whether this is the height of ground.
     """
 
     cell: float
@@ -52,7 +56,7 @@ class Relief(NamedTuple):
 
     @classmethod
     def over(cls, points: Points, ground: np.ndarray) -> tuple[Relief, Cells]:
-        """Return the relief of some points, of which some are ground, and their cells."""
+        """Return the relief of points, some of which are ground, and their cells."""
         apart = spacing(points, step=_SPACING_STEP)
         cells = Cells.over(points, max(_CELL, _CELL_STEP * round(apart / 2.0 / _CELL_STEP)))
         lowest = cells.minimum(points.z, np.flatnonzero(ground))
@@ -93,7 +97,7 @@ class Relief(NamedTuple):
 
 
 def _filled(relief: Relief, farthest: float) -> Relief:
-    """Return a relief whose unknown cells are as the nearest known one, up to so many cells off."""
+    """Return a relief with unknown cells filled from the nearest known one, if it is near."""
     heights, is_ground = relief.heights.ravel().copy(), relief.is_ground.ravel().copy()
     rows, columns = relief.heights.shape
     reach = int(farthest)

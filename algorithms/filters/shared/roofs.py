@@ -1,4 +1,4 @@
-"""Flat roofs that are level with the ground uphill: an opening cuts off no more than a part."""
+"""Flat roofs that are level with the ground uphill, so that an opening cuts off only a part."""
 
 from __future__ import annotations
 
@@ -7,27 +7,29 @@ import numpy as np
 from ...grids.morphology import within_square
 from ...grids.plane import plane_through
 
-# Metres between the lowest and the highest of 3 x 3 cells of a flat surface, and square metres of
-# the smallest that is looked at.
+# Largest difference in metres between 3 x 3 cells of a flat surface, and its least area in square
+# metres.
 _FLAT, _LEAST_AREA = 0.4, 400.0
-# So many metres from a plane lies most of a roof (this share), and the rest of it is sought.
+# Within the first number of metres of a plane lies at least this share of a roof's raised part. The
+# rest of the roof is searched within the last number of metres.
 _ON_PLANE, _MOSTLY, _NEAR_PLANE = 0.15, 0.9, 0.2
-# Cells round a roof that are looked at. At most this share of them is ground that is higher by so
-# many metres, or lies at the border of the survey; and at most the larger share is as high if what
-# stands on the roof and beside it counts as well. The tread of a terrace lies below the next one.
+# Cells round a roof that are tested. At most the first share of them is ground more than so many
+# metres above the roof, or at the border of the survey. At most the second share is so high if
+# raised cells count as well. The tread of a terrace lies below the next one.
 _ROUND, _RISE, _RISING, _ALL_RISING = 2, 0.3, 0.1, 0.4
-# What was not cut off is no larger than what was: fields between ditches are level as well.
+# The part that was not cut off is at most so many times as large as the part that was, because
+# fields between ditches are level as well.
 _LARGEST_REST = 1.0
 
 
 def flat_roofs(
     filled: np.ndarray, raised: np.ndarray, surveyed: np.ndarray, size: float
 ) -> np.ndarray:
-    """Return the cells of flat roofs of which some are raised.
+    """Return the cells of flat roofs that are partly raised.
 
-    A large plane surface that is raised is followed to where it ends. On a slope the upper end of
-    a roof may be so low that no opening cuts it off, and what is cut off seems to pass gently into
-    the ground there.
+    A large plane surface that is raised is followed to where it ends. On a slope the upper end of a
+    roof may be so low that no opening cuts it off. Then the rest of the roof seems to continue
+    gently into the ground there.
 
     Parameters
     ----------
@@ -72,7 +74,7 @@ def _roof(
     surveyed: np.ndarray,
     inner: np.ndarray,
 ) -> np.ndarray:
-    """Return the cells of the roof of which a part is known; none if it is not that of a roof."""
+    """Return the cells of the roof that a part belongs to; none if it is not part of a roof."""
     from scipy import ndimage
 
     above = filled - plane_through(filled, part)

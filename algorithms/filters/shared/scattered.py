@@ -9,22 +9,23 @@ from ...grids.cells import Cells, spacing
 from .ground_limits import DENSE_SPACING
 from .outliers import depth_of_pits, supported
 
-# Side of the cells in usual distances between points: so few points lie in one that hardly any has
-# an outlier, and so many that hardly any is empty.
+# Side of the cells as a multiple of the usual distance between points. With so few points hardly
+# any cell has an outlier, and hardly any is empty.
 _SPACINGS = 3.0
-# A smaller distance in metres is as good as this one.
+# Least distance between points in metres; a smaller one counts as this.
 _DENSEST = 0.02
-# Metres that an outlier lies below the cells round it.
+# Least depth in metres of an outlier below the cells round it.
 _DEPTH = 1.0
-# Of several in one cell the lowest is found first.
+# Number of passes: of several outliers in one cell, each pass finds the lowest.
 _PASSES = 3
 
 
 def scattered_lows(points: Points) -> np.ndarray:
     """Return which points of a dense cloud lie far below all others round them.
 
-    The filters look at the lowest point of each cell of half a metre or a metre, and can tell some
-    low outliers from ground, but not if most cells have one. Here cells are so narrow that few do.
+    The filters use the lowest point of each cell of half a metre or a metre. They can tell some low
+    outliers from ground, but not if most cells have one. Here cells are so narrow that few have
+    one.
 
     Parameters
     ----------
@@ -34,7 +35,7 @@ def scattered_lows(points: Points) -> np.ndarray:
     Returns
     -------
     numpy.ndarray of bool, shape (n,)
-        None where points are farther apart than 0.17 m.
+        All False if points are farther apart than 0.17 m.
     """
     lows = np.zeros(points.count, dtype=bool)
     apart = spacing(points, _DENSEST)
@@ -48,7 +49,7 @@ def scattered_lows(points: Points) -> np.ndarray:
         pits &= ~supported(grid, cells.size, pits, depth, cells.first)
         if not pits.any():
             break
-        # Nearer to the pit than to what closes it.
+        # The lower half of the pit.
         limit = np.where(pits, grid + 0.5 * depth, -np.inf).ravel()
         lows |= points.z < limit.take(cells.index)
     return lows

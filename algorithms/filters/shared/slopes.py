@@ -7,13 +7,13 @@ import numpy as np
 from ...grids.cell_blocks import CellBlocks
 from ...grids.inpaint import First
 
-# Steps are alike if the least is at least this share of the largest; if they cross a cell without
-# a point, or lie between blocks of cells, this larger share.
+# Steps are alike if the smallest is at least this share of the largest. The second share is for
+# steps that cross a cell without a point, or are between blocks of cells.
 _ALIKE, _ALIKE_ACROSS = 0.4, 0.55
-# Metres from which on a cell is so wide that one of four on a slope may have no point: what fills
-# it spreads the drop at a wall over two cells, not over three.
+# Least side in metres of wide cells. Of four wide cells on a slope one may have no point: its
+# filling spreads the drop at a wall over two cells, not over three.
 _WIDE_CELL = 2.0
-# Cells along the side of the blocks that are looked at where narrow cells have no point.
+# Cells along the side of the blocks that are tested where narrow cells have no point.
 _BLOCK = 2
 
 
@@ -25,10 +25,10 @@ def on_slope(
     size: float,
     first: First = (0, 0),
 ) -> np.ndarray:
-    """Return which steps from cells to the next ones are part of a slope: two more are alike.
+    """Return which steps from cells to the next are part of a slope, with two more alike steps.
 
-    Cells without a point do not count, but for one between wide cells: what fills them makes a
-    slope of any wall. Where narrow cells have no point, blocks of them are looked at as well.
+    Cells without a point do not count, except one among wide cells: their filling makes a slope of
+    any wall. Where narrow cells have no point, blocks of them are tested as well.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ def on_slope(
     row, column = ((each + lead) // _BLOCK for each, lead in zip(cell, within))
     block = row * lowest.shape[1] + column
     at_end = (cell[axis] + within[axis]) % _BLOCK == _BLOCK - 1
-    # A step within a block is part of what leads to it, or away from it.
+    # A step within a block is part of the step to the block or of the step from it.
     before = np.where(at_end | ((row, column)[axis] == 0), 0, lowest.shape[1] if axis == 0 else 1)
     for each in (block, block - before):
         on[left] |= _among_alike(lowest, is_known, each, axis, blocks.size, _ALIKE_ACROSS)[0]
@@ -72,7 +72,7 @@ def on_slope(
 def _among_alike(
     filled: np.ndarray, known: np.ndarray, one: np.ndarray, axis: int, size: float, least: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return which steps have two more that are alike, and which have a cell without a point near.
+    """Return which steps have two more alike steps, and which are near a cell without a point.
 
     `least` is the share from which on steps are alike.
     """
@@ -82,7 +82,7 @@ def _among_alike(
         [one + offset * (np.clip(place + k, 0, count - 1) - place) for k in range(-2, 4)]
     )
     empty = ~known.ravel()[across]
-    rises = np.diff(filled.ravel()[across], axis=0)  # the third is that of the step
+    rises = np.diff(filled.ravel()[across], axis=0)  # the third is the step itself
     on = np.zeros(len(one), dtype=bool)
     for first in range(3):
         three, gaps = rises[first : first + 3], empty[first : first + 4]

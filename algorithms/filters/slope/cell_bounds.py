@@ -1,7 +1,7 @@
-"""Which points of some stand far above a neighbour, as far as the cells of a grid tell.
+"""Find points that stand far above a neighbour, as far as the cells of a grid show it.
 
-What the lowest step of each cell says of all points of a cell decides nearly all of them, at the
-cost of a few erosions of a grid.
+Bounds from the lowest step of each cell decide nearly all points, at the cost of a few erosions of
+a grid.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ class Rule(NamedTuple):
     radius : float
         Metres; points at exactly this distance are neighbours.
     height : float
-        The difference of height in metres that counts: this or more.
+        Least difference in height in metres.
     slope : float
-        The rise over run that counts: more than this. Both must be met by one neighbour.
+        The rise over run must be more than this. The same neighbour must meet height and slope.
     top_hat : bool
-        Whether heights are compared above the opening of the heights by the neighbourhood, that
-        is the highest erosion among the neighbours (white top-hat).
+        Whether heights above the opening are compared (white top-hat). The opening is the highest
+        erosion among the neighbours.
     """
 
     radius: float
@@ -42,28 +42,28 @@ class Rule(NamedTuple):
 
 
 class CellBounds:
-    """What the points of a cell have in common: bounds of their opening, and what follows.
+    """Bounds for all points of a cell: of their opening, and of heights that decide.
 
-    Without `Rule.top_hat` the height at which the steps begin stands for the opening of all points,
-    and there is no erosion.
+    Without `Rule.top_hat` there is no erosion, and the height at which the steps begin is used as
+    the opening of all points.
 
     Parameters
     ----------
     points : Points
-        Those asked for, their neighbours, the neighbours of these and theirs.
+        The points asked for, and their neighbours of the first, second and third degree.
     rule : Rule
-        What is asked.
+        When a point stands far above a neighbour.
     alive : callable
-        Is called several times a second; what it raises ends the work.
+        Called several times a second. An exception that it raises ends the work.
 
     Attributes
     ----------
     points : SortedPoints
-        The points in the order in which they are known here.
+        The points, in the order of this class.
     rule : Rule
-        What is asked.
+        When a point stands far above a neighbour.
     least : numpy.ndarray of int16, shape (rows, columns)
-        So many steps the lowest point of each cell lies above the opening or more.
+        Least number of steps by which the lowest point of each cell lies above the opening.
     eroded_low, eroded_high : numpy.ndarray of int16, shape (rows, columns)
         The erosion at any point of a cell lies within the steps from low to high. Less than any
         step where there is no point.
@@ -79,7 +79,7 @@ class CellBounds:
         self._bound_rises()
 
     def decide(self, asked: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return which points asked for certainly stand far above a neighbour, and who may do so.
+        """Return which points asked for certainly stand far above a neighbour, and which may.
 
         Parameters
         ----------
@@ -99,18 +99,18 @@ class CellBounds:
         return above, np.flatnonzero(asked & ~above & possible)
 
     def lowest_opening(self, cell: np.ndarray) -> np.ndarray:
-        """Return which height in metres the opening is not below at the points of cells (k,)."""
+        """Return a lower bound, in metres, of the opening at the points of cells (k,)."""
         return self.points.metres(self._low.take(cell)) - ROUNDING
 
     def highest_opening(self, cell: np.ndarray) -> np.ndarray:
-        """Return which height in metres the opening is not above at the points of cells (k,)."""
+        """Return an upper bound, in metres, of the opening at the points of cells (k,)."""
         return self.points.metres(self._high.take(cell) + 1.0) + ROUNDING
 
     def heights_in_doubt(self, cell: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return between which heights above the opening it is in doubt who stands above another.
+        """Return the heights above the opening, in metres, between which points are in doubt.
 
-        Metres, for points in cells (k,): those less high stand above no neighbour, and those as
-        high as the second, or higher, above one.
+        For points in cells (k,): a point lower than the first stands above no neighbour; a point as
+        high as the second, or higher, stands above one.
         """
         needed = self._too_little.take(cell) - self._low.take(cell) + 1
         certain = self._enough.take(cell) - self._high.take(cell) - 1
@@ -118,7 +118,7 @@ class CellBounds:
         return needed * step - ROUNDING, certain * step + ROUNDING
 
     def _bound_opening(self) -> None:
-        """Find between which steps, low and high, the erosion and the opening of cells lie."""
+        """Find the lowest and the highest step of the erosion and of the opening of cells."""
         points = self.points
         if not self.rule.top_hat:
             self._low = np.zeros(points.shape, dtype=np.int16)
@@ -142,10 +142,11 @@ class CellBounds:
         self.eroded_low = eroded
 
     def _bound_rises(self) -> None:
-        """Find from which steps on it is certain that a point stands above, and up to which not."""
+        """Find the steps from which on points certainly stand above others, and up to which not."""
         lowest = self.points.table.lowest.reshape(self.points.shape)
         empty = lowest == EMPTY
-        # The lowest point of a cell lies `least` steps above the opening or more, but not `most`.
+        # The lowest point of a cell lies at least `least` steps above the opening, but less than
+        # `most`.
         self.least = np.maximum(lowest - self._high - 1, 0)
         most = lowest - self._low + 1
         self.least[empty] = most[empty] = EMPTY
@@ -153,11 +154,11 @@ class CellBounds:
         self._enough = self._certain(most) + self._high + 1
 
     def _impossible(self) -> np.ndarray:
-        """Return up to which steps above the opening no point of a cell stands above another."""
+        """Return the steps above the opening up to which no point of a cell stands above others."""
         points, rule, radius = self.points, self.rule, self.rule.radius
         impossible = np.full(points.shape, 2 * EMPTY, dtype=np.int32)
         while True:
-            # Nearer neighbours are looked at with smaller discs.
+            # Nearer neighbours are tested with smaller discs.
             nearest = radius / _DISC_STEP if radius > points.size else 0.0
             allowed = max(rule.height, rule.slope * nearest)
             steps = min(math.ceil(allowed / points.step - ROUNDING), 2 * EMPTY)
@@ -169,7 +170,7 @@ class CellBounds:
             self._alive()
 
     def _certain(self, most: np.ndarray) -> np.ndarray:
-        """Return from which steps above the opening on any point of a cell stands above another."""
+        """Return the steps above the opening from which on all points of a cell stand above one."""
         points, rule, radius = self.points, self.rule, self.points.inner
         certain = np.full(points.shape, 2 * EMPTY, dtype=np.int32)
         while radius >= 0.0:

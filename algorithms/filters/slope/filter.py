@@ -36,31 +36,31 @@ from .standing_above import stands_above
 
 # Radii grow by this factor from scale to scale: the area of the disc doubles.
 _SCALE_STEP = math.sqrt(2.0)
-# Rise over run of the sides of a pit some metres wide that holds low outliers.
+# Least slope (rise over run) of the sides of a pit, some metres wide, that holds low outliers.
 _CLUSTER_SLOPE = 2.0
 _CLUSTER_WIDTH = 6.0
-# They must lie below the terrain within this many search radii: the ground seen through a hole in
-# a large roof is a pit as well, but there is ground as low beyond the roof.
+# They must lie below the terrain within this many search radii. The ground below a hole in a large
+# roof is a pit as well, but ground beyond the roof is as low.
 _SURROUNDINGS = 3.0
-# Metres beyond which points do not matter: so many times the search radius, on one scale just what
-# erosion, dilation and comparison need, and at least this where it follows from the points.
+# Points affect each other within so many search radii. On one scale, this is just what erosion,
+# dilation and comparison need. It is at least so many metres if the radius follows from the points.
 _REACH_RADII, _REACH_RADII_ON_ONE_SCALE, _LEAST_REACH = 5.0, 3.01, 100.0
-# The same for the largest building.
+# The same, as a multiple of the largest building.
 _REACH_BUILDINGS = 2.0
 _WHITEBOX_RADIUS = 2.0
-# The preset that keeps to Whitebox's filter.
+# The preset with the rules of Whitebox's filter.
 CLASSIC = "whitebox"
-# Largest building where the search radius is given: so many times that.
+# If the search radius is given, the largest building is so many times as wide.
 _WIDEST = 2.0
 
 
 class ManyScales(NamedTuple):
-    """What a preset stands for that looks at many scales.
+    """The values of a preset that compares on many scales.
 
     Attributes
     ----------
     search_radius : float
-        The least, in metres.
+        Least search radius in metres.
     slope_threshold : float
         In degrees.
     height_threshold, max_building_size : float
@@ -87,7 +87,7 @@ MANY_SCALES = {
 class SlopeFilter(ParameterSet):
     """Parameters of the slope filter, named as in Whitebox's *LidarGroundPointFilter*.
 
-    Those left empty are taken from the preset; `resolve` says which.
+    `resolve` fills empty ones from the preset.
     """
 
     preset: str = parameter(
@@ -202,12 +202,13 @@ class SlopeFilter(ParameterSet):
     )
 
     def resolve(self, points: Points) -> SlopeFilter:
-        """Return the parameters with a value for each that was left empty.
+        """Return the parameters with values in place of empty ones.
 
         Parameters
         ----------
         points : Points
-            The whole survey: its blocks must all be classified with the same values.
+            All points of the survey, because all its blocks must be classified with the same
+            values.
 
         Returns
         -------
@@ -233,7 +234,7 @@ class SlopeFilter(ParameterSet):
 
 
 def largest_object(parameters: SlopeFilter) -> float:
-    """Return the width in metres of the largest building that is looked for."""
+    """Return the width in metres of the largest building that is searched."""
     given = parameters.search_radius
     if parameters.preset == CLASSIC:
         return _WIDEST * (given or _WHITEBOX_RADIUS)
@@ -243,7 +244,7 @@ def largest_object(parameters: SlopeFilter) -> float:
 
 
 def reach(parameters: SlopeFilter) -> float:
-    """Return the metres beyond which a point does not matter for another."""
+    """Return the distance in metres within which points affect each other."""
     if parameters.preset == CLASSIC:
         metres = _REACH_RADII_ON_ONE_SCALE * (parameters.search_radius or _WHITEBOX_RADIUS)
         return max(_LEAST_REACH, metres) if parameters.min_neighbours else metres
@@ -254,7 +255,7 @@ def reach(parameters: SlopeFilter) -> float:
 
 
 def classify(points: Points, parameters: SlopeFilter, progress: Progress = SILENT) -> np.ndarray:
-    """Tell ground from other points.
+    """Return which points are ground.
 
     A point is not ground if it stands above a neighbour by at least the height threshold and at a
     slope above the slope threshold (Vosselman 2000, section 2).
@@ -297,7 +298,7 @@ def _in_words(parameters: SlopeFilter) -> str:
 
 
 def _on_one_scale(points: Points, parameters: SlopeFilter, progress: Progress) -> np.ndarray:
-    """Return the ground mask of the classic filter: every point against all its neighbours."""
+    """Return the ground mask of the classic filter: each point is compared with its neighbours."""
     rule = Rule(
         parameters.search_radius,
         parameters.height_threshold,
@@ -310,7 +311,7 @@ def _on_one_scale(points: Points, parameters: SlopeFilter, progress: Progress) -
 
 
 def _on_many_scales(points: Points, parameters: SlopeFilter, progress: Progress) -> np.ndarray:
-    """Return the ground mask of the filter on the lowest points of cells, scale by scale."""
+    """Return the ground mask of the filter on the lowest points of cells, on many scales."""
     survey = LowestPoints(points, parameters.cell_size)
     cells, heights = survey.cells, survey.heights
     progress(0.2)
@@ -346,7 +347,7 @@ def _objects(
 ) -> np.ndarray:
     """Return which cells stand above another, on any scale, by more than the terrain allows.
 
-    The allowance at a distance is that of the disc's radius: a staircase on Vosselman's line.
+    All points in a disc have the allowance of its radius: steps along Vosselman's line.
     """
     known, size = np.isfinite(lowest), cells.size
     reach = max(round(parameters.search_radius / size, 6), 1.0)
@@ -358,7 +359,7 @@ def _objects(
         opened = -erosion(np.where(np.isfinite(eroded), -eroded, np.float32(np.inf)), reach)
         heights[known] -= opened[known]
     objects = np.zeros(lowest.shape, dtype=bool)
-    # Rounded, as a radius that falls short of whole cells by rounding alone would be another disc.
+    # Rounded, because a radius that is a little less than whole cells makes a smaller disc.
     scales = range(int(2.0 * math.log2(reach)) + 1)
     radii = [round(reach / _SCALE_STEP**scale, 6) for scale in scales]
     for done, radius in enumerate(reversed(radii), start=1):
@@ -371,8 +372,8 @@ def _objects(
 def _slope(eroded: np.ndarray, cells: Cells, reach: float) -> np.ndarray:
     """Return the slope of the terrain, rise over run, averaged over about the search radius.
 
-    The eroded surface has no objects. Its gradient is averaged, not its height, which a border
-    would flatten.
+    The eroded surface has no objects. Its gradient is averaged, because averaged heights would be
+    flattened at a border.
     """
 
     from scipy import ndimage

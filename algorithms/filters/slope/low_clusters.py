@@ -19,10 +19,10 @@ def low_clusters(
 ) -> np.ndarray:
     """Return which cells of a minimum grid lie in a small pit below the terrain.
 
-    The grid is closed by discs (the opening of -z); where that fills it deeper than `slope` times
-    the radius is a pit. It holds outliers if it is no longer than the disc's diameter in either
-    direction, as ditches and streets between houses are, and deeper than that below the
-    surroundings without it, as a courtyard is not.
+    The grid is closed by discs (the opening of -z). Where this raises cells by more than `slope`
+    times the radius, there is a pit. A pit holds outliers if it is no longer than the disc's
+    diameter in either direction, unlike ditches and streets between houses, and also so deep below
+    its surroundings, unlike a courtyard.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The neighbours of every point in the plane, where each must have so many of them."""
+"""The neighbours of every point in the plane, with a least number of them for each."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from ...core.threads import over_parts, parts_of
 from ...grids.cells import Cells, lower_at
 from .sorted_points import SortedPoints
 
-# Work on this many points at a time: their arrays fit into the processor's cache.
+# Points that are computed at a time, so few that their arrays fit into the processor's cache.
 _POINTS_A_STEP = 50_000
 _PAIRS_A_STEP = 2_000_000
 _GROWN_A_STEP = 20_000
-# Points are counted in at most so many cells for each point, or in so many cells if that is more.
+# Most cells in which points are counted: so many for each point, or so many in all if that is more.
 _CELLS_A_POINT, _MOST_CELLS = 4, 1_000_000
-# Share by which a radius is widened, so that rounding never skips a point; points themselves are
-# compared without it.
+# Share by which a radius is widened, so that rounding never skips a point. Points are compared
+# without it.
 _ROUNDING = 1e-6
 
 
 class Neighbourhood:
-    """The points within a radius of each point, or its nearest ones where those are too few.
+    """The points within a radius of each point, or its nearest points if those are too few.
 
     Parameters
     ----------
@@ -34,8 +34,8 @@ class Neighbourhood:
     radius : float
         Radius in metres, greater than 0; points at exactly this distance are neighbours.
     at_least : int
-        Where a point has fewer other points within the radius, the radius grows to the distance of
-        the other point that is the so many-th nearest, for this point only.
+        If a point has fewer other points within the radius, the radius of this point grows until it
+        has so many.
     """
 
     def __init__(self, points: Points, radius: float, at_least: int) -> None:
@@ -97,7 +97,7 @@ class Neighbourhood:
         nothing = np.empty(0, dtype=np.intp), np.empty(0)
         if at_least < 1:
             return nothing
-        # Here, as it takes longer to load than a million points to classify.
+        # Imported here, because this takes longer than to classify a million points.
         from scipy.spatial import cKDTree
 
         points, doubtful = self._points, np.arange(self._points.count)

@@ -1,7 +1,6 @@
-"""Which points of some stand far above a neighbour, where the cells of a grid do not tell.
+"""Find points that stand far above a neighbour, where the cells of a grid do not show it.
 
-They are compared point by point, in full precision, with those neighbours only that can still
-matter.
+They are compared point by point, in full precision, only with neighbours that can still matter.
 """
 
 from __future__ import annotations
@@ -15,8 +14,8 @@ from ...grids.cells import lower_at
 from .cell_bounds import CellBounds
 from .sorted_points import EMPTY, OFFSETS_A_STEP, ROUNDING, Table
 
-# If more than so many of all cells divided by the radius in cells are asked for, it costs less to
-# find what is lowest in the discs of all cells.
+# If the cells asked for are more than this share of all cells, divided by the radius in cells, it
+# is faster to find the lowest values in the discs of all cells.
 _MANY = 0.5
 
 
@@ -28,9 +27,9 @@ class PointComparison:
     Parameters
     ----------
     bounds : CellBounds
-        The points, what is asked, and what their cells tell.
+        The points, the rule, and the bounds of the cells.
     alive : callable
-        Is called several times a second; what it raises ends the work.
+        Called several times a second. An exception that it raises ends the work.
     """
 
     def __init__(self, bounds: CellBounds, alive: Callable[[], None] = lambda: None) -> None:
@@ -49,7 +48,7 @@ class PointComparison:
         Parameters
         ----------
         at : numpy.ndarray of int, shape (k,)
-            The points, ascending; those that `CellBounds.decide` leaves in doubt.
+            The points that `CellBounds.decide` leaves in doubt, ascending.
 
         Returns
         -------
@@ -64,7 +63,7 @@ class PointComparison:
         low = self._not_below(at)
         left = np.flatnonzero(points.z[at] - low >= needed)
         needed, certain, point = needed[left], certain[left], at[left]
-        # Where the opening is lower than this, it does not matter by how much.
+        # If the opening is lower than this, its height does not matter.
         self._open(point, np.maximum(low[left], points.z[point] - certain))
         own = points.z[point] - self._opened[point]
         found[left] = ~(own < certain)
@@ -77,7 +76,7 @@ class PointComparison:
         return found
 
     def _not_below(self, at: np.ndarray) -> np.ndarray:
-        """Return what the opening at some points (k,) is not below, by the cells of neighbours."""
+        """Return a lower bound of the opening at some points (k,), from the cells of neighbours."""
         points, eroded = self._points, self._bounds.eroded_low.ravel()
         values = -(points.metres(eroded.take(points.cell)) - ROUNDING)
         table = Table(points.table.start, -eroded, values)
@@ -129,9 +128,9 @@ class PointComparison:
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Find which of some points `at` (k,), whose opening is known, stand above a neighbour.
 
-        `asked` names those to look at. Sets `found` (k,) for those that certainly do. Returns those
-        that may do so, depending on the opening at other points; these other points, ascending;
-        and how high the opening must be there to matter.
+        `asked` selects the points to test. Sets `found` (k,) for the points that certainly do.
+        Returns the points that may do so, depending on the opening at other points; these other
+        points, ascending; and how high the opening must be there to matter.
         """
         point = at[asked]
         own = self._points.z[point] - self._opened[point]
@@ -152,10 +151,10 @@ class PointComparison:
     def _candidates(
         self, point: np.ndarray, own: np.ndarray, sure: np.ndarray
     ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-        """Yield which points (j,) may stand above one of which cells, and the least rise to it.
+        """Yield points (j,), cells in which they may have a lower neighbour, and the least rise.
 
-        `own` (k,) says how high the points lie above their opening, and `sure` (k,), which is
-        looked at each time anew, which of them need no other neighbour.
+        `own` (k,) are the heights of the points above their opening. `sure` (k,) marks the points
+        that need no other neighbour; it is read anew each time.
         """
         points, rule, least = self._points, self._rule, self._bounds.least
         allowed = np.maximum(rule.height, rule.slope * points.nearest)
@@ -183,9 +182,9 @@ class PointComparison:
     ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
         """Compare points with those of other cells, from the lowest of each cell upwards.
 
-        `point`, `own` and `sure` (k,) are those of `_candidates`, and the others (j,) what it
-        yields. Sets `sure` where a point stands above a neighbour. Yields who may stand above
-        which neighbour, and how high the opening must be there.
+        `point`, `own` and `sure` (k,) are as for `_candidates`; the others (j,) are what it yields.
+        Sets `sure` where a point stands above a neighbour. Yields points, the neighbours that they
+        may stand above, and how high the opening must be there.
         """
         bounds, points, rule = self._bounds, self._points, self._rule
         neighbour, last = points.table.start[other], points.table.start[other + 1]

@@ -1,7 +1,7 @@
-"""Points in the order of the cells of a grid, for what is near a point and how low it lies.
+"""Points in the order of the cells of a grid, to find the lowest points near a point.
 
-Heights are counted in small whole steps besides: a grid of the lowest step of each cell takes two
-bytes a cell, and its morphology is fast.
+Heights are also kept in small whole steps: a grid of the lowest step of each cell takes two bytes a
+cell, and its morphology is fast.
 """
 
 from __future__ import annotations
@@ -16,16 +16,18 @@ from ...core.threads import parts_of
 from ...grids.cells import Cells, lower_at
 from ...grids.morphology import erosion, within_square
 
-# A cell is so small that it holds one point, unless a disc or the plane had too many cells then.
+# A cell is so small that it holds one point, but there are at most so many cells along a radius,
+# and so many for each point.
 _MOST_CELLS_A_RADIUS, _MOST_CELLS_A_POINT = 48, 4
-# Offsets of cells that are looked up at a time.
+# Offsets of cells that are searched at a time.
 OFFSETS_A_STEP = 8
-# Metres of a step, unless that makes more than fit into 16 bits with room for sums of two.
+# Size of a step in metres, and the most steps: the sum of two must fit into 16 bits. If there were
+# more steps, they are larger.
 _STEP, MOST_STEPS = 0.01, 32_000
 # The step of cells without points.
 EMPTY = 32_767
-# Cells, steps and metres by which bounds are widened, so that rounding never decides; points
-# themselves are compared without it.
+# Bounds are widened by this, in cells, steps or metres, so that rounding never decides. Points are
+# compared without it.
 ROUNDING = 1e-5
 
 
@@ -35,13 +37,13 @@ class Table(NamedTuple):
     Attributes
     ----------
     start : numpy.ndarray of int32, shape (cells + 1,)
-        Where those of each cell begin.
+        Where the values of each cell begin.
     lowest : numpy.ndarray of int16, shape (cells,)
-        How low the first one of each cell is in steps; `EMPTY` where there is none.
+        The first value of each cell in steps; `EMPTY` in empty cells.
     values : numpy.ndarray of float, shape (m,)
         The values in metres.
     point : numpy.ndarray of int, shape (m,), optional
-        Which points have them, if not all.
+        The points that have these values, if not all have one.
     """
 
     start: np.ndarray
@@ -53,7 +55,7 @@ class Table(NamedTuple):
 class SortedPoints:
     """Points in the order of their cells and, within a cell, of their heights.
 
-    Points and cells are known by their indices in this order and in the flattened grid.
+    Points are given by their indices in this order, cells by their indices in the flattened grid.
 
     Parameters
     ----------
@@ -69,21 +71,21 @@ class SortedPoints:
     cell : numpy.ndarray of int, shape (n,)
         The cell of each point.
     level : numpy.ndarray of int16, shape (n,)
-        In which step each point lies.
+        The step in which each point lies.
     table : Table
         The heights of all points.
     size, inner : float
-        Metres of a cell; cells whose centres are at most `inner` cells apart are within the radius
-        from end to end (none is if this is negative).
+        Side of a cell in metres. Cells whose centres are at most `inner` cells apart lie wholly
+        within the radius (none do if this is negative).
     base, step : float
-        The height in metres at which the steps begin, and metres of a step.
+        The height at which the steps begin, and the size of a step, in metres.
     shape : tuple of int
         Rows and columns of the grid. It has a margin: no offset leaves it.
     offsets, nearest : numpy.ndarray, shape (m,)
-        From a cell to those that a disc round any place in it can touch, and how near these are at
-        least in metres, ascending.
+        From a cell to the cells that a disc round any place in it can touch, and the least
+        distances of these in metres, ascending.
     rim : numpy.ndarray of int, shape (l,)
-        Those of the offsets that `inner` does not cover.
+        The offsets that `inner` does not cover.
     """
 
     def __init__(self, points: Points, radius: float) -> None:
@@ -113,8 +115,8 @@ class SortedPoints:
     ) -> Table:
         """Return the table of values in metres (m,), ascending within a cell.
 
-        `cell` are their cells, ascending; `steps` how low they are in steps, int16; and `point`
-        which points have them, if not all.
+        `cell` are the cells of the values, ascending; `steps` are the values in steps, int16;
+        `point` are the points that have them, if not all do.
         """
         cells = self.shape[0] * self.shape[1]
         start = np.zeros(cells + 1, dtype=np.int32)
@@ -125,7 +127,7 @@ class SortedPoints:
         return Table(start, lowest, values, point)
 
     def lowest_within(self, table: Table) -> np.ndarray:
-        """Return the least value in the cells that are within the radius from end to end.
+        """Return the least value in the cells that lie wholly within the radius.
 
         Metres, shape (rows, columns); inf where there is none.
         """
@@ -145,9 +147,9 @@ class SortedPoints:
     ) -> None:
         """Lower `best` (k,), in place, to the least value that a neighbour has in a table.
 
-        `at` (k,) are the points, ascending; `offsets` lead from the cell of a point to those that
-        are looked at. The sign is -1 if the values are heights negated. What `alive` raises, which
-        is called several times a second, ends the work.
+        `at` (k,) are the points, ascending; `offsets` lead from the cell of a point to the cells
+        that are searched. The sign is -1 if the values are negated heights. `alive` is called
+        several times a second; an exception that it raises ends the work.
         """
         cell, limit = self.cell[at], sign * self.steps(sign * best)
         for group in parts_of(len(offsets), OFFSETS_A_STEP):
@@ -181,7 +183,7 @@ class SortedPoints:
     def around(self, grid: np.ndarray, radius: float | None = None) -> np.ndarray:
         """Return the minimum of a grid over the cells that a disc round each cell can touch.
 
-        The radius is in metres; that of the neighbours if it is not given.
+        The radius is in metres; by default it is the radius of the neighbours.
         """
         radius = self._radius if radius is None else radius
         return within_square(np.minimum, erosion(grid, radius / self.size + ROUNDING), 1)
@@ -196,7 +198,7 @@ class SortedPoints:
         return self.base + self.step * steps
 
     def steps(self, heights: np.ndarray) -> np.ndarray:
-        """Return in which steps, int16, heights in metres (k,) lie; all beyond are drawn near."""
+        """Return the steps (int16) of heights in metres (k,); heights beyond all are clipped."""
         steps = np.floor((heights - self.base) / self.step)
         return np.clip(steps, -1, MOST_STEPS + 1).astype(np.int16)
 
@@ -240,7 +242,7 @@ class SortedPoints:
 
 
 def _cell_size(points: Points, radius: float) -> float:
-    """Return a size of cells that hold a point each, but are not too many a radius."""
+    """Return the side of cells that hold about one point, but are not too many along a radius."""
     coarse = Cells.over(points, max(radius, 1.0))
     density = points.count / (np.count_nonzero(coarse.occupied) * coarse.size**2)
     most = max(_MOST_CELLS_A_POINT * points.count, 1_000_000)

@@ -15,14 +15,14 @@ from .cell_bounds import CellBounds, Rule
 from .neighbourhood import Neighbourhood
 from .point_comparison import PointComparison
 
-# Blocks of about so many points: their tables fit into the processor's cache, and they are done in
-# less than a second.
+# Points of a block, about. Its tables fit into the processor's cache, and it takes less than a
+# second.
 _POINTS_A_BLOCK = 400_000
-# Heights above the opening depend on points so many radii away, and with them the answer.
+# Heights above the opening, and so the result, depend on points up to so many radii away.
 _REACH = 3.0
-# A block is so many radii wide or more, or most of the points looked at would lie round it.
+# Least width of a block in radii. Otherwise most of the points that it needs would lie round it.
 _LEAST_WIDTH = 16.0
-# As many values as tell well enough where to cut.
+# Number of values that are enough to find where to cut.
 _SAMPLE = 10_000
 _ROUNDING = 1e-6
 
@@ -37,7 +37,7 @@ def stands_above(
     points : Points
         All points.
     rule : Rule
-        Which points are compared, and what counts.
+        When a point stands far above a neighbour.
     at_least : int
         See `Neighbourhood`.
     progress : Progress
@@ -73,7 +73,7 @@ def stands_above(
 def _of_strip(
     points: Points, rule: Rule, asked: np.ndarray, reach: float, progress: Progress
 ) -> np.ndarray:
-    """Return which points asked for (n,) stand above a neighbour, block by block."""
+    """Return which of the points asked for (n,) stand above a neighbour, block by block."""
     x, above = points.x, np.zeros(points.count, dtype=bool)
     blocks = _intervals(x, np.count_nonzero(asked) / _POINTS_A_BLOCK, rule.radius)
     caller = threading.get_ident()
@@ -118,12 +118,13 @@ def _intervals(values: np.ndarray, count: float, radius: float) -> list[tuple[fl
 def _with_grown(
     neighbourhood: Neighbourhood, points: Points, rule: Rule, progress: Progress
 ) -> np.ndarray:
-    """Return the same where the neighbourhoods of some points have grown."""
+    """Return which points stand above a neighbour if some neighbourhoods have grown."""
     z = points.z
     if rule.top_hat:
         eroded = neighbourhood.minimum(z, progress.part(0.0, 0.4))
         opened = neighbourhood.maximum(eroded, progress.part(0.4, 0.8))
-        # Where a neighbourhood grew it may not contain the point itself from the other's view.
+        # In neighbourhoods that grew, a point need not be a neighbour of its neighbours, so the
+        # opening can be higher than the point.
         z = z - np.minimum(opened, z)
     rule, part = rule._replace(top_hat=False), progress.part(0.8, 1.0)
     above = stands_above(points._replace(z=z), rule, progress=part)

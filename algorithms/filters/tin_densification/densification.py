@@ -1,4 +1,4 @@
-"""Progressive densification of a TIN: points join it that lie close to its facets.
+"""Progressive densification of a TIN by points that lie close to its facets.
 
 References
 ----------
@@ -24,13 +24,13 @@ from ...grids.tin import Tin
 
 # Metres between the virtual points round the survey.
 _RING_SPACING = 5.0
-# How many times the iteration distance a candidate may lie off the seeds' smooth surface: no facet
-# comes as close to those farther away.
+# A candidate lies within so many iteration distances of the seeds' smooth surface. No facet would
+# come close to a candidate farther away.
 _REACHABLE = 3.0
 # If the 3 x 3 cells round a candidate hold more vertices, its triangle is too small to take it.
 _MOST_VERTICES_ROUND = 4
 
-# Rounds end where none is added: how many are far away must not matter.
+# Most rounds. In each place they end when no point is added: rounds far away must not matter.
 _MOST_ROUNDS = 8
 
 
@@ -45,16 +45,16 @@ class DensificationRules:
     iteration_distance : float
         Largest distance from the facet.
     max_terrain_angle : float
-        On steeper facets the mirror image of the point beyond the nearest corner is judged.
+        On steeper facets the mirror image of the point beyond the nearest corner is tested instead.
     reduce_angle_edge : float or None
         In triangles whose longest edge is shorter the angle is reduced in proportion.
     stop_edge : float or None
         Triangles whose longest edge is shorter take no point.
     noise_distance : float
-        A point as close to the facet is taken whatever its angle.
+        A point so close to the facet is taken at any angle.
     level : float or None
-        A candidate that is farther than `noise_distance` from the surface of the seeds must have a
-        neighbour as close to its level; None if it need not.
+        A candidate farther than `noise_distance` from the surface of the seeds must have a
+        neighbour within this height of its level; None if it need not.
     """
 
     iteration_angle: float
@@ -78,8 +78,8 @@ def densified(
 ) -> np.ndarray:
     """Return the indices of the candidates that join the first vertices.
 
-    Only candidates in gaps between vertices are looked at, and only the vertices are triangulated
-    that may bound a triangle in which one lies.
+    Only candidates in gaps between vertices are tested. Only vertices that may bound a triangle
+    with a candidate are triangulated.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def densified(
     heights : numpy.ndarray of float64, shape (rows, columns)
         The lowest height of the first vertices in each cell; NaN where there is none.
     cells : Cells
-        Those of the points; each holds one vertex or candidate, as a rule.
+        Cells of the points; each usually holds one vertex or candidate.
     spacing : float
         Usual distance in metres between the points of the survey.
     rules : DensificationRules
@@ -129,7 +129,7 @@ def with_lower(heights: np.ndarray, cells: Cells, points: Points, which: np.ndar
 
 
 def _steepness_at(cells: Cells, surface: np.ndarray, points: Points) -> np.ndarray:
-    """Return how steep a surface over cells is at some points, rise over run."""
+    """Return the steepness of a surface over cells at some points, rise over run."""
     step, (x, y, _) = cells.size, points
     north = cells.at(surface, x, y + step) - cells.at(surface, x, y - step)
     east = cells.at(surface, x + step, y) - cells.at(surface, x - step, y)
@@ -137,10 +137,10 @@ def _steepness_at(cells: Cells, surface: np.ndarray, points: Points) -> np.ndarr
 
 
 class _Survey(NamedTuple):
-    """What the TIN of each round is made of.
+    """The data for the TIN of each round.
 
-    `ring` are vertices round all cells (see `_ring`), and `reach` is over how many cells vertices
-    are next to each other.
+    `ring` are vertices round all cells (see `_ring`). Vertices within `reach` cells are next to
+    each other.
     """
 
     points: Points
@@ -176,9 +176,9 @@ def _has_level_neighbour(above: np.ndarray, level: float) -> np.ndarray:
 
 
 def _ring(cells: Cells, surface: np.ndarray) -> Points:
-    """Return virtual points round all cells, at multiples of their spacing wherever these begin.
+    """Return virtual points round all cells, at multiples of their spacing in the frame.
 
-    Without them, ground beyond the hull of the seeds would have no triangle to be judged by.
+    Without them, ground outside the hull of the seeds would have no triangle.
     """
     (south, north), (west, east) = (
         (first * cells.size, (first + count) * cells.size)
@@ -226,9 +226,9 @@ def _joined(
 def _bounding(vertices: np.ndarray, waiting: np.ndarray, reach: int) -> np.ndarray:
     """Return the cells whose vertices may bound a triangle in which a candidate lies.
 
-    A triangulation of these alone has the same triangles there: those near candidates, and those
-    round the gaps in which candidates lie. All others, most by far, would only cost time. What is
-    farther than `reach` cells from all vertices is a gap.
+    A triangulation of these vertices alone has the same triangles near candidates, and round the
+    gaps in which candidates lie. All other vertices, by far the most, would only cost time. Cells
+    farther than `reach` cells from all vertices are a gap.
     """
     from scipy import ndimage
 
@@ -246,7 +246,7 @@ def _round(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return which candidates to add, at most one in each triangle, and a mask (candidates,).
 
-    It names those that were judged in another triangle, as their own is too steep.
+    The mask marks candidates that were tested in another triangle, because their own is too steep.
     """
     distance, angle, longest, mirrored = _distance_and_angle(tin, triangle, points, rules)
     allowed = np.full(len(triangle), math.radians(rules.iteration_angle))
@@ -267,7 +267,7 @@ def _distance_and_angle(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Return distance to the facet, largest angle at its corners (rad), and its longest edge.
 
-    Last, of which points the mirror image was judged.
+    The last array marks the points whose mirror image was tested.
     """
     corners = tin.triangles[triangle]
     x, y, z = tin.x[corners], tin.y[corners], tin.z[corners]

@@ -37,17 +37,19 @@ from ..shared.near_surface import near_surface
 from .densification import DensificationRules, densified, with_lower
 from .seeds import seeds_of_one_grid, seeds_of_two_grids
 
-# Side in metres of the cells whose lowest points may become vertices of the TIN, if points are not
-# farther apart than that, and of those where points are so dense that their noise is measured.
+# Side in metres of the cells whose lowest points may become vertices of the TIN, unless points are
+# farther apart. The second is for points so dense that their noise is measured.
 _CELL, _DENSE_CELL = 1.0, 0.5
-# Metres between points: less is as good as that.
+# Least spacing of points in metres; a smaller one counts as this.
 _LEAST_SPACING = 0.01
-# Metres beyond which points do not matter: so many times the largest building, but at least this.
+# Points affect each other within so many times the largest building, and within at least so many
+# metres.
 _REACH_BUILDINGS, _LEAST_REACH = 1.2, 100.0
-# Metres within which one of the eight cells round a candidate must lie, apart from the rise of the
-# seeds' surface: ground goes on, while bushes below trees have points at any height.
+# One of the eight cells round a candidate must be within so many metres of its height, apart from
+# the rise of the seeds' surface. Ground continues, but bushes below trees have points at any
+# height.
 _LEVEL = 0.3
-# The preset that keeps the rules of another program.
+# The preset with the rules of another program.
 CLASSIC = "lidar360"
 
 
@@ -213,23 +215,24 @@ class TinDensification(ParameterSet):
     )
 
     def resolve(self, points: Points) -> TinDensification:
-        """Return the parameters with a value for each that was left to the preset.
+        """Return the parameters with values in place of those left to the preset.
 
         Parameters
         ----------
         points : Points
-            The whole survey: its blocks must all be classified with the same values.
+            All points of the survey, because all its blocks must be classified with the same
+            values.
         """
         return self.filled(vars(PRESETS[self.preset]))
 
 
 def largest_object(parameters: TinDensification) -> float:
-    """Return the width in metres of the largest building that is looked for."""
+    """Return the width in metres of the largest building that is searched."""
     return parameters.max_building_size or PRESETS[parameters.preset].max_building_size
 
 
 def reach(parameters: TinDensification) -> float:
-    """Return the metres beyond which a point does not matter for another."""
+    """Return the distance in metres within which points affect each other."""
     return max(_LEAST_REACH, _REACH_BUILDINGS * largest_object(parameters))
 
 
@@ -239,12 +242,12 @@ def classify(
     progress: Progress = SILENT,
     known_ground: np.ndarray | None = None,
 ) -> np.ndarray:
-    """Tell ground from other points.
+    """Return which points are ground.
 
-    Low outliers are taken out of the grid of lowest points; its cells that morphology takes for
-    ground give the seeds of a TIN (after Zhao et al. 2016, section 2); in rounds, each
-    triangle takes the candidate nearest to it if distance and angle allow (Axelsson 2000, section
-    3); last, every point close to the surface through all vertices is ground.
+    Low outliers are removed from the grid of lowest points. The cells that morphology takes for
+    ground give the seeds of a TIN (after Zhao et al. 2016, section 2). In rounds, each triangle
+    takes the candidate nearest to it if distance and angle allow it (Axelsson 2000, section 3).
+    Last, every point close to the surface through all vertices is ground.
 
     Parameters
     ----------
@@ -255,7 +258,7 @@ def classify(
     progress : Progress
         Receives progress and messages.
     known_ground : numpy.ndarray of bool, shape (n,), optional
-        Points that are surely ground: seeds whatever the grid says.
+        Points of known ground, which are always seeds.
 
     Returns
     -------
@@ -276,7 +279,7 @@ def classify(
     if resolved != parameters or (apart <= NOISE_SPACING and not is_classic):
         progress.choice(_in_words(resolved, apart, is_dense))
     size = _DENSE_CELL if is_dense else _CELL if is_classic else max(_CELL, apart)
-    # Dense points fill their cells so well that it hardly matters where they begin.
+    # Dense points fill their cells so well that it hardly matters where the cells begin.
     shifts = (0.0,) if is_dense or is_classic else (0.0, 0.5 * size)
     grids = in_threads(lambda shift: LowestPoints(points, size, is_classic, shift), shifts)
     survey = grids[0]
@@ -312,7 +315,7 @@ def classify(
 def _seeds(
     points: Points, grids: list[LowestPoints], parameters: TinDensification, progress: Progress
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return the indices of the first points of the ground, and of those that may join them."""
+    """Return the indices of the seeds, and of the points that may join them."""
     size, survey, part = parameters.max_building_size, grids[0], progress.part(0.0, 0.8)
     if parameters.preset == CLASSIC:
         return seeds_of_one_grid(survey, size, progress, CLASSIC_ALLOWANCE)
@@ -339,7 +342,7 @@ def _lowest_of(points: Points, which: np.ndarray) -> np.ndarray:
 
 
 def densification_rules(parameters: TinDensification) -> DensificationRules:
-    """Return when a point becomes a vertex, by parameters that have a value each."""
+    """Return the rules by which a point becomes a vertex, from parameters without empty ones."""
     names = (each.name for each in dataclasses.fields(DensificationRules) if each.name != "level")
     level = None if parameters.preset == CLASSIC else _LEVEL
     return DensificationRules(*(getattr(parameters, name) for name in names), level=level)

@@ -13,8 +13,8 @@ from ..shared.allowance import CLASSIC, Allowance
 from ..shared.ground_cells import ground_cells
 from ..shared.lowest_points import LowestPoints
 
-# What a point is on a grid: not the lowest of its cell, one of an object or a low outlier, one
-# that may be ground, and one that is.
+# States of a point on a grid: not the lowest of its cell; on an object or a low outlier; perhaps
+# ground; ground.
 _HIDDEN, _OBJECT, _OPEN, _GROUND = range(4)
 
 
@@ -40,7 +40,8 @@ def seeds_of_one_grid(
     Returns
     -------
     ground, waiting : numpy.ndarray of intp
-        Indices of the points that are taken for ground, and of the lowest points that may be.
+        Indices of the points that are taken for ground, and of other lowest points that may be
+        ground.
     """
     ground, is_open, _ = _judged(survey, max_size, allowance, progress)
     if allowance is CLASSIC:
@@ -53,8 +54,8 @@ def seeds_of_two_grids(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the points that are ground on two grids, half a cell apart.
 
-    Where cells begin is chance. A point that is the lowest of its cell on both grids must be
-    ground on both; one that is so on a single grid, there.
+    It is chance where cells begin. A point that is the lowest of its cell on both grids must be
+    ground on both. A point that is the lowest on only one grid must be ground on that one.
 
     Parameters
     ----------
