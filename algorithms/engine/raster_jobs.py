@@ -9,14 +9,14 @@ from typing import Any, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from ..core.errors import BareEarthError
+from ..core.errors import BareEarthError, Cancelled
 from ..core.files import replacing, split_name
 from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
 from ..las.cloud import survey_frame
 from ..products.raster_block import BlockRasters
 from ..survey.files import Survey
-from .block_grid import BlockGrid, BlockIndex, places_of
+from .block_grid import BlockGrid, BlockIndex, places_of, sources_of
 from .blocks import Block
 from .constraints import parts_of
 from .job_queue import JobQueue
@@ -25,6 +25,7 @@ from .memory import Resources
 from .memory_points import MemoryPoints, SurveyFile
 from .planning import block_jobs
 from .rasters import MakeRasters, RasterSize, write_rasters
+from .record import block_file, stamp_of
 from .workers import Workers
 
 
@@ -138,7 +139,8 @@ def make_rasters(
     survey : Survey
         The files.
     folder : Path
-        Existing folder for the rasters of blocks, which all workers see.
+        Existing folder for the rasters of blocks, which all workers see. Those that a run left when
+        it was cancelled or killed are not made again if nothing has changed.
     step : MakeRasters
         Which rasters, where they go, and from which points.
     workers : Workers
@@ -157,8 +159,14 @@ def make_rasters(
     seen, progress = progress.part(0.0, 0.05), progress.part(0.05, 1.0)
     step = step.seeing(parts_of(survey.tiles, seen), grid.frame, seen)
     places = sorted({place for tile in survey.tiles for place in places_of(grid, tile)})
-    files = {each: folder / f"rasters_{each.column}_{each.row}.npz" for each in places}
-    jobs = block_jobs(RasterJob, grid, survey, files, folder, 0, workers, step=step)
+    stamps = {each.path: stamp_of(each.path) for each in survey.tiles}
+    files = {
+        each: block_file(grid, step, folder, each, map(stamps.get, sources_of(grid, survey, each)))
+        for each in places
+    }
+    missing = {place: file for place, file in files.items() if not file.exists()}
+    jobs = block_jobs(RasterJob, grid, survey, missing, folder, 0, workers, step=step)
+    stays = False
     try:
         queue = JobQueue(jobs, [], workers, progress.part(0.0, 0.8))
         queue.work()
@@ -171,6 +179,10 @@ def make_rasters(
         )
         with contextlib.ExitStack() as outputs:
             return write_rasters(made, grid.frame, step, outputs, last, per_file)
+    except Cancelled:
+        stays = True
+        raise
     finally:
-        for file in files.values():
-            file.unlink(missing_ok=True)
+        if not stays:
+            for file in files.values():
+                file.unlink(missing_ok=True)

@@ -70,7 +70,7 @@ def fingerprint_of(
     }
 
 
-def label_file(
+def block_file(
     grid: BlockGrid, step: Step, folder: Path, place: BlockIndex, sources: Iterable[Stamp]
 ) -> Path:
     """Return the file for the result of a block; its name depends on all inputs of the result."""

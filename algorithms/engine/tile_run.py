@@ -22,9 +22,9 @@ from .raster_jobs import make_rasters
 from .rasters import MakeRasters
 from .record import (
     Fingerprint,
+    block_file,
     fingerprint_of,
     folders_of,
-    label_file,
     read_record,
     remove_record,
     stamp_of,
@@ -222,7 +222,7 @@ class TileRun:
         places = sorted({place for needs in self._todo for place in needs.places})
         waiting = folders_of(self._folder)[2]
         files = {
-            each: label_file(grid, step, waiting, each, map(self._stamps.get, self._sources[each]))
+            each: block_file(grid, step, waiting, each, map(self._stamps.get, self._sources[each]))
             for each in places
         }
         tiles = [

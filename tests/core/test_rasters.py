@@ -17,7 +17,9 @@ from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.engine import blocks as blocks_module
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
+from bare_earth.algorithms.engine.options import TileOutput
 from bare_earth.algorithms.engine.raster_files import RASTERS, RasterFiles
+from bare_earth.algorithms.engine.raster_jobs import RasterJob
 from bare_earth.algorithms.engine.rasters import MakeRasters, write_rasters
 from bare_earth.algorithms.engine.workers import Processes, Threads
 from bare_earth.algorithms.filters.slope.filter import SlopeFilter
@@ -184,6 +186,47 @@ def test_many_files_give_the_rasters_of_one_cell_by_cell(survey, small_blocks, t
 def test_processes_give_the_rasters_of_threads(survey, of_one, tmp_path):
     many = _of_files([survey / "many"], tmp_path / "more", workers=Processes(MUCH))
     assert _same(of_one, many)
+
+
+class CountedRasters(Threads):
+    """One thread that counts the jobs of rasters, and cancels the run at one of them."""
+
+    def __init__(self, last=None):
+        super().__init__(Resources(threads=1))
+        self.count, self._last = 0, last
+
+    def submit(self, job):
+        if isinstance(job, RasterJob):
+            self.count += 1
+            if self.count == self._last:
+                raise Cancelled
+        return super().submit(job)
+
+
+def test_a_cancelled_survey_goes_on_with_the_rasters_that_are_left(small_blocks, tmp_path):
+    # Blocks 5 km apart are two jobs.
+    near = strip(3000, 60.0, 40.0)
+    (tmp_path / "in").mkdir()
+    for number in range(2):
+        write(tmp_path / "in" / f"{number}.laz", near + np.array([500_000 * number, 0, 0]))
+
+    def run(name, workers, **output):
+        files = RasterFiles(dtm=tmp_path / f"{name}.tif")
+        classify_tiles(
+            [tmp_path / "in"], tmp_path / name, SlopeFilter(preset="whitebox"), rasters=files,
+            workers=workers, output=TileOutput(**output),
+        )  # fmt: skip
+        return _values(files.dtm)
+
+    whole = CountedRasters()
+    expected = run("once", whole)
+    with pytest.raises(Cancelled):
+        run("more", CountedRasters(last=whole.count))
+    assert not (tmp_path / "more.tif").exists()
+    rest = CountedRasters()
+    assert _same([run("more", rest, resume=True)], [expected])
+    assert whole.count > 1 and rest.count == 1
+    assert not list((tmp_path / "more").rglob("*.npz"))
 
 
 def test_a_file_that_does_not_fit_into_memory_gives_the_same_rasters(survey, of_one, tmp_path):
