@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Iterable
 
 from qgis.core import QgsProcessingContext, QgsProcessingUtils
 
-from ...algorithms.core.errors import Cancelled
+from ...algorithms.core.errors import BareEarthError, Cancelled
 from .. import compat
 from ..i18n import tr
 from ..styles import clouds, layers
@@ -70,6 +70,9 @@ def show_classified(
         found = write_class_raster(*files, cell_size, ground_class, progress.beyond())
     except Cancelled:
         # All outputs of the run are complete.
+        return
+    except BareEarthError as error:
+        progress.warning(str(error))
         return
     hint = QgsProcessingUtils.LayerHint.Raster
     details = QgsProcessingContext.LayerDetails("classes", context.project(), "classes", hint)

@@ -153,22 +153,28 @@ def test_in_a_thread_of_its_own(algorithm, parameters, scene, log):
 
 
 @pytest.mark.skipif(COPC, reason="this QGIS shows the points themselves")
-def test_a_cancel_after_the_outputs_does_not_say_that_there_are_none(
-    parameters, algorithm, context, log, monkeypatch
+@pytest.mark.parametrize("why", ["cancel", "error"])
+def test_what_ends_after_the_outputs_does_not_say_that_there_are_none(
+    why, parameters, algorithm, context, log, monkeypatch
 ):
+    from bare_earth.algorithms.core.errors import BareEarthError
     from bare_earth.algorithms.products import class_raster
 
     parts = class_raster.read_parts
 
-    def cancelling(*arguments):
+    def ending(*arguments):
+        if why == "error":
+            raise BareEarthError("The disk is gone.")
         log.cancel()
         return parts(*arguments)
 
-    monkeypatch.setattr(class_raster, "read_parts", cancelling)
+    monkeypatch.setattr(class_raster, "read_parts", ending)
     project = QgsProject.instance()
     parameters["DTM"] = QgsProcessingOutputLayerDefinition(parameters["DTM"], project)
     results, done = algorithm.run(parameters, context, log)
-    assert log.isCanceled() and done and results["GROUND_COUNT"] > 0
+    assert done and results["GROUND_COUNT"] > 0
+    assert log.isCanceled() == (why == "cancel")
+    assert ("The disk is gone." in log.text) == (why == "error")
     assert "Cancelled" not in log.text
     (path,) = context.layersToLoadOnCompletion()
     assert path == results["DTM"]
