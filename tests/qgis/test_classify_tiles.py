@@ -144,7 +144,9 @@ def test_a_cancel_keeps_what_is_finished(tiles, folder, context):
 
 
 @pytest.mark.parametrize("algorithm", [NAME, "bareearth:terrainmodel"])
-def test_each_file_gets_its_own_rasters_and_one_layer_shows_them(algorithm, folder, tmp_path):
+def test_each_file_gets_its_own_rasters_and_one_layer_shows_them(
+    algorithm, folder, tmp_path, context
+):
     import processing
 
     parameters = {"INPUT_FOLDER": str(folder), "OUTPUT_FOLDER": str(tmp_path / "out")}
