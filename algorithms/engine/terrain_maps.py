@@ -17,6 +17,7 @@ from ..products.local_relief import LocalRelief, write_local_relief
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import MapTerrain
 from ..rasters.writing import replacing_raster
+from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.files import is_one_file
 from ..survey.selection import Selection
@@ -24,6 +25,7 @@ from .constraints import NO_CONSTRAINTS, Constraints
 from .many_files import classify_files
 from .one_file import check_cloud, classify_file
 from .options import TileOutput
+from .output import Output
 from .raster_files import RasterFiles
 from .requests import ClassifyRequest, Request
 
@@ -52,7 +54,7 @@ class MapFiles(NamedTuple):
 
 @dataclass(frozen=True)
 class MapRequest(Request):
-    """The parameters of all steps from a point cloud to maps."""
+    """The parameters of all steps from a point cloud to maps, of an area only if there is one."""
 
     parameters: ParameterSet = field(default_factory=METHODS[DEFAULT_METHOD].parameters)
     selection: Selection = field(default_factory=Selection)
@@ -60,6 +62,7 @@ class MapRequest(Request):
     surface: SurfaceModel = field(default_factory=SurfaceModel)
     contours: Contours = field(default_factory=Contours)
     relief: LocalRelief = field(default_factory=LocalRelief)
+    area: Area | None = None
     corrections: Corrections = NO_CORRECTIONS
     constraints: Constraints = NO_CONSTRAINTS
 
@@ -71,6 +74,8 @@ class MapRequest(Request):
             self.resources,
             self.parameters,
             self.selection,
+            self.area,
+            output=Output(area_only=self.area is not None),
             corrections=self.corrections,
             rasters=rasters,
             terrain=self.terrain,
@@ -87,7 +92,7 @@ class MapSummary(NamedTuple):
     cloud : Path
         The classified file, or the virtual point cloud of them.
     point_count, ground_count : int
-        Numbers of all points and of ground points.
+        Numbers of points, those of the area if there is one, and of ground points.
     class_counts : dict of int to int
         Points of each class of a single file; empty for many.
     contour_interval : Interval or None
@@ -160,7 +165,7 @@ def _classified(
 ) -> MapSummary:
     if is_one_file(sources):
         one = classify_file(sources[0], target, how, progress)
-        return MapSummary(target, one.point_count, one.ground_count, one.class_counts)
+        return MapSummary(target, one.area_count, one.ground_count, one.class_counts)
     name = target.name.lower()
     kind = next((each for each in _FORMATS if name.endswith(f".{each}")), target.suffix[1:])
     folder = target.with_name(target.name[: -len(kind) - 1])

@@ -1,4 +1,4 @@
-"""A raster of the classes of a point cloud, shown where QGIS cannot show the points."""
+"""A raster of the classes of point clouds, shown where QGIS cannot show the points."""
 
 from __future__ import annotations
 
@@ -9,11 +9,10 @@ import numpy as np
 
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud, survey_frame
-from ..las.lasfile import LasFile
-from ..las.opening import open_las
 from ..las.reading import read_parts
 from ..rasters.geotiff import RasterGrid
 from ..rasters.writing import write_geotiff
+from ..survey.files import Survey, open_survey
 from ..survey.selection import GROUND
 
 NO_CLASS = 255
@@ -52,8 +51,11 @@ class ClassCells:
             Their classes.
         """
         is_ground = classes == self._ground_class
-        self._points += np.bincount(cells, minlength=len(self._points))
-        self._ground += np.bincount(cells[is_ground], minlength=len(self._points))
+        for counts, those in ((self._points, cells), (self._ground, cells[is_ground])):
+            if len(those):
+                # A file of a survey fills few of the cells.
+                found = np.bincount(those - (first := those.min()))
+                counts[first : first + len(found)] += found
         cells = cells[~is_ground]
         values = np.maximum(classes[~is_ground], self._highest[cells])
         # The last value of a cell is kept, and that is the highest.
@@ -72,13 +74,13 @@ def write_class_raster(
     cell_size: float = 1.0,
     ground_class: int = GROUND,
     progress: Progress = SILENT,
-) -> None:
-    """Write the classes of a point cloud as a raster.
+) -> list[int]:
+    """Write the classes of a point cloud, or of the files of a survey, as a raster.
 
     Parameters
     ----------
     source : Path
-        A .las, .laz or .copc.laz file.
+        A .las, .laz or .copc.laz file, or a virtual point cloud (.vpc).
     target : Path
         The GeoTIFF to make; cells without points are `NO_CLASS`.
     cell_size : float
@@ -88,24 +90,32 @@ def write_class_raster(
     progress : Progress
         Receives progress.
 
+    Returns
+    -------
+    list of int
+        The classes of its cells, sorted.
+
     Raises
     ------
     BareEarthError
         If the input cannot be read or the output cannot be written.
     """
-    las, grid, cells = open_las(source), None, None
-    for part in read_parts(las, progress.part(0.0, 0.9)):
-        if grid is None:
-            grid = _grid_of(las, part, cell_size)
-            cells = ClassCells(grid.rows * grid.columns, ground_class)
-        cells.add(_cells_of(part, grid), part.classification)
+    survey = open_survey([source])
+    grid = _grid_of(survey, cell_size)
+    cells = ClassCells(grid.rows * grid.columns, ground_class)
+    parts = progress.part(0.0, 0.9).shares(*(max(each.count, 1) for each in survey.tiles))
+    for tile, part in zip(survey.tiles, parts):
+        for points in read_parts(tile, part):
+            cells.add(_cells_of(points, grid), points.classification)
     values = cells.values().reshape(grid.rows, grid.columns)
     write_geotiff(target, values, grid, NO_CLASS, progress, "Class")
+    return [int(each) for each in np.unique(values) if each != NO_CLASS]
 
 
-def _grid_of(las: LasFile, part: PointCloud, cell_size: float) -> RasterGrid:
-    frame = survey_frame(part.crs)
-    (west, south, _), (east, north, _) = las.minimum, las.maximum
+def _grid_of(survey: Survey, cell_size: float) -> RasterGrid:
+    frame = survey_frame(survey.crs)
+    boxes = np.array([tile.box for tile in survey.tiles])
+    (west, south), (east, north) = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
     area = (east - west) * (north - south) * frame.horizontal_unit**2
     cell = max(cell_size, math.sqrt(area / _MOST_CELLS)) / frame.horizontal_unit
     left, top = math.floor(west / cell), math.ceil(north / cell)

@@ -958,8 +958,16 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Nur Punkte in diesen Polygonen werden klassifiziert; gibt es eine Ausdehnung, nur Punkte in beiden. Punkte außerhalb behalten ihre Klasse, doch die in der Nähe helfen beim Urteil. Leer: alle Punkte.</translation>
     </message>
     <message>
+        <source>Only points in these polygons are mapped and written; with an extent, only points in both. Points nearby help to judge. Empty: all points.</source>
+        <translation>Nur Punkte in diesen Polygonen werden kartiert und geschrieben; gibt es eine Ausdehnung, nur Punkte in beiden. Punkte in der Nähe helfen beim Urteil. Leer: alle Punkte.</translation>
+    </message>
+    <message>
         <source>Only points in this rectangle are classified. Points outside keep their class, but those nearby help to judge. Empty: all points.</source>
         <translation>Nur Punkte in diesem Rechteck werden klassifiziert. Punkte außerhalb behalten ihre Klasse, doch die in der Nähe helfen beim Urteil. Leer: alle Punkte.</translation>
+    </message>
+    <message>
+        <source>Only points in this rectangle are mapped and written. Points nearby help to judge. Empty: all points.</source>
+        <translation>Nur Punkte in diesem Rechteck werden kartiert und geschrieben. Punkte in der Nähe helfen beim Urteil. Leer: alle Punkte.</translation>
     </message>
     <message>
         <source>Only points of these classes take part and may change their class. Empty: all classes but low and high noise (7 and 18).</source>

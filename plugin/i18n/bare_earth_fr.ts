@@ -958,8 +958,16 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Seuls les points dans ces polygones sont classés ; avec une emprise, seuls les points dans les deux. Les points à l'extérieur gardent leur classe, mais ceux qui sont proches aident à juger. Vide : tous les points.</translation>
     </message>
     <message>
+        <source>Only points in these polygons are mapped and written; with an extent, only points in both. Points nearby help to judge. Empty: all points.</source>
+        <translation>Seuls les points dans ces polygones sont cartographiés et écrits ; avec une emprise, seuls les points dans les deux. Les points proches aident à juger. Vide : tous les points.</translation>
+    </message>
+    <message>
         <source>Only points in this rectangle are classified. Points outside keep their class, but those nearby help to judge. Empty: all points.</source>
         <translation>Seuls les points dans ce rectangle sont classés. Les points à l'extérieur gardent leur classe, mais ceux qui sont proches aident à juger. Vide : tous les points.</translation>
+    </message>
+    <message>
+        <source>Only points in this rectangle are mapped and written. Points nearby help to judge. Empty: all points.</source>
+        <translation>Seuls les points dans ce rectangle sont cartographiés et écrits. Les points proches aident à juger. Vide : tous les points.</translation>
     </message>
     <message>
         <source>Only points of these classes take part and may change their class. Empty: all classes but low and high noise (7 and 18).</source>

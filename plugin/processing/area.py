@@ -18,7 +18,8 @@ from ...algorithms.engine.output import Output
 from ...algorithms.survey.area import Area, Polygon
 from .. import compat
 from ..i18n import tr
-from .constraints import add_known, known_of
+from .constraints import add_constraints, constraints_of
+from .corrections import add_corrections, corrections_of
 from .inputs import CloudCrs, features_of, is_empty, polygons_of
 
 # Name, label and help of the fields of an area.
@@ -34,10 +35,31 @@ _AREA_FIELDS = {
         " outside keep their class, but those nearby help to judge. Empty: all points.",
     ),
 }
+# Their help in algorithms that make nothing outside of the area.
+_MAPPED = {
+    "EXTENT": "Only points in this rectangle are mapped and written. Points nearby help to judge."
+    " Empty: all points.",
+    "BOUNDARY": "Only points in these polygons are mapped and written; with an extent, only points"
+    " in both. Points nearby help to judge. Empty: all points.",
+}
 
 
-def add_area(algorithm: QgsProcessingAlgorithm, advanced: Sequence[str] = ("BOUNDARY",)) -> None:
-    """Add the fields of an area to a dialog; `advanced` names the advanced ones."""
+def add_area(
+    algorithm: QgsProcessingAlgorithm,
+    advanced: Sequence[str] = ("BOUNDARY",),
+    is_all: bool = False,
+) -> None:
+    """Add the fields of an area to a dialog.
+
+    Parameters
+    ----------
+    algorithm : QgsProcessingAlgorithm
+        Whose dialog it is.
+    advanced : sequence of str
+        Names of the advanced fields.
+    is_all : bool
+        Whether nothing is made outside of the area.
+    """
     extent, boundary = (label for label, _ in _AREA_FIELDS.values())
     fields = (
         QgsProcessingParameterExtent("EXTENT", extent, None, True),
@@ -46,7 +68,8 @@ def add_area(algorithm: QgsProcessingAlgorithm, advanced: Sequence[str] = ("BOUN
     for field in fields:
         if field.name() in advanced:
             field.setFlags(field.flags() | compat.ADVANCED)
-        algorithm.addParameter(field, _AREA_FIELDS[field.name()][1])
+        text = (_MAPPED if is_all else {}).get(field.name(), _AREA_FIELDS[field.name()][1])
+        algorithm.addParameter(field, text)
 
 
 def area_of(
@@ -87,10 +110,14 @@ def check_area_only(parameters: dict[str, Any], chosen: Sequence[ParameterSet]) 
             each.check_area(is_given)
 
 
-def area_options(area: Area | None, progress: Progress) -> list[str]:
-    """Return the options of the command line for an area; tell the user how to add a boundary."""
+def area_options(area: Area | None, progress: Progress, is_all: bool = False) -> list[str]:
+    """Return the options of the command line for an area; tell the user how to add a boundary.
+
+    `is_all` is as for `add_area`.
+    """
     if area is None:
         return []
+    options = ["--area-only"] if is_all else []
     if area.polygons:
         progress.info(
             tr(
@@ -98,13 +125,18 @@ def area_options(area: Area | None, progress: Progress) -> list[str]:
                 " as boundary.geojson, and add --boundary boundary.geojson."
             )
         )
-    return ["--extent", *map(repr, area.box)] if area.box else []
+    return [*options, *(["--extent", *map(repr, area.box)] if area.box else [])]
 
 
-def add_limits(algorithm: QgsProcessingAlgorithm, advanced: Sequence[str] = ("BOUNDARY",)) -> None:
-    """Add the fields of `add_area` and `add_known` to a dialog."""
-    add_area(algorithm, advanced)
-    add_known(algorithm)
+def add_limits(
+    algorithm: QgsProcessingAlgorithm,
+    advanced: Sequence[str] = ("BOUNDARY",),
+    is_all: bool = False,
+) -> None:
+    """Add the fields of an area, of corrections and of constraints to a dialog."""
+    add_area(algorithm, advanced, is_all)
+    add_corrections(algorithm)
+    add_constraints(algorithm)
 
 
 def limits_of(
@@ -114,6 +146,10 @@ def limits_of(
     crs: CloudCrs,
     progress: Progress,
 ) -> dict[str, Any]:
-    """Return area, corrections and constraints, by their names in `ClassifyRequest`."""
-    known = known_of(algorithm, parameters, context, crs, progress)
-    return {"area": area_of(algorithm, parameters, context, crs), **known}
+    """Return area, corrections and constraints, by their names in the requests."""
+    given = parameters, context, crs
+    return {
+        "area": area_of(algorithm, *given),
+        "corrections": corrections_of(algorithm, *given, progress),
+        "constraints": constraints_of(algorithm, *given, progress),
+    }

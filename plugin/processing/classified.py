@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Iterable
 
 from qgis.core import QgsProcessingContext, QgsProcessingUtils
 
-from ...algorithms.core.errors import Cancelled
+from ...algorithms.core.errors import BareEarthError, Cancelled
 from .. import compat
 from ..i18n import tr
 from ..styles import clouds, layers
@@ -50,16 +50,15 @@ def show_classified(
     ground_class = request.selection.to_class
     classes = list(classes) or clouds.usual_classes(ground_class)
     is_virtual = cloud.endswith(".vpc")
-    if is_virtual and hides == layers.CLOUD:
-        # At small scales QGIS shows outlines, and the terrain must be visible through these.
-        hides = 0
-    algorithm.show(cloud, layers.classes(classes, hides=hides))
+    # At small scales QGIS shows outlines, and the terrain must be visible through these.
+    is_hiding = not (is_virtual and hides == layers.CLOUD)
+    algorithm.show(cloud, layers.classes(classes, hides=hides if is_hiding else 0))
     if compat.can_load(cloud):
         if is_virtual:
             compat.load_virtual_point_cloud(cloud, "", context)
         return
     progress.info(tr("This QGIS cannot show such a file as a layer. It is at {}.").format(cloud))
-    if is_virtual or not context.layersToLoadOnCompletion():
+    if not context.layersToLoadOnCompletion():
         return
     # Imported here, since it needs packages that QGIS may lack when it starts.
     from ...algorithms.products.class_raster import write_class_raster
@@ -67,11 +66,15 @@ def show_classified(
     path = QgsProcessingUtils.generateTempFilename("classes.tif")
     cell_size = request.terrain.dtm_cell_size
     try:
-        write_class_raster(Path(cloud), Path(path), cell_size, ground_class, progress.beyond())
+        files = Path(cloud), Path(path)
+        found = write_class_raster(*files, cell_size, ground_class, progress.beyond())
     except Cancelled:
         # All outputs of the run are complete.
+        return
+    except BareEarthError as error:
+        progress.warning(str(error))
         return
     hint = QgsProcessingUtils.LayerHint.Raster
     details = QgsProcessingContext.LayerDetails("classes", context.project(), "classes", hint)
     context.addLayerToLoadOnCompletion(path, details)
-    algorithm.show(path, layers.class_raster(classes, hides))
+    algorithm.show(path, layers.class_raster(found if is_virtual else classes, hides))

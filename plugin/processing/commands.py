@@ -18,7 +18,11 @@ _OF_QGIS = ("RELIEF", "CONTOURS")
 
 
 def terrain_commands(
-    sources: Sequence[Path], cloud: str, rasters: Mapping[str, str], chosen: Sequence[ParameterSet]
+    sources: Sequence[Path],
+    cloud: str,
+    rasters: Mapping[str, str],
+    chosen: Sequence[ParameterSet],
+    area: Sequence[str] = (),
 ) -> Iterator[str]:
     """Yield the commands for a classified cloud and its rasters, except maps made only in QGIS.
 
@@ -32,13 +36,15 @@ def terrain_commands(
         The raster files, by the names of their fields.
     chosen : sequence of ParameterSet
         The parameters of all commands.
+    area : sequence of str
+        Options that name the area.
     """
     of_type: dict[type, Any] = {type(each): each for each in chosen}
     made = cloud or "classified.laz"
     # For many files, the folder of their virtual point cloud.
     target = str(Path(made).parent) if made.endswith(".vpc") else made
     finding = [of_type[each] for each in (TileMethod, Selection, Resources)]
-    yield command_line("classify", [*map(str, sources), target], finding, {})
+    yield command_line("classify", [*map(str, sources), target, *area], finding, {})
     models = {name: path for name, path in rasters.items() if name not in _OF_QGIS}
     if models:
         ground = of_type[Selection].to_class

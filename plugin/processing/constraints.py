@@ -16,7 +16,6 @@ from ...algorithms.core.progress import Progress
 from ...algorithms.engine.constraints import Constraints
 from .. import compat
 from ..i18n import tr
-from .corrections import add_corrections, corrections_of
 from .inputs import CloudCrs, features_of, is_empty, polygons_of
 
 # Name, label, kind of the layer and help of each field.
@@ -55,27 +54,6 @@ def add_constraints(algorithm: QgsProcessingAlgorithm) -> None:
         field.setHelp(text)
         field.setFlags(field.flags() | compat.ADVANCED)
         algorithm.addParameter(field)
-
-
-def add_known(algorithm: QgsProcessingAlgorithm) -> None:
-    """Add the fields of corrections and of these layers to a dialog."""
-    add_corrections(algorithm)
-    add_constraints(algorithm)
-
-
-def known_of(
-    algorithm: QgsProcessingAlgorithm,
-    parameters: dict[str, Any],
-    context: QgsProcessingContext,
-    crs: CloudCrs,
-    progress: Progress,
-) -> dict[str, Any]:
-    """Return corrections and constraints, by their names in `MapRequest`."""
-    given = parameters, context, crs, progress
-    return {
-        "corrections": corrections_of(algorithm, *given),
-        "constraints": constraints_of(algorithm, *given),
-    }
 
 
 def constraints_of(

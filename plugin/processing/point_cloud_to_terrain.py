@@ -14,10 +14,10 @@ from ...algorithms.survey.selection import Selection
 from ..i18n import mark
 from ..styles.layers import BELOW_TERRAIN, contours
 from . import outputs
+from .area import add_limits, area_options, limits_of
 from .base import BareEarthAlgorithm
 from .classified import show_classified
 from .commands import terrain_commands
-from .constraints import add_known, known_of
 from .inputs import CloudCrs, add_survey, names_of, survey_of
 
 
@@ -41,7 +41,7 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         """Declare the fields of the dialog and the results."""
         add_survey(self)
         self.add_declared()
-        add_known(self)
+        add_limits(self, ("EXTENT", "BOUNDARY"), is_all=True)
         outputs.add_cloud(self, optional=True)
         outputs.add_rasters(self, outputs.RASTERS, ("DTM", "HILLSHADE", "DSM", "CHM"))
         outputs.add_contours(self)
@@ -56,18 +56,19 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         """Make the wanted outputs."""
         from ...algorithms.engine.terrain_maps import MapFiles, MapRequest, make_maps
 
-        known = known_of(self, parameters, context, CloudCrs(*self._sources), progress)
+        limits = limits_of(self, parameters, context, CloudCrs(*self._sources), progress)
         chosen = self.chosen(parameters, context)
-        request = MapRequest.of(chosen, **known)
+        request = MapRequest.of(chosen, **limits)
         cloud = self.point_cloud_destination(parameters, "OUTPUT", context)
         results = outputs.raster_paths(self, parameters, context)
         paths = [path and Path(path) for path in map(results.get, ("RELIEF", "CONTOURS"))]
         files = MapFiles(cloud and Path(cloud), outputs.raster_files(results), *paths)
         summary = make_maps(self._sources, files, request, progress)
         made = str(cloud and summary.cloud)
-        for each in terrain_commands(self._sources, made, results, chosen):
+        area = area_options(request.area, progress, is_all=True)
+        for each in terrain_commands(self._sources, made, results, chosen, area):
             progress.command(each)
-        progress.share(summary.ground_count, summary.point_count)
+        progress.share(summary.ground_count, summary.point_count, bool(request.area))
         if "CONTOURS" in results:
             self.show(results["CONTOURS"], contours(summary.contour_interval))
         if cloud:

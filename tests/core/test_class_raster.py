@@ -6,6 +6,7 @@ import pytest
 
 from bare_earth.algorithms.products.class_raster import NO_CLASS, ClassCells, write_class_raster
 from bare_earth.algorithms.rasters.geotiff import read_raster
+from bare_earth.algorithms.survey.vpc import write_vpc
 
 pytest.importorskip("rasterio")
 
@@ -25,19 +26,39 @@ def test_a_cell_is_ground_if_half_of_its_points_are_and_else_what_says_most():
     assert np.array_equal(parts.values(), whole.values())
 
 
-@pytest.mark.parametrize("suffix", [".las", ".laz"])
-def test_a_file_becomes_a_raster_with_each_class_in_its_place(tmp_path, suffix):
+def write_cloud(path, west=0.0):
+    """Write a square of 20 m with ground in the west, buildings in the north, and other points."""
     header = laspy.LasHeader(point_format=6, version="1.4")
     header.scales, header.offsets = (0.01,) * 3, (500_000.0, 5_700_000.0, 0.0)
     las = laspy.LasData(header)
     side = np.arange(0.25, 20.0, 0.5)
     x, y = (each.ravel() for each in np.meshgrid(side, side))
-    las.x, las.y, las.z = x + 500_000, y + 5_700_000, np.zeros_like(x)
+    las.x, las.y, las.z = x + 500_000 + west, y + 5_700_000, np.zeros_like(x)
     las.classification = np.where(x < 5, 2, np.where(y > 15, 6, 1)).astype(np.uint8)
+    las.write(str(path))
+
+
+def check_square(values):
+    assert (values[:, :5] == 2).all()
+    assert (values[:5, 5:] == 6).all() and (values[5:, 5:] == 1).all()
+
+
+@pytest.mark.parametrize("suffix", [".las", ".laz"])
+def test_a_file_becomes_a_raster_with_each_class_in_its_place(tmp_path, suffix):
     source, target = tmp_path / f"cloud{suffix}", tmp_path / "classes.tif"
-    las.write(str(source))
-    write_class_raster(source, target)
+    write_cloud(source)
+    assert write_class_raster(source, target) == [1, 2, 6]
     values = read_raster(target).heights
-    inside = values[~np.isnan(values)].reshape(20, 20)
-    assert (inside[:, :5] == 2).all()
-    assert (inside[:5, 5:] == 6).all() and (inside[5:, 5:] == 1).all()
+    check_square(values[~np.isnan(values)].reshape(20, 20))
+
+
+def test_the_files_of_a_survey_become_one_raster(tmp_path):
+    files = [tmp_path / "east.laz", tmp_path / "west.las"]
+    write_cloud(files[0], west=30.0)
+    write_cloud(files[1])
+    write_vpc(tmp_path / "all.vpc", files)
+    assert write_class_raster(tmp_path / "all.vpc", tmp_path / "classes.tif") == [1, 2, 6]
+    values = read_raster(tmp_path / "classes.tif").heights[-20:, :50]
+    check_square(values[:, :20])
+    check_square(values[:, 30:])
+    assert np.isnan(values[:, 20:30]).all()

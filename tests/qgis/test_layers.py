@@ -11,13 +11,14 @@ from qgis.core import (
     QgsApplication,
     QgsPointCloudClassifiedRenderer,
     QgsPointCloudLayer,
+    QgsPointXY,
     QgsProcessingAlgRunnerTask,
     QgsProcessingContext,
     QgsProcessingOutputLayerDefinition,
     QgsProject,
     QgsProviderRegistry,
 )
-from support import ALGORITHM
+from support import ALGORITHM, write_scene
 
 COPC = "copc" in QgsProviderRegistry.instance().providerList()
 needs_copc = pytest.mark.skipif(
@@ -152,25 +153,70 @@ def test_in_a_thread_of_its_own(algorithm, parameters, scene, log):
 
 
 @pytest.mark.skipif(COPC, reason="this QGIS shows the points themselves")
-def test_a_cancel_after_the_outputs_does_not_say_that_there_are_none(
-    parameters, algorithm, context, log, monkeypatch
+@pytest.mark.parametrize("why", ["cancel", "error"])
+def test_what_ends_after_the_outputs_does_not_say_that_there_are_none(
+    why, parameters, algorithm, context, log, monkeypatch
 ):
+    from bare_earth.algorithms.core.errors import BareEarthError
     from bare_earth.algorithms.products import class_raster
 
     parts = class_raster.read_parts
 
-    def cancelling(*arguments):
+    def ending(*arguments):
+        if why == "error":
+            raise BareEarthError("The disk is gone.")
         log.cancel()
         return parts(*arguments)
 
-    monkeypatch.setattr(class_raster, "read_parts", cancelling)
+    monkeypatch.setattr(class_raster, "read_parts", ending)
     project = QgsProject.instance()
     parameters["DTM"] = QgsProcessingOutputLayerDefinition(parameters["DTM"], project)
     results, done = algorithm.run(parameters, context, log)
-    assert log.isCanceled() and done and results["GROUND_COUNT"] > 0
+    assert done and results["GROUND_COUNT"] > 0
+    assert log.isCanceled() == (why == "cancel")
+    assert ("The disk is gone." in log.text) == (why == "error")
     assert "Cancelled" not in log.text
     (path,) = context.layersToLoadOnCompletion()
     assert path == results["DTM"]
+
+
+@pytest.mark.skipif(
+    "vpc" in QgsProviderRegistry.instance().providerList(), reason="this QGIS shows the points"
+)
+@pytest.mark.parametrize(
+    ("name", "output"),
+    [("classifytiles", {"OUTPUT_FOLDER": "out"}), ("pointcloudtoterrain", {"OUTPUT": "out.laz"})],
+)
+def test_the_classes_of_many_files_are_shown_as_one_raster(name, output, tmp_path, context):
+    import processing
+
+    (tmp_path / "tiles").mkdir()
+    for place in range(2):
+        origin = 500_000.0 + 100 * place, 5_700_000.0
+        write_scene(tmp_path / "tiles" / f"{place}.laz", origin=origin)
+    project = QgsProject.instance()
+    outputs = {key: str(tmp_path / value) for key, value in output.items()}
+    for key in ("DTM", "OUTPUT"):
+        path = outputs.get(key, str(tmp_path / "dtm.tif"))
+        outputs[key] = QgsProcessingOutputLayerDefinition(path, project)
+    if name == "classifytiles":
+        del outputs["OUTPUT"]
+    values = {"INPUT_FOLDER": str(tmp_path / "tiles"), **outputs}
+    processing.runAndLoadResults(f"bareearth:{name}", values)
+    layers = {each.name().partition(": ")[2]: each for each in project.mapLayers().values()}
+    assert set(layers) == {"classes", "terrain model"}
+    classes = layers["classes"]
+    assert [each.label for each in classes.renderer().classes()] == ["Ground", "Unclassified"]
+    # Ground in both files, a roof in each, and nothing between them.
+    west, south = 500_000.0, 5_700_000.0
+    band = classes.dataProvider()
+    found = {
+        x: band.sample(QgsPointXY(west + x, south + 30.5), 1)
+        for x in (10.5, 40.5, 90.5, 110.5, 140.5)
+    }
+    assert [found[x][0] for x in (10.5, 110.5)] == [2, 2]
+    assert [found[x][0] for x in (40.5, 140.5)] == [1, 1]
+    assert not found[90.5][1]
 
 
 @needs_copc

@@ -119,6 +119,52 @@ def test_the_terrain_respects_lines_and_polygons(scene, tmp_path, how):
     assert "add --breaklines breaklines.geojson --water water.geojson." in log.text
 
 
+@pytest.mark.parametrize("how", ["file", "folder"])
+@pytest.mark.parametrize("field", ["extent", "boundary"])
+def test_an_area_is_all_that_is_mapped(scene, tmp_path, how, field):
+    import processing
+
+    from bare_earth.algorithms.cli import main
+
+    tiles, out = tmp_path / "tiles", tmp_path / "out"
+    tiles.mkdir(), out.mkdir()
+    shutil.copy(scene.path, tiles / "here.laz")
+    write_scene(tiles / "away.laz", origin=(500_080.0, 5_700_000.0))
+    given = {"file": {"INPUT": str(scene.path)}, "folder": {"INPUT_FOLDER": str(tiles)}}[how]
+    # 20 x 40 m on open ground and on the roof.
+    west, south = 500_020.0, 5_700_010.0
+    if field == "extent":
+        given["EXTENT"] = f"{west},{west + 20},{south},{south + 40} [EPSG:25832]"
+    else:
+        corners = [(0, 0), (20, 0), (20, 40), (0, 40), (0, 0)]
+        ring = ", ".join(f"{west + x} {south + y}" for x, y in corners)
+        given["BOUNDARY"] = layer_of("Polygon", f"POLYGON(({ring}))")
+    outputs, log = everything(out), Log()
+    results = processing.run(ALL_IN_ONE, {**given, **outputs}, feedback=log)
+    path = results["OUTPUT"] if how == "file" else str(out / "ground" / "here.laz")
+    las = laspy.read(path)
+    x, y = np.asarray(las.x) - west, np.asarray(las.y) - south
+    assert len(x) == results["POINT_COUNT"] == 80 * 40
+    assert x.min() > 0 and x.max() < 20 and y.min() > 0 and y.max() < 40
+    assert np.array_equal(las.classification == 2, ~((x > 10) & (y > 10) & (y < 36)))
+    assert results["GROUND_COUNT"] == np.count_nonzero(las.classification == 2)
+    if how == "folder":
+        assert not (out / "ground" / "away.laz").exists()
+    for name in ("DTM", "DSM", "RELIEF"):
+        rows, columns = band(outputs[name]).shape
+        assert 40 <= rows <= 41 and 20 <= columns <= 21
+    assert "3,200 points in the area are ground" in log.text
+    (command,) = (shlex.split(each) for each in log.said if each.startswith("bare-earth classify"))
+    assert "--area-only" in command
+    if field == "extent":
+        before = las.classification
+        os.remove(path)
+        assert main(command[1:]) == 0
+        assert np.array_equal(laspy.read(path).classification, before)
+    else:
+        assert "add --boundary boundary.geojson" in log.text
+
+
 def test_every_output_may_be_left_out(scene, tmp_path):
     import processing
 

@@ -71,7 +71,8 @@ class HeightSteps:
         neck : int
             Regions are cut where fewer cells than this odd number join their parts.
         """
-        return self._regions(*self._steps(threshold), neck)
+        (steps,) = self._steps(threshold)
+        return self._regions(steps, neck)
 
     def regions_and_rims(
         self, threshold: float, roughness_factor: float
