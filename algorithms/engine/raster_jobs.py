@@ -160,8 +160,9 @@ def make_rasters(
     step = step.seeing(parts_of(survey.tiles, seen), grid.frame, seen)
     places = sorted({place for tile in survey.tiles for place in places_of(grid, tile)})
     stamps = {each.path: stamp_of(each.path) for each in survey.tiles}
+    sources = {each: sources_of(grid, survey, each) for each in places}
     files = {
-        each: block_file(grid, step, folder, each, map(stamps.get, sources_of(grid, survey, each)))
+        each: block_file(grid, step, folder, each, [stamps[path] for path in sources[each]])
         for each in places
     }
     missing = {place: file for place, file in files.items() if not file.exists()}
