@@ -128,9 +128,9 @@ class JobQueue:
             outcome = ended.future.result()
         except BrokenExecutor:
             # Something else may have killed it the first time, even if it ran alone.
-            is_repeated = job is self._repeated
+            is_guilty = job is self._repeated and len(self._running) == 1
             self._suspect_all()
-            if not is_repeated:
+            if not is_guilty:
                 return
             self._suspects.pop()
             outcome = JobResult(None, failure=_DIED)
