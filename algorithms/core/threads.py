@@ -1,7 +1,7 @@
-"""The number of threads that a computation may use, and functions that run in these threads.
+"""Threads for a computation, and functions that run in them.
 
-Each block is filtered in one thread. If there are fewer blocks than threads, a block can use
-several: `workers` tells how many, and `in_threads` uses them.
+Each block is filtered in one thread. `in_threads` lets a computation use further threads, if some
+are free at that moment. All computations of a run share one number of threads, nested ones too.
 """
 
 from __future__ import annotations
@@ -26,32 +26,83 @@ def available_cpus() -> int:
         return os.cpu_count() or 1
 
 
-def workers() -> int:
-    """Return how many threads the calling thread may use; 1 outside of `may_use`."""
-    return _allowed()()
-
-
-def _allowed() -> Callable[[], int]:
-    """Return a function that returns the number of threads for the calling thread now."""
-    return getattr(_current, "allowed", lambda: 1)
-
-
-@contextlib.contextmanager
-def may_use(count: int | Callable[[], int]) -> Iterator[None]:
-    """Let the calling thread use several threads while the block runs.
+class SharedThreads:
+    """A number of threads that several computations share.
 
     Parameters
     ----------
-    count : int or callable
-        The number of threads, or a function that returns it. The number can change during the run.
+    count : int
+        How many threads may work at the same time. 0 counts as 1.
     """
-    before = _allowed()
-    tells = count if callable(count) else lambda: int(count)
-    _current.allowed = lambda: max(1, tells())
-    try:
-        yield
-    finally:
-        _current.allowed = before
+
+    def __init__(self, count: int) -> None:
+        self._free = max(1, count)
+        self._lock = threading.Lock()
+
+    @property
+    def free(self) -> int:
+        """How many threads are free; negative if too many work."""
+        return self._free
+
+    @contextlib.contextmanager
+    def used(self) -> Iterator[None]:
+        """Let the calling thread be one of the threads, and use free ones, while the block runs.
+
+        If no thread is free, one that helps another computation ends soon.
+        """
+        before = _shared()
+        self._add(-1)
+        _current.shared = self
+        try:
+            yield
+        finally:
+            _current.shared = before
+            self._add(1)
+
+    def take(self) -> bool:
+        """Take one of the free threads and return True, or return False if there is none."""
+        with self._lock:
+            if self._free <= 0:
+                return False
+            self._free -= 1
+            return True
+
+    def help(self, work: Iterator[object]) -> None:
+        """Do the steps of some work in a thread that was taken, unless too many threads work."""
+        _current.shared = self
+        try:
+            for _ in work:
+                if self._free < 0:
+                    return
+        finally:
+            self._add(1)
+
+    def wait_for(self, others: Iterable[threading.Thread]) -> None:
+        """Wait for threads that help, and leave them the calling thread's place meanwhile."""
+        self._add(1)
+        for each in others:
+            each.join()
+        self._add(-1)
+
+    def _add(self, count: int) -> None:
+        with self._lock:
+            self._free += count
+
+
+def _shared() -> SharedThreads | None:
+    """Return the threads that the calling thread is one of."""
+    return getattr(_current, "shared", None)
+
+
+def workers() -> int:
+    """Return how many threads the calling thread may use now; 1 outside of `may_use`."""
+    shared = _shared()
+    return 1 if shared is None else 1 + max(0, shared.free)
+
+
+def may_use(count: int) -> contextlib.AbstractContextManager[None]:
+    """Let the calling thread use so many threads, including itself, while the block runs."""
+    return SharedThreads(count).used()
 
 
 def in_threads(
@@ -59,8 +110,8 @@ def in_threads(
 ) -> list[_Result]:
     """Return the results of a function for each item, in order.
 
-    The calls run in as many threads as the calling thread may use, including itself. Each call may
-    use one thread.
+    The calls run in the calling thread and in threads that are free. A call may use threads that
+    are free in the same way.
 
     Parameters
     ----------
@@ -120,27 +171,29 @@ class _Shared:
     def results(self, progress: Progress) -> list[_Result]:
         """Make the calls and return their results, or raise the first exception."""
         others: list[threading.Thread] = []
-        allowed = _allowed()
+        shared = _shared()
         try:
-            with may_use(1):
-                for number in self._numbers():
-                    while len(others) < min(allowed(), len(self._items) - number) - 1:
-                        one = threading.Thread(target=self._help, name="strip", daemon=True)
-                        others.append(one)
-                        one.start()
-                    self._call(number)
-                    progress((number + 1) / len(self._items))
+            for number in self._numbers():
+                while len(others) < len(self._items) - number - 1 and shared and shared.take():
+                    one = threading.Thread(
+                        target=shared.help, args=[self._calls()], name="strip", daemon=True
+                    )
+                    others.append(one)
+                    one.start()
+                self._call(number)
+                progress((number + 1) / len(self._items))
         finally:
             self._end()
-            for each in others:
-                each.join()
+            if others and shared:
+                shared.wait_for(others)
         if self._failures:
             raise self._failures[min(self._failures)]
         return self._results
 
-    def _help(self) -> None:
+    def _calls(self) -> Iterator[None]:
+        """Make a call at each step."""
         for number in self._numbers():
-            self._call(number)
+            yield self._call(number)
 
     def _call(self, number: int) -> None:
         try:

@@ -120,10 +120,9 @@ def over_blocks(
         for count, each in zip(counts, leaves)
     ]
     at_once = _at_once(len(todo), max(memory), resources)
-    workers = max(1, resources.thread_count // at_once)
     jobs = [partial(work, each, len(todo) == 1) for each in todo]
     is_tight = sum(memory) > resources.bytes
-    for number, result in run_jobs(jobs, counts, at_once, workers, progress):
+    for number, result in run_jobs(jobs, counts, at_once, resources.thread_count, progress):
         if is_tight and memory[number] > _MUCH:
             give_back()
         yield number, result

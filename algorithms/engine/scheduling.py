@@ -8,7 +8,7 @@ from typing import Any, Callable, Iterator, Sequence
 
 from ..core.errors import Cancelled
 from ..core.progress import Notes, Progress
-from ..core.threads import may_use
+from ..core.threads import SharedThreads
 
 _POLL = 0.1
 
@@ -19,7 +19,7 @@ def run_jobs(
     jobs: Sequence[Job],
     weights: Sequence[float],
     at_once: int,
-    workers: int,
+    threads: int,
     progress: Progress,
 ) -> Iterator[tuple[int, Any]]:
     """Run jobs in threads, and yield the result of each when it is finished.
@@ -35,8 +35,8 @@ def run_jobs(
         The share of each job in the whole.
     at_once : int
         How many jobs run at the same time.
-    workers : int
-        How many threads a job may use. The last jobs get the threads of those that ended.
+    threads : int
+        How many threads all jobs together may use, at least one each.
     progress : Progress
         Used in the calling thread only.
 
@@ -54,13 +54,10 @@ def run_jobs(
     """
     stop, ended, total = threading.Event(), 0.0, max(sum(weights), 1e-9)
     talks: dict[int, JobProgress] = {}
-    left = len(jobs)
-
-    def share() -> int:
-        return at_once * workers // max(1, min(left, at_once))
+    shared = SharedThreads(threads)
 
     def run(number: int) -> Any:
-        with may_use(share):
+        with shared.used():
             return jobs[number](talks[number])
 
     pool = ThreadPoolExecutor(max(1, at_once), thread_name_prefix="block")
@@ -86,7 +83,6 @@ def run_jobs(
                 result = future.result()
                 del talks[number]
                 ended += weights[number]
-                left -= 1
                 yield number, result
     finally:
         stop.set()

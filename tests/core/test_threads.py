@@ -9,6 +9,7 @@ from bare_earth.algorithms.core import progress as progress_module
 from bare_earth.algorithms.core.errors import Cancelled
 from bare_earth.algorithms.core.progress import SILENT, paced
 from bare_earth.algorithms.core.threads import (
+    SharedThreads,
     available_cpus,
     in_threads,
     may_use,
@@ -32,15 +33,76 @@ def test_calls_run_in_the_calling_thread_where_one_may_be_used():
 
 
 def test_results_come_in_the_order_of_the_items():
+    begun = threading.Barrier(4)
+
     def late(item):
+        begun.wait(10.0)
         time.sleep(0.02 * (4 - item))
-        return item, workers(), threading.get_ident()
+        return item, threading.get_ident()
 
     with may_use(4):
         results = in_threads(late, range(4))
-    assert [item for item, _, _ in results] == [0, 1, 2, 3]
-    assert {count for _, count, _ in results} == {1}
-    assert len({ident for _, _, ident in results}) == 4
+    assert [item for item, _ in results] == [0, 1, 2, 3]
+    assert len({ident for _, ident in results}) == 4
+
+
+def test_nested_calls_share_the_threads():
+    working, most, lock = 0, 0, threading.Lock()
+
+    def work(_):
+        nonlocal working, most
+        with lock:
+            working += 1
+            most = max(most, working)
+        time.sleep(0.002)
+        with lock:
+            working -= 1
+
+    with may_use(3):
+        in_threads(lambda _: in_threads(work, range(5)), range(4))
+    assert most == 3
+    assert workers() == 1
+
+
+def test_threads_that_have_nothing_left_to_do_help_with_a_call_that_goes_on():
+    ended = threading.Event()
+
+    def unequal(item):
+        if item == 0:
+            return ended.set()
+        if not ended.wait(10.0):
+            return None
+        end = time.monotonic() + 10.0
+        while workers() < 2 and time.monotonic() < end:
+            time.sleep(0.001)
+        both = threading.Barrier(2)
+        return in_threads(lambda _: both.wait(10.0), range(2))
+
+    with may_use(2):
+        assert sorted(in_threads(unequal, range(2))[1]) == [0, 1]
+
+
+def test_a_helping_thread_ends_where_another_computation_needs_its_place():
+    shared, helped = SharedThreads(2), []
+
+    def work(_):
+        helped.append(threading.get_ident())
+        time.sleep(0.002)
+
+    def other():
+        with shared.used():
+            helped.clear()
+            time.sleep(0.1)
+            found.append(set(helped[2:]))
+
+    found = []
+    with shared.used():
+        begin = threading.Timer(0.05, other)
+        begin.start()
+        in_threads(work, range(100))
+        begin.join()
+        assert found == [{threading.get_ident()}]
+    assert shared.free == 2
 
 
 @pytest.mark.parametrize("count", [1, 3])

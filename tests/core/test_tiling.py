@@ -1,4 +1,5 @@
 import dataclasses
+import itertools
 import threading
 import time
 
@@ -292,13 +293,21 @@ def test_the_last_jobs_get_the_threads_of_those_that_ended():
             time.sleep(0.01)
         return workers()
 
-    jobs = [lambda progress: workers()] * 4 + [last] * 2
-    found = dict(run_jobs(jobs, [1.0] * 6, at_once=4, workers=1, progress=SILENT))
+    begun = threading.Barrier(4)
+
+    def first(progress):
+        begun.wait(10.0)
+        count = workers()
+        begun.wait(10.0)
+        return count
+
+    jobs = [first] * 4 + [last] * 2
+    found = dict(run_jobs(jobs, [1.0] * 6, at_once=4, threads=4, progress=SILENT))
     assert [found[each] for each in range(4)] == [1] * 4
     assert found[4] >= 2 and found[5] >= 2
 
 
-def test_blocks_that_are_alone_may_use_all_threads_and_many_one_each(monkeypatch):
+def test_blocks_that_are_alone_may_use_all_threads(monkeypatch):
     seen = []
 
     def function(points, progress):
@@ -308,16 +317,26 @@ def test_blocks_that_are_alone_may_use_all_threads_and_many_one_each(monkeypatch
     watched(monkeypatch, function)
     labels_of([cloud_of(*survey())], SlopeFilter(), Blocks(1000.0, 20.0), 4)
     assert [count for count, _ in seen] == [4] and seen[0][1] != threading.get_ident()
-    seen.clear()
-    labels_of([cloud_of(*survey())], SlopeFilter(), Blocks(100.0, 20.0), 4)
-    counts = [count for count, _ in seen]
-    # The last two may have those of the others, if these have ended.
-    assert counts[:4] == [1] * 4 and len(counts) == 6 and set(counts[4:]) <= {1, 2, 4}
     # With memory for one block only there is one at a time, and it may use all threads.
     seen.clear()
     large = Blocks(100.0, 20.0, cost=Cost(a_point=1e18))
     labels_of([cloud_of(*survey())], SlopeFilter(), large, 4)
     assert [count for count, _ in seen] == [4] * 6 and len({ident for _, ident in seen}) == 1
+
+
+def test_as_many_blocks_as_threads_use_one_each(monkeypatch):
+    numbers, seen, together = itertools.count(), [], threading.Barrier(4)
+
+    def function(points, progress):
+        if next(numbers) < together.parties:
+            together.wait(10.0)
+            seen.append(workers())
+            together.wait(10.0)
+        return np.ones(points.count, bool)
+
+    watched(monkeypatch, function)
+    labels_of([cloud_of(*survey())], SlopeFilter(), Blocks(100.0, 20.0), 4)
+    assert seen == [1] * 4
 
 
 class Impatient(Progress):
