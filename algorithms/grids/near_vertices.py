@@ -24,9 +24,9 @@ WIDEST = _WINDOWS[-1][0]
 _MARGIN = WIDEST // 2 + 1
 # The vertices of windows this wide are listed first, because many of their cells are empty.
 _LEAST_LISTED = 6
-# Vertices of the queries that are computed at a time, so few that they stay in the processor's
-# cache.
-_TOGETHER = 1 << 16
+# Vertices of the queries that are computed at a time. Fewer make short arrays, too (see `TILE`);
+# more do not fit into the processor's cache.
+_TOGETHER = 1 << 19
 
 
 class Queries(NamedTuple):
@@ -86,6 +86,10 @@ class NearVertices:
         self._counts[1:, 1:] = (window.lattice >= 0).cumsum(axis=0).cumsum(axis=1)
         self._lattice = np.where(lattice >= 0, self._before[:-1], -1)
         self._columns = window.lattice.shape[1]
+        # Whether the 2 x 2 cells from each one on all have a vertex.
+        occupied = np.pad(window.lattice >= 0, ((0, 1), (0, 1)))
+        rows = occupied[1:] & occupied[:-1]
+        self._are_full = rows[:, 1:] & rows[:, :-1]
         self._are_corners, self._max_edge = are_corners, max_edge
 
     def heights(self, queries: Queries) -> tuple[np.ndarray, np.ndarray]:
@@ -103,8 +107,10 @@ class NearVertices:
 
     def _promising(self, queries: Queries, which: np.ndarray, width: int) -> Iterator[np.ndarray]:
         """Yield, part by part, the queries with vertices in all quarters of their window."""
-        if width > 2:
-            some = queries.take(which)
+        some = queries.take(which)
+        if width == 2:
+            which = which[self._are_full.take(self._start(some, 1))]
+        else:
             west, middle, east = (
                 self._counts_southwest(some, width // 2, across) for across in (-1, 0, 1)
             )
