@@ -6,6 +6,7 @@ from typing import Iterator, NamedTuple
 
 import numpy as np
 
+from ..core.threads import parts_of
 from .cells import numbered
 from .enclosing import (
     NOWHERE,
@@ -25,8 +26,10 @@ _MARGIN = WIDEST // 2 + 1
 # The vertices of windows this wide are listed first, because many of their cells are empty.
 _LEAST_LISTED = 6
 # Vertices of the queries that are computed at a time. Fewer make short arrays, too (see `TILE`);
-# more do not fit into the processor's cache.
-_TOGETHER = 1 << 19
+# more take memory in each thread.
+_TOGETHER = 1 << 17
+# Queries whose windows are counted at a time.
+_QUERIES = 1 << 16
 
 
 class Queries(NamedTuple):
@@ -100,8 +103,9 @@ class NearVertices:
         for width, most in _WINDOWS:
             if len(left) > most * (len(self._x) - 1):
                 break
-            for which in self._promising(queries, left, width):
-                heights[which], sure[which] = self._in_windows(queries.take(which), width)
+            for part in parts_of(len(left), _QUERIES):
+                for which in self._promising(queries, left[part], width):
+                    heights[which], sure[which] = self._in_windows(queries.take(which), width)
             left = left[~sure[left]]
         return heights, sure
 

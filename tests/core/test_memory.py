@@ -17,7 +17,8 @@ from bare_earth.algorithms.engine.rasters import MakeRasters
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.products.terrain_model import TerrainModel
 
-COUNT, SIDE = 150_000, 240.0
+# So many points that the arrays of a single tile of `DenseSurface` hardly count.
+COUNT, SIDE = 500_000, 440.0
 MAPS = {name: Path(f"{name}.tif") for name in ("dtm", "dsm")}
 STEPS = {
     "heights": MeasureHeights(),
