@@ -17,6 +17,7 @@ from ..core.files import describe_write_error
 from ..core.progress import Progress
 from ..core.temporary import make_temporary, remove_temporary
 from ..las.backends import require
+from .cloud_cache import CloudCache
 from .jobs import JobResult, attempt
 from .memory import Resources, free_memory
 from .scheduling import JobProgress
@@ -274,4 +275,4 @@ class _Listening(Progress):
 
 
 def _on_cluster(job: Job, share: Resources, mark: str) -> JobResult:
-    return attempt(job, share, _Listening(mark))
+    return attempt(job, share, CloudCache(), _Listening(mark))

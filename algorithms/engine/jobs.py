@@ -19,8 +19,8 @@ from ..core.threads import may_use
 from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
 from ..las.writing import layers_kept, write_changed
-from ..survey.window import read_window
 from .block_grid import BlockGrid, BlockIndex, code
+from .cloud_cache import CloudCache
 from .file_points import FilePoints
 from .memory import Resources
 from .memory_points import MemoryPoints, SurveyFile
@@ -78,16 +78,16 @@ class BlockJob:
         pairs = zip(self.places, self.files)
         return [replace(self, places=(a,), files=(b,), count=count) for a, b in pairs]
 
-    def run(self, resources: Resources, progress: Progress) -> None:
+    def run(self, resources: Resources, cache: CloudCache, progress: Progress) -> None:
         """Do it."""
         raise NotImplementedError
 
-    def clouds(self, progress: Progress) -> Iterator[PointCloud]:
+    def clouds(self, cache: CloudCache, progress: Progress) -> Iterator[PointCloud]:
         """Yield the points of each file that the blocks need."""
         window = self.grid.window(self.places)
         for source, part in zip(self.sources, progress.shares(*[1.0] * len(self.sources))):
             try:
-                cloud = read_window(source, window, part.quiet(), trust_header=True)
+                cloud = cache.window(source, window, part.quiet())
             except BareEarthError as error:
                 progress.warning(
                     f"{source.name} is left out: the results beside it are made without its"
@@ -110,9 +110,9 @@ class PointJob(BlockJob):
 
     step: PointStep
 
-    def run(self, resources: Resources, progress: Progress) -> None:
+    def run(self, resources: Resources, cache: CloudCache, progress: Progress) -> None:
         """Do it."""
-        parts, codes = self._read(progress.part(0.0, 0.3))
+        parts, codes = self._read(cache, progress.part(0.0, 0.3))
         kind, failure = self.step.kind, ""
         values = [np.zeros(part.cloud.count, kind) for part in parts]
         if any(part.wanted.any() and part.selected.any() for part in parts):
@@ -127,11 +127,13 @@ class PointJob(BlockJob):
             self._write(file, code(place), parts, codes, values, failure)
         progress(1.0)
 
-    def _read(self, progress: Progress) -> tuple[list[SurveyFile], list[np.ndarray]]:
+    def _read(
+        self, cache: CloudCache, progress: Progress
+    ) -> tuple[list[SurveyFile], list[np.ndarray]]:
         """Return the points that the blocks need, and the block in which each point lies."""
         parts, codes = [], []
         here, tally = np.array([code(place) for place in self.places]), self.step.tally()
-        for cloud in self.clouds(progress):
+        for cloud in self.clouds(cache, progress):
             codes.append(self.grid.codes(cloud))
             marks = self.step.marks(cloud, tally)
             wanted = marks.wanted & np.isin(codes[-1], here)
@@ -193,13 +195,19 @@ class TileJob:
     files: tuple[Path, ...]
     fingerprint: Fingerprint
 
-    def run(self, resources: Resources, progress: Progress) -> Any:
+    def run(self, resources: Resources, cache: CloudCache, progress: Progress) -> Any:
         """Write the file. Return the summary of the step, or None if there is nothing to write."""
         step, las, path = self.step, self.tile, self.tile.path
         tally, kept = step.tally(), KeptValues(self)
         is_copied = layers_kept(las, self.target) is not None
         reading = progress.part(0.0, 0.4).quiet()
-        with FilePoints.opened(las, self.target, resources, not is_copied, reading) as points:
+        # Where whole records are needed, the file is read again.
+        cloud = cache.whole(las, reading) if is_copied else None
+        if cloud is None:
+            points = FilePoints.opened(las, self.target, resources, not is_copied, reading)
+        else:
+            points = FilePoints(cloud, resources, self.target)
+        with points:
             result = step.result(path, points.room)
             for where, part in points.parts():
                 step.count(part, tally)
@@ -274,12 +282,14 @@ class KeptValues:
         return BareEarthError(f"{self._path} changed while it was worked on. Classify it again.")
 
 
-def attempt(job: BlockJob | TileJob, resources: Resources, progress: Progress) -> JobResult:
+def attempt(
+    job: BlockJob | TileJob, resources: Resources, cache: CloudCache, progress: Progress
+) -> JobResult:
     """Run a job. Return its errors in the result instead of raising them."""
     notes = _Notes(progress)
     try:
         with may_use(resources.thread_count):
-            return JobResult(job.run(resources, notes), tuple(notes.messages))
+            return JobResult(job.run(resources, cache, notes), tuple(notes.messages))
     except Cancelled:
         raise
     except BareEarthError as error:

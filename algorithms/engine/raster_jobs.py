@@ -18,6 +18,7 @@ from ..products.raster_block import BlockRasters
 from ..survey.files import Survey
 from .block_grid import BlockGrid, BlockIndex, places_of, sources_of
 from .blocks import Block
+from .cloud_cache import CloudCache
 from .constraints import parts_of
 from .job_queue import JobQueue
 from .jobs import BlockJob
@@ -41,12 +42,12 @@ class RasterJob(BlockJob):
 
     step: MakeRasters
 
-    def run(self, resources: Resources, progress: Progress) -> None:
+    def run(self, resources: Resources, cache: CloudCache, progress: Progress) -> None:
         """Do it."""
         tally = self.step.tally()
         parts = [
             SurveyFile(cloud, *self.step.marks(cloud, tally))
-            for cloud in self.clouds(progress.part(0.0, 0.5))
+            for cloud in self.clouds(cache, progress.part(0.0, 0.5))
         ]
         made: dict[BlockIndex, list[BlockRasters]] = {place: [] for place in self.places}
         if any(part.selected.any() for part in parts):

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import NamedTuple, Union
 
 from ..core.temporary import remove_leftovers
+from .cloud_cache import CloudCache
 from .jobs import BlockJob, JobResult, TileJob, attempt
 from .memory import Resources
 from .record import folders_of
@@ -46,11 +47,13 @@ class Workers:
         How many jobs run at the same time.
     share : Resources
         What each job may use.
+    for_cache : int
+        Bytes that files in memory may take, for each job that runs.
     """
 
     def __init__(self, resources: Resources = Resources()) -> None:
         self.resources = resources
-        self.at_once, self.share = 1, Resources.of(1, 0)
+        self.at_once, self.share, self.for_cache = 1, Resources.of(1, 0), 0
 
     def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
         """Prepare for jobs.
@@ -68,7 +71,10 @@ class Workers:
         self.at_once = int(max(1, min(threads, memory // max(least, 1), max(blocks, tiles))))
         # If there are few blocks, each can use the threads that would be idle.
         together = max(1, min(self.at_once, blocks))
-        self.share = Resources.of(max(1, threads // together), memory // self.at_once)
+        each = memory // self.at_once
+        # Files in memory get half of what the largest job leaves.
+        self.for_cache = max(0, each - least) // 2
+        self.share = Resources.of(max(1, threads // together), each - self.for_cache)
 
     def submit(self, job: Job) -> Running:
         """Start a job."""
@@ -98,11 +104,12 @@ class Threads(Workers):
         super().start(folder, least, blocks, tiles)
         self._stop, self._futures = threading.Event(), []
         self._pool = ThreadPoolExecutor(self.at_once, thread_name_prefix="tile")
+        self._cache = CloudCache(self.at_once * self.for_cache)
 
     def submit(self, job: Job) -> Running:
         """Start a job."""
         progress = JobProgress(self._stop)
-        future = self._pool.submit(attempt, job, self.share, progress)
+        future = self._pool.submit(attempt, job, self.share, self._cache, progress)
         self._futures = [each for each in self._futures if not each.done()] + [future]
         return Running(future, progress)
 
@@ -111,6 +118,7 @@ class Threads(Workers):
         self._stop.set()
         self._pool.shutdown(wait=False, cancel_futures=True)
         wait(self._futures, _PATIENCE)
+        self._cache = CloudCache()
 
 
 class Processes(Workers):
@@ -128,9 +136,8 @@ class Processes(Workers):
         self._open()
 
     def _open(self) -> None:
-        self._pool = ProcessPoolExecutor(
-            self.at_once, self._context, _begin, (self._stop, self.share.thread_count)
-        )
+        values = self._stop, self.share.thread_count, self.for_cache
+        self._pool = ProcessPoolExecutor(self.at_once, self._context, _begin, values)
 
     def submit(self, job: Job) -> Running:
         """Start a job."""
@@ -188,12 +195,13 @@ class Local(Workers):
 
 
 _stop_of_process: threading.Event | None = None
+_cache_of_process = CloudCache()
 
 
-def _begin(stop: threading.Event, threads: int) -> None:
+def _begin(stop: threading.Event, threads: int, for_cache: int) -> None:
     """Prepare a new process."""
-    global _stop_of_process
-    _stop_of_process = stop
+    global _stop_of_process, _cache_of_process
+    _stop_of_process, _cache_of_process = stop, CloudCache(for_cache)
     # Ctrl-C reaches all processes of a terminal. Only the first one reacts, and stops the others.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     # The threads that decompress.
@@ -213,4 +221,5 @@ def _end_with_parent() -> None:
 
 
 def _in_process(job: Job, share: Resources) -> JobResult:
-    return attempt(job, share, JobProgress(_stop_of_process or threading.Event()))
+    progress = JobProgress(_stop_of_process or threading.Event())
+    return attempt(job, share, _cache_of_process, progress)

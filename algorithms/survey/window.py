@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Iterator
+from typing import TYPE_CHECKING, Dict, Iterable, Iterator, Union
 
 import numpy as np
 
@@ -20,11 +20,16 @@ from .area import Area
 if TYPE_CHECKING:
     import laspy
 
-Columns = dict[str, np.ndarray]
+Columns = Dict[str, np.ndarray]
+Chunk = Union["laspy.PackedPointRecord", Columns]
 
 
 def read_window(
-    path: Path | LasFile, box: Box, progress: Progress = SILENT, trust_header: bool = False
+    path: Path | LasFile,
+    box: Box,
+    progress: Progress = SILENT,
+    trust_header: bool = False,
+    whole: PointCloud | None = None,
 ) -> PointCloud:
     """Read the points of a LAS, LAZ or COPC file that lie in a rectangle.
 
@@ -42,6 +47,8 @@ def read_window(
     trust_header : bool
         Whether to skip a LAS or LAZ file if the extent in its header does not touch the rectangle.
         If the header is wrong, points are missed.
+    whole : PointCloud, optional
+        All points of the file, if they were read before.
 
     Returns
     -------
@@ -59,14 +66,15 @@ def read_window(
     area = Area(box=(west, south, east, north))
     layout = open_las(path)
     require_packages(layout)
-    if layout.is_copc:
+    if layout.is_copc and whole is None:
         try:
             return _cloud(layout, _in_nodes(layout, area, progress), progress)
         except OctreeError as error:
             progress.warning(f"{error} The whole file is read instead, which takes longer.")
-    if trust_header and not _may_touch(layout, area):
+    if trust_header and not may_touch(layout, box):
         return _cloud(layout, iter(()), progress)
-    return _cloud(layout, _in_chunks(layout, area, progress), progress)
+    chunks = read_chunks(layout) if whole is None else _chunks_of(whole, layout)
+    return _cloud(layout, _in_chunks(layout, area, chunks, progress), progress)
 
 
 def _in_nodes(layout: LasFile, area: Area, progress: Progress) -> Iterator[Columns]:
@@ -79,12 +87,20 @@ def _in_nodes(layout: LasFile, area: Area, progress: Progress) -> Iterator[Colum
         progress(done / total)
 
 
-def _in_chunks(layout: LasFile, area: Area, progress: Progress) -> Iterator[Columns]:
+def _chunks_of(whole: PointCloud, layout: LasFile) -> Iterator[Columns]:
+    """Yield the points of a cloud in parts, with the names of their dimensions in files."""
+    for _, part in whole.parts():
+        yield {source: getattr(part, name) for name, (source, _) in _columns(layout).items()}
+
+
+def _in_chunks(
+    layout: LasFile, area: Area, chunks: Iterable[Chunk], progress: Progress
+) -> Iterator[Columns]:
     done, is_outside = 0, False
-    for chunk in read_chunks(layout):
+    for chunk in chunks:
         yield _inside(layout, area, chunk)
         is_outside |= _leaves_header(layout, chunk)
-        done += len(chunk)
+        done += len(chunk["X"])
         progress(done / layout.count)
     if is_outside:
         progress.warning(
@@ -94,7 +110,7 @@ def _in_chunks(layout: LasFile, area: Area, progress: Progress) -> Iterator[Colu
         )
 
 
-def _inside(layout: LasFile, area: Area, chunk: laspy.PackedPointRecord) -> Columns:
+def _inside(layout: LasFile, area: Area, chunk: Chunk) -> Columns:
     """Return the columns of the points of a chunk that lie in the area."""
     x, y = (
         np.asarray(chunk[name]) * layout.scale[axis] + layout.offset[axis]
@@ -114,7 +130,7 @@ def _columns(layout: LasFile) -> dict[str, tuple[str, type]]:
     return columns
 
 
-def _leaves_header(layout: LasFile, chunk: laspy.PackedPointRecord) -> bool:
+def _leaves_header(layout: LasFile, chunk: Chunk) -> bool:
     """Return whether a point lies outside of the extent in the header."""
     for axis, name in enumerate("XY"):
         integers = np.asarray(chunk[name])
@@ -126,11 +142,11 @@ def _leaves_header(layout: LasFile, chunk: laspy.PackedPointRecord) -> bool:
     return False
 
 
-def _may_touch(layout: LasFile, area: Area) -> bool:
-    """Return whether the extent in the header touches an area, or is not valid."""
+def may_touch(layout: LasFile, box: Box) -> bool:
+    """Return whether the extent in the header touches a box, or is not valid."""
     west, south, east, north = layout.box
     is_one = west <= east and south <= north
-    return not is_one or area.may_touch(layout.outer_box)
+    return not is_one or Area(box=box).may_touch(layout.outer_box)
 
 
 def _cloud(layout: LasFile, parts: Iterator[Columns], progress: Progress) -> PointCloud:

@@ -91,7 +91,7 @@ def bytes_of(folder):
 class DeadlyJob(TileJob):
     """Kills the process that works on it, if it is that of one tile."""
 
-    def run(self, share, progress):
+    def run(self, share, cache, progress):
         if self.tile.path.name == "3.laz":
             os.kill(os.getpid(), signal.SIGKILL)
-        return super().run(share, progress)
+        return super().run(share, cache, progress)

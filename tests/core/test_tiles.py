@@ -625,13 +625,13 @@ def test_a_second_run_into_the_same_folder_is_refused_and_the_first_goes_on(six,
 class Overtaken(jobs_module.TileJob):
     """Finds another file with as many points in the place of that whose points were labelled."""
 
-    def run(self, share, progress):
+    def run(self, share, cache, progress):
         if self.tile.path.name == "2.laz":
             las, other = laspy.read(self.tile.path), self.tile.path.with_name("other.laz")
             las.points = las.points[::-1].copy()
             las.write(other)
             other.replace(self.tile.path)
-        return super().run(share, progress)
+        return super().run(share, cache, progress)
 
 
 def test_a_tile_that_changed_since_its_points_were_labelled_is_not_written(six, out, monkeypatch):
