@@ -9,7 +9,7 @@ from __future__ import annotations
 import contextlib
 import os
 import threading
-from typing import Any, Callable, Iterable, Iterator, Sequence, TypeVar
+from typing import Any, Callable, Iterable, Iterator, Protocol, Sequence, TypeVar
 
 from .progress import SILENT, Progress
 
@@ -26,23 +26,41 @@ def available_cpus() -> int:
         return os.cpu_count() or 1
 
 
+class Counter(Protocol):
+    """A number with a lock, such as `multiprocessing.Value`."""
+
+    value: int
+
+    def get_lock(self) -> Any:
+        """Return the lock."""
+
+
+class _Counter:
+    """A `Counter` for the threads of this process."""
+
+    def __init__(self, value: int) -> None:
+        self.value, self._lock = value, threading.Lock()
+
+    def get_lock(self) -> Any:
+        return self._lock
+
+
 class SharedThreads:
-    """A number of threads that several computations share.
+    """A number of threads that several computations share, also in several processes.
 
     Parameters
     ----------
-    count : int
-        How many threads may work at the same time. 0 counts as 1.
+    count : int or Counter
+        How many threads may work at the same time (0 counts as 1), or the number of free ones.
     """
 
-    def __init__(self, count: int) -> None:
-        self._free = max(1, count)
-        self._lock = threading.Lock()
+    def __init__(self, count: int | Counter) -> None:
+        self._free = _Counter(max(1, count)) if isinstance(count, int) else count
 
     @property
     def free(self) -> int:
         """How many threads are free; negative if too many work."""
-        return self._free
+        return self._free.value
 
     @contextlib.contextmanager
     def used(self) -> Iterator[None]:
@@ -50,7 +68,7 @@ class SharedThreads:
 
         If no thread is free, one that helps another computation ends soon.
         """
-        before = _shared()
+        before = shared_threads()
         self._add(-1)
         _current.shared = self
         try:
@@ -61,10 +79,10 @@ class SharedThreads:
 
     def take(self) -> bool:
         """Take one of the free threads and return True, or return False if there is none."""
-        with self._lock:
-            if self._free <= 0:
+        with self._free.get_lock():
+            if self.free <= 0:
                 return False
-            self._free -= 1
+            self._free.value -= 1
             return True
 
     def help(self, work: Iterator[object]) -> None:
@@ -72,31 +90,33 @@ class SharedThreads:
         _current.shared = self
         try:
             for _ in work:
-                if self._free < 0:
+                if self.free < 0:
                     return
         finally:
             self._add(1)
 
-    def wait_for(self, others: Iterable[threading.Thread]) -> None:
-        """Wait for threads that help, and leave them the calling thread's place meanwhile."""
+    @contextlib.contextmanager
+    def lent(self) -> Iterator[None]:
+        """Leave the calling thread's place to others while the block runs, in which it waits."""
         self._add(1)
-        for each in others:
-            each.join()
-        self._add(-1)
+        try:
+            yield
+        finally:
+            self._add(-1)
 
     def _add(self, count: int) -> None:
-        with self._lock:
-            self._free += count
+        with self._free.get_lock():
+            self._free.value += count
 
 
-def _shared() -> SharedThreads | None:
-    """Return the threads that the calling thread is one of."""
+def shared_threads() -> SharedThreads | None:
+    """Return the threads that the calling thread is one of; None outside of `may_use`."""
     return getattr(_current, "shared", None)
 
 
 def workers() -> int:
     """Return how many threads the calling thread may use now; 1 outside of `may_use`."""
-    shared = _shared()
+    shared = shared_threads()
     return 1 if shared is None else 1 + max(0, shared.free)
 
 
@@ -171,7 +191,7 @@ class _Shared:
     def results(self, progress: Progress) -> list[_Result]:
         """Make the calls and return their results, or raise the first exception."""
         others: list[threading.Thread] = []
-        shared = _shared()
+        shared = shared_threads()
         try:
             for number in self._numbers():
                 while len(others) < len(self._items) - number - 1 and shared and shared.take():
@@ -185,7 +205,9 @@ class _Shared:
         finally:
             self._end()
             if others and shared:
-                shared.wait_for(others)
+                with shared.lent():
+                    for each in others:
+                        each.join()
         if self._failures:
             raise self._failures[min(self._failures)]
         return self._results
@@ -193,7 +215,8 @@ class _Shared:
     def _calls(self) -> Iterator[None]:
         """Make a call at each step."""
         for number in self._numbers():
-            yield self._call(number)
+            self._call(number)
+            yield
 
     def _call(self, number: int) -> None:
         try:

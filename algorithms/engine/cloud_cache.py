@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from pathlib import Path
+from typing import Any
 
 from ..core.points import Box
 from ..core.progress import Progress
@@ -12,7 +13,6 @@ from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..las.reading import read_cloud
 from ..survey.window import may_touch, read_window
-from .record import stamp_of
 
 # Bytes of a point in memory.
 _BYTES_A_POINT = 18
@@ -29,8 +29,8 @@ class CloudCache:
 
     def __init__(self, limit: int = 0) -> None:
         self._limit, self._lock = limit, threading.Lock()
-        # By path, size and time; the last used ones at the end.
-        self._kept: dict[tuple, _Kept] = {}
+        # By path and state of the file; the last used ones at the end.
+        self._kept: dict[Any, _Kept] = {}
 
     def whole(self, las: LasFile, progress: Progress) -> PointCloud | None:
         """Return all points of a file, without its records; None if they take too much memory.
@@ -43,9 +43,10 @@ class CloudCache:
         size = las.count * _BYTES_A_POINT
         if size > self._limit:
             return None
-        stamp = tuple(stamp_of(las.path))
+        key = las.path, las.state
         with self._lock:
-            kept = self._kept[stamp] = self._kept.pop(stamp, None) or _Kept(size)
+            kept = self._kept.pop(key) if key in self._kept else _Kept(size)
+            self._kept[key] = kept
             while sum(each.size for each in self._kept.values()) > self._limit:
                 del self._kept[next(iter(self._kept))]
         # Other threads that need this file wait until it is read.
@@ -67,4 +68,5 @@ class _Kept:
     """A cloud, once it is read, and the bytes that it takes."""
 
     def __init__(self, size: int) -> None:
-        self.size, self.cloud, self.lock = size, None, threading.Lock()
+        self.size, self.lock = size, threading.Lock()
+        self.cloud: PointCloud | None = None

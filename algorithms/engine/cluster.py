@@ -16,9 +16,10 @@ from ..core.errors import BareEarthError, Cancelled
 from ..core.files import describe_write_error
 from ..core.progress import Progress
 from ..core.temporary import make_temporary, remove_temporary
+from ..core.threads import SharedThreads
 from ..las.backends import require
 from .cloud_cache import CloudCache
-from .jobs import JobResult, attempt
+from .jobs import JobResult, Share, attempt
 from .memory import Resources, free_memory
 from .scheduling import JobProgress
 from .workers import SCHEDULER_GONE, Job, Running, Workers
@@ -275,4 +276,4 @@ class _Listening(Progress):
 
 
 def _on_cluster(job: Job, share: Resources, mark: str) -> JobResult:
-    return attempt(job, share, CloudCache(), _Listening(mark))
+    return attempt(job, Share(share, CloudCache(), SharedThreads(1)), _Listening(mark))

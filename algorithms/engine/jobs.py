@@ -15,7 +15,7 @@ import numpy as np
 from ..core.errors import BareEarthError, Cancelled
 from ..core.files import replacing
 from ..core.progress import Notes, Progress
-from ..core.threads import may_use
+from ..core.threads import SharedThreads
 from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
 from ..las.writing import layers_kept, write_changed
@@ -48,6 +48,24 @@ class JobResult(NamedTuple):
     failure: str | None = None
 
 
+class Share(NamedTuple):
+    """What a job may use.
+
+    Attributes
+    ----------
+    resources : Resources
+        Threads of its own, and memory.
+    cache : CloudCache
+        Files in memory, shared by the jobs of a process.
+    threads : SharedThreads
+        All threads of the run, of which it may use those that are free.
+    """
+
+    resources: Resources
+    cache: CloudCache
+    threads: SharedThreads
+
+
 @dataclass(frozen=True)
 class BlockJob:
     """A job that works on the points of some blocks.
@@ -78,7 +96,7 @@ class BlockJob:
         pairs = zip(self.places, self.files)
         return [replace(self, places=(a,), files=(b,), count=count) for a, b in pairs]
 
-    def run(self, resources: Resources, cache: CloudCache, progress: Progress) -> None:
+    def run(self, share: Share, progress: Progress) -> None:
         """Do it."""
         raise NotImplementedError
 
@@ -110,16 +128,16 @@ class PointJob(BlockJob):
 
     step: PointStep
 
-    def run(self, resources: Resources, cache: CloudCache, progress: Progress) -> None:
+    def run(self, share: Share, progress: Progress) -> None:
         """Do it."""
-        parts, codes = self._read(cache, progress.part(0.0, 0.3))
+        parts, codes = self._read(share.cache, progress.part(0.0, 0.3))
         kind, failure = self.step.kind, ""
         values = [np.zeros(part.cloud.count, kind) for part in parts]
         if any(part.wanted.any() and part.selected.any() for part in parts):
             grid, part = self.grid, progress.part(0.3, 0.35)
             store = MemoryPoints(parts, grid.frame, grid.blocks, part, kind)
             try:
-                self.step.work(store, resources, progress.part(0.35, 0.95))
+                self.step.work(store, share.resources, progress.part(0.35, 0.95))
                 values = store.labels
             except BareEarthError as error:
                 failure = str(error)
@@ -195,14 +213,14 @@ class TileJob:
     files: tuple[Path, ...]
     fingerprint: Fingerprint
 
-    def run(self, resources: Resources, cache: CloudCache, progress: Progress) -> Any:
+    def run(self, share: Share, progress: Progress) -> Any:
         """Write the file. Return the summary of the step, or None if there is nothing to write."""
-        step, las, path = self.step, self.tile, self.tile.path
+        step, las, path, resources = self.step, self.tile, self.tile.path, share.resources
         tally, kept = step.tally(), KeptValues(self)
         is_copied = layers_kept(las, self.target) is not None
         reading = progress.part(0.0, 0.4).quiet()
         # Where whole records are needed, the file is read again.
-        cloud = cache.whole(las, reading) if is_copied else None
+        cloud = share.cache.whole(las, reading) if is_copied else None
         if cloud is None:
             points = FilePoints.opened(las, self.target, resources, not is_copied, reading)
         else:
@@ -282,14 +300,12 @@ class KeptValues:
         return BareEarthError(f"{self._path} changed while it was worked on. Classify it again.")
 
 
-def attempt(
-    job: BlockJob | TileJob, resources: Resources, cache: CloudCache, progress: Progress
-) -> JobResult:
+def attempt(job: BlockJob | TileJob, share: Share, progress: Progress) -> JobResult:
     """Run a job. Return its errors in the result instead of raising them."""
     notes = _Notes(progress)
     try:
-        with may_use(resources.thread_count):
-            return JobResult(job.run(resources, cache, notes), tuple(notes.messages))
+        with share.threads.used():
+            return JobResult(job.run(share, notes), tuple(notes.messages))
     except Cancelled:
         raise
     except BareEarthError as error:

@@ -18,11 +18,9 @@ from ..products.raster_block import BlockRasters
 from ..survey.files import Survey
 from .block_grid import BlockGrid, BlockIndex, places_of, sources_of
 from .blocks import Block
-from .cloud_cache import CloudCache
 from .constraints import parts_of
 from .job_queue import JobQueue
-from .jobs import BlockJob
-from .memory import Resources
+from .jobs import BlockJob, Share
 from .memory_points import MemoryPoints, SurveyFile
 from .planning import block_jobs
 from .rasters import MakeRasters, RasterSize, write_rasters
@@ -42,18 +40,22 @@ class RasterJob(BlockJob):
 
     step: MakeRasters
 
-    def run(self, resources: Resources, cache: CloudCache, progress: Progress) -> None:
+    def run(self, share: Share, progress: Progress) -> None:
         """Do it."""
         tally = self.step.tally()
         parts = [
             SurveyFile(cloud, *self.step.marks(cloud, tally))
-            for cloud in self.clouds(cache, progress.part(0.0, 0.5))
+            for cloud in self.clouds(share.cache, progress.part(0.0, 0.5))
         ]
         made: dict[BlockIndex, list[BlockRasters]] = {place: [] for place in self.places}
         if any(part.selected.any() for part in parts):
             grid, rest = self.grid, progress.part(0.6, 0.95)
             store = MemoryPoints(parts, grid.frame, grid.blocks, progress.part(0.5, 0.6))
-            for each in self.step.work(store, resources, rest, lambda b: self._place(b) in made):
+
+            def is_wanted(block: Block) -> bool:
+                return self._place(block) in made
+
+            for each in self.step.work(store, share.resources, rest, is_wanted):
                 made[self._place_of(each.window)].append(each)
         for place, file in zip(self.places, self.files):
             _keep(file, made[place])

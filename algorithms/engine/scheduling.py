@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import threading
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from typing import Any, Callable, Iterator, Sequence
 
 from ..core.errors import Cancelled
 from ..core.progress import Notes, Progress
-from ..core.threads import SharedThreads
+from ..core.threads import SharedThreads, shared_threads
 
 _POLL = 0.1
 
@@ -36,7 +37,8 @@ def run_jobs(
     at_once : int
         How many jobs run at the same time.
     threads : int
-        How many threads all jobs together may use, at least one each.
+        How many threads all jobs together may use, at least one each. If the calling thread is one
+        of `SharedThreads`, the jobs use these instead.
     progress : Progress
         Used in the calling thread only.
 
@@ -52,9 +54,20 @@ def run_jobs(
     Cancelled
         If the user asked to stop.
     """
+    outer = shared_threads()
+    with contextlib.nullcontext() if outer is None else outer.lent():
+        yield from _run(jobs, weights, at_once, outer or SharedThreads(threads), progress)
+
+
+def _run(
+    jobs: Sequence[Job],
+    weights: Sequence[float],
+    at_once: int,
+    shared: SharedThreads,
+    progress: Progress,
+) -> Iterator[tuple[int, Any]]:
     stop, ended, total = threading.Event(), 0.0, max(sum(weights), 1e-9)
     talks: dict[int, JobProgress] = {}
-    shared = SharedThreads(threads)
 
     def run(number: int) -> Any:
         with shared.used():

@@ -12,8 +12,9 @@ from pathlib import Path
 from typing import NamedTuple, Union
 
 from ..core.temporary import remove_leftovers
+from ..core.threads import Counter, SharedThreads
 from .cloud_cache import CloudCache
-from .jobs import BlockJob, JobResult, TileJob, attempt
+from .jobs import BlockJob, JobResult, Share, TileJob, attempt
 from .memory import Resources
 from .record import folders_of
 from .scheduling import JobProgress
@@ -105,11 +106,13 @@ class Threads(Workers):
         self._stop, self._futures = threading.Event(), []
         self._pool = ThreadPoolExecutor(self.at_once, thread_name_prefix="tile")
         self._cache = CloudCache(self.at_once * self.for_cache)
+        self._threads = SharedThreads(self.resources.thread_count)
 
     def submit(self, job: Job) -> Running:
         """Start a job."""
         progress = JobProgress(self._stop)
-        future = self._pool.submit(attempt, job, self.share, self._cache, progress)
+        share = Share(self.share, self._cache, self._threads)
+        future = self._pool.submit(attempt, job, share, progress)
         self._futures = [each for each in self._futures if not each.done()] + [future]
         return Running(future, progress)
 
@@ -136,7 +139,8 @@ class Processes(Workers):
         self._open()
 
     def _open(self) -> None:
-        values = self._stop, self.share.thread_count, self.for_cache
+        free = self._context.Value("i", self.resources.thread_count)
+        values = self._stop, free, self.share.thread_count, self.for_cache
         self._pool = ProcessPoolExecutor(self.at_once, self._context, _begin, values)
 
     def submit(self, job: Job) -> Running:
@@ -194,14 +198,21 @@ class Local(Workers):
         self._workers.stop()
 
 
-_stop_of_process: threading.Event | None = None
-_cache_of_process = CloudCache()
+class _OfProcess(NamedTuple):
+    """What the jobs of a process have in common."""
+
+    stop: threading.Event
+    cache: CloudCache
+    threads: SharedThreads
 
 
-def _begin(stop: threading.Event, threads: int, for_cache: int) -> None:
+_common: _OfProcess | None = None
+
+
+def _begin(stop: threading.Event, free: Counter, threads: int, for_cache: int) -> None:
     """Prepare a new process."""
-    global _stop_of_process, _cache_of_process
-    _stop_of_process, _cache_of_process = stop, CloudCache(for_cache)
+    global _common
+    _common = _OfProcess(stop, CloudCache(for_cache), SharedThreads(free))
     # Ctrl-C reaches all processes of a terminal. Only the first one reacts, and stops the others.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     # The threads that decompress.
@@ -220,6 +231,6 @@ def _end_with_parent() -> None:
         os._exit(1)
 
 
-def _in_process(job: Job, share: Resources) -> JobResult:
-    progress = JobProgress(_stop_of_process or threading.Event())
-    return attempt(job, share, _cache_of_process, progress)
+def _in_process(job: Job, resources: Resources) -> JobResult:
+    common = _common or _OfProcess(threading.Event(), CloudCache(), SharedThreads(1))
+    return attempt(job, Share(resources, common.cache, common.threads), JobProgress(common.stop))

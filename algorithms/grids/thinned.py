@@ -14,8 +14,8 @@ from ..core.threads import in_threads, over_parts
 from .cells import are_inside, first_of_each
 from .tin import hull_corners
 
-# Cells along the side of a tile. Smaller tiles make arrays so short that threads spend much of their
-# time waiting for the interpreter's lock.
+# Cells along the side of a tile. Smaller tiles make arrays so short that threads spend much time
+# waiting for the interpreter's lock.
 TILE = 512
 _POINTS_A_PART = 1 << 17
 # Rounding error of a coordinate on the border of a cell, as a share of the cell.

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import os
 import signal
+import time
 from pathlib import Path
+from typing import NamedTuple
 
 import laspy
 import numpy as np
 
+from bare_earth.algorithms.core.threads import workers
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.engine.jobs import TileJob
 from bare_earth.algorithms.las.cloud import PointCloud
@@ -91,7 +94,32 @@ def bytes_of(folder):
 class DeadlyJob(TileJob):
     """Kills the process that works on it, if it is that of one tile."""
 
-    def run(self, share, cache, progress):
+    def run(self, share, progress):
         if self.tile.path.name == "3.laz":
             os.kill(os.getpid(), signal.SIGKILL)
-        return super().run(share, cache, progress)
+        return super().run(share, progress)
+
+
+class CountingJob(NamedTuple):
+    """Counts the threads that it may use: while another job runs, and after that one has ended."""
+
+    mine: Path
+    other: Path
+    is_last: bool
+
+    def run(self, share, progress):
+        self.mine.touch()
+        _wait(self.other.exists)
+        counts = [workers()]
+        self.mine.with_suffix(".counted").touch()
+        _wait(self.other.with_suffix(".counted").exists)
+        if self.is_last:
+            _wait(lambda: workers() > 1)
+            counts.append(workers())
+        return counts
+
+
+def _wait(happened):
+    end = time.monotonic() + 20.0
+    while not happened() and time.monotonic() < end:
+        time.sleep(0.01)

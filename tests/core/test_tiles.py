@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from realdata import real
 from runs import classify_file, classify_tiles, command, environment
-from surveys import DeadlyJob, bytes_of, cut, finished, points_of, strip, write
+from surveys import CountingJob, DeadlyJob, bytes_of, cut, finished, points_of, strip, write
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
@@ -625,13 +625,27 @@ def test_a_second_run_into_the_same_folder_is_refused_and_the_first_goes_on(six,
 class Overtaken(jobs_module.TileJob):
     """Finds another file with as many points in the place of that whose points were labelled."""
 
-    def run(self, share, cache, progress):
+    def run(self, share, progress):
         if self.tile.path.name == "2.laz":
             las, other = laspy.read(self.tile.path), self.tile.path.with_name("other.laz")
             las.points = las.points[::-1].copy()
             las.write(other)
             other.replace(self.tile.path)
-        return super().run(share, cache, progress)
+        return super().run(share, progress)
+
+
+@pytest.mark.parametrize("kind", [Threads, Processes])
+def test_a_job_may_use_the_threads_that_other_jobs_leave_free(kind, tmp_path):
+    workers = kind(Resources(threads=2, memory=1.0))
+    workers.start(tmp_path, 1, 2, 2)
+    try:
+        assert workers.at_once == 2 and workers.share.thread_count == 1
+        one, other = tmp_path / "one", tmp_path / "other"
+        jobs = CountingJob(one, other, False), CountingJob(other, one, True)
+        first, last = [workers.submit(each).future for each in jobs]
+        assert first.result().result == [1] and last.result().result == [1, 2]
+    finally:
+        workers.stop()
 
 
 def test_a_tile_that_changed_since_its_points_were_labelled_is_not_written(six, out, monkeypatch):
