@@ -8,6 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .threads import in_threads
+
+# From so many points on, threads that are free pick the coordinates.
+_MANY = 1 << 18
+
 # Smallest x and y, largest x and y.
 Box = tuple[float, float, float, float]
 
@@ -80,7 +85,9 @@ class Points(_Columns):
         """Return the points that a boolean mask, an index array or a slice selects."""
         if isinstance(which, np.ndarray) and which.dtype == bool:
             which = np.flatnonzero(which)  # faster than to use the mask three times
-        return Points(self.x[which], self.y[which], self.z[which])
+        if isinstance(which, slice) or len(which) < _MANY:
+            return Points(self.x[which], self.y[which], self.z[which])
+        return Points(*in_threads(lambda each: each[which], self))
 
     def and_also(self, others: Points) -> Points:
         """Return these points, followed by others."""

@@ -27,7 +27,7 @@ _ON_HULL = 1e-6
 _ON_CIRCLE = 1e-9
 # Most cells for each query in the rectangle of a block's queries. With more, it is faster to locate
 # each query than to go through all cells.
-_MOST_CELLS = 30.0
+_MOST_CELLS = 500.0
 
 
 class CellLattice(NamedTuple):
