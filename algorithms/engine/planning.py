@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import Any, Mapping, Sequence
 
 from ..survey.files import Survey
-from .block_grid import BlockGrid, BlockIndex, grouped, memory_of, points_in, sources_of
+from .block_grid import BlockGrid, BlockIndex, grouped, memory_of, points_in
 from .jobs import BlockJob
 from .workers import Workers
 
@@ -15,7 +15,8 @@ def block_jobs(
     kind: type[BlockJob],
     grid: BlockGrid,
     survey: Survey,
-    files: dict[BlockIndex, Path],
+    files: Mapping[BlockIndex, Path],
+    sources: Mapping[BlockIndex, Sequence[Path]],
     folder: Path,
     tile_count: int,
     workers: Workers,
@@ -29,8 +30,10 @@ def block_jobs(
         Type of the jobs.
     grid, survey
         The blocks, and the files.
-    files : dict of BlockIndex to Path
+    files : mapping of BlockIndex to Path
         The file for the result of each block.
+    sources : mapping of BlockIndex to sequence of Path
+        The input files that each block needs.
     folder : Path
         Folder of the outputs, which all workers see.
     tile_count : int
@@ -42,7 +45,6 @@ def block_jobs(
     """
     least = max((memory_of(grid, survey, [each]) for each in files), default=0)
     workers.start(folder, least, len(files), tile_count)
-    sources = {each: sources_of(grid, survey, each) for each in files}
     groups = grouped(grid, survey, list(files), workers.at_once, workers.share.bytes)
     return [
         kind(

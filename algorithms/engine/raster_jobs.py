@@ -169,7 +169,7 @@ def make_rasters(
         for each in places
     }
     missing = {place: file for place, file in files.items() if not file.exists()}
-    jobs = block_jobs(RasterJob, grid, survey, missing, folder, 0, workers, step=step)
+    jobs = block_jobs(RasterJob, grid, survey, missing, sources, folder, 0, workers, step=step)
     stays = False
     try:
         queue = JobQueue(jobs, [], workers, progress.part(0.0, 0.8))

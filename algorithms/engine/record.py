@@ -89,7 +89,7 @@ def _settings(grid: BlockGrid, step: Step) -> dict[str, Any]:
     blocks = grid.blocks
     return {
         "version": __version__,
-        **step.settings(),
+        **step.settings,
         "origin": list(grid.frame.origin),
         "units": [grid.frame.horizontal_unit, grid.frame.vertical_unit],
         "blocks": [blocks.side, blocks.buffer, blocks.most_points],

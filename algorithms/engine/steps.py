@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import hashlib
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Callable, NamedTuple, Sequence
 
@@ -87,6 +88,7 @@ class Step:
         """Compute the result from the points of a store."""
         raise NotImplementedError
 
+    @cached_property
     def settings(self) -> dict[str, Any]:
         """Return everything that the result depends on, as plain values."""
         return {"step": type(self).__name__, **_plain(self)}

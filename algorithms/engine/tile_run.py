@@ -238,9 +238,8 @@ class TileRun:
             for needs in self._todo
         ]
         missing = {each: files[each] for each in places if not files[each].exists()}
-        blocks = block_jobs(
-            PointJob, grid, survey, missing, self._folder, len(tiles), workers, step=step
-        )
+        where = missing, self._sources, self._folder
+        blocks = block_jobs(PointJob, grid, survey, *where, len(tiles), workers, step=step)
         return blocks, tiles
 
 
