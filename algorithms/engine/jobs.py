@@ -141,9 +141,9 @@ class PointJob(BlockJob):
                 values = store.labels
             except BareEarthError as error:
                 failure = str(error)
+        progress(1.0)  # ends a job of a run that was cancelled, before it writes
         for place, file in zip(self.places, self.files):
             self._write(file, code(place), parts, codes, values, failure)
-        progress(1.0)
 
     def _read(
         self, cache: CloudCache, progress: Progress

@@ -57,9 +57,9 @@ class RasterJob(BlockJob):
 
             for each in self.step.work(store, share.resources, rest, is_wanted):
                 made[self._place_of(each.window)].append(each)
+        progress(1.0)  # ends a job of a run that was cancelled, before it writes
         for place, file in zip(self.places, self.files):
             _keep(file, made[place])
-        progress(1.0)
 
     def _place(self, block: Block) -> BlockIndex:
         """Return the index of the block that holds a smaller block."""
