@@ -79,19 +79,19 @@ class NearVertices:
         window = thinned.window(place, _MARGIN)
         # Row by row, so that the vertices of cells in a row follow one another. Empty cells have
         # the number -1: it is the index of the last element, which is no vertex.
-        lattice = window.lattice.ravel()
-        order = lattice[lattice >= 0]
+        occupied = window.lattice >= 0
+        order = window.lattice[occupied]
         self._x, self._y = (np.append(each[order], NOWHERE) for each in window[1:3])
         self._z = np.append(thinned.points.z[window.which[order]], 0.0)
-        self._before = np.concatenate(([0], np.cumsum(lattice >= 0)))
+        self._before = np.concatenate(([0], np.cumsum(occupied)))
         # Number of vertices southwest of each corner of cells.
         self._counts = np.zeros(np.add(window.lattice.shape, 1), dtype=np.intp)
-        self._counts[1:, 1:] = (window.lattice >= 0).cumsum(axis=0).cumsum(axis=1)
-        self._lattice = np.where(lattice >= 0, self._before[:-1], -1)
+        self._counts[1:, 1:] = occupied.cumsum(axis=0).cumsum(axis=1)
+        self._lattice = np.where(occupied.ravel(), self._before[:-1], -1)
         self._columns = window.lattice.shape[1]
         # Whether the 2 x 2 cells from each one on all have a vertex.
-        occupied = np.pad(window.lattice >= 0, ((0, 1), (0, 1)))
-        rows = occupied[1:] & occupied[:-1]
+        padded = np.pad(occupied, ((0, 1), (0, 1)))
+        rows = padded[1:] & padded[:-1]
         self._are_full = rows[:, 1:] & rows[:, :-1]
         self._are_corners, self._max_edge = are_corners, max_edge
 
