@@ -177,7 +177,8 @@ def _label(
         # One point cannot be compared with others, and such groups can be many.
         return np.array([GROUND], dtype=np.uint8)
     tell_of_extent(points, *method.largest(parameters), progress)
-    ground = method.ground(points, parameters, part, known) | known
+    ground, outliers = method.ground(points, parameters, part, known)
+    ground |= known
     tell_of_little_ground(points, ground, progress)
     labels = ground.astype(np.uint8)
     if finds_bridges:
@@ -187,6 +188,8 @@ def _label(
         progress(end)
     if finds_low:
         low = below_ground(points, ground, selection.low_noise_depth, progress.part(end, 1.0))
+        if outliers is not None:
+            low |= outliers
         labels[low & (labels == 0)] = LOW
     return labels
 

@@ -9,12 +9,28 @@ import numpy as np
 from ..core.parameters import ParameterSet
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
+from .shared.low_groups import LowGroups
 from .shared.scattered import scattered_lows
 
 # If more than this share of the points are scattered low outliers, the log says so.
 _MANY_OUTLIERS = 1e-4
 # Usual width in metres of the largest building; few are wider.
 _USUAL_OBJECT = 50.0
+
+
+class Found(NamedTuple):
+    """What a method finds.
+
+    Attributes
+    ----------
+    ground : numpy.ndarray of bool, shape (n,)
+        Which points are ground.
+    low : numpy.ndarray of bool, shape (n,), or None
+        Which points were left out as low outliers; None for none.
+    """
+
+    ground: np.ndarray
+    low: np.ndarray | None
 
 
 class Toolbox(NamedTuple):
@@ -90,8 +106,8 @@ class Method(NamedTuple):
         parameters: ParameterSet,
         progress: Progress = SILENT,
         known: np.ndarray | None = None,
-    ) -> np.ndarray:
-        """Return the ground mask (n,), without low outliers that are scattered over a dense cloud.
+    ) -> Found:
+        """Return which points are ground. Low outliers are left out, except by a classic preset.
 
         Parameters
         ----------
@@ -110,18 +126,12 @@ class Method(NamedTuple):
             seeds = {"known_ground": known} if starts else {}
             return self.classify(points, parameters, progress, **seeds)
 
-        lows = None if self.is_classic(parameters) else scattered_lows(points)
-        if lows is None or not lows.any():
-            del lows  # a byte a point
-            return found(points, known)
-        if np.count_nonzero(lows) > _MANY_OUTLIERS * points.count:
-            progress.info(
-                "Low outliers are scattered all over the points. They are left out, and are not"
-                " ground."
-            )
-        left, ground = ~lows, np.zeros(points.count, dtype=bool)
+        low = None if self.is_classic(parameters) else _low_outliers(points, known, progress)
+        if low is None:
+            return Found(found(points, known), None)
+        left, ground = ~low, np.zeros(points.count, dtype=bool)
         ground[left] = found(points.take(left), None if known is None else known[left])
-        return ground
+        return Found(ground, low)
 
     def is_classic(self, parameters: ParameterSet) -> bool:
         """Return whether the parameters select the classic preset."""
@@ -139,3 +149,22 @@ class Method(NamedTuple):
         ):
             size = min(size, _USUAL_OBJECT)
         return size, labels[self.size_parameter]
+
+
+def _low_outliers(
+    points: Points, known: np.ndarray | None, progress: Progress
+) -> np.ndarray | None:
+    """Return which points are low outliers, scattered or in groups; None if there are none."""
+    low = scattered_lows(points)
+    if np.count_nonzero(low) > _MANY_OUTLIERS * points.count:
+        progress.info(
+            "Low outliers are scattered all over the points. They are left out, and are not"
+            " ground."
+        )
+    rest = np.flatnonzero(~low) if low.any() else slice(None)
+    groups = LowGroups().find(points.take(rest))
+    if groups.any():
+        low[rest] |= groups
+    if known is not None:
+        low &= ~known
+    return low if low.any() else None

@@ -229,7 +229,8 @@ def _finished(
     if landscape.stray:
         far = np.array(landscape.stray).T
         ones = np.ones(far.shape[1], dtype=np.uint8)
-        code = np.where(far[2] > np.median(z), HIGH_NOISE, LOW_NOISE).astype(np.uint8)
+        is_high = far[2] > landscape.terrain(far[0], far[1])
+        code = np.where(is_high, HIGH_NOISE, LOW_NOISE).astype(np.uint8)
         columns = [np.append(a, b) for a, b in zip(columns, (*far, code, ones, ones))]
     return Returns(*columns)
 

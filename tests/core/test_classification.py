@@ -181,9 +181,10 @@ def test_known_ground_stays_ground_whatever_the_method_finds(scene, monkeypatch,
 
 def test_a_method_that_takes_known_ground_gets_it(scene, monkeypatch, las):
     given, heard = watched(monkeypatch, takes_known_ground=True), las.Heard()
-    classes = np.ones(scene[0].count, np.uint8)
+    points = scene[0].take(~is_low(scene[0]))
+    classes = np.ones(points.count, np.uint8)
     classes[::7], classes[::9] = 2, 9
-    cloud = cloud_of(scene[0], classes)
+    cloud = cloud_of(points, classes)
     # Of class 9, which takes no part, nothing is given.
     found, selected = classify_cloud(
         cloud, SlopeFilter(), Selection(from_classes=(1,), seed_classes=(2,)), heard
@@ -242,10 +243,11 @@ def test_low_outliers_go_to_class_7_where_wanted(parameters, scene, las):
     assert (found[low] == 7).all() and (found == 7).sum() <= 8
     assert np.array_equal(found == 2, plain == 2)
     assert any("lie more than 1 m below the ground" in each for each in heard.infos)
+    # What lies below ground all round it is low noise, however deep.
     deep, _ = classify_cloud(
         cloud, parameters, Selection(low_noise_class=True, low_noise_depth=100)
     )
-    assert np.array_equal(deep, plain)
+    assert (deep[low] == 7).all() and (deep == 7).sum() <= (found == 7).sum()
 
 
 def test_low_outliers_outside_the_area_or_of_other_classes_stay(scene):

@@ -1,0 +1,130 @@
+"""Small groups of points far above everything round them: birds, clouds, faults of the sensor."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...core.points import Points
+from ...grids.cells import Cells, lower_at, spacing
+from ...grids.morphology import within_square
+
+# Least side of a cell as a multiple of the usual distance between points.
+_SPACINGS = 5.0
+# Largest number of groups above one another in one place.
+_MOST_ROUNDS = 8
+
+
+@dataclass(frozen=True)
+class HighGroups:
+    """The rule for points that hang in the air.
+
+    Trees, masts and towers have points further down. Wires do not, but there are more of them in a
+    row.
+
+    Attributes
+    ----------
+    height : float
+        Least height in metres above all other points of the place, and between the groups of a
+        place.
+    points : int
+        Largest number of points of a group.
+    width : float
+        Largest width of a group in metres.
+    reach : float
+        The place reaches at least so many metres from the group.
+    row, row_climb : float
+        Groups belong to one row, such as a wire, if they are at most so many metres apart, and if
+        one is higher by at most `row_climb` times their distance.
+    most : int
+        A row of more groups is an object.
+    """
+
+    height: float = 10.0
+    points: int = 20
+    width: float = 5.0
+    reach: float = 10.0
+    row: float = 25.0
+    row_climb: float = 0.3
+    most: int = 3
+
+    def find(self, points: Points) -> np.ndarray:
+        """Return which points belong to a group far above all others of their place.
+
+        Parameters
+        ----------
+        points : Points
+            At least one point.
+
+        Returns
+        -------
+        numpy.ndarray of bool, shape (n,)
+        """
+        cells = Cells.over(points, max(self.reach, _SPACINGS * spacing(points)))
+        found = np.zeros(points.count, dtype=bool)
+        left = np.arange(points.count)
+        for _ in range(_MOST_ROUNDS):
+            hanging = left[self._hanging(cells, cells.index[left], points.z[left])]
+            if not len(hanging):
+                break
+            found[hanging] = True
+            left = left[~found[left]]
+        which = np.flatnonzero(found)
+        found[which] = self._are_small(points.take(which))
+        return found
+
+    def _hanging(self, cells: Cells, cell: np.ndarray, z: np.ndarray) -> np.ndarray:
+        """Return the few topmost points of cells that lie far above all others round them."""
+        top = self._highest(cells, cell, z)
+        # The topmost points of a cell, and the highest of the others.
+        is_topmost = z > (top - self.height).ravel()[cell]
+        count = np.bincount(cell[is_topmost], minlength=top.size).reshape(top.shape)
+        bottom = np.full(top.size, np.inf)
+        lower_at(bottom, cell[is_topmost], z[is_topmost])
+        bottom = bottom.reshape(top.shape)
+        below = self._highest(cells, cell[~is_topmost], z[~is_topmost])
+        few = (count > 0) & (count <= self.points) & (bottom - below >= self.height)
+        # A group can lie in several cells.
+        around = within_square(np.maximum, np.where(few, below, top), 1)
+        few &= np.isfinite(around) & (bottom - around >= self.height)
+        return np.flatnonzero(is_topmost & few.ravel()[cell])
+
+    def _highest(self, cells: Cells, cell: np.ndarray, z: np.ndarray) -> np.ndarray:
+        """Return the greatest height in each cell; minus infinity where there is none."""
+        lowest = np.full(cells.rows * cells.columns, np.inf)
+        lower_at(lowest, cell, -z)
+        return -lowest.reshape(cells.shape)
+
+    def _are_small(self, points: Points) -> np.ndarray:
+        """Return which points belong to small groups that are no parts of longer objects."""
+        from scipy.sparse import coo_matrix
+        from scipy.sparse.csgraph import connected_components
+        from scipy.spatial import cKDTree
+
+        if not points.count:
+            return np.zeros(0, dtype=bool)
+
+        def linked(places: np.ndarray, distance: float, climb: float) -> np.ndarray:
+            first, second = (
+                cKDTree(places[:, :2]).query_pairs(distance, output_type="ndarray").reshape(-1, 2).T
+            )
+            steps = places[first] - places[second]
+            along = np.hypot(steps[:, 0], steps[:, 1])
+            near = np.abs(steps[:, 2]) <= self.width + climb * along
+            shape = (len(places),) * 2
+            links = coo_matrix((np.ones(near.sum()), (first[near], second[near])), shape=shape)
+            return connected_components(links, directed=False)[1]
+
+        places = np.column_stack(points)
+        group = linked(places, self.width, 0.0)
+        sizes = np.bincount(group)
+        low, high = np.full((2, len(sizes), 2), np.inf)
+        for axis in (0, 1):
+            lower_at(low[:, axis], group, places[:, axis])
+            lower_at(high[:, axis], group, -places[:, axis])
+        small = (sizes <= self.points) & ((-high - low).max(axis=1) <= self.width)
+        middles = np.column_stack([np.bincount(group, axis) / sizes for axis in places.T])
+        row = linked(middles, self.row, self.row_climb)
+        small &= np.bincount(row)[row] <= self.most
+        return small[group]
