@@ -13,10 +13,9 @@ from ..core.progress import SILENT, Progress
 from ..crs.system import unit_name
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
-from ..products.height_above_ground import height_above_ground
+from ..products.height_above_ground import height_above_ground, with_roads
 from ..survey.area import Area
 from ..survey.ground_classes import GroundClasses, GroundTally
-from ..survey.selection import ground_of
 from .blocks import BlockPoints, Blocks, Corner, Store
 from .ground import fill
 from .memory import Cost, Resources
@@ -91,12 +90,15 @@ class MeasureHeights(PointStep):
         Whether only ground points are written.
     area : Area or None
         Where heights are wanted; everywhere if it is None.
+    roads : tuple of int
+        Classes whose points are ground as well, where they lie on it.
     """
 
     ground: GroundClasses = field(default_factory=GroundClasses)
     output: HeightOutput = field(default_factory=HeightOutput)
     ground_only: bool = False
     area: Area | None = None
+    roads: tuple[int, ...] = ()
 
     tally = GroundTally
     kind = np.float64
@@ -108,7 +110,8 @@ class MeasureHeights(PointStep):
         """Return all points, which of them are ground, and which lie in the area."""
         every = np.ones(part.count, dtype=bool)
         inside = every if self.area is None else self.area.of(part)
-        return Marks(every, self.ground.of(part, tally), inside)
+        roads = self.ground.points_of(part, self.roads)
+        return Marks(every, self.ground.of(part, tally), inside, roads)
 
     def tell(self, tally: GroundTally, path: Path, progress: Progress) -> None:
         """Refuse a file without ground."""
@@ -152,8 +155,10 @@ class HeightsOfPoints(PointResult):
         # So that ground points have 0, not -0.
         heights = np.round(values / part.crs.vertical_unit, 6) + 0.0
         self.heights[where] = heights
-        ground = ground_of(part, self._step.ground.ground_classes)
+        ground = self._step.ground.points_of(part, self._step.ground.ground_classes)
         if self._kept is not None:
+            # Points of known ground can have other classes.
+            ground &= part.classification == self._step.ground.ground_classes[0]
             self._kept[where] = ground
         self._ground_count += int(np.count_nonzero(ground))
         self._unit = part.crs.vertical_unit
@@ -206,4 +211,6 @@ def _heights(
         return np.full(np.count_nonzero(wanted), np.nan)
     if not wanted.any():
         return np.zeros(0)
-    return height_above_ground(contents.points, contents.known, progress, wanted)[wanted]
+    points, part = contents.points, progress.part(0.0, 0.3)
+    ground = with_roads(points, contents.known, contents.roads, part)
+    return height_above_ground(points, ground, progress.part(0.3, 1.0), wanted)[wanted]

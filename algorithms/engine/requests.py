@@ -120,21 +120,24 @@ class ClassifyRequest(Request):
 
     @property
     def _ground(self) -> GroundClasses:
-        return GroundClasses((self.selection.to_class,))
+        known = self.selection.seed_classes or ()
+        classes = dict.fromkeys((self.selection.to_class, *known))
+        return GroundClasses(tuple(classes), self.selection.overlap)
 
     @property
     def raster_step(self) -> MakeRasters:
         """The step that makes the rasters from the classified points."""
         covers_ground = not any(LAYERS[each].of_all for each in self.rasters.layers)
         return MakeRasters(
-            self.rasters, self.terrain, self.surface, self._ground, covers_ground, self.constraints,
-            self.raster_output.raster_per_file,
+            self.rasters, self.terrain, self.surface, self._ground, self.selection.roads,
+            covers_ground, self.constraints, self.raster_output.raster_per_file,
         )  # fmt: skip
 
     @property
     def height_step(self) -> MeasureHeights:
         """The step that measures the heights of the classified points."""
-        return MeasureHeights(self._ground, area=self.area if self.output.area_only else None)
+        area = self.area if self.output.area_only else None
+        return MeasureHeights(self._ground, area=area, roads=self.selection.roads)
 
 
 @dataclass(frozen=True)
