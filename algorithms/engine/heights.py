@@ -174,7 +174,8 @@ class HeightsOfPoints(PointResult):
             If they do not fit into z.
         """
         if self._as_z:
-            return Edits(z=_z_of(cloud, self.heights), kept=self._kept)
+            z, offset = _z_of(cloud, self.heights)
+            return Edits(z=z, z_offset=offset, kept=self._kept)
         return Edits(extra=height_dimension(cloud, self.heights), kept=self._kept)
 
     def summary(self, name: str) -> HeightSummary:
@@ -187,20 +188,26 @@ class HeightsOfPoints(PointResult):
         return HeightSummary(name, written, self._ground_count, *extremes, *unit)
 
 
-def _z_of(cloud: PointCloud, heights: np.ndarray) -> np.ndarray:
-    """Return heights as integers in the scale and offset of the file."""
+def _z_of(cloud: PointCloud, heights: np.ndarray) -> tuple[np.ndarray, float]:
+    """Return heights as integers in the scale of the file, and their offset.
+
+    The offset is that of the file if the heights fit. It suits elevations: with a fine scale,
+    heights far from it would need larger integers.
+    """
     if np.isnan(heights).any():
         raise BareEarthError(
             f"Some points of {cloud.path} are kilometres from any ground, so that they have no"
             " height above ground. Write the heights as an extra dimension."
         )
-    values = np.rint((heights - cloud.offset[2]) / cloud.scale[2])
-    if values.min() < _INTEGERS.min or values.max() > _INTEGERS.max:
-        raise BareEarthError(
-            f"Heights above ground do not fit the scale {cloud.scale[2]:g} and offset"
-            f" {cloud.offset[2]:g} of z in {cloud.path}. Write them as an extra dimension."
-        )
-    return values.astype(np.int32)
+    scale, (lowest, highest) = cloud.scale[2], (float(heights.min()), float(heights.max()))
+    for offset in (cloud.offset[2], 0.0, float(np.rint((lowest + highest) / 2.0))):
+        ends = (np.rint((each - offset) / scale) for each in (lowest, highest))
+        if all(_INTEGERS.min <= each <= _INTEGERS.max for each in ends):
+            return np.rint((heights - offset) / scale).astype(np.int32), offset
+    raise BareEarthError(
+        f"Heights above ground from {lowest:.2f} to {highest:.2f} do not fit the scale"
+        f" {scale:g} of z in {cloud.path}. Write them as an extra dimension."
+    )
 
 
 def _heights(

@@ -25,7 +25,7 @@ from ..rasters.geotiff import RasterGrid
 from ..rasters.virtual import write_virtual
 from ..rasters.writing import Band, Rows, replacing_raster, write_geotiff
 from ..survey.ground_classes import GroundClasses, GroundTally
-from ..survey.selection import NOISE
+from ..survey.kept_classes import NOISE
 from .blocks import Block, Blocks, Store
 from .constraints import NO_CONSTRAINTS, Constraints, FixedTerrain, fixed_terrain
 from .ground import over_blocks

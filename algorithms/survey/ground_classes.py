@@ -11,7 +11,8 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..las.cloud import PointCloud
-from .selection import Selection, overlapping
+from .kept_classes import used
+from .selection import Selection
 from .tally import count_classes
 
 
@@ -88,16 +89,8 @@ class GroundClasses(ParameterSet):
         return np.isin(part.classification, classes) & self.used(part)
 
     def used(self, part: PointCloud) -> np.ndarray:
-        """Return which points are used, of any class: not withheld, nor overlap that is left out.
-
-        Returns
-        -------
-        numpy.ndarray of bool, shape (n,)
-        """
-        used = ~part.withheld
-        if self.overlap == "leave-out":
-            used &= ~overlapping(part)
-        return used
+        """Return which points are used, of any class; boolean, shape (n,)."""
+        return used(part, self.overlap)
 
     def check(self, tally: GroundTally, path: Path) -> None:
         """Refuse a file without ground.

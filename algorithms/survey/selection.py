@@ -4,31 +4,30 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Sequence
 
 import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import Progress
-from ..las.class_names import named_class
 from ..las.cloud import PointCloud
 from ..las.extrabytes import REMEMBERED
 from .corrections import ByHand, Corrections, changed_since
+from .kept_classes import (
+    ALL_CLASSES,
+    DECIDED,
+    GROUND,
+    LOW_NOISE,
+    NEVER_CLASSIFIED,
+    NOISE,
+    ROADS,
+    UNCLASSIFIED,
+    is_one_of,
+    overlapping,
+    tell_of_kept,
+    used,
+)
 from .tally import Tally
-
-NEVER_CLASSIFIED, UNCLASSIFIED, GROUND = 0, 1, 2
-LOW_NOISE = 7
-NOISE = (LOW_NOISE, 18)
-# Classes that a classification decides anew by default. All others say more of a point than whether
-# it is ground: water, wires, bridge decks, the sea floor, or what a producer defined.
-DECIDED = (0, 1, 2, 3, 4, 5, 6, 8, 12)
-# Of the classes that stay, rails and roads mostly lie on the ground, and often are all there is of
-# it. So the filter sees them.
-ROADS = (10, 11)
-# In point formats 0 to 5 overlap is a class; the others have a flag for it.
-OVERLAP = 12
-ALL_CLASSES = "all"
 
 
 @dataclass(frozen=True)
@@ -223,7 +222,8 @@ class Selection(ParameterSet):
             progress.info(f"Noise is left out: {counts}.")
         if tally.withheld:
             progress.info(f"{tally.withheld:,} withheld points are left out.")
-        self._tell_of_classes(tally, progress)
+        if not self.from_classes:
+            tell_of_kept(tally, {self.to_class, *(self.seed_classes or ())}, progress)
         if tally.overlap:
             fate = "are left out" if self.overlap == "leave-out" else "take part as others do"
             progress.info(f"{tally.overlap:,} points of overlap {fate}.")
@@ -248,26 +248,6 @@ class Selection(ParameterSet):
             )
         progress.info(f"{tally.selected:,} of {tally.points:,} points take part.")
 
-    def _tell_of_classes(self, tally: Tally, progress: Progress) -> None:
-        """Name the classes that stay by default, and how to change that."""
-        if self.from_classes:
-            return
-        present = set(np.flatnonzero(tally.classes).tolist())
-        kept = present - {*DECIDED, *NOISE, self.to_class, *(self.seed_classes or ())}
-        roads = sorted(kept & set(ROADS))
-        if roads:
-            progress.info(
-                f"{_counted(tally, roads)} keep their class. Where they lie on the ground, they"
-                " support it."
-            )
-        left = sorted(kept - set(ROADS))
-        if left:
-            progress.info(
-                f"{_counted(tally, left)} keep their class and do not take part. To classify them"
-                f' too, give "{ALL_CLASSES}" for the classes to classify (--from-classes'
-                f" {ALL_CLASSES})."
-            )
-
     @property
     def roads(self) -> tuple[int, ...]:
         """Classes whose points keep their class, but take part."""
@@ -280,10 +260,10 @@ class Selection(ParameterSet):
         by_hand: ByHand | None = None,
     ) -> np.ndarray:
         """Return which points are known ground, only among those within if given."""
-        known = _is_one_of(cloud.classification, self.seed_classes or ())
+        known = is_one_of(cloud.classification, self.seed_classes or ())
         if by_hand is not None:
             np.copyto(known, by_hand.classes == self.to_class, where=by_hand.known)
-        known &= ~cloud.withheld
+        known &= self._used(cloud)
         return known if within is None else known & within
 
     def classes(
@@ -321,7 +301,7 @@ class Selection(ParameterSet):
         changes = eligible
         if self.others == "keep":
             # Also old ground of returns that did not take part, since it was not confirmed.
-            changes = eligible & _is_one_of(old, (NEVER_CLASSIFIED, GROUND, self.to_class))
+            changes = eligible & is_one_of(old, (NEVER_CLASSIFIED, GROUND, self.to_class))
         classes = old.copy()
         np.copyto(classes, UNCLASSIFIED, where=changes)
         np.copyto(classes, self.to_class, where=eligible & ground)
@@ -354,39 +334,16 @@ class Selection(ParameterSet):
     ) -> np.ndarray:
         """Return which points (within) have one of the classes, and are not left out."""
         if isinstance(classes, str):  # all
-            found = ~_is_one_of(cloud.classification, NOISE)
+            found = ~is_one_of(cloud.classification, NOISE)
         else:
-            found = _is_one_of(cloud.classification, classes)
-        found &= ~cloud.withheld
-        if self.overlap == "leave-out":
-            found &= ~overlapping(cloud)
+            found = is_one_of(cloud.classification, classes)
+        found &= self._used(cloud)
         return found if within is None else found & within
+
+    def _used(self, cloud: PointCloud) -> np.ndarray:
+        """Return which points are not left out for their flags."""
+        return used(cloud, self.overlap)
 
 
 def _unnumbered(part: PointCloud) -> np.ndarray:
     return (part.return_number == 0) | (part.number_of_returns == 0)
-
-
-def _counted(tally: Tally, classes: Sequence[int]) -> str:
-    """Return the numbers of points of some classes in words."""
-    first, *more = [f"{tally.classes[each]:,} points of {named_class(each)}" for each in classes]
-    return ", ".join([first, *(each.replace(" points", "") for each in more)])
-
-
-def overlapping(cloud: PointCloud) -> np.ndarray:
-    """Return which points are of the overlap of strips: by their flag, or by class 12.
-
-    Returns
-    -------
-    numpy.ndarray of bool, shape (n,)
-    """
-    found = cloud.classification == OVERLAP
-    return found if cloud.overlap is None else found | cloud.overlap
-
-
-def _is_one_of(classification: np.ndarray, classes: Sequence[int]) -> np.ndarray:
-    """Return which points have one of a few classes."""
-    found = np.zeros(len(classification), dtype=bool)
-    for each in classes:
-        found |= classification == each
-    return found
