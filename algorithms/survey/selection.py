@@ -222,11 +222,7 @@ class Selection(ParameterSet):
             progress.info(f"Noise is left out: {counts}.")
         if tally.withheld:
             progress.info(f"{tally.withheld:,} withheld points are left out.")
-        if not self.from_classes:
-            tell_of_kept(tally, {self.to_class, *(self.seed_classes or ())}, progress)
-        if tally.overlap:
-            fate = "are left out" if self.overlap == "leave-out" else "take part as others do"
-            progress.info(f"{tally.overlap:,} points of overlap {fate}.")
+        self.tell_of_kept(tally, progress)
         if self.returns == "last" and tally.unnumbered == tally.points:
             progress.warning("The points have no return numbers: all of them are used.")
         elif self.returns == "last" and tally.unnumbered:
@@ -247,6 +243,14 @@ class Selection(ParameterSet):
                 f"{tally.by_hand:,} points have a class that was set by hand, and keep it."
             )
         progress.info(f"{tally.selected:,} of {tally.points:,} points take part.")
+
+    def tell_of_kept(self, tally: Tally, progress: Progress) -> None:
+        """Tell which classes stay by default, and how many points are of overlap."""
+        if not self.from_classes:
+            tell_of_kept(tally, {self.to_class, *(self.seed_classes or ())}, progress)
+        if tally.overlap:
+            fate = "are left out" if self.overlap == "leave-out" else "take part as others do"
+            progress.info(f"{tally.overlap:,} points of overlap {fate}.")
 
     @property
     def roads(self) -> tuple[int, ...]:
