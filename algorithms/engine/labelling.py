@@ -304,5 +304,11 @@ class ClassifiedPoints(PointResult):
         ground = int(self.class_counts[self._step.selection.to_class])
         counts = {int(n): int(self._counts_before[n]) for n in np.flatnonzero(self._counts_before)}
         return ClassifiedSummary(
-            name, written, ground, self._area_count, self._by_hand_count, self._overlap_count, counts
+            name,
+            written,
+            ground,
+            self._area_count,
+            self._by_hand_count,
+            self._overlap_count,
+            counts,
         )

@@ -12,6 +12,7 @@ from ..grids.model_key_points import ModelKeyPoints
 from ..products.raster_block import LAYERS
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import TerrainModel
+from ..rasters.sampling import HeightRaster
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.ground_classes import GroundClasses
@@ -150,15 +151,18 @@ class HeightRequest(Request):
         Which points are ground.
     output : HeightOutput
         Whether the heights are an extra dimension or replace z; both in the vertical unit.
+    dtm : HeightRaster or None
+        Heights are measured above this raster, and the points need no ground.
     """
 
     ground: GroundClasses = field(default_factory=GroundClasses)
     output: HeightOutput = field(default_factory=HeightOutput)
+    dtm: HeightRaster | None = None
 
     @property
     def step(self) -> MeasureHeights:
         """The step that measures the heights."""
-        return MeasureHeights(self.ground, self.output)
+        return MeasureHeights(self.ground, self.output, dtm=self.dtm)
 
 
 @dataclass(frozen=True)
