@@ -12,7 +12,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
 from ..crs.system import Crs, crs_of_wkt
-from .geotiff import Raster, read_raster
+from .geotiff import read_raster
 
 # Cells along a side of the squares that are read, and how many of these stay in memory.
 _SIDE, _MOST_KEPT = 512, 64

@@ -330,7 +330,7 @@ class Selection(ParameterSet):
         return self._of_classes(cloud, self.from_classes or (*DECIDED, self.to_class), within)
 
     def _correctable(self, cloud: PointCloud) -> np.ndarray:
-        """Return which points may get a class by hand; by default also those of classes that stay."""
+        """Return which points may get a class by hand, also of classes that stay by default."""
         return self._of_classes(cloud, self.from_classes or ALL_CLASSES, None)
 
     def _of_classes(

@@ -101,9 +101,9 @@ def read_vpc(path: Path) -> list[Path]:
             if files[-1].is_dir():
                 name = each.get("id") or f"number {number}"
                 raise BareEarthError(
-                    f'The entry {name} of {path} names no file, but "{printable(href)}". QGIS writes'
-                    " this for files on another drive of Windows. Build it again in a folder on the"
-                    " drive of the files, or give the files themselves."
+                    f'The entry {name} of {path} names no file, but "{printable(href)}". QGIS'
+                    " writes this for files on another drive of Windows. Build it again in a folder"
+                    " on the drive of the files, or give the files themselves."
                 )
     except (
         KeyError, TypeError, ValueError, AttributeError, IndexError, OverflowError, OSError,

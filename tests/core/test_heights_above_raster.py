@@ -14,7 +14,6 @@ from bare_earth.algorithms.crs.provider import wkt_of_epsg
 from bare_earth.algorithms.engine import file_points
 from bare_earth.algorithms.engine.heights import HeightOutput
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.engine.options import TileOutput
 from bare_earth.algorithms.engine.requests import HeightRequest
 from bare_earth.algorithms.engine.runs import heights
 from bare_earth.algorithms.rasters import sampling
@@ -107,7 +106,7 @@ def test_many_files_give_the_heights_of_one_and_go_on(tmp_path, threads_for_proc
     for name, west, seed in (("a", 0.0, 1), ("b", 30.0, 2)):
         points(tmp_path / "in" / f"{name}.las", 1000, west, west + 30.0, seed=seed)
     words = "height", tmp_path / "in", tmp_path / "out", "--dtm", raster
-    code, text, told = said(*words)
+    code, _, told = said(*words)
     assert code == 0, told
     for name in ("a", "b"):
         source = tmp_path / "in" / f"{name}.las"
@@ -139,7 +138,7 @@ def test_places_without_a_value_have_no_height_and_it_is_told(tmp_path):
     with pytest.raises(BareEarthError, match="as an extra dimension"):
         heights(source, tmp_path / "z.las", request)
     small = HeightRaster.of(dtm(tmp_path / "small.tif", side=1))
-    with pytest.raises(BareEarthError, match="no value at any point of .*in.las"):
+    with pytest.raises(BareEarthError, match=r"no value at any point of .*in\.las"):
         heights(source, tmp_path / "none.las", HeightRequest(dtm=small))
     assert not (tmp_path / "z.las").exists() and not (tmp_path / "none.las").exists()
 
