@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from .products.assessment import assess_files as assess  # noqa: F401
     from .products.surface_model import SurfaceModel as SurfaceModel
     from .products.terrain_model import TerrainModel as TerrainModel
+    from .rasters.sampling import HeightRaster as HeightRaster
     from .survey.area import Area as Area
     from .survey.corrections import Corrections as Corrections
     from .survey.ground_classes import GroundClasses as GroundClasses
@@ -78,6 +79,7 @@ _MODULES = {
     "assess": "products.assessment:assess_files",
     "SurfaceModel": "products.surface_model",
     "TerrainModel": "products.terrain_model",
+    "HeightRaster": "rasters.sampling",
     "Area": "survey.area",
     "Corrections": "survey.corrections",
     "GroundClasses": "survey.ground_classes",

@@ -47,6 +47,11 @@ def _add_height(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> No
     from ..engine.heights import HeightOutput
 
     _add_files(parser, HeightOutput)
+    parser.add_argument(
+        "--dtm", metavar="FILE",
+        help="measure the heights above this raster, in the CRS of the points, and not above the"
+        " ground points; the points need no classes",
+    )  # fmt: skip
 
 
 def _add_key_points(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
@@ -77,10 +82,14 @@ def _write(options: argparse.Namespace) -> int:
     from ..engine.many_files import write_files
     from ..engine.one_file import write_points
     from ..engine.requests import HeightRequest, KeyPointRequest
+    from ..rasters.sampling import HeightRaster
     from ..survey.files import is_one_file
 
-    kind = HeightRequest if options.command == "height" else KeyPointRequest
-    request = kind.of(chosen(options))
+    if options.command == "height":
+        dtm = None if options.dtm is None else HeightRaster.of(options.dtm)
+        request: HeightRequest | KeyPointRequest = HeightRequest.of(chosen(options), dtm=dtm)
+    else:
+        request = KeyPointRequest.of(chosen(options))
     if is_one_file(options.input) and not options.scheduler:
         with Terminal(options.verbose) as progress:
             summary = write_points(
@@ -140,7 +149,8 @@ COMMANDS = (
         "height",
         "add the height above ground of every point",
         "Adds to every point its height above the TIN of the ground points, in the vertical unit"
-        " of the CRS. The input is a classified file, or many as one survey.",
+        " of the CRS. The input is a classified file, or many as one survey. With --dtm, heights"
+        " are above a raster.",
         _add_height,
         _write,
     ),

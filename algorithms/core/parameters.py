@@ -54,6 +54,8 @@ class Declaration:
         Whether it is an advanced parameter of the dialog.
     empty : str
         The meaning of None: ``not used``, ``automatic`` (the program chooses), or other words.
+    word : str
+        A word that may be given in place of a list of numbers, such as ``all``; empty for none.
     """
 
     name: str
@@ -68,6 +70,7 @@ class Declaration:
     optional: bool = False
     advanced: bool = False
     empty: str = "not used"
+    word: str = ""
 
     def check(self, value: Any) -> Any:
         """Return `value`, converted to the type of this parameter.
@@ -92,10 +95,17 @@ class Declaration:
                 raise BareEarthError(f"{self.label}: choose at least one.")
             return checked
         if self.kind in ("numbers", "integers"):
+            if self._is_word(value):
+                return self.word
             if isinstance(value, (str, bytes)) or not hasattr(value, "__iter__"):
                 raise BareEarthError(f"{self.label} must be a list of numbers, not {value!r}.")
             return tuple(self._check_number(each) for each in value)
         return self._check_number(value)
+
+    def _is_word(self, value: Any) -> bool:
+        """Return whether a list, or its only element, is the word that may replace it."""
+        only = value[0] if isinstance(value, (list, tuple)) and len(value) == 1 else value
+        return bool(self.word) and isinstance(only, str) and only.strip().lower() == self.word
 
     def _check_choice(self, value: Any) -> str:
         if value not in self.choices:
@@ -140,6 +150,7 @@ def parameter(
     optional: bool = False,
     advanced: bool = False,
     empty: str = "not used",
+    word: str = "",
 ) -> Any:
     """Declare one field of a `ParameterSet`; see `Declaration` for the arguments.
 
@@ -150,7 +161,7 @@ def parameter(
         kind = "choice" if choices else _kind_of(default)
     declaration = Declaration(
         "", kind, default, label, help, unit, minimum, maximum, dict(choices or {}),
-        optional or default is None, advanced, empty,
+        optional or default is None, advanced, empty, word,
     )  # fmt: skip
     return dataclasses.field(default=default, metadata={_KEY: declaration})
 

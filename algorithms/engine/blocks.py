@@ -158,18 +158,22 @@ class BlockPoints(NamedTuple):
         Which are to be labelled; the others are context.
     positions : numpy.ndarray of int, shape (n,)
         Their indices in the store.
+    roads : numpy.ndarray of bool, shape (n,)
+        Which are ground where they lie on it.
     """
 
     points: Points
     known: np.ndarray
     wanted: np.ndarray
     positions: np.ndarray
+    roads: np.ndarray
 
     @classmethod
     def empty(cls, count: int, kind: type) -> BlockPoints:
         """Return uninitialised arrays for `count` points; `kind` is the type of the positions."""
-        known, wanted = np.zeros(count, dtype=bool), np.zeros(count, dtype=bool)
-        return cls(Points(*np.empty((3, count))), known, wanted, np.empty(count, dtype=kind))
+        known, wanted, roads = (np.zeros(count, dtype=bool) for _ in range(3))
+        points, positions = Points(*np.empty((3, count))), np.empty(count, dtype=kind)
+        return cls(points, known, wanted, positions, roads)
 
     def put(self, start: int, some: BlockPoints) -> None:
         """Overwrite points from index `start` on with other points."""

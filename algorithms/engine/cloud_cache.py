@@ -15,7 +15,7 @@ from ..las.reading import read_cloud
 from ..survey.window import may_touch, read_window
 
 # Bytes of a point in memory.
-_BYTES_A_POINT = 18
+_BYTES_A_POINT = 19
 
 
 class CloudCache:

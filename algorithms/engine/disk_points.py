@@ -19,7 +19,7 @@ from .blocks import BlockPoints, Blocks, Corner, Leaves, gathered
 from .leaf_index import LeafIndex, Sorted, smallest_integers
 
 _RECORD = np.dtype([("x", "<i4"), ("y", "<i4"), ("z", "<i4"), ("flags", "u1")])
-_KNOWN, _WANTED = 1, 2
+_KNOWN, _WANTED, _ROAD = 1, 2, 4
 # If fewer points than this lie between two labelled ones, one access to the file is cheaper.
 _GAP = 1 << 16
 # Points that are read at a time.
@@ -84,7 +84,12 @@ class DiskPoints:
             raise describe_write_error(self._target, error) from error
 
     def append(
-        self, part: PointCloud, selected: np.ndarray, known: np.ndarray, wanted: np.ndarray
+        self,
+        part: PointCloud,
+        selected: np.ndarray,
+        known: np.ndarray,
+        wanted: np.ndarray,
+        roads: np.ndarray | None = None,
     ) -> None:
         """Add the selected points of the next part of a file.
 
@@ -94,6 +99,8 @@ class DiskPoints:
             Points in file order.
         selected, known, wanted : numpy.ndarray of bool, shape (n,)
             Which take part, which are known ground, and which are to be labelled.
+        roads : numpy.ndarray of bool, shape (n,), optional
+            Which are ground where they lie on it.
         """
         if self.cloud is None:
             names = ("x", "y", "z", "classification", "return_number", "number_of_returns")
@@ -105,6 +112,8 @@ class DiskPoints:
         for name in ("x", "y", "z"):
             records[name] = getattr(part, name)[which]
         records["flags"] = _KNOWN * known[which] + _WANTED * wanted[which]
+        if roads is not None:
+            records["flags"] |= (_ROAD * roads[which]).astype(np.uint8)
         self.has_known |= bool(known[which].any())
         with self._told():
             self._records.write(records.tobytes())
@@ -147,7 +156,8 @@ class DiskPoints:
             points = dataclasses.replace(self.cloud, **columns).points(slice(None), frame)
             flags = records["flags"]
             positions = np.arange(start, end, dtype=kind)
-            return BlockPoints(points, flags & _KNOWN > 0, flags & _WANTED > 0, positions)
+            known, wanted, roads = (flags & each > 0 for each in (_KNOWN, _WANTED, _ROAD))
+            return BlockPoints(points, known, wanted, positions, roads)
 
         return gathered([end - start for start, end in runs], read, box, kind, progress)
 

@@ -177,11 +177,12 @@ class FilePoints:
     def _in_memory(
         self, steps: Sequence[tuple[Step, Any]], parts: Parts, progress: Progress
     ) -> list[Store]:
-        every = [Marks(*(np.empty(self.count, dtype=bool) for _ in range(3))) for _ in steps]
+        every = [Marks(*(np.zeros(self.count, dtype=bool) for _ in range(4))) for _ in steps]
         for where, part in parts:
             for (step, tally), marks in zip(steps, every):
                 for mine, some in zip(marks, step.marks(part, tally)):
-                    mine[where] = some
+                    if some is not None:
+                        mine[where] = some
         stores, shares = [], progress.shares(*[1.0] * len(steps))
         for (step, tally), marks, part in zip(steps, every, shares):
             step.tell(tally, self.path, progress)

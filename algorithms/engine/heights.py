@@ -12,11 +12,13 @@ from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..crs.system import unit_name
 from ..las.cloud import PointCloud
+from ..las.crs_records import read_crs
 from ..las.edits import Edits
-from ..products.height_above_ground import height_above_ground
+from ..las.lasfile import LasFile
+from ..products.height_above_ground import height_above_ground, with_roads
+from ..rasters.sampling import HeightRaster, HeightSampler
 from ..survey.area import Area
 from ..survey.ground_classes import GroundClasses, GroundTally
-from ..survey.selection import ground_of
 from .blocks import BlockPoints, Blocks, Corner, Store
 from .ground import fill
 from .memory import Cost, Resources
@@ -91,12 +93,18 @@ class MeasureHeights(PointStep):
         Whether only ground points are written.
     area : Area or None
         Where heights are wanted; everywhere if it is None.
+    roads : tuple of int
+        Classes whose points are ground as well, where they lie on it.
+    dtm : HeightRaster or None
+        Heights are measured above this raster, and not above the ground points.
     """
 
     ground: GroundClasses = field(default_factory=GroundClasses)
     output: HeightOutput = field(default_factory=HeightOutput)
     ground_only: bool = False
     area: Area | None = None
+    roads: tuple[int, ...] = ()
+    dtm: HeightRaster | None = None
 
     tally = GroundTally
     kind = np.float64
@@ -107,16 +115,28 @@ class MeasureHeights(PointStep):
     def marks(self, part: PointCloud, tally: GroundTally) -> Marks:
         """Return all points, which of them are ground, and which lie in the area."""
         every = np.ones(part.count, dtype=bool)
+        if self.dtm is not None:  # no point needs others
+            part.require_projected()
+            self.dtm.check(part.crs, part.path)
+            return Marks(~every, ~every, ~every)
         inside = every if self.area is None else self.area.of(part)
-        return Marks(every, self.ground.of(part, tally), inside)
+        roads = self.ground.points_of(part, self.roads)
+        return Marks(every, self.ground.of(part, tally), inside, roads)
 
     def tell(self, tally: GroundTally, path: Path, progress: Progress) -> None:
         """Refuse a file without ground."""
-        self.ground.check(tally, path)
+        if self.dtm is None:
+            self.ground.check(tally, path)
+
+    def check_tile(self, tile: LasFile) -> None:
+        """Refuse a file in another CRS than the raster."""
+        if self.dtm is not None:
+            self.dtm.check(read_crs(tile), tile.path)
 
     def work(self, store: Store, resources: Resources, progress: Progress) -> None:
         """Store the height of each wanted point in metres; NaN in blocks without ground."""
-        fill(store, self.blocks, _heights, resources, progress)
+        if self.dtm is None:
+            fill(store, self.blocks, _heights, resources, progress)
 
     def result(self, path: Path, room: Room) -> HeightsOfPoints:
         """Return an object that collects the heights of a file."""
@@ -145,20 +165,37 @@ class HeightsOfPoints(PointResult):
         self.heights = room(np.float64 if self._as_z else np.float32)
         self._kept = room(bool) if step.ground_only else None
         self._lowest, self._highest = np.inf, -np.inf
-        self._ground_count, self._unit = 0, 1.0
+        self._ground_count, self._unit, self._unknown_count = 0, 1.0, 0
+        self._sampler = None if step.dtm is None else HeightSampler(step.dtm)
 
     def add(self, where: slice, part: PointCloud, values: np.ndarray) -> None:
         """Convert heights from metres to the vertical unit, without noise from rounding."""
+        unit = part.crs.vertical_unit
+        if self._sampler is not None:
+            values = self._above_raster(part)
         # So that ground points have 0, not -0.
-        heights = np.round(values / part.crs.vertical_unit, 6) + 0.0
+        heights = np.round(values / unit, 6) + 0.0
         self.heights[where] = heights
-        ground = ground_of(part, self._step.ground.ground_classes)
+        ground = self._step.ground.points_of(part, self._step.ground.ground_classes)
         if self._kept is not None:
+            # Points of known ground can have other classes.
+            ground &= part.classification == self._step.ground.ground_classes[0]
             self._kept[where] = ground
         self._ground_count += int(np.count_nonzero(ground))
-        self._unit = part.crs.vertical_unit
+        self._unit = unit
+        self._unknown_count += int(np.count_nonzero(np.isnan(heights)))
         self._lowest = min(self._lowest, float(np.fmin.reduce(heights, initial=np.inf)))
         self._highest = max(self._highest, float(np.fmax.reduce(heights, initial=-np.inf)))
+
+    def _above_raster(self, part: PointCloud) -> np.ndarray:
+        """Return heights of points above the raster in metres."""
+        x, y, z = (
+            np.asarray(column, dtype=np.float64) * scale + offset
+            for column, scale, offset in zip((part.x, part.y, part.z), part.scale, part.offset)
+        )
+        below = self._sampler.heights(x, y)
+        unit = part.crs.vertical_unit
+        return z * unit - below * (self._step.dtm.unit or unit)
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
         """Return the heights as z or as a dimension.
@@ -166,10 +203,28 @@ class HeightsOfPoints(PointResult):
         Raises
         ------
         BareEarthError
-            If they do not fit into z.
+            If they do not fit into z, or no point lies on the raster.
         """
+        if self._step.dtm is not None and self._unknown_count:
+            raster, count = self._step.dtm.path, len(self.heights)
+            if self._unknown_count == count:
+                raise BareEarthError(
+                    f"{raster} has no value at any point of {cloud.path}. Give a raster that covers"
+                    " the points."
+                )
+            if self._as_z:
+                raise BareEarthError(
+                    f"{raster} has no value at {self._unknown_count:,} of the {count:,} points of"
+                    f" {cloud.path}, so that these have no height. Write the heights as an extra"
+                    " dimension."
+                )
+            progress.warning(
+                f"{self._unknown_count:,} of {count:,} points have no height (NaN): the raster has"
+                " no value there."
+            )
         if self._as_z:
-            return Edits(z=_z_of(cloud, self.heights), kept=self._kept)
+            z, offset = _z_of(cloud, self.heights)
+            return Edits(z=z, z_offset=offset, kept=self._kept)
         return Edits(extra=height_dimension(cloud, self.heights), kept=self._kept)
 
     def summary(self, name: str) -> HeightSummary:
@@ -182,20 +237,26 @@ class HeightsOfPoints(PointResult):
         return HeightSummary(name, written, self._ground_count, *extremes, *unit)
 
 
-def _z_of(cloud: PointCloud, heights: np.ndarray) -> np.ndarray:
-    """Return heights as integers in the scale and offset of the file."""
+def _z_of(cloud: PointCloud, heights: np.ndarray) -> tuple[np.ndarray, float]:
+    """Return heights as integers in the scale of the file, and their offset.
+
+    The offset is that of the file if the heights fit. It suits elevations: with a fine scale,
+    heights far from it would need larger integers.
+    """
     if np.isnan(heights).any():
         raise BareEarthError(
             f"Some points of {cloud.path} are kilometres from any ground, so that they have no"
             " height above ground. Write the heights as an extra dimension."
         )
-    values = np.rint((heights - cloud.offset[2]) / cloud.scale[2])
-    if values.min() < _INTEGERS.min or values.max() > _INTEGERS.max:
-        raise BareEarthError(
-            f"Heights above ground do not fit the scale {cloud.scale[2]:g} and offset"
-            f" {cloud.offset[2]:g} of z in {cloud.path}. Write them as an extra dimension."
-        )
-    return values.astype(np.int32)
+    scale, (lowest, highest) = cloud.scale[2], (float(heights.min()), float(heights.max()))
+    for offset in (cloud.offset[2], 0.0, float(np.rint((lowest + highest) / 2.0))):
+        ends = (np.rint((each - offset) / scale) for each in (lowest, highest))
+        if all(_INTEGERS.min <= each <= _INTEGERS.max for each in ends):
+            return np.rint((heights - offset) / scale).astype(np.int32), offset
+    raise BareEarthError(
+        f"Heights above ground from {lowest:.2f} to {highest:.2f} do not fit the scale"
+        f" {scale:g} of z in {cloud.path}. Write them as an extra dimension."
+    )
 
 
 def _heights(
@@ -206,4 +267,6 @@ def _heights(
         return np.full(np.count_nonzero(wanted), np.nan)
     if not wanted.any():
         return np.zeros(0)
-    return height_above_ground(contents.points, contents.known, progress, wanted)[wanted]
+    points, part = contents.points, progress.part(0.0, 0.3)
+    ground = with_roads(points, contents.known, contents.roads, part)
+    return height_above_ground(points, ground, progress.part(0.3, 1.0), wanted)[wanted]

@@ -19,6 +19,7 @@ from ..las.edits import Edits
 from ..las.lasfile import LasFile
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
+from ..survey.kept_classes import overlapping
 from ..survey.point_chooser import PointChooser
 from ..survey.selection import Selection
 from ..survey.tally import Tally, count_classes
@@ -43,6 +44,10 @@ class ClassifiedSummary:
         only points in the area count.
     area_count, by_hand_count : int
         Numbers of points in the area, and of points whose class is known by hand.
+    overlap_count : int
+        Number of points of overlap.
+    class_counts : dict of int to int
+        Points of each class in the input.
     """
 
     name: str
@@ -50,6 +55,13 @@ class ClassifiedSummary:
     ground_count: int
     area_count: int = 0
     by_hand_count: int = 0
+    overlap_count: int = 0
+    class_counts: dict[int, int] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        # The keys of the JSON record are strings.
+        counts = {int(value): count for value, count in self.class_counts.items()}
+        object.__setattr__(self, "class_counts", counts)
 
     @property
     def text(self) -> str:
@@ -137,7 +149,12 @@ class LabelGround(PointStep):
         return not self.area.may_touch(tile.outer_box)
 
     def tell_of_survey(self, done: Sequence[ClassifiedSummary], progress: Progress) -> None:
-        """Warn if no point of any file lies in the area or in the corrections."""
+        """Tell which classes stay; warn if no point lies in the area or in the corrections."""
+        tally = Tally(overlap=sum(each.overlap_count for each in done))
+        for summary in done:
+            for value, count in summary.class_counts.items():
+                tally.classes[value] += count
+        self.selection.tell_of_kept(tally, progress)
         if self.area is not None and not any(each.area_count for each in done):
             progress.warning(
                 "No point lies in the area. Give the extent or the boundary in the CRS of the"
@@ -185,7 +202,8 @@ class ClassifiedPoints(PointResult):
         self._memory = Memory(room, step.selection.remember_classes)
         self.class_counts = np.zeros(256, dtype=np.int64)
         self.area_ground_count = self.area_low_count = self.area_deck_count = 0
-        self._area_count = self._by_hand_count = 0
+        self._area_count = self._by_hand_count = self._overlap_count = 0
+        self._counts_before = np.zeros(256, dtype=np.int64)
         self._has_ground = False
 
     def add(self, where: slice, part: PointCloud, values: np.ndarray) -> None:
@@ -196,6 +214,8 @@ class ClassifiedPoints(PointResult):
         by_hand = chooser.by_hand(part)
         classes = selection.classes(part, ground, low, inside, decks, by_hand)
         self.classification[where] = classes
+        self._counts_before += count_classes(part.classification)
+        self._overlap_count += int(np.count_nonzero(overlapping(part)))
         self._memory.add(where, part, classes)
         if self._inside is not None:
             self._inside[where] = inside
@@ -282,4 +302,13 @@ class ClassifiedPoints(PointResult):
         """Return the numbers of points."""
         written = len(self.classification) if self._inside is None else self._area_count
         ground = int(self.class_counts[self._step.selection.to_class])
-        return ClassifiedSummary(name, written, ground, self._area_count, self._by_hand_count)
+        counts = {int(n): int(self._counts_before[n]) for n in np.flatnonzero(self._counts_before)}
+        return ClassifiedSummary(
+            name,
+            written,
+            ground,
+            self._area_count,
+            self._by_hand_count,
+            self._overlap_count,
+            counts,
+        )

@@ -30,12 +30,15 @@ class SurveyFile(NamedTuple):
         Which of them are known ground.
     wanted : numpy.ndarray of bool, shape (n,), optional
         Which of them are to be labelled. By default all are.
+    roads : numpy.ndarray of bool, shape (n,), optional
+        Which of them are ground where they lie on it.
     """
 
     cloud: PointCloud
     selected: np.ndarray
     known: np.ndarray | None = None
     wanted: np.ndarray | None = None
+    roads: np.ndarray | None = None
 
 
 class MemoryPoints:
@@ -160,8 +163,9 @@ class MemoryPoints:
         part, start = self._parts[number], self._starts[number]
         known = np.zeros(len(which), bool) if part.known is None else part.known[which]
         wanted = np.ones(len(which), bool) if part.wanted is None else part.wanted[which]
+        roads = np.zeros(len(which), bool) if part.roads is None else part.roads[which]
         positions = np.add(which, start, dtype=self._kind)
-        return BlockPoints(part.cloud.points(which, frame), known, wanted, positions)
+        return BlockPoints(part.cloud.points(which, frame), known, wanted, positions, roads)
 
     def put(self, positions: np.ndarray, labels: np.ndarray) -> None:
         """Store the labels of points."""
@@ -178,7 +182,8 @@ def _as_needed(part: SurveyFile) -> SurveyFile:
     """Return a part without flags that are equal for all points."""
     known = part.known if part.known is not None and part.known.any() else None
     wanted = part.wanted if part.wanted is not None and not part.wanted.all() else None
-    return part._replace(known=known, wanted=wanted)
+    roads = part.roads if part.roads is not None and part.roads.any() else None
+    return part._replace(known=known, wanted=wanted, roads=roads)
 
 
 def _indices(part: SurveyFile, progress: Progress) -> np.ndarray:

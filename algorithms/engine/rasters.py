@@ -17,6 +17,7 @@ from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
 from ..grids.dense_surface import VERTICES_A_SIDE
 from ..las.cloud import PointCloud
+from ..products.height_above_ground import with_roads
 from ..products.raster_block import LAYERS, BlockRasters, RasterStep
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import TerrainModel
@@ -24,7 +25,7 @@ from ..rasters.geotiff import RasterGrid
 from ..rasters.virtual import write_virtual
 from ..rasters.writing import Band, Rows, replacing_raster, write_geotiff
 from ..survey.ground_classes import GroundClasses, GroundTally
-from ..survey.selection import NOISE
+from ..survey.kept_classes import NOISE
 from .blocks import Block, Blocks, Store
 from .constraints import NO_CONSTRAINTS, Constraints, FixedTerrain, fixed_terrain
 from .ground import over_blocks
@@ -89,6 +90,8 @@ class MakeRasters(Step):
         Which points make the surface, and which gaps stay open.
     ground : GroundClasses
         Which points are ground.
+    roads : tuple of int
+        Classes whose points are ground as well, where they lie on it.
     covers_ground : bool
         Whether the rasters cover the extent of the ground. Otherwise they cover all points without
         noise.
@@ -104,6 +107,7 @@ class MakeRasters(Step):
     model: TerrainModel = field(default_factory=TerrainModel)
     surface: SurfaceModel = field(default_factory=SurfaceModel)
     ground: GroundClasses = field(default_factory=GroundClasses)
+    roads: tuple[int, ...] = ()
     covers_ground: bool = False
     constraints: Constraints = NO_CONSTRAINTS
     per_file: bool = False
@@ -156,18 +160,21 @@ class MakeRasters(Step):
         ground = self.ground.of(part, tally)
         if not self.needs_ground:
             ground = nothing
+        roads = self.ground.points_of(part, self.roads if self.needs_ground else ())
         if self.constraints.any:
             stays = self.constraints.is_ground(part, ground)
             tally.excluded += int(np.count_nonzero(ground & ~stays))
-            ground = stays
+            ground, roads = stays, self.constraints.is_ground(part, roads)
         if self.covers_ground:
-            return Marks(ground, ground, nothing)
-        shown = ground | (~np.isin(part.classification, NOISE) & ~part.withheld)
+            return Marks(ground | roads, ground, nothing, roads)
+        shown = ground | (~np.isin(part.classification, NOISE) & self.ground.used(part))
         top = shown & self.needs_surface
+        if self.surface.surface_classes:
+            top &= np.isin(part.classification, self.surface.surface_classes)
         if self.surface.surface_returns == "first":
             top &= part.return_number <= 1
         tally.top += int(np.count_nonzero(top))
-        return Marks(shown, ground, top)
+        return Marks(shown, ground, top, roads)
 
     def tell(self, tally: RasterTally, path: Path, progress: Progress) -> None:
         """Refuse a file without points for the rasters."""
@@ -179,6 +186,11 @@ class MakeRasters(Step):
                     " Check the polygons."
                 )
         if self.needs_surface and not tally.top:
+            if self.surface.surface_classes:
+                raise BareEarthError(
+                    f"{path} has no points to make a surface of. Choose other classes for the"
+                    " surface, or take all returns."
+                )
             raise BareEarthError(
                 f"{path} has no first returns to make a surface of. Take all returns instead."
             )
@@ -207,12 +219,12 @@ def _made_of(
     # A single block holds all points.
     if not (is_only and are_all):
         core = block.holds(contents.points, corner)
-    points, ground, top = contents.points, contents.known, contents.wanted
-    edges = None
+    points, top, edges = contents.points, contents.wanted, None
+    ground = with_roads(points, contents.known, contents.roads, progress.part(0.1, 0.2))
     if step.fixed is not None and points.count:
         points, ground, edges = step.fixed.added_to(points, ground, corner)
         top, core = (np.pad(each, (0, points.count - len(each))) for each in (top, core))
-    part = progress.part(0.1, 1.0)
+    part = progress.part(0.2, 1.0)
     return step.of_block.of(points, ground, top, core, corner, block.box, edges, part)
 
 

@@ -12,6 +12,7 @@ from ..grids.model_key_points import ModelKeyPoints
 from ..products.raster_block import LAYERS
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import TerrainModel
+from ..rasters.sampling import HeightRaster
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.ground_classes import GroundClasses
@@ -120,21 +121,24 @@ class ClassifyRequest(Request):
 
     @property
     def _ground(self) -> GroundClasses:
-        return GroundClasses((self.selection.to_class,))
+        known = self.selection.seed_classes or ()
+        classes = dict.fromkeys((self.selection.to_class, *known))
+        return GroundClasses(tuple(classes), self.selection.overlap)
 
     @property
     def raster_step(self) -> MakeRasters:
         """The step that makes the rasters from the classified points."""
         covers_ground = not any(LAYERS[each].of_all for each in self.rasters.layers)
         return MakeRasters(
-            self.rasters, self.terrain, self.surface, self._ground, covers_ground, self.constraints,
-            self.raster_output.raster_per_file,
+            self.rasters, self.terrain, self.surface, self._ground, self.selection.roads,
+            covers_ground, self.constraints, self.raster_output.raster_per_file,
         )  # fmt: skip
 
     @property
     def height_step(self) -> MeasureHeights:
         """The step that measures the heights of the classified points."""
-        return MeasureHeights(self._ground, area=self.area if self.output.area_only else None)
+        area = self.area if self.output.area_only else None
+        return MeasureHeights(self._ground, area=area, roads=self.selection.roads)
 
 
 @dataclass(frozen=True)
@@ -147,15 +151,18 @@ class HeightRequest(Request):
         Which points are ground.
     output : HeightOutput
         Whether the heights are an extra dimension or replace z; both in the vertical unit.
+    dtm : HeightRaster or None
+        Heights are measured above this raster, and the points need no ground.
     """
 
     ground: GroundClasses = field(default_factory=GroundClasses)
     output: HeightOutput = field(default_factory=HeightOutput)
+    dtm: HeightRaster | None = None
 
     @property
     def step(self) -> MeasureHeights:
         """The step that measures the heights."""
-        return MeasureHeights(self.ground, self.output)
+        return MeasureHeights(self.ground, self.output, dtm=self.dtm)
 
 
 @dataclass(frozen=True)

@@ -39,11 +39,14 @@ class Marks(NamedTuple):
         Which of them are known ground.
     wanted : numpy.ndarray
         Which of them get a value; the others are context.
+    roads : numpy.ndarray or None
+        Which of them are ground where they lie on it.
     """
 
     selected: np.ndarray
     known: np.ndarray
     wanted: np.ndarray
+    roads: np.ndarray | None = None
 
 
 class Step:

@@ -30,7 +30,7 @@ _WHOLE = 0.01
 
 @dataclass
 class PointCloud:
-    """The points of one file in file order, 16 to 18 bytes each.
+    """The points of one file in file order, 16 to 19 bytes each.
 
     Attributes
     ----------
@@ -52,6 +52,8 @@ class PointCloud:
         The coordinate reference system.
     scanner_channel : numpy.ndarray of uint8, shape (n,), optional
         Scanner channel of each point, if the point format has it (6 to 10) and it was read.
+    overlap : numpy.ndarray of bool, shape (n,), optional
+        Points in the overlap of flight strips, if the point format has this flag (6 to 10).
     remembered : numpy.ndarray of uint8, shape (n,), optional
         The class that an earlier run gave each point, if the file has the dimension `REMEMBERED`.
     records : numpy.ndarray of uint8, shape (n, record length), optional
@@ -73,6 +75,7 @@ class PointCloud:
     point_format: int
     crs: Crs
     scanner_channel: np.ndarray | None = None
+    overlap: np.ndarray | None = None
     remembered: np.ndarray | None = None
     records: np.ndarray | None = None
     file: LasFile | None = None

@@ -10,7 +10,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.progress import paced
 from .extrabytes import ExtraDimension, place_dimension
-from .header_edits import with_count, with_z_range
+from .header_edits import with_count, with_z_offset, with_z_range
 from .lasfile import LasFile
 from .records import MOST_KEPT, check_class, column, named, read_records
 
@@ -26,7 +26,9 @@ class Edits:
     key_points : numpy.ndarray of int8 or None
         1 sets the flag for model key points, 0 clears it, -1 leaves it as it is.
     z : numpy.ndarray of int32 or None
-        Heights as integers in the scale and offset of the file.
+        Heights as integers in the scale of the file.
+    z_offset : float or None
+        Their offset; by default that of the file.
     extra, remembered : ExtraDimension or None
         Dimensions in extra bytes.
     kept : numpy.ndarray of bool or None
@@ -36,6 +38,7 @@ class Edits:
     classification: np.ndarray | None = None
     key_points: np.ndarray | None = None
     z: np.ndarray | None = None
+    z_offset: float | None = None
     extra: ExtraDimension | None = None
     remembered: ExtraDimension | None = None
     kept: np.ndarray | None = None
@@ -90,6 +93,8 @@ class EditedFile:
             self.target, place = place_dimension(self.target, each)
             self._places.append(place)
         if changes.z is not None:
+            if changes.z_offset is not None:
+                self.target = with_z_offset(self.target, changes.z_offset)
             self.target = with_z_range(self.target, int(changes.z.min()), int(changes.z.max()))
         if changes.kept is not None:
             self.target = with_count(self.target, int(np.count_nonzero(changes.kept)))

@@ -18,6 +18,13 @@ def with_record_length(layout: LasFile, length: int) -> LasFile:
     return replace(layout, header=bytes(header))
 
 
+def with_z_offset(layout: LasFile, offset: float) -> LasFile:
+    """Return the layout with another offset of z."""
+    header = bytearray(layout.header)
+    fields.OFFSET.put(header, *layout.offset[:2], offset)
+    return replace(layout, header=bytes(header))
+
+
 def with_z_range(layout: LasFile, lowest: int, highest: int) -> LasFile:
     """Return the layout with another range of heights, given as integers."""
     header, scale, offset = bytearray(layout.header), layout.scale[2], layout.offset[2]

@@ -33,6 +33,7 @@ _COLUMNS: dict[str, tuple[str, type]] = {
     "number_of_returns": ("number_of_returns", np.uint8),
     "withheld": ("withheld", bool),
     "scanner_channel": ("scanner_channel", np.uint8),
+    "overlap": ("overlap", bool),
     "remembered": (REMEMBERED, np.uint8),
 }
 
@@ -251,7 +252,7 @@ def columns_of(layout: LasFile) -> dict[str, tuple[str, type]]:
     """Return names and types of the columns of a `PointCloud` that a file has."""
     columns = dict(_COLUMNS)
     if layout.point_format < FIRST_EXTENDED_FORMAT:
-        del columns["scanner_channel"]
+        del columns["scanner_channel"], columns["overlap"]
     if not remembers(layout):
         del columns["remembered"]
     return columns

@@ -13,7 +13,7 @@ from ..las.reading import read_parts
 from ..rasters.geotiff import RasterGrid
 from ..rasters.writing import write_geotiff
 from ..survey.files import Survey, open_survey
-from ..survey.selection import GROUND
+from ..survey.kept_classes import GROUND
 
 NO_CLASS = 255
 # More cells are not needed to look at.

@@ -12,6 +12,34 @@ from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
 # Distance of the vertices of the TIN, in mean distances of ground points, and its limits in metres.
 # Where points are dense, more vertices change the heights by only a centimetre or two.
 _SPACINGS, _LEAST, _MOST = 2.0, 0.1, 0.5
+# A road lies on the ground if it is so near to the TIN of the ground points, in metres: far more
+# than a kerb or the crown of a road, and less than the clearance below a bridge.
+_ON_GROUND = 1.0
+
+
+def with_roads(
+    points: Points, ground: np.ndarray, roads: np.ndarray, progress: Progress = SILENT
+) -> np.ndarray:
+    """Return which points are ground, with the points of roads that lie on it.
+
+    Parameters
+    ----------
+    points : Points
+        All points.
+    ground, roads : numpy.ndarray of bool, shape (n,)
+        Which points are ground, and which lie on roads and rails, also on those of bridges.
+    progress : Progress
+        Receives progress.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (n,)
+        The ground, and points of roads that are at most 1 m above or below the TIN of the ground.
+    """
+    if not (roads.any() and ground.any()):
+        return ground
+    heights = height_above_ground(points, ground, progress, roads)
+    return ground | (roads & (np.abs(heights) <= _ON_GROUND))
 
 
 def height_above_ground(

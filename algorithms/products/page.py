@@ -8,16 +8,8 @@ from html import escape
 import numpy as np
 
 from ..core.errors import printable
+from ..las.class_names import CLASSES as CLASSES
 from .pictures import Picture, png
-
-# ASPRS (2019): LAS specification 1.4, table 17.
-CLASSES = {
-    0: "never classified", 1: "unclassified", 2: "ground", 3: "low vegetation",
-    4: "medium vegetation", 5: "high vegetation", 6: "building", 7: "low noise",
-    8: "model key point", 9: "water", 10: "rail", 11: "road surface", 12: "overlap",
-    13: "wire guard", 14: "wire conductor", 15: "transmission tower", 16: "wire connector",
-    17: "bridge deck", 18: "high noise",
-}  # fmt: skip
 
 _STYLE = """
 body { font: 15px/1.5 system-ui, sans-serif; color: #222; background: #fff; max-width: 920px;

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..survey.selection import NOISE
+from ..survey.kept_classes import NOISE
 from .page import CLASSES, data_uri, key, round_length
 from .pictures import rgb
 from .window_trial import Line, Outcome, Window

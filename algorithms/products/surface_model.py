@@ -20,6 +20,17 @@ class SurfaceModel(ParameterSet):
         help="First returns hit the tops of trees and buildings. Take all returns if the return"
         " numbers of the file are wrong.",
     )
+    surface_classes: tuple[int, ...] | None = parameter(
+        None,
+        kind="integers",
+        label="Classes of the surface model",
+        minimum=0,
+        maximum=255,
+        advanced=True,
+        empty="all but noise",
+        help="Only points of these classes make the surface, such as 41 for a water surface, or 2"
+        " and 6 for terrain with buildings. Empty: all classes but low and high noise (7 and 18).",
+    )
     max_edge: float | None = parameter(
         None,
         kind="number",

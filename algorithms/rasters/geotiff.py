@@ -152,12 +152,18 @@ class Raster(NamedTuple):
         The CRS and its units; the origin is not used.
     unit : str
         Unit of the band; empty if it states none.
+    whole : tuple of int
+        Rows and columns of the file, if only some cells were read.
+    states_unit : bool
+        Whether the band or the CRS states the unit of the heights.
     """
 
     heights: np.ndarray
     geotransform: tuple[float, ...]
     frame: Frame
     unit: str = ""
+    whole: tuple[int, int] = (0, 0)
+    states_unit: bool = False
 
     @property
     def cell_metres(self) -> tuple[float, float]:
@@ -167,7 +173,16 @@ class Raster(NamedTuple):
         return math.hypot(a, c) * unit, math.hypot(b, d) * unit
 
 
-def read_raster(source: str | Path, band: int = 1, progress: Progress = SILENT) -> Raster:
+# First column and row, and numbers of columns and rows.
+Window = tuple[int, int, int, int]
+
+
+def read_raster(
+    source: str | Path,
+    band: int = 1,
+    progress: Progress = SILENT,
+    window: Window | None = None,
+) -> Raster:
     """Read one band of a raster file as heights.
 
     Parameters
@@ -178,6 +193,9 @@ def read_raster(source: str | Path, band: int = 1, progress: Progress = SILENT) 
         Number of the band, from 1.
     progress : Progress
         Receives messages on units that are not stated, but assumed.
+    window : tuple of int, optional
+        First column and row, and numbers of columns and rows to read; by default all. The
+        geotransform is that of the whole file.
 
     Raises
     ------
@@ -187,7 +205,7 @@ def read_raster(source: str | Path, band: int = 1, progress: Progress = SILENT) 
     """
     read = library(_read_with_gdal, _read_with_rasterio, "Reading")
     _check_local(str(source))
-    content = read(str(source), band)
+    content = read(str(source), band, window)
     values, valid = content.values, content.valid
     if values.dtype.kind not in "iuf":
         raise BareEarthError(f"Cannot read {source}: its cells hold {values.dtype}, not heights.")
@@ -196,7 +214,10 @@ def read_raster(source: str | Path, band: int = 1, progress: Progress = SILENT) 
         heights = (values * content.scale + content.offset).astype(np.float32)
     heights[~(valid & np.isfinite(values))] = np.nan
     frame = _frame_of(source, content, progress)
-    return Raster(heights, content.geotransform, frame, content.unit)
+    stated = read_wkt(content.wkt) if content.wkt else None
+    states_unit = content.unit.strip().lower() in _UNITS or bool(stated and stated.has_vertical)
+    whole = content.shape
+    return Raster(heights, content.geotransform, frame, content.unit, whole, states_unit)
 
 
 class _Content(NamedTuple):
@@ -209,6 +230,7 @@ class _Content(NamedTuple):
     unit: str
     scale: float
     offset: float
+    shape: tuple[int, int]
 
 
 def _frame_of(source: str | Path, content: _Content, progress: Progress) -> Frame:
@@ -262,7 +284,7 @@ def _check_local(source: str) -> None:
         raise BareEarthError(f"Cannot read {source}: it does not exist. Check the path.")
 
 
-def _read_with_gdal(source: str, band: int) -> _Content:
+def _read_with_gdal(source: str, band: int, window: Window | None) -> _Content:
     from osgeo import gdal
 
     with GdalErrors(gdal, "read") as errors:
@@ -270,11 +292,12 @@ def _read_with_gdal(source: str, band: int) -> _Content:
         errors.check(source)
         if dataset is None:
             raise BareEarthError(f"Cannot read {source}: it is not a raster that GDAL can read.")
-        _check_size(source, band, dataset.RasterCount, (dataset.RasterYSize, dataset.RasterXSize))
-        layer = dataset.GetRasterBand(band)
-        values = layer.ReadAsArray()
+        shape = dataset.RasterYSize, dataset.RasterXSize
+        _check_size(source, band, dataset.RasterCount, shape, window)
+        layer, part = dataset.GetRasterBand(band), window or (0, 0, *shape[::-1])
+        values = layer.ReadAsArray(*part)
         errors.check(source)
-        valid = layer.GetMaskBand().ReadAsArray() != 0
+        valid = layer.GetMaskBand().ReadAsArray(*part) != 0
         errors.check(source)
         scale, offset = layer.GetScale(), layer.GetOffset()
         return _Content(
@@ -285,33 +308,39 @@ def _read_with_gdal(source: str, band: int) -> _Content:
             layer.GetUnitType() or "",
             1.0 if scale is None else scale,
             0.0 if offset is None else offset,
+            shape,
         )
 
 
-def _read_with_rasterio(source: str, band: int) -> _Content:
+def _read_with_rasterio(source: str, band: int, window: Window | None) -> _Content:
     import rasterio
+    import rasterio.windows
     from rasterio.errors import RasterioError
 
     try:
         with rasterio.open(source) as dataset:
-            _check_size(source, band, dataset.count, dataset.shape)
+            _check_size(source, band, dataset.count, dataset.shape, window)
+            part = None if window is None else rasterio.windows.Window(*window)
             return _Content(
-                dataset.read(band),
-                dataset.read_masks(band) != 0,
+                dataset.read(band, window=part),
+                dataset.read_masks(band, window=part) != 0,
                 dataset.transform.to_gdal(),
                 dataset.crs.to_wkt() if dataset.crs else "",
                 dataset.units[band - 1] or "",
                 dataset.scales[band - 1],
                 dataset.offsets[band - 1],
+                dataset.shape,
             )
     except RasterioError as error:
         raise BareEarthError(f"Cannot read {source}: {str(error).rstrip('.')}.") from error
 
 
-def _check_size(source: str, band: int, bands: int, shape: tuple[int, int]) -> None:
+def _check_size(
+    source: str, band: int, bands: int, shape: tuple[int, int], window: Window | None
+) -> None:
     if band > bands:
         raise BareEarthError(f"{source} has no band {band}: it has {bands}.")
-    if shape[0] * shape[1] > _MOST_CELLS:
+    if window is None and shape[0] * shape[1] > _MOST_CELLS:
         raise BareEarthError(
             f"{source} has {shape[1]:,} x {shape[0]:,} cells, too many to be held in memory. Cut"
             " it into parts that overlap."

@@ -20,6 +20,7 @@ from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..las.sources import read_text
+from .copies import copies_in, tell_of_twins
 from .vpc import SUFFIX as VPC_SUFFIX
 from .vpc import no_extent, read_vpc
 
@@ -101,7 +102,10 @@ def open_survey(
     Cancelled
         If the user asked to stop.
     """
+    sources = [Path(sources)] if isinstance(sources, (str, Path)) else [*map(Path, sources)]
     paths = find_files(sources, recursive, progress)
+    files = [each for each in sources if not each.is_dir()]
+    named = set(map(_key, find_files(files, may_be_none=True)))
     heard, tiles, stated, broken = Notes(), [], [], []
     for number, path in enumerate(paths, start=1):
         try:
@@ -119,13 +123,19 @@ def open_survey(
             else f"None of the {len(broken)} files can be read. The first: {broken[0].reason}"
         )
     _tell(heard, progress)
+    copies = copies_in(tiles, [_key(each.path) in named for each in tiles], progress)
+    pairs = [each for each in zip(tiles, stated) if each[0].path not in copies]
+    tiles, stated = (list(each) for each in zip(*pairs))
     crs = _common_crs(tiles, stated, progress)
-    _tell_of_twins(tiles, progress)
+    tell_of_twins(tiles, progress)
     return Survey(tuple(tiles), tuple(broken), crs)
 
 
 def find_files(
-    sources: Iterable[Path], recursive: bool = False, progress: Progress = SILENT
+    sources: Iterable[Path],
+    recursive: bool = False,
+    progress: Progress = SILENT,
+    may_be_none: bool = False,
 ) -> list[Path]:
     """Return the paths of all point clouds in the sources, sorted and without duplicates.
 
@@ -135,6 +145,8 @@ def find_files(
         As for `open_survey`.
     progress : Progress
         Receives a warning if a virtual point cloud lists files outside of its folder.
+    may_be_none : bool
+        Whether an empty list is returned if there are no files.
 
     Raises
     ------
@@ -146,11 +158,16 @@ def find_files(
     found: dict[str, Path] = {}
     for source in sources:
         for path in _expand(Path(source), recursive, progress):
-            found.setdefault(os.path.normcase(path.resolve()), path)
-    if not found:
+            found.setdefault(_key(path), path)
+    if not found and not may_be_none:
         names = ", ".join(map(str, sources)) or "what was given"
         raise BareEarthError(f"No .las, .laz or .copc.laz file is found in {names}.")
     return sorted(found.values(), key=lambda path: path.as_posix())
+
+
+def _key(path: Path) -> str:
+    """Return the same text for all paths of a file."""
+    return os.path.normcase(path.resolve())
 
 
 def _expand(source: Path, recursive: bool, progress: Progress) -> Iterator[Path]:
@@ -290,20 +307,6 @@ def _names(tiles: list[LasFile]) -> str:
     names = ", ".join(tile.path.name for tile in tiles[:_MOST_NAMES])
     more = len(tiles) - _MOST_NAMES
     return f"{names} and {more} more" if more > 0 else names
-
-
-def _tell_of_twins(tiles: list[LasFile], progress: Progress) -> None:
-    """Warn of tiles that seem to hold the same points, such as LAZ and COPC, or copies."""
-    seen: dict[tuple[float, ...], LasFile] = {}
-    for tile in tiles:
-        extent = (*tile.minimum, *tile.maximum)
-        key = tile.count, *(round(each, 2) for each in extent)
-        twin = seen.setdefault(key, tile)
-        if twin is not tile:
-            progress.warning(
-                f"{twin.path.name} and {tile.path.name} have the same extent and number of points."
-                " If these are the same points, remove one of the files."
-            )
 
 
 def _tell(heard: Notes, progress: Progress) -> None:

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Sequence
 
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.parameters import ParameterSet, parameter
+from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..las.cloud import PointCloud
-from .selection import ground_of
+from .kept_classes import used
+from .selection import Selection
 from .tally import count_classes
 
 
@@ -40,7 +42,15 @@ class GroundClasses(ParameterSet):
         minimum=0,
         maximum=255,
         help="Classes of the points that are ground. Add 8 if model key points have that class,"
-        " and 9 if water counts as ground. Withheld points are not used.",
+        " 10 and 11 for rails and roads that lie on the ground, and 9 if water counts as ground."
+        " Withheld points are not used.",
+    )
+    overlap: str = parameter_of(
+        Selection,
+        "overlap",
+        help="Points in the overlap of flight strips, by their flag in LAS 1.4, or by class 12 in"
+        " older files. If strips do not fit together, leave them out of ground and surface.",
+        choices={"use": "Use as others", "leave-out": "Leave out"},
     )
 
     def of(self, part: PointCloud, tally: GroundTally, also: tuple[int, ...] = ()) -> np.ndarray:
@@ -67,10 +77,20 @@ class GroundClasses(ParameterSet):
         part.require_projected()
         if not self.ground_classes:
             raise BareEarthError("Choose at least one ground class.")
-        ground = ground_of(part, (*self.ground_classes, *also))
+        ground = self.points_of(part, (*self.ground_classes, *also))
         tally.ground += int(np.count_nonzero(ground))
         tally.classes += count_classes(part.classification)
         return ground
+
+    def points_of(self, part: PointCloud, classes: Sequence[int]) -> np.ndarray:
+        """Return which points of some classes are used; boolean, shape (n,)."""
+        if not classes:
+            return np.zeros(part.count, dtype=bool)
+        return np.isin(part.classification, classes) & self.used(part)
+
+    def used(self, part: PointCloud) -> np.ndarray:
+        """Return which points are used, of any class; boolean, shape (n,)."""
+        return used(part, self.overlap)
 
     def check(self, tally: GroundTally, path: Path) -> None:
         """Refuse a file without ground.
@@ -84,9 +104,10 @@ class GroundClasses(ParameterSet):
             return
         wanted = " or ".join(str(each) for each in self.ground_classes)
         if tally.classes[list(self.ground_classes)].any():
-            raise BareEarthError(
-                f"All ground points of {path} (class {wanted}) are withheld. Clear that flag first."
-            )
+            why = "withheld. Clear that flag first."
+            if self.overlap == "leave-out":
+                why = "withheld or points of overlap. Use points of overlap, too."
+            raise BareEarthError(f"All ground points of {path} (class {wanted}) are {why}")
         classes = np.flatnonzero(tally.classes)
         present = ("classes " if classes[1:].size else "class ") + ", ".join(map(str, classes))
         raise BareEarthError(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Sequence
 
 import numpy as np
 
@@ -14,26 +13,39 @@ from ..core.progress import Progress
 from ..las.cloud import PointCloud
 from ..las.extrabytes import REMEMBERED
 from .corrections import ByHand, Corrections, changed_since
+from .kept_classes import (
+    ALL_CLASSES,
+    DECIDED,
+    GROUND,
+    LOW_NOISE,
+    NEVER_CLASSIFIED,
+    NOISE,
+    ROADS,
+    UNCLASSIFIED,
+    is_one_of,
+    overlapping,
+    tell_of_kept,
+    used,
+)
 from .tally import Tally
-
-NEVER_CLASSIFIED, UNCLASSIFIED, GROUND = 0, 1, 2
-LOW_NOISE = 7
-NOISE = (LOW_NOISE, 18)
 
 
 @dataclass(frozen=True)
 class Selection(ParameterSet):
     """Selection of points and classes, the same for all ground filters."""
 
-    from_classes: tuple[int, ...] | None = parameter(
+    from_classes: tuple[int, ...] | str | None = parameter(
         None,
         kind="integers",
         label="Classes to classify",
         minimum=0,
         maximum=255,
-        empty="all but noise",
-        help="Only points of these classes take part and may change their class. Empty: all"
-        " classes but low and high noise (7 and 18).",
+        empty="0 to 6, 8 and 12",
+        word=ALL_CLASSES,
+        help="Only points of these classes take part and may change their class. Empty: 0 to 6, 8,"
+        " 12 and the class of the ground. Points of other classes, such as water (9) and bridge"
+        " decks (17), keep their class. Rails and roads (10 and 11) keep theirs too, but take part."
+        " all: all classes but low and high noise (7 and 18).",
     )
     seed_classes: tuple[int, ...] | None = parameter(
         None,
@@ -63,6 +75,18 @@ class Selection(ParameterSet):
         },
         help="Last returns reach the ground. Take all returns if the return numbers of the file"
         " are wrong.",
+    )
+    overlap: str = parameter(
+        "use",
+        label="Points of overlap",
+        choices={
+            "use": "Take part as others do",
+            "leave-out": "Leave out; they keep their class",
+        },
+        advanced=True,
+        help="Points in the overlap of flight strips, by their flag in LAS 1.4, or by class 12 in"
+        " older files. If strips do not fit together, leave them out: ground, and rasters made in"
+        " the same run, then come from one strip everywhere.",
     )
     others: str = parameter(
         "keep",
@@ -150,8 +174,12 @@ class Selection(ParameterSet):
         """
         unnumbered = _unnumbered(part)
         eligible = self._eligible(part, within)
-        selected = eligible & self._of_returns(part, unnumbered)
+        of_returns = self._of_returns(part, unnumbered)
+        selected = eligible & of_returns
         tally.add(part, within, unnumbered=unnumbered, eligible=eligible, of_returns=selected)
+        tally.add_counts(overlap=overlapping(part))
+        if self.roads:
+            selected = selected | (self._of_classes(part, self.roads, within) & of_returns)
         if self.seed_classes:
             known = self.known_ground(part, within)
             selected = selected | known
@@ -172,7 +200,7 @@ class Selection(ParameterSet):
         if part.remembered is None and not corrections.polygons:
             return None
         told = corrections.classes_of(part)
-        inside = (told >= 0) & self._eligible(part, None)
+        inside = (told >= 0) & self._correctable(part)
         inside &= (told != self.to_class) | self._of_returns(part, _unnumbered(part))
         classes = np.where(inside, told, part.classification).astype(np.uint8)
         return ByHand(inside | changed_since(part), classes)
@@ -185,7 +213,8 @@ class Selection(ParameterSet):
         BareEarthError
             If no point takes part.
         """
-        noise = [value for value in NOISE if value not in (self.from_classes or ())]
+        given = () if self.from_classes == ALL_CLASSES else self.from_classes or ()
+        noise = [value for value in NOISE if value not in given]
         counts = ", ".join(
             f"{tally.classes[value]:,} of class {value}" for value in noise if tally.classes[value]
         )
@@ -193,6 +222,7 @@ class Selection(ParameterSet):
             progress.info(f"Noise is left out: {counts}.")
         if tally.withheld:
             progress.info(f"{tally.withheld:,} withheld points are left out.")
+        self.tell_of_kept(tally, progress)
         if self.returns == "last" and tally.unnumbered == tally.points:
             progress.warning("The points have no return numbers: all of them are used.")
         elif self.returns == "last" and tally.unnumbered:
@@ -214,6 +244,19 @@ class Selection(ParameterSet):
             )
         progress.info(f"{tally.selected:,} of {tally.points:,} points take part.")
 
+    def tell_of_kept(self, tally: Tally, progress: Progress) -> None:
+        """Tell which classes stay by default, and how many points are of overlap."""
+        if not self.from_classes:
+            tell_of_kept(tally, {self.to_class, *(self.seed_classes or ())}, progress)
+        if tally.overlap:
+            fate = "are left out" if self.overlap == "leave-out" else "take part as others do"
+            progress.info(f"{tally.overlap:,} points of overlap {fate}.")
+
+    @property
+    def roads(self) -> tuple[int, ...]:
+        """Classes whose points keep their class, but take part."""
+        return () if self.from_classes else ROADS
+
     def known_ground(
         self,
         cloud: PointCloud,
@@ -221,10 +264,10 @@ class Selection(ParameterSet):
         by_hand: ByHand | None = None,
     ) -> np.ndarray:
         """Return which points are known ground, only among those within if given."""
-        known = _is_one_of(cloud.classification, self.seed_classes or ())
+        known = is_one_of(cloud.classification, self.seed_classes or ())
         if by_hand is not None:
             np.copyto(known, by_hand.classes == self.to_class, where=by_hand.known)
-        known &= ~cloud.withheld
+        known &= self._used(cloud)
         return known if within is None else known & within
 
     def classes(
@@ -262,7 +305,7 @@ class Selection(ParameterSet):
         changes = eligible
         if self.others == "keep":
             # Also old ground of returns that did not take part, since it was not confirmed.
-            changes = eligible & _is_one_of(old, (NEVER_CLASSIFIED, GROUND, self.to_class))
+            changes = eligible & is_one_of(old, (NEVER_CLASSIFIED, GROUND, self.to_class))
         classes = old.copy()
         np.copyto(classes, UNCLASSIFIED, where=changes)
         np.copyto(classes, self.to_class, where=eligible & ground)
@@ -284,31 +327,27 @@ class Selection(ParameterSet):
 
     def _eligible(self, cloud: PointCloud, within: np.ndarray | None) -> np.ndarray:
         """Return which points (within) may change their class, of all returns."""
-        if self.from_classes:
-            eligible = _is_one_of(cloud.classification, self.from_classes)
+        return self._of_classes(cloud, self.from_classes or (*DECIDED, self.to_class), within)
+
+    def _correctable(self, cloud: PointCloud) -> np.ndarray:
+        """Return which points may get a class by hand, also of classes that stay by default."""
+        return self._of_classes(cloud, self.from_classes or ALL_CLASSES, None)
+
+    def _of_classes(
+        self, cloud: PointCloud, classes: tuple[int, ...] | str, within: np.ndarray | None
+    ) -> np.ndarray:
+        """Return which points (within) have one of the classes, and are not left out."""
+        if isinstance(classes, str):  # all
+            found = ~is_one_of(cloud.classification, NOISE)
         else:
-            eligible = ~_is_one_of(cloud.classification, NOISE)
-        eligible &= ~cloud.withheld
-        return eligible if within is None else eligible & within
+            found = is_one_of(cloud.classification, classes)
+        found &= self._used(cloud)
+        return found if within is None else found & within
+
+    def _used(self, cloud: PointCloud) -> np.ndarray:
+        """Return which points are not left out for their flags."""
+        return used(cloud, self.overlap)
 
 
 def _unnumbered(part: PointCloud) -> np.ndarray:
     return (part.return_number == 0) | (part.number_of_returns == 0)
-
-
-def _is_one_of(classification: np.ndarray, classes: tuple[int, ...]) -> np.ndarray:
-    """Return which points have one of a few classes."""
-    found = np.zeros(len(classification), dtype=bool)
-    for each in classes:
-        found |= classification == each
-    return found
-
-
-def ground_of(cloud: PointCloud, classes: Sequence[int]) -> np.ndarray:
-    """Return which points are ground for a product: of these classes, and not withheld.
-
-    Returns
-    -------
-    numpy.ndarray of bool, shape (n,)
-    """
-    return np.isin(cloud.classification, classes) & ~cloud.withheld

@@ -19,8 +19,8 @@ class Tally:
 
     Attributes
     ----------
-    points, withheld, unnumbered : int
-        All points, withheld points, and points without return number.
+    points, withheld, unnumbered, overlap : int
+        All points, withheld points, points without return number, and points of overlap.
     free : int
         Points in the area and its surroundings that are not withheld.
     eligible, of_returns : int
@@ -38,6 +38,7 @@ class Tally:
     points: int = 0
     withheld: int = 0
     unnumbered: int = 0
+    overlap: int = 0
     free: int = 0
     eligible: int = 0
     of_returns: int = 0

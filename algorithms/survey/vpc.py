@@ -21,7 +21,7 @@ from urllib.request import url2pathname
 
 import numpy as np
 
-from ..core.errors import BareEarthError
+from ..core.errors import BareEarthError, printable
 from ..core.files import check_output, replacing
 from ..core.progress import SILENT, Progress
 from ..crs.provider import to_wgs84
@@ -93,8 +93,18 @@ def read_vpc(path: Path) -> list[Path]:
         raise _not_one(path, "it is not JSON") from error
     if not isinstance(content, dict) or content.get("type") != "FeatureCollection":
         raise _not_one(path, "it is not a feature collection")
+    files = []
     try:
-        files = [_path_of(_href(each["assets"]), path.parent) for each in content["features"]]
+        for number, each in enumerate(content["features"], start=1):
+            href = _href(each["assets"])
+            files.append(_path_of(href, path.parent))
+            if files[-1].is_dir():
+                name = each.get("id") or f"number {number}"
+                raise BareEarthError(
+                    f'The entry {name} of {path} names no file, but "{printable(href)}". QGIS'
+                    " writes this for files on another drive of Windows. Build it again in a folder"
+                    " on the drive of the files, or give the files themselves."
+                )
     except (
         KeyError, TypeError, ValueError, AttributeError, IndexError, OverflowError, OSError,
         StopIteration,

@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from qgis.core import QgsProcessingParameterRasterLayer
+
+from ...algorithms.core.errors import BareEarthError
 from ...algorithms.engine.heights import HeightOutput
 from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.output import HEIGHT_DIMENSION
+from ...algorithms.rasters.sampling import HeightRaster
 from ...algorithms.survey.ground_classes import GroundClasses
 from ..i18n import tr
 from ..styles import layers
 from .base import command_line
+from .inputs import is_empty
 from .products import ProductAlgorithm
 
 
@@ -24,7 +29,9 @@ class HeightAboveGroundAlgorithm(ProductAlgorithm):
         "Adds the height above ground to every point of a classified point cloud: its height above"
         " the triangulation (TIN) of the ground points or, outside of it, above the nearest ground"
         " point. Heights are in the vertical unit of the CRS. They become an extra dimension,"
-        " HeightAboveGround, or replace z; nothing else in the file changes."
+        " HeightAboveGround, or replace z; nothing else in the file changes.\n"
+        "With a terrain model, heights are measured above that raster, and the points need no"
+        " classes."
     )
     page = "height-above-ground"
     cloud_label = "Point cloud with heights"
@@ -40,6 +47,27 @@ class HeightAboveGroundAlgorithm(ProductAlgorithm):
         """Return the ground classes, the output of heights, and resources."""
         return GroundClasses, HeightOutput, Resources
 
+    def initAlgorithm(self, configuration=None):
+        """Declare the fields of the dialog and the results."""
+        super().initAlgorithm(configuration)
+        self.addParameter(
+            QgsProcessingParameterRasterLayer("DTM", "Terrain model", None, True),
+            "Heights are measured above this raster, and not above the ground points. It must have"
+            " the CRS of the points. Empty: above the ground points.",
+        )
+
+    def prepare(self, parameters, context, progress):
+        """Find the inputs."""
+        super().prepare(parameters, context, progress)
+        self._dtm = ""
+        if not is_empty(parameters.get("DTM")):
+            layer = self.parameterAsRasterLayer(parameters, "DTM", context)
+            if layer is None or layer.providerType() != "gdal":
+                raise BareEarthError(
+                    tr("The terrain model is not a file. Export it as GeoTIFF first.")
+                )
+            self._dtm = layer.source()
+
     def compute(self, parameters, context, progress):
         """Write the heights."""
         from ...algorithms.engine.requests import HeightRequest
@@ -47,8 +75,10 @@ class HeightAboveGroundAlgorithm(ProductAlgorithm):
 
         chosen = self.chosen(parameters, context)
         output = self.cloud_output(parameters, context, progress)
-        progress.command(command_line("height", [str(self.source), output], chosen, {}))
-        request = HeightRequest.of(chosen)
+        options = {"DTM": self._dtm}
+        progress.command(command_line("height", [str(self.source), output], chosen, options))
+        dtm = HeightRaster.of(self._dtm, progress) if self._dtm else None
+        request = HeightRequest.of(chosen, dtm=dtm)
         summary = heights(self.source, Path(output), request, progress)
         progress.info(
             tr("Heights above ground are {low:.2f} to {high:.2f} {unit}.").format(

@@ -268,6 +268,10 @@ def test_a_polygon_counts_more_than_the_file_which_does_not_remember_it(edited, 
     classify(edited, out, _request(GONE, corrections=known))
     assert set(_classes(out, HALL)) == {2} and set(_classes(out, MOUND)) == {9}
     classify(out, again, _request(GONE, selection=Selection(others="unclassified")))
+    assert set(_classes(again, HALL)) == {1} and set(_classes(again, MOUND)) == {9}
+    again.unlink()
+    anew = Selection(others="unclassified", from_classes="all")
+    classify(out, again, _request(GONE, selection=anew))
     assert set(_classes(again, HALL)) == set(_classes(again, MOUND)) == {1}
 
 

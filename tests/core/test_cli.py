@@ -254,7 +254,7 @@ def test_an_empty_parameter_is_automatic_as_its_help_says(capsys):
         in help_of(capsys, "--method", "slope")
     )
     text = help_of(capsys)
-    assert "(default: all but noise)" in text and "(default: none)" in text
+    assert "(default: 0 to 6, 8 and 12)" in text and "(default: none)" in text
     assert "(default: 1.0 m)" in text and "(default: off)" in text
     assert "give the word none" in text
 

@@ -25,7 +25,7 @@ COLUMNS = ("x", "y", "z", "classification", "return_number", "number_of_returns"
 def some(cloud, which):
     """Return some points of a cloud."""
     columns = {name: getattr(cloud, name)[which] for name in COLUMNS}
-    return dataclasses.replace(cloud, **columns, scanner_channel=None, records=None)
+    return dataclasses.replace(cloud, **columns, scanner_channel=None, overlap=None, records=None)
 
 
 def with_stray(cloud, east, north, up):

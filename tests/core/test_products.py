@@ -89,15 +89,50 @@ def test_heights_as_z(tmp_path, each_format):
         assert np.array_equal(after[name], before[name]), name
 
 
-def test_z_that_does_not_fit_is_told(tmp_path):
+def with_fine_z(path, scale, offset):
+    """Write the scene with another scale and offset of z, and the same heights."""
+    scene(path)
+    las = laspy.read(path)
+    z = np.minimum(np.asarray(las.z), 125.0)
+    las.header.scales = np.array([*las.header.scales[:2], scale])
+    las.header.offsets = np.array([*las.header.offsets[:2], offset])
+    las.points.scales, las.points.offsets = las.header.scales, las.header.offsets
+    las.z = z
+    las.write(path)
+    return las
+
+
+@pytest.mark.parametrize("ending", [".las", ".laz", ".copc.laz"])
+def test_heights_that_do_not_fit_the_offset_of_z_get_another_and_the_scale_stays(tmp_path, ending):
+    source, target, extra = (tmp_path / name for name in ("in.las", f"out{ending}", "extra.las"))
+    before = with_fine_z(source, 2.5e-8, 75.0)
+    assert -(2**31) * 2.5e-8 + 75.0 > 0.0  # the ground has height 0
+    write_height_above_ground(source, extra)
+    summary = write_height_above_ground(source, target, output=HeightOutput(output_as="z"))
+    after, heights = laspy.read(target), np.asarray(laspy.read(extra)["HeightAboveGround"])
+    assert np.array_equal(after.header.scales, before.header.scales)
+    assert after.header.offsets.tolist() == [*before.header.offsets[:2], 0.0]
+    assert after.header.mins[2] == pytest.approx(summary.minimum, abs=1e-6)
+    assert after.header.maxs[2] == pytest.approx(summary.maximum, abs=1e-6)
+    order = [np.lexsort((las.Y, las.X)) for las in (before, after)]
+    for axis in "XY":
+        assert np.array_equal(before[axis][order[0]], after[axis][order[1]])
+    assert np.allclose(np.asarray(after.z)[order[1]], heights[order[0]], atol=1e-5)
+
+
+def test_heights_that_fit_no_offset_are_told(tmp_path):
     source = tmp_path / "in.las"
-    scene(source)
+    with_fine_z(source, 2.5e-8, 75.0)
     data = bytearray(source.read_bytes())
-    # With so fine a scale and so far an offset heights would need larger integers.
-    data[147:155], data[171:179] = np.float64(1e-7).tobytes(), np.float64(500.0).tobytes()
+    data[147:155] = np.float64(1e-9).tobytes()  # integers reach no farther than 4.3 m
     source.write_bytes(data)
-    with pytest.raises(BareEarthError, match="do not fit the scale 1e-07 and offset 500 of z"):
+    las = laspy.read(source)
+    las.points.array["Z"][np.asarray(las.classification) != 2] = 2**31 - 1
+    las.points.array["Z"][np.asarray(las.classification) == 2] = -(2**31)
+    las.write(source)
+    with pytest.raises(BareEarthError, match="do not fit the scale 1e-09 of z"):
         write_height_above_ground(source, tmp_path / "out.las", output=HeightOutput(output_as="z"))
+    assert not (tmp_path / "out.las").exists()
     write_height_above_ground(source, tmp_path / "out.las")
 
 

@@ -1,3 +1,4 @@
+import dataclasses
 from pathlib import Path
 
 import numpy as np
@@ -7,6 +8,7 @@ from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.las.cloud import PointCloud
+from bare_earth.algorithms.survey.corrections import Corrections
 from bare_earth.algorithms.survey.point_chooser import PointChooser
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.survey.tally import Tally
@@ -34,12 +36,83 @@ def selected_by(selection, cloud, progress, within=None):
     return selected
 
 
-def test_every_class_but_noise_takes_part_unless_told_otherwise(las):
+def test_only_classes_without_a_further_meaning_take_part_and_roads(las):
+    heard, every = las.Heard(), np.arange(256)
+    decided = (0, 1, 2, 3, 4, 5, 6, 8, 12)
+    selected = selected_by(Selection(), cloud_of(every), heard)
+    assert np.flatnonzero(selected).tolist() == sorted((*decided, 10, 11))
+    classes = np.array(new_classes(Selection(others="unclassified"), cloud_of(every), selected))
+    assert (classes[list(decided)] == 2).all()
+    others = np.delete(every, decided)
+    assert classes[others].tolist() == others.tolist()
+
+
+def test_the_log_names_the_classes_that_stay_and_how_to_classify_them(las):
     heard = las.Heard()
-    selected = selected_by(Selection(), cloud_of([0, 1, 2, 5, 6, 7, 18, 64]), heard)
-    assert selected.tolist() == [True] * 5 + [False, False, True]
-    assert "Noise is left out: 1 of class 7, 1 of class 18." in heard.infos
-    assert "6 of 8 points take part." in heard.infos
+    selected_by(Selection(), cloud_of([1, 9, 9, 10, 11, 11, 17, 64, 7]), heard)
+    assert heard.infos == [
+        "Noise is left out: 1 of class 7.",
+        "1 points of class 10 (rail), 2 of class 11 (road surface) keep their class. Where they lie"
+        " on the ground, they support it.",
+        "2 points of class 9 (water), 1 of class 17 (bridge deck), 1 of class 64 keep their class"
+        ' and do not take part. To classify them too, give "all" for the classes to classify'
+        " (--from-classes all).",
+        "4 of 9 points take part.",
+    ]
+    heard = las.Heard()
+    selected_by(Selection(from_classes=(1,)), cloud_of([1, 9]), heard)
+    assert heard.infos == ["1 of 2 points take part."]
+
+
+@pytest.mark.parametrize("all_", ["all", "ALL", ["all"], ("All",)])
+def test_all_is_every_class_but_noise(las, all_):
+    heard, selection = las.Heard(), Selection(from_classes=all_, others="unclassified")
+    cloud = cloud_of([0, 1, 2, 5, 6, 7, 18, 64, 9])
+    selected = selected_by(selection, cloud, heard)
+    assert selected.tolist() == [True] * 5 + [False, False, True, True]
+    assert heard.infos == [
+        "Noise is left out: 1 of class 7, 1 of class 18.",
+        "7 of 9 points take part.",
+    ]
+    assert new_classes(selection, cloud, [0] * 8 + [1]) == [1, 1, 1, 1, 1, 7, 18, 1, 2]
+    assert selection == Selection(from_classes="all", others="unclassified")
+
+
+def test_another_word_is_no_class():
+    with pytest.raises(BareEarthError, match="must be a list of numbers, not 'every'"):
+        Selection(from_classes="every")
+    with pytest.raises(BareEarthError, match="must be a number, not 'all'"):
+        Selection(from_classes=["all", "1"])
+
+
+def test_the_class_of_the_ground_is_decided_anew():
+    cloud = cloud_of([1, 20, 20, 9])
+    assert new_classes(Selection(to_class=20), cloud, [1, 1, 0, 0]) == [20, 20, 1, 9]
+
+
+def with_overlap(classes, flags):
+    return dataclasses.replace(cloud_of(classes), overlap=np.array(flags, bool))
+
+
+def test_overlap_is_counted_and_left_out_on_demand(las):
+    heard, cloud = las.Heard(), with_overlap([1, 1, 12, 2], [0, 1, 0, 1])
+    assert selected_by(Selection(), cloud, heard).all()
+    assert "3 points of overlap take part as others do." in heard.infos
+    heard, leave = las.Heard(), Selection(overlap="leave-out")
+    assert selected_by(leave, cloud, heard).tolist() == [1, 0, 0, 0]
+    assert "3 points of overlap are left out." in heard.infos
+    assert new_classes(leave, cloud, [1, 1, 1, 0]) == [2, 1, 12, 2]
+    old = cloud_of([1, 12], point_format=1)
+    assert selected_by(leave, old, SILENT).tolist() == [1, 0]
+
+
+def test_polygons_change_classes_that_stay_but_not_noise():
+    cloud, square = cloud_of([1, 9, 17, 7]), np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)], float)
+    corrections = Corrections(((square,),), (2,))
+    by_hand = Selection().by_hand(cloud, corrections)
+    assert by_hand.known.tolist() == [1, 1, 1, 0]
+    by_hand = Selection(from_classes=(1,)).by_hand(cloud, corrections)
+    assert by_hand.known.tolist() == [1, 0, 0, 0]
 
 
 def test_only_the_given_classes_take_part_noise_among_them_where_it_is_given():
@@ -120,9 +193,9 @@ def test_others_keep_their_class_but_old_ground_and_class_0_do_not():
 
 
 def test_others_become_unclassified_where_wanted_but_noise_and_withheld_stay():
-    cloud = cloud_of([0, 2, 5, 6, 7, 18, 9], withheld=[0, 0, 0, 0, 0, 0, 1])
+    cloud = cloud_of([0, 2, 5, 6, 7, 18, 4], withheld=[0, 0, 0, 0, 0, 0, 1])
     ground = [0, 1, 0, 1, 0, 0, 0]
-    assert new_classes(Selection(others="unclassified"), cloud, ground) == [1, 2, 1, 2, 7, 18, 9]
+    assert new_classes(Selection(others="unclassified"), cloud, ground) == [1, 2, 1, 2, 7, 18, 4]
 
 
 @pytest.mark.parametrize("others", ["keep", "unclassified"])
@@ -191,8 +264,8 @@ def test_known_ground_gets_the_class_of_the_ground_only_where_it_may_change():
 
 @pytest.mark.parametrize("others", ["keep", "unclassified"])
 def test_low_outliers_become_class_7_and_outside_nothing_changes(others):
-    cloud = cloud_of([1, 5, 2, 1, 5, 0, 9])
+    cloud = cloud_of([1, 5, 2, 1, 5, 0, 6])
     low, inside = np.array([0, 1, 1, 1, 0, 0, 0], bool), np.array([1, 1, 1, 0, 0, 0, 1], bool)
     ground = np.array([1, 0, 0, 0, 1, 0, 0], bool)
     classes = Selection(others=others).classes(cloud, ground, low, inside)
-    assert classes.tolist() == [2, 7, 7, 1, 5, 0, 9 if others == "keep" else 1]
+    assert classes.tolist() == [2, 7, 7, 1, 5, 0, 6 if others == "keep" else 1]

@@ -180,10 +180,41 @@ def test_what_is_odd_about_all_files_is_told_once(las):
 
 def test_the_same_tile_twice_is_told(las):
     tile(las, "a.las")
-    tile(las, "a.laz")
+    tile(las, "b.laz")
     heard = las.Heard()
     open_survey([las.folder], progress=heard)
-    assert any("a.las and a.laz have the same extent" in each for each in heard.warnings)
+    assert any("a.las and b.laz have the same extent" in each for each in heard.warnings)
+
+
+def test_a_copy_beside_a_file_of_a_folder_is_left_out_and_it_is_told(las):
+    for name in ("a.laz", "a.copc.laz", "b.las", "b.laz", "below/a.copc.laz"):
+        tile(las, name)
+    tile(las, "c.laz")
+    tile(las, "c.copc.laz", count=59)
+    tile(las, "d.laz")
+    tile(las, "d.copc.laz", side=99.0)
+    heard = las.Heard()
+    survey = open_survey([las.folder], recursive=True, progress=heard)
+    assert names(each.path for each in survey.tiles) == [
+        "a.laz", "b.las", "a.copc.laz", "c.copc.laz", "c.laz", "d.copc.laz", "d.laz",
+    ]  # fmt: skip
+    assert heard.infos == [
+        "Left out, since a file of the same name holds the same points: a.copc.laz (as a.laz),"
+        " b.laz (as b.las). To use one of them, give the file itself."
+    ]
+
+
+def test_copies_that_are_named_are_all_used(las):
+    copc = tile(las, "a.copc.laz")
+    heard, files = las.Heard(), [tile(las, "a.laz"), copc]
+    survey = open_survey(files, progress=heard)
+    assert names(each.path for each in survey.tiles) == ["a.copc.laz", "a.laz"]
+    assert any("have the same extent" in each for each in heard.warnings) and not heard.infos
+    # One that is named beside the folder is that which is used.
+    (las.folder / "list.txt").write_text("../clouds/a.copc.laz")
+    for more in (copc, las.folder / "list.txt"):
+        survey = open_survey([las.folder, more])
+        assert names(each.path for each in survey.tiles) == ["a.copc.laz"]
 
 
 def test_the_tiles_that_touch_a_box_are_found(las):

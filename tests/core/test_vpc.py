@@ -147,6 +147,20 @@ def test_files_elsewhere_are_refused(las, href):
         read_vpc(vpc_of(las, href))
 
 
+@pytest.mark.parametrize("href", ["./", ".", "", "../clouds"])
+def test_an_entry_that_is_a_folder_is_named(las, href):
+    las.make("a.las")
+    path = vpc_of(las, "./a.las", href)
+    with pytest.raises(BareEarthError, match="another drive of Windows") as caught:
+        read_vpc(path)
+    assert f'The entry number 2 of {path} names no file, but "{href}".' in str(caught.value)
+    content = json.loads(path.read_text())
+    content["features"][1]["id"] = "t01"
+    path.write_text(json.dumps(content))
+    with pytest.raises(BareEarthError, match="The entry t01 of "):
+        read_vpc(path)
+
+
 @pytest.mark.parametrize(
     ("text", "told"),
     [

@@ -1,0 +1,188 @@
+"""Heights of a raster at any places. Cells are read where they are needed, so memory is bounded."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.progress import SILENT, Progress
+from ..crs.system import Crs, crs_of_wkt
+from .geotiff import read_raster
+
+# Cells along a side of the squares that are read, and how many of these stay in memory.
+_SIDE, _MOST_KEPT = 512, 64
+
+
+@dataclass(frozen=True)
+class HeightRaster:
+    """A raster of heights, such as a terrain model, that need not fit into memory.
+
+    Attributes
+    ----------
+    path : str
+        The file, or a part of one as GDAL names it.
+    state : tuple of int
+        Size and time of the last change of the file, so that a changed file is noticed.
+    shape : tuple of int
+        Rows and columns.
+    geotransform : tuple of float
+        Geotransform of GDAL.
+    crs : Crs or None
+        Its CRS; None if it states none.
+    unit : float or None
+        Metres in the unit of the heights, if the band or the CRS states it.
+    """
+
+    path: str
+    state: tuple[int, ...]
+    shape: tuple[int, int]
+    geotransform: tuple[float, ...]
+    crs: Crs | None
+    unit: float | None
+
+    @classmethod
+    def of(cls, source: str | Path, progress: Progress = SILENT) -> HeightRaster:
+        """Return a raster, of which only one cell is read.
+
+        Raises
+        ------
+        BareEarthError
+            As `read_raster`.
+        """
+        first = read_raster(source, progress=progress, window=(0, 0, 1, 1))
+        path, wkt = Path(source), first.frame.wkt
+        state = path.stat() if path.exists() else None
+        stamp = () if state is None else (state.st_size, state.st_mtime_ns)
+        name = str(path.absolute()) if path.exists() else str(source)
+        crs = crs_of_wkt(wkt) if wkt else None
+        unit = first.frame.vertical_unit if first.states_unit else None
+        return cls(name, stamp, first.whole, first.geotransform, crs, unit)
+
+    def check(self, crs: Crs, points: str | Path) -> None:
+        """Refuse points in another CRS.
+
+        Raises
+        ------
+        BareEarthError
+            If both state a CRS, and these differ.
+        """
+        if self.crs is None or crs == Crs() or _is_same_map(self.crs, crs):
+            return
+        raise BareEarthError(
+            f"{self.path} is in another CRS ({self.crs.name}) than {points} ({crs.name}). Reproject"
+            " the raster first: in QGIS with 'Warp (reproject)', elsewhere with 'gdalwarp -t_srs"
+            " EPSG:... INPUT OUTPUT'."
+        )
+
+
+class _Square(NamedTuple):
+    """Cells of a raster, and row and column of the first."""
+
+    row: int
+    column: int
+    heights: np.ndarray
+
+
+class HeightSampler:
+    """Returns heights of a raster at places; only one thread may use it.
+
+    Parameters
+    ----------
+    raster : HeightRaster
+        The raster.
+    """
+
+    def __init__(self, raster: HeightRaster) -> None:
+        self._raster = raster
+        self._kept: OrderedDict[tuple[int, int], _Square] = OrderedDict()
+        _, a, b, _, c, d = raster.geotransform
+        if not a * d - b * c:
+            raise BareEarthError(f"{raster.path} states no place on the map. Georeference it.")
+        self._inverse = np.linalg.inv([[a, b], [c, d]])
+
+    def heights(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Return heights between the centres of cells, in the unit of the raster.
+
+        Bilinear interpolation. Neighbours without a value are left out.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray of float, shape (n,)
+            In the CRS of the raster.
+
+        Returns
+        -------
+        numpy.ndarray of float64, shape (n,)
+            NaN outside of the raster, and in cells without a value.
+        """
+        west, north = self._raster.geotransform[0], self._raster.geotransform[3]
+        column, row = self._inverse @ np.array([x - west, y - north])
+        (rows, columns), values = self._raster.shape, np.full(len(x), np.nan)
+        inside = (row >= 0) & (row <= rows) & (column >= 0) & (column <= columns)
+        which = np.flatnonzero(inside)
+        # The last row and column hold the border of the raster.
+        cells = np.array([np.minimum(row[which], rows - 1), np.minimum(column[which], columns - 1)])
+        squares = cells.astype(np.int64) // _SIDE
+        codes = squares[0] * (columns // _SIDE + 1) + squares[1]
+        order = np.argsort(codes, kind="stable")
+        cuts = np.flatnonzero(np.diff(codes[order])) + 1
+        for some in np.split(order, cuts) if len(order) else ():
+            square = self._square(*squares[:, some[0]].tolist())
+            here = which[some]
+            values[here] = _interpolated(square, row[here], column[here])
+        return values
+
+    def _square(self, row: int, column: int) -> _Square:
+        """Return a square with a margin of one cell, which stays in memory for a while."""
+        if (row, column) in self._kept:
+            self._kept.move_to_end((row, column))
+            return self._kept[row, column]
+        (rows, columns), side = self._raster.shape, _SIDE
+        top, left = max(row * side - 1, 0), max(column * side - 1, 0)
+        bottom = min((row + 1) * side + 1, rows)
+        right = min((column + 1) * side + 1, columns)
+        window = left, top, right - left, bottom - top
+        heights = read_raster(self._raster.path, window=window).heights
+        square = self._kept[row, column] = _Square(top, left, heights.astype(np.float64))
+        if len(self._kept) > _MOST_KEPT:
+            self._kept.popitem(last=False)
+        return square
+
+
+def _interpolated(square: _Square, row: np.ndarray, column: np.ndarray) -> np.ndarray:
+    """Return heights at places of a square, given in cells of the raster."""
+    heights, (rows, columns) = square.heights, square.heights.shape
+    row, column = row - square.row, column - square.column
+    own = heights[
+        np.clip(row.astype(np.intp), 0, rows - 1), np.clip(column.astype(np.intp), 0, columns - 1)
+    ]
+    # Relative to the centres of cells; beyond the outermost ones, heights stay the same.
+    row, column = np.clip(row - 0.5, 0, rows - 1), np.clip(column - 0.5, 0, columns - 1)
+    top, left = row.astype(np.intp), column.astype(np.intp)
+    down, right = row - top, column - left
+    total, weights = np.zeros(len(row)), np.zeros(len(row))
+    for i, share in ((top, 1.0 - down), (np.minimum(top + 1, rows - 1), down)):
+        for k, part in ((left, 1.0 - right), (np.minimum(left + 1, columns - 1), right)):
+            values, weight = heights[i, k], share * part
+            weight = np.where(np.isnan(values), 0.0, weight)
+            total += weight * np.nan_to_num(values)
+            weights += weight
+    found = np.divide(total, weights, out=np.full(len(row), np.nan), where=weights > 0.0)
+    return np.where(np.isnan(own), np.nan, found)
+
+
+def _is_same_map(one: Crs, other: Crs) -> bool:
+    """Return whether x and y of two CRS are the same, whatever their heights."""
+    if one.epsg and other.epsg:
+        return one.epsg == other.epsg
+    return _bare(one.name) == _bare(other.name)
+
+
+def _bare(name: str) -> str:
+    """Return the letters and digits of the horizontal part of a name."""
+    return "".join(filter(str.isalnum, name.split(" + ")[0])).lower()

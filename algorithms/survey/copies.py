@@ -1,0 +1,64 @@
+"""Files of a survey that hold the same points: copies in another format, or of another name."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Sequence
+
+from ..core.files import split_name
+from ..core.progress import Progress
+from ..las.lasfile import LasFile
+
+# Most names in a sentence.
+_MOST_NAMES = 3
+
+
+def copies_in(tiles: Sequence[LasFile], are_named: Sequence[bool], progress: Progress) -> set[Path]:
+    """Return files that hold the same points as a file of the same name beside them.
+
+    QGIS writes such a .copc.laz file beside each file that it shows. Of the files, that with the
+    shortest ending is used.
+
+    Parameters
+    ----------
+    tiles : sequence of LasFile
+        The files of a survey.
+    are_named : sequence of bool
+        For each of them, whether the user named the file itself, and not only its folder. Such
+        files are all used.
+    progress : Progress
+        Receives a message on the files that are left out.
+    """
+    first: dict[tuple[object, ...], LasFile] = {}
+    copies: dict[Path, str] = {}
+    pairs = zip(are_named, tiles)
+    for is_named, tile in sorted(pairs, key=lambda pair: (not pair[0], len(pair[1].path.name))):
+        name = split_name(tile.path)[0].lower()
+        original = first.setdefault((tile.path.parent, name, _content(tile)), tile)
+        if original is not tile and not is_named:
+            copies[tile.path] = original.path.name
+    if copies:
+        some = [f"{each.name} (as {copies[each]})" for each in sorted(copies)[:_MOST_NAMES]]
+        more = f" and {len(copies) - len(some)} more" if len(copies) > len(some) else ""
+        progress.info(
+            f"Left out, since a file of the same name holds the same points: {', '.join(some)}"
+            f"{more}. To use one of them, give the file itself."
+        )
+    return set(copies)
+
+
+def tell_of_twins(tiles: Sequence[LasFile], progress: Progress) -> None:
+    """Warn of files that seem to hold the same points, such as copies of another name."""
+    seen: dict[tuple[float, ...], LasFile] = {}
+    for tile in tiles:
+        twin = seen.setdefault(_content(tile), tile)
+        if twin is not tile:
+            progress.warning(
+                f"{twin.path.name} and {tile.path.name} have the same extent and number of points."
+                " If these are the same points, remove one of the files."
+            )
+
+
+def _content(tile: LasFile) -> tuple[float, ...]:
+    """Return number and extent of the points of a file, which are equal for copies of it."""
+    return tile.count, *(round(each, 2) for each in (*tile.minimum, *tile.maximum))

@@ -1,0 +1,97 @@
+"""The meanings of classes: which are decided anew by default, and which stay."""
+
+from __future__ import annotations
+
+from typing import Collection, Sequence
+
+import numpy as np
+
+from ..core.progress import Progress
+from ..las.class_names import named_class
+from ..las.cloud import PointCloud
+from .tally import Tally
+
+NEVER_CLASSIFIED, UNCLASSIFIED, GROUND = 0, 1, 2
+LOW_NOISE = 7
+NOISE = (LOW_NOISE, 18)
+# Classes that a classification decides anew by default. All others say more of a point than whether
+# it is ground: water, wires, bridge decks, the sea floor, or what a producer defined.
+DECIDED = (0, 1, 2, 3, 4, 5, 6, 8, 12)
+# Of the classes that stay, rails and roads mostly lie on the ground, and often are all there is of
+# it. So the filter sees them.
+ROADS = (10, 11)
+# In point formats 0 to 5 overlap is a class; the others have a flag for it.
+OVERLAP = 12
+ALL_CLASSES = "all"
+
+
+def tell_of_kept(tally: Tally, others: Collection[int], progress: Progress) -> None:
+    """Name the classes that stay by default, and how to classify them too.
+
+    Parameters
+    ----------
+    tally : Tally
+        The points of each class.
+    others : collection of int
+        Further classes that are decided anew, or are known ground.
+    progress : Progress
+        Receives the messages.
+    """
+    present = set(np.flatnonzero(tally.classes).tolist())
+    kept = present - {*DECIDED, *NOISE, *others}
+    roads, left = sorted(kept & set(ROADS)), sorted(kept - set(ROADS))
+    if roads:
+        progress.info(
+            f"{_counted(tally, roads)} keep their class. Where they lie on the ground, they"
+            " support it."
+        )
+    if left:
+        progress.info(
+            f"{_counted(tally, left)} keep their class and do not take part. To classify them"
+            f' too, give "{ALL_CLASSES}" for the classes to classify (--from-classes'
+            f" {ALL_CLASSES})."
+        )
+
+
+def _counted(tally: Tally, classes: Sequence[int]) -> str:
+    """Return the numbers of points of some classes in words."""
+    first, *more = (f"{tally.classes[each]:,} {{}}of {named_class(each)}" for each in classes)
+    return ", ".join([first.format("points "), *(each.format("") for each in more)])
+
+
+def overlapping(cloud: PointCloud) -> np.ndarray:
+    """Return which points are of the overlap of strips: by their flag, or by class 12.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (n,)
+    """
+    found = cloud.classification == OVERLAP
+    return found if cloud.overlap is None else found | cloud.overlap
+
+
+def used(cloud: PointCloud, overlap: str) -> np.ndarray:
+    """Return which points are used, of any class: not withheld, nor overlap that is left out.
+
+    Parameters
+    ----------
+    cloud : PointCloud
+        The points.
+    overlap : str
+        "use" or "leave-out".
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (n,)
+    """
+    if overlap == "leave-out":
+        return ~(cloud.withheld | overlapping(cloud))
+    return ~cloud.withheld
+
+
+def is_one_of(classification: np.ndarray, classes: Sequence[int]) -> np.ndarray:
+    """Return which points have one of a few classes."""
+    found = np.zeros(len(classification), dtype=bool)
+    for value in classes:
+        found |= classification == value
+    return found

@@ -1,0 +1,182 @@
+"""Heights above a given raster: of one file and many, in every unit, and where it has no value."""
+
+import json
+
+import laspy
+import numpy as np
+import pytest
+from runs import said
+
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.points import Frame
+from bare_earth.algorithms.core.progress import SILENT, Notes
+from bare_earth.algorithms.crs.provider import wkt_of_epsg
+from bare_earth.algorithms.engine import file_points
+from bare_earth.algorithms.engine.heights import HeightOutput
+from bare_earth.algorithms.engine.memory import Resources
+from bare_earth.algorithms.engine.requests import HeightRequest
+from bare_earth.algorithms.engine.runs import heights
+from bare_earth.algorithms.rasters import sampling
+from bare_earth.algorithms.rasters.geotiff import NODATA, RasterGrid
+from bare_earth.algorithms.rasters.sampling import HeightRaster, HeightSampler
+from bare_earth.algorithms.rasters.writing import write_geotiff
+
+EAST, NORTH, SIDE = 500_000.0, 5_700_000.0, 60
+
+
+def terrain(x, y):
+    return 80.0 + 0.1 * (x - EAST) - 0.05 * (y - NORTH)
+
+
+def dtm(path, cell=1.0, side=SIDE, epsg=25832, hole=False, unit=1.0):
+    """Write a plane, whose heights between the centres of cells bilinear interpolation knows."""
+    wkt = wkt_of_epsg(epsg) if epsg else None
+    count = round(side / cell)
+    grid = RasterGrid(EAST, NORTH + side, cell, count, count, Frame((0.0, 0.0), 1.0, unit, wkt))
+    values = terrain(grid.x[None, :], grid.y[:, None]).astype(np.float32)
+    if hole:
+        values[-10:, :10] = NODATA
+    write_geotiff(path, values, grid, NODATA, SILENT, "heights")
+    return path
+
+
+def points(path, count=4000, west=0.0, east=SIDE, epsg=25832, seed=1):
+    """Write points of class 0 up to 30 m above the plane."""
+    random = np.random.default_rng(seed)
+    header = laspy.LasHeader(point_format=6, version="1.4")
+    header.scales, header.offsets = (0.001,) * 3, (EAST, NORTH, 0.0)
+    if epsg:
+        header.vlrs.append(laspy.vlrs.known.WktCoordinateSystemVlr(wkt_of_epsg(epsg)))
+        header.global_encoding.wkt = True
+    las = laspy.LasData(header)
+    # Not in the outermost half cell, where the plane ends.
+    las.x = EAST + random.uniform(max(west, 2.0), min(east, SIDE - 2.0), count)
+    las.y = NORTH + random.uniform(2.0, SIDE - 2.0, count)
+    high = random.uniform(0.0, 30.0, count)
+    las.z = terrain(np.asarray(las.x), np.asarray(las.y)) + high
+    las.return_number[:] = las.number_of_returns[:] = 1
+    las.write(str(path))
+    return path
+
+
+def found(path):
+    return np.asarray(laspy.read(path)["HeightAboveGround"])
+
+
+def true_heights(path):
+    las = laspy.read(path)
+    return np.asarray(las.z) - terrain(np.asarray(las.x), np.asarray(las.y))
+
+
+@pytest.mark.parametrize("cell", [0.5, 1.0, 4.0])
+def test_heights_above_a_raster_need_no_classes(tmp_path, cell):
+    source, target = points(tmp_path / "in.las"), tmp_path / "out.laz"
+    raster = HeightRaster.of(dtm(tmp_path / "dtm.tif", cell))
+    summary = heights(source, target, HeightRequest(dtm=raster))
+    expected = true_heights(source)
+    np.testing.assert_allclose(found(target), expected, atol=0.001)
+    assert summary.maximum == pytest.approx(expected.max(), abs=0.001)
+    assert summary.ground_count == 0
+
+
+def test_heights_above_a_raster_as_z(tmp_path):
+    source, target = points(tmp_path / "in.las"), tmp_path / "out.las"
+    raster = HeightRaster.of(dtm(tmp_path / "dtm.tif"))
+    heights(source, target, HeightRequest(output=HeightOutput(output_as="z"), dtm=raster))
+    np.testing.assert_allclose(np.asarray(laspy.read(target).z), true_heights(source), atol=0.0015)
+
+
+def test_memory_and_squares_change_nothing(tmp_path, monkeypatch):
+    source = points(tmp_path / "in.las")
+    request = HeightRequest(dtm=HeightRaster.of(dtm(tmp_path / "dtm.tif", hole=True)))
+    heights(source, tmp_path / "one.las", request)
+    monkeypatch.setattr(sampling, "_SIDE", 7)
+    monkeypatch.setattr(sampling, "_MOST_KEPT", 2)
+    heights(source, tmp_path / "squares.las", request)
+    monkeypatch.setattr(file_points, "fits_in_memory", lambda *_: False)
+    few = Resources(memory=1)
+    heights(source, tmp_path / "disk.las", HeightRequest(dtm=request.dtm, resources=few))
+    for name in ("squares", "disk"):
+        assert (tmp_path / f"{name}.las").read_bytes() == (tmp_path / "one.las").read_bytes()
+
+
+def test_many_files_give_the_heights_of_one_and_go_on(tmp_path, threads_for_processes):
+    (tmp_path / "in").mkdir()
+    raster = dtm(tmp_path / "dtm.tif")
+    for name, west, seed in (("a", 0.0, 1), ("b", 30.0, 2)):
+        points(tmp_path / "in" / f"{name}.las", 1000, west, west + 30.0, seed=seed)
+    words = "height", tmp_path / "in", tmp_path / "out", "--dtm", raster
+    code, _, told = said(*words)
+    assert code == 0, told
+    for name in ("a", "b"):
+        source = tmp_path / "in" / f"{name}.las"
+        np.testing.assert_allclose(
+            found(tmp_path / "out" / f"{name}.las"), true_heights(source), atol=0.001
+        )
+    again = json.loads(said(*words, "--resume", "--json")[1])
+    assert again["kept_count"] == again["done_count"] == 2
+    # Another raster in the same file.
+    raster.unlink()
+    dtm(raster, cell=2.0)
+    assert json.loads(said(*words, "--resume", "--json")[1])["kept_count"] == 0
+
+
+def test_places_without_a_value_have_no_height_and_it_is_told(tmp_path):
+    source, target = points(tmp_path / "in.las"), tmp_path / "out.las"
+    raster = HeightRaster.of(dtm(tmp_path / "dtm.tif", hole=True))
+    heard = Notes()
+    heights(source, target, HeightRequest(dtm=raster), heard)
+    las = laspy.read(source)
+    empty = (np.asarray(las.x) < EAST + 10) & (np.asarray(las.y) < NORTH + 10)
+    values = found(target)
+    assert empty.any() and np.array_equal(np.isnan(values), empty)
+    # Beside the hole, the other neighbours count: half a cell of the slope at most.
+    np.testing.assert_allclose(values[~empty], true_heights(source)[~empty], atol=0.08)
+    text = f"{np.count_nonzero(empty):,} of 4,000 points have no height (NaN)"
+    assert any(text in told for _, told in heard.messages)
+    request = HeightRequest(output=HeightOutput(output_as="z"), dtm=raster)
+    with pytest.raises(BareEarthError, match="as an extra dimension"):
+        heights(source, tmp_path / "z.las", request)
+    small = HeightRaster.of(dtm(tmp_path / "small.tif", side=1))
+    with pytest.raises(BareEarthError, match=r"no value at any point of .*in\.las"):
+        heights(source, tmp_path / "none.las", HeightRequest(dtm=small))
+    assert not (tmp_path / "z.las").exists() and not (tmp_path / "none.las").exists()
+
+
+@pytest.mark.parametrize("many", [False, True])
+def test_a_raster_in_another_crs_is_refused(tmp_path, many, threads_for_processes):
+    (tmp_path / "in").mkdir()
+    source = points(tmp_path / "in" / "a.las")
+    raster = dtm(tmp_path / "dtm.tif", epsg=25833)
+    target = tmp_path / ("out" if many else "out.las")
+    code, _, told = said("height", source.parent if many else source, target, "--dtm", raster)
+    assert code and "33N) than " in told and "Reproject the raster first" in told
+    assert not list(tmp_path.glob("out*/*.las")) and not (tmp_path / "out.las").exists()
+
+
+def test_a_raster_without_crs_is_taken_as_that_of_the_points(tmp_path):
+    source, raster = points(tmp_path / "in.las"), dtm(tmp_path / "dtm.tif", epsg=None)
+    heights(source, tmp_path / "out.las", HeightRequest(dtm=HeightRaster.of(raster)))
+    np.testing.assert_allclose(found(tmp_path / "out.las"), true_heights(source), atol=0.001)
+
+
+def test_the_unit_of_heights_is_that_of_the_points_unless_it_is_stated(tmp_path):
+    raster = HeightRaster.of(dtm(tmp_path / "dtm.tif"))
+    assert raster.unit is None and raster.shape == (SIDE, SIDE)
+
+
+def test_a_missing_raster_is_told(tmp_path):
+    source = points(tmp_path / "in.las", 10)
+    code, _, told = said("height", source, tmp_path / "out.las", "--dtm", tmp_path / "no.tif")
+    assert code and "no.tif: it does not exist" in told
+
+
+def test_values_at_the_border_and_outside(tmp_path):
+    sampler = HeightSampler(HeightRaster.of(dtm(tmp_path / "dtm.tif")))
+    x = EAST + np.array([-0.01, 0.0, 0.5, 30.25, SIDE, SIDE + 0.01])
+    values = sampler.heights(x, np.full(6, NORTH + 30.0))
+    first, last = (terrain(EAST + each, NORTH + 30.0) for each in (0.5, SIDE - 0.5))
+    assert np.isnan(values[[0, 5]]).all()
+    expected = [first, first, terrain(EAST + 30.25, NORTH + 30.0), last]
+    np.testing.assert_allclose(values[1:5], expected, atol=1e-4)
+    assert not len(sampler.heights(np.zeros(0), np.zeros(0)))
