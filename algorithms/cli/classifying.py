@@ -32,6 +32,7 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
     from ..engine.output import Output
     from ..products.terrain_model import TerrainModel
     from ..survey.selection import Selection
+    from ..survey.vector_files import FORMATS
 
     add_inputs(parser)
     parser.add_argument(
@@ -47,13 +48,12 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
     )  # fmt: skip
     parser.add_argument(
         "--boundary", metavar="FILE", type=Path,
-        help="classify only points in these polygons (.geojson, .json, .wkt), in the CRS of the"
-        " points; for points outside as --extent",
+        help=f"classify only points in these polygons ({FORMATS}); for points outside as --extent",
     )  # fmt: skip
     parser.add_argument(
         "--corrections", metavar="FILE", type=Path,
-        help="polygons in which you know the class (.geojson, .json), in the CRS of the points;"
-        " the attribute 'class' holds it, and it replaces the result of the filter",
+        help="polygons in which you know the class; the attribute 'class' holds it, and it"
+        " replaces the result of the filter (files as for --boundary, but no WKT)",
     )  # fmt: skip
     parser.add_argument(
         "--vpc", metavar="FILE", type=Path,

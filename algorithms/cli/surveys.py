@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 
 
 _CONSTRAINTS = {
-    "breaklines": "lines that no triangle of the terrain crosses; a line without z gets the height"
-    " of the nearest ground point on each side",
+    "breaklines": "lines that no triangle of the terrain crosses; z is in the unit of heights of the"
+    " points, and a line without z gets the height of the nearest ground point on each side",
     "water": "polygons of water; each is flattened to one level",
     "rivers": "lines along which the level of the water polygons falls",
     "no-ground": "polygons in which the terrain uses no ground points, such as bridges and roofs",
@@ -47,11 +47,12 @@ def rasters_of(options: argparse.Namespace) -> RasterFiles:
 
 def add_constraints(parser: argparse.ArgumentParser, note: str = "") -> None:
     """Add the options for breaklines, water and such; `note` starts their help."""
+    from ..survey.vector_files import FORMATS
+
     for name, what in _CONSTRAINTS.items():
         parser.add_argument(
-            f"--{name}", metavar="FILE", type=Path,
-            help=f"{note}{what} (.geojson, .json, .wkt), in the CRS of the points",
-        )  # fmt: skip
+            f"--{name}", metavar="FILE", type=Path, help=f"{note}{what} ({FORMATS})"
+        )
 
 
 def constraints_of(options: argparse.Namespace) -> Constraints:
