@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 
 
 _CONSTRAINTS = {
-    "breaklines": "lines that no triangle of the terrain crosses; z is in the unit of heights of the"
-    " points, and a line without z gets the height of the nearest ground point on each side",
+    "breaklines": "lines that no triangle of the terrain crosses; z is in the unit of heights of"
+    " the points, and a line without z gets the height of the nearest ground point on each side",
     "water": "polygons of water; each is flattened to one level",
     "rivers": "lines along which the level of the water polygons falls",
     "no-ground": "polygons in which the terrain uses no ground points, such as bridges and roofs",
