@@ -186,7 +186,7 @@ def read_raster(source: str | Path, band: int = 1, progress: Progress = SILENT) 
         cannot be read, or the CRS is geographic.
     """
     read = library(_read_with_gdal, _read_with_rasterio, "Reading")
-    _check_local(str(source))
+    check_local(str(source))
     content = read(str(source), band)
     values, valid = content.values, content.valid
     if values.dtype.kind not in "iuf":
@@ -195,11 +195,11 @@ def read_raster(source: str | Path, band: int = 1, progress: Progress = SILENT) 
     if (content.scale, content.offset) != (1.0, 0.0):
         heights = (values * content.scale + content.offset).astype(np.float32)
     heights[~(valid & np.isfinite(values))] = np.nan
-    frame = _frame_of(source, content, progress)
+    frame = frame_of(source, content, progress)
     return Raster(heights, content.geotransform, frame, content.unit)
 
 
-class _Content(NamedTuple):
+class Content(NamedTuple):
     """The contents of a raster file."""
 
     values: np.ndarray
@@ -211,7 +211,7 @@ class _Content(NamedTuple):
     offset: float
 
 
-def _frame_of(source: str | Path, content: _Content, progress: Progress) -> Frame:
+def frame_of(source: str | Path, content: Content, progress: Progress = SILENT) -> Frame:
     """Return a frame with the units of the band and the CRS, or metres if none are stated."""
     facts = read_wkt(content.wkt) if content.wkt else None
     if facts is not None and facts.is_geographic:
@@ -240,7 +240,7 @@ def _frame_of(source: str | Path, content: _Content, progress: Progress) -> Fram
     return Frame((0.0, 0.0), horizontal, vertical, content.wkt or None)
 
 
-def _check_local(source: str) -> None:
+def check_local(source: str) -> None:
     """Refuse a URL, and files such as VRT that contain one, since GDAL would fetch it."""
     if any("\ud800" <= each <= "\udfff" for each in source):
         raise BareEarthError(f"The name of {source} is not UTF-8, which GDAL needs. Rename it.")
@@ -262,7 +262,7 @@ def _check_local(source: str) -> None:
         raise BareEarthError(f"Cannot read {source}: it does not exist. Check the path.")
 
 
-def _read_with_gdal(source: str, band: int) -> _Content:
+def _read_with_gdal(source: str, band: int) -> Content:
     from osgeo import gdal
 
     with GdalErrors(gdal, "read") as errors:
@@ -277,7 +277,7 @@ def _read_with_gdal(source: str, band: int) -> _Content:
         valid = layer.GetMaskBand().ReadAsArray() != 0
         errors.check(source)
         scale, offset = layer.GetScale(), layer.GetOffset()
-        return _Content(
+        return Content(
             values,
             valid,
             tuple(dataset.GetGeoTransform()),
@@ -288,14 +288,14 @@ def _read_with_gdal(source: str, band: int) -> _Content:
         )
 
 
-def _read_with_rasterio(source: str, band: int) -> _Content:
+def _read_with_rasterio(source: str, band: int) -> Content:
     import rasterio
     from rasterio.errors import RasterioError
 
     try:
         with rasterio.open(source) as dataset:
             _check_size(source, band, dataset.count, dataset.shape)
-            return _Content(
+            return Content(
                 dataset.read(band),
                 dataset.read_masks(band) != 0,
                 dataset.transform.to_gdal(),
