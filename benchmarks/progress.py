@@ -124,7 +124,8 @@ def runs(source: Path, folder: Path, resources: Resources) -> dict[str, Callable
     usual = ClassifyRequest(resources=resources)
     full = replace(usual, rasters=two, output=Output(height_above_ground=True))
     lines = folder / "lines.gpkg" if importlib.util.find_spec("osgeo") else None
-    maps = MapFiles(folder / "maps.laz", RasterFiles(**rasters), folder / "relief.tif", lines)
+    rasters["relief"] = folder / "relief.tif"
+    maps = MapFiles(folder / "maps.laz", RasterFiles(**rasters), lines)
     found: dict[str, Callable[[Progress], Any]] = {
         "TIN densification": lambda it: classify(source, ground, usual, it),
         "TIN, DTM, hillshade, heights": lambda it: classify(source, folder / "a.laz", full, it),

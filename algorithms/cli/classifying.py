@@ -11,17 +11,19 @@ from .command import DONE, Command
 from .options import UsageError, add_extent, add_inputs, add_json, add_parameters, chosen
 from .surveys import (
     add_constraints,
+    add_contours,
     add_rasters,
     add_scheduler,
     constraints_of,
+    contours_after,
     finished_files_stay,
-    rasters_of,
     tell_of_survey,
     workers_of,
 )
 from .terminal import Terminal, tell
 
 if TYPE_CHECKING:
+    from ..engine.requests import ClassifyRequest
     from ..filters.method import Method
     from ..survey.area import Area
 
@@ -30,8 +32,10 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
     from ..engine.memory import Resources
     from ..engine.options import RasterOutput, TileInput, TileOutput
     from ..engine.output import Output
+    from ..products.contours import Contours
     from ..products.terrain_model import TerrainModel
     from ..survey.selection import Selection
+    from ..survey.vector_files import FORMATS
 
     add_inputs(parser)
     parser.add_argument(
@@ -39,6 +43,7 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
         help="the file to write (.las, .laz or .copc.laz), or a folder if there are many inputs",
     )  # fmt: skip
     add_rasters(parser)
+    add_contours(parser)
     add_constraints(parser, "for the rasters, ")
     add_extent(
         parser, "classify only points in this rectangle",
@@ -47,13 +52,12 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
     )  # fmt: skip
     parser.add_argument(
         "--boundary", metavar="FILE", type=Path,
-        help="classify only points in these polygons (.geojson, .json, .wkt), in the CRS of the"
-        " points; for points outside as --extent",
+        help=f"classify only points in these polygons ({FORMATS}); for points outside as --extent",
     )  # fmt: skip
     parser.add_argument(
         "--corrections", metavar="FILE", type=Path,
-        help="polygons in which you know the class (.geojson, .json), in the CRS of the points;"
-        " the attribute 'class' holds it, and it replaces the result of the filter",
+        help="polygons in which you know the class; the attribute 'class' holds it, and it"
+        " replaces the result of the filter (files as for --boundary, but no WKT)",
     )  # fmt: skip
     parser.add_argument(
         "--vpc", metavar="FILE", type=Path,
@@ -64,11 +68,12 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
     method = _add_method(parser, arguments)
     add_json(parser, "the counts ")
     add_parameters(
-        parser, method.parameters, Selection, TerrainModel, Output, TileInput, TileOutput,
-        RasterOutput, Resources,
+        parser, method.parameters, Selection, TerrainModel, Contours, Output, TileInput,
+        TileOutput, RasterOutput, Resources,
         titles=(
-            f"{method.label} parameters", "Which points, which classes", "Terrain model", "Output",
-            "Files", "Output of many files", "Rasters of many files", "Threads and memory",
+            f"{method.label} parameters", "Which points, which classes", "Terrain model",
+            "Contour lines", "Output", "Files", "Output of many files", "Rasters of many files",
+            "Threads and memory",
         ),
     )  # fmt: skip
 
@@ -88,26 +93,32 @@ def _add_method(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> Me
 
 
 def _classify(options: argparse.Namespace) -> int:
-    from ..engine.many_files import classify_files
-    from ..engine.one_file import classify_file
     from ..engine.requests import ClassifyRequest
     from ..survey.corrections import NO_CORRECTIONS
-    from ..survey.files import is_one_file
     from ..survey.vector_files import read_corrections
 
-    area = _area_of(options)
-    corrections = NO_CORRECTIONS
+    corrections, sets = NO_CORRECTIONS, chosen(options)
     if options.corrections is not None:
         corrections = read_corrections(options.corrections)
-    request = ClassifyRequest.of(
-        chosen(options), rasters=rasters_of(options), area=area, corrections=corrections,
-        constraints=constraints_of(options),
-    )  # fmt: skip
+    area, known = _area_of(options), constraints_of(options)
+    with contours_after(options, sets) as (rasters, rest):
+        request = ClassifyRequest.of(
+            rest, rasters=rasters, area=area, corrections=corrections, constraints=known
+        )
+        return _classified(options, request)
+
+
+def _classified(options: argparse.Namespace, request: ClassifyRequest) -> int:
+    """Classify one file or many, and tell what was done."""
+    from ..engine.many_files import classify_files
+    from ..engine.one_file import classify_file
+    from ..survey.files import is_one_file
+
     if options.command != _TILES and not options.scheduler and is_one_file(options.input):
         with Terminal(options.verbose) as progress:
             summary = classify_file(options.input[0], options.output, request, progress)
         ground, count = summary.area_ground_count, summary.area_count
-        place = "" if area is None else " in the area"
+        place = "" if request.area is None else " in the area"
         text = f"{ground:,} of {count:,} points{place} are ground ({100 * ground / count:.1f} %)"
         tell(options, summary, f"{options.output}: {text}")
         return DONE

@@ -10,11 +10,12 @@ from .command import DONE, Command
 from .options import add_inputs, add_json, add_parameters, chosen
 from .surveys import (
     add_constraints,
+    add_contours,
     add_rasters,
     add_scheduler,
     constraints_of,
+    contours_after,
     finished_files_stay,
-    rasters_of,
     tell_of_survey,
     workers_of,
 )
@@ -40,6 +41,50 @@ def _remove_objects(options: argparse.Namespace) -> int:
     with Terminal(options.verbose) as progress:
         removal = remove_objects_file(options.input, options.output, how, progress)
     tell(options, removal, f"{options.output}: {removal.text}")
+    return DONE
+
+
+def _add_contours(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
+    from ..products.contours import Contours
+    from ..products.line_files import FORMATS
+
+    parser.add_argument("input", metavar="INPUT", help="a raster that GDAL reads")
+    parser.add_argument(
+        "output", metavar="OUTPUT", type=Path,
+        help=f"the lines to write ({', '.join(FORMATS)}); all but .geojson need pyogrio",
+    )  # fmt: skip
+    add_json(parser)
+    add_parameters(parser, Contours)
+    parser.add_argument(
+        "--interval", dest="contour_interval", metavar="N", default=argparse.SUPPRESS,
+        help="the same as --contour-interval",
+    )  # fmt: skip
+
+
+def _contours(options: argparse.Namespace) -> int:
+    from ..products.contours import Contours, write_contours
+
+    how = Contours.among(chosen(options))
+    with Terminal(options.verbose) as progress:
+        interval = write_contours(options.input, options.output, how, progress)
+    tell(options, interval, f"{options.output}: one contour line every {interval.text()}")
+    return DONE
+
+
+def _add_relief(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
+    from ..products.local_relief import LocalRelief
+
+    parser.add_argument("input", metavar="INPUT", help="a raster that GDAL reads")
+    parser.add_argument("output", metavar="OUTPUT", type=Path, help="a GeoTIFF (.tif) to write")
+    add_parameters(parser, LocalRelief)
+
+
+def _relief(options: argparse.Namespace) -> int:
+    from ..products.local_relief import LocalRelief, write_local_relief
+
+    how = LocalRelief.among(chosen(options))
+    with Terminal(options.verbose) as progress:
+        write_local_relief(options.input, options.output, how, progress)
     return DONE
 
 
@@ -108,29 +153,33 @@ def _write(options: argparse.Namespace) -> int:
 def _add_terrain(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..engine.memory import Resources
     from ..engine.options import RasterOutput, TileInput
+    from ..products.contours import Contours
     from ..products.surface_model import SurfaceModel
     from ..products.terrain_model import TerrainModel
     from ..survey.ground_classes import GroundClasses
 
     add_inputs(parser)
     add_rasters(parser)
+    add_contours(parser)
     add_constraints(parser)
     add_scheduler(parser)
     add_json(parser)
     add_parameters(
-        parser, GroundClasses, TerrainModel, SurfaceModel, TileInput, RasterOutput, Resources
-    )
+        parser, GroundClasses, TerrainModel, SurfaceModel, Contours, TileInput, RasterOutput,
+        Resources,
+    )  # fmt: skip
 
 
 def _terrain(options: argparse.Namespace) -> int:
     from ..engine.requests import TerrainRequest
     from ..engine.runs import terrain
 
-    known = constraints_of(options)
-    request = TerrainRequest.of(chosen(options), rasters=rasters_of(options), constraints=known)
-    with Terminal(options.verbose) as progress:
-        workers = workers_of(options, request.resources)
-        summary = terrain(options.input, request, progress, workers)
+    known, sets = constraints_of(options), chosen(options)
+    with contours_after(options, sets) as (rasters, rest):
+        request = TerrainRequest.of(rest, rasters=rasters, constraints=known)
+        with Terminal(options.verbose) as progress:
+            workers = workers_of(options, request.resources)
+            summary = terrain(options.input, request, progress, workers)
     text = f"{summary.columns:,} x {summary.rows:,} cells of {summary.ground_count:,} ground points"
     tell(options, summary, f"{options.input[0]}: {text}")
     return DONE
@@ -167,8 +216,23 @@ COMMANDS = (
         "terrain",
         "make rasters of the terrain and of what stands on it",
         "Makes rasters (GeoTIFF) of a classified file, or of many as one survey. Give at least one"
-        " of --dtm, --dsm, --chm, --hillshade and --confidence.",
+        " of --dtm, --dsm, --chm, --hillshade, --confidence, --relief and --contours.",
         _add_terrain,
         _terrain,
+    ),
+    Command(
+        "contours",
+        "draw contour lines of a terrain model",
+        "Draws contour lines of an elevation raster, of its heights smoothed for the lines only.",
+        _add_contours,
+        _contours,
+    ),
+    Command(
+        "relief",
+        "make the local relief of a terrain model",
+        "Makes the local relief (GeoTIFF) of an elevation raster: the heights minus smoothed ones."
+        " It shows mounds, ditches and old paths.",
+        _add_relief,
+        _relief,
     ),
 )

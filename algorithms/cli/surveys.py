@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import dataclasses
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Iterator
+from typing import TYPE_CHECKING, Any, Iterator, Sequence
 
 from ..core.errors import BareEarthError, Cancelled
 from .command import DONE, FAILED
-from .terminal import tell
+from .terminal import Terminal, tell
 
 if TYPE_CHECKING:
+    from ..core.parameters import ParameterSet
     from ..engine.constraints import Constraints
     from ..engine.many_files import SurveySummary
     from ..engine.memory import Resources
@@ -20,8 +22,8 @@ if TYPE_CHECKING:
 
 
 _CONSTRAINTS = {
-    "breaklines": "lines that no triangle of the terrain crosses; a line without z gets the height"
-    " of the nearest ground point on each side",
+    "breaklines": "lines that no triangle of the terrain crosses; z is in the unit of heights of"
+    " the points, and a line without z gets the height of the nearest ground point on each side",
     "water": "polygons of water; each is flattened to one level",
     "rivers": "lines along which the level of the water polygons falls",
     "no-ground": "polygons in which the terrain uses no ground points, such as bridges and roofs",
@@ -45,13 +47,54 @@ def rasters_of(options: argparse.Namespace) -> RasterFiles:
     return RasterFiles(**{name: getattr(options, name) for name in RASTERS})
 
 
+def add_contours(parser: argparse.ArgumentParser) -> None:
+    """Add the option for contour lines; their parameters are those of `Contours`."""
+    from ..products.line_files import FORMATS
+
+    parser.add_argument(
+        "--contours", metavar="FILE", type=Path,
+        help=f"contour lines of the terrain model ({', '.join(FORMATS)}); the field ELEV has the"
+        " height, INDEX is 1 for every fifth line. All but .geojson need pyogrio",
+    )  # fmt: skip
+
+
+@contextlib.contextmanager
+def contours_after(
+    options: argparse.Namespace, sets: Sequence[ParameterSet]
+) -> Iterator[tuple[RasterFiles, list[ParameterSet]]]:
+    """Yield the rasters to make, and the parameters of all but the contour lines.
+
+    Afterwards, write the contour lines, if they are wanted. Without `--dtm`, their terrain model is
+    a temporary file.
+    """
+    from ..core.files import temporary_folder
+    from ..engine.options import RasterOutput
+    from ..engine.raster_files import virtual_of
+    from ..products.contours import Contours, check_contours, write_contours
+
+    rasters, how = rasters_of(options), Contours.among(sets)
+    rest = [each for each in sets if each is not how]
+    if options.contours is None:
+        yield rasters, rest
+        return
+    check_contours(options.contours, tuple(options.input))
+    with temporary_folder(options.contours.parent) as folder:
+        rasters = dataclasses.replace(rasters, dtm=rasters.dtm or folder / "dtm.tif")
+        yield rasters, rest
+        per_file = RasterOutput.among(sets).raster_per_file
+        source = virtual_of(rasters.dtm) if not rasters.dtm.exists() and per_file else rasters.dtm
+        with Terminal(options.verbose) as progress:
+            write_contours(source, options.contours, how, progress)
+
+
 def add_constraints(parser: argparse.ArgumentParser, note: str = "") -> None:
     """Add the options for breaklines, water and such; `note` starts their help."""
+    from ..survey.vector_files import FORMATS
+
     for name, what in _CONSTRAINTS.items():
         parser.add_argument(
-            f"--{name}", metavar="FILE", type=Path,
-            help=f"{note}{what} (.geojson, .json, .wkt), in the CRS of the points",
-        )  # fmt: skip
+            f"--{name}", metavar="FILE", type=Path, help=f"{note}{what} ({FORMATS})"
+        )
 
 
 def constraints_of(options: argparse.Namespace) -> Constraints:

@@ -92,3 +92,9 @@ class Points(_Columns):
     def and_also(self, others: Points) -> Points:
         """Return these points, followed by others."""
         return Points(*(np.concatenate(pair) for pair in zip(self, others)))
+
+
+def box_in_words(box: Box) -> str:
+    """Return the limits of a box in words."""
+    west, south, east, north = box
+    return f"x {west:.10g} to {east:.10g}, y {south:.10g} to {north:.10g}"

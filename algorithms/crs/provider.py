@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import contextlib
 import importlib.util
+import re
 from typing import Any, Iterator
 
 import numpy as np
 
 # In units of the CRS. No place on earth is farther off, and PROJ may fail with larger numbers.
 _FARTHEST = 1e9
+LONGITUDE_LATITUDE = "EPSG:4326"
+_CODE = re.compile(r"[A-Za-z]+:[A-Za-z0-9_]+$")
 
 
 def wkt_of_epsg(code: int) -> str | None:
@@ -37,11 +40,33 @@ def to_wgs84(wkt: str, places: np.ndarray) -> np.ndarray | None:
         Longitudes and latitudes in degrees. None if there is no library, it does not know the CRS,
         or a place is outside the area of the CRS.
     """
+    degrees = transformed(wkt, LONGITUDE_LATITUDE, places)
+    return None if degrees is None or not _are_within(degrees, (180, 90)) else degrees
+
+
+def transformed(source: str, target: str, places: np.ndarray) -> np.ndarray | None:
+    """Transform places from one CRS to another; heights do not matter.
+
+    Parameters
+    ----------
+    source, target : str
+        Each CRS as well-known text, or as a code, such as ``EPSG:25832``.
+    places : numpy.ndarray of float64, shape (n, 2)
+        x and y; longitude first, whatever the definition of the CRS says.
+
+    Returns
+    -------
+    numpy.ndarray of float64, shape (n, 2), or None
+        x and y, in this order. None if there is no library, it does not know a CRS, or a place is
+        outside the area of a CRS.
+    """
     known = library()
     if known is None or not _are_within(places, (_FARTHEST, _FARTHEST)):
         return None
-    degrees = known.to_wgs84(wkt, places)
-    return None if degrees is None or not _are_within(degrees, (180, 90)) else degrees
+    if not len(places):
+        return places
+    moved = known.transformed(source, target, places)
+    return None if moved is None or not np.isfinite(moved).all() else moved
 
 
 def _are_within(places: np.ndarray, limits: tuple[float, float]) -> bool:
@@ -73,17 +98,22 @@ class _Gdal:
         return None if failed else reference.ExportToWkt()
 
     @staticmethod
-    def to_wgs84(wkt: str, places: np.ndarray) -> np.ndarray | None:
+    def transformed(source: str, target: str, places: np.ndarray) -> np.ndarray | None:
         from osgeo import osr
 
-        source, target = osr.SpatialReference(), osr.SpatialReference()
+        references = []
         try:
             with _quiet():
-                if source.ImportFromWkt(wkt) or target.ImportFromEPSG(4326):
-                    return None
-                for each in (source, target):
-                    each.SetAxisMappingStrategy(osr.OAMS_TRADITIONAL_GIS_ORDER)
-                transformation = osr.CoordinateTransformation(source, target)
+                for text in (source, target):
+                    reference = osr.SpatialReference()
+                    # Only codes, since this function reads files and addresses as well.
+                    read = reference.SetFromUserInput if _CODE.match(text) else None
+                    if (read or reference.ImportFromWkt)(text):
+                        return None
+                    reference.StripVertical()
+                    reference.SetAxisMappingStrategy(osr.OAMS_TRADITIONAL_GIS_ORDER)
+                    references.append(reference)
+                transformation = osr.CoordinateTransformation(*references)
                 return np.array(transformation.TransformPoints(places.tolist()))[:, :2]
         except (RuntimeError, TypeError, IndexError):
             # GDAL raised an error, or made an invalid transformation.
@@ -116,12 +146,14 @@ class _Pyproj:
             return None
 
     @staticmethod
-    def to_wgs84(wkt: str, places: np.ndarray) -> np.ndarray | None:
-        from pyproj import Transformer
+    def transformed(source: str, target: str, places: np.ndarray) -> np.ndarray | None:
+        from pyproj import CRS, Transformer
         from pyproj.exceptions import CRSError, ProjError
 
         try:
-            transformer = Transformer.from_crs(wkt, "EPSG:4326", always_xy=True)
+            references = [CRS.from_user_input(text) for text in (source, target)]
+            one, two = (each.sub_crs_list[0] if each.is_compound else each for each in references)
+            transformer = Transformer.from_crs(one, two, always_xy=True)
             return np.column_stack(transformer.transform(*places.T))
         except (CRSError, ProjError):
             return None

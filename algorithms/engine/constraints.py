@@ -16,6 +16,7 @@ from ..las.lasfile import LasFile
 from ..las.reading import read_parts
 from ..survey.area import Area, Polygon
 from ..survey.ground_classes import GroundClasses, GroundTally
+from ..survey.shapes import Geometry, Place, located
 
 # Ground points up to so many metres from a line or border give its height.
 _NEAR = 10.0
@@ -27,10 +28,17 @@ _INSIDE, _STATION = 10.0, 5.0
 _BEYOND = 20.0
 # Places on a line for each cell in which points are thinned: the line misses no cell.
 _PER_CELL = 4.0
+# What the user gives, for messages, and how far it has an effect in metres; None: only inside.
+_GIVEN = {
+    "breaklines": ("the breaklines", _NEAR),
+    "water": ("the polygons of water", None),
+    "rivers": ("the rivers", _NEAR),
+    "no_ground": ("the polygons without ground", None),
+}
 
 
 @dataclass(frozen=True, eq=False)
-class Constraints:
+class Constraints(Geometry):
     """What the user knows of the terrain, in coordinates of the CRS.
 
     Attributes
@@ -50,6 +58,33 @@ class Constraints:
     water: tuple[Polygon, ...] = ()
     rivers: tuple[np.ndarray, ...] = ()
     no_ground: tuple[Polygon, ...] = ()
+
+    def located(self, place: Place, progress: Progress = SILENT) -> Constraints:
+        """Return the constraints in the CRS of the points; see `Geometry.located`.
+
+        Progress also receives a warning on rivers that meet no water.
+        """
+        found = Constraints(
+            **{
+                name: located(getattr(self, name), what, place, progress, near)
+                for name, (what, near) in _GIVEN.items()
+            }
+        )
+        dry = found._dry_rivers(_STATION / place.crs.horizontal_unit)
+        if dry:
+            progress.warning(
+                f"Rivers that meet no polygon of water, and so have no effect: {dry:,}. Give the"
+                " water as polygons; a river is the line along which their level falls."
+            )
+        return found
+
+    def _dry_rivers(self, step: float) -> int:
+        """Return how many rivers have no place in any water; `step` is in units of the CRS."""
+        if not self.water:
+            return len(self.rivers)
+        water = Area(None, self.water)
+        flat = (np.nan_to_num(river) * (1.0, 1.0, 0.0) for river in self.rivers)
+        return sum(not water.contains(*along(each, step)[:, :2].T).any() for each in flat)
 
     @property
     def any(self) -> bool:

@@ -10,8 +10,11 @@ import numpy as np
 
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud, survey_frame
+from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
 from ..las.reading import read_cloud, read_parts
+from ..survey.shapes import Place
+from ..survey.tally import Tally
 from .blocks import Store
 from .disk_points import DiskPoints, room_on_disk
 from .memory import GIGABYTE, Resources
@@ -122,6 +125,18 @@ class FilePoints:
 
     def __exit__(self, *exception: object) -> None:
         self._files.close()
+
+    @property
+    def place(self) -> Place:
+        """Where the points lie."""
+        if self.is_in_memory:
+            tally = Tally()
+            if self.count:
+                tally.see(self.cloud)
+            return Place(str(self.path), self.cloud.crs, tally.bounds)
+        las = self._source
+        # The header of one file can be wrong: without a sound extent nothing is refused.
+        return Place(str(self.path), read_crs(las), las.outer_box if las.states_extent else None)
 
     @property
     def memory_left(self) -> int:

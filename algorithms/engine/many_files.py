@@ -13,6 +13,7 @@ from ..core.files import check_output, is_same_file, split_name, temporary_folde
 from ..core.progress import SILENT, Progress
 from ..las.writing import check_writable
 from ..survey.files import Survey, open_survey
+from ..survey.shapes import Place
 from ..survey.vpc import SUFFIX as VPC_SUFFIX
 from ..survey.vpc import write_vpc
 from .blocks import Blocks
@@ -22,7 +23,7 @@ from .raster_jobs import make_rasters
 from .rasters import MakeRasters, RasterSize
 from .record import folders_of
 from .requests import ClassifyRequest, Request, TerrainRequest
-from .steps import PointStep
+from .steps import PointStep, located
 from .tile_run import TileRun, tasks_of
 from .workers import Threads, Workers
 
@@ -166,6 +167,9 @@ def write_files(
     recursive = request.files.recursive
     survey = open_survey(sources, recursive, progress.part(0.0, 0.02))
     _check_survey(survey, folder, vpc, sources if recursive else [])
+    made = [rasters] if rasters is not None else []
+    steps = located([*steps, *made], _place_of(survey), progress)
+    rasters = steps.pop() if made else None
     steps[0].check_survey(survey.box)
     targets = _targets_of(survey, folder, request.tiles.format)
     if rasters is not None:
@@ -263,7 +267,12 @@ def rasters_of_files(
     workers = workers or Threads(request.resources)
     with temporary_folder(beside) as folder:
         part = progress.part(0.05, 1.0)
-        return make_rasters(survey, folder, request.raster_step, workers, part)
+        (step,) = located([request.raster_step], _place_of(survey), progress)
+        return make_rasters(survey, folder, step, workers, part)
+
+
+def _place_of(survey: Survey) -> Place:
+    return Place("the files", survey.crs, survey.box)
 
 
 def _check_survey(survey: Survey, folder: Path, vpc: Path, searched: Sequence[Path]) -> None:

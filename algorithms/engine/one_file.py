@@ -26,7 +26,7 @@ from .labelling import ClassifiedPoints, LabelGround
 from .memory import Resources
 from .rasters import RasterSize, write_rasters
 from .requests import ClassifyRequest, TerrainRequest
-from .steps import PointStep, Step
+from .steps import PointStep, Step, located
 
 
 @dataclass(frozen=True)
@@ -101,7 +101,9 @@ def classify_cloud(
     """
     step = LabelGround(parameters, selection, area, corrections=corrections)
     with may_use(resources.thread_count):
-        result, _ = FilePoints(cloud, resources).find(step, step.tally(), progress)
+        points = FilePoints(cloud, resources)
+        (step,) = located([step], points.place, progress)
+        result, _ = points.find(step, step.tally(), progress)
         result.tell(progress)
         inside, selected, _ = step.chooser.choose(cloud, step.tally())
     return result.classification, selected & inside
@@ -146,6 +148,8 @@ def classify_file(
         outputs.enter_context(may_use(resources.thread_count))
         points = FilePoints.opened(las, target, resources, not is_copied, first)
         outputs.enter_context(points)
+        step, *more = located([step, *products.values()], points.place, progress)
+        products = dict(zip(products, more))
         result, stores = points.find(step, tally, finding, list(products.values()))
         result.tell(progress)
         waiting, heights = dict(zip(products, stores)), None
@@ -267,6 +271,7 @@ def rasters_of_file(
         step = request.raster_step
         points = FilePoints.opened(las, beside, resources, False, first)
         outputs.enter_context(points)
+        (step,) = located([step], points.place, progress)
         parts = points.parts(progress.part(0.1, 0.13))
         (store,) = points.gathered([(step, step.tally())], parts, progress.part(0.13, 0.15))
         frame = survey_frame(points.cloud.crs)

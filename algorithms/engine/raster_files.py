@@ -11,10 +11,17 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.files import check_distinct, check_output
 from ..grids.hillshade import hillshade, multidirectional_hillshade
+from ..grids.relief_smoothing import smoothing_reach, without_noise
+from ..products.local_relief import local_relief, relief_reach
 from ..products.surface_model import canopy_height
 from ..products.terrain_model import TerrainModel
 from ..rasters.geotiff import NODATA, RasterGrid
 from ..rasters.writing import check_raster_output
+
+
+def _none(grid: RasterGrid, model: TerrainModel) -> int:
+    """Return that cells depend on no others."""
+    return 0
 
 
 class Raster(NamedTuple):
@@ -32,8 +39,9 @@ class Raster(NamedTuple):
         ``make(*rows, grid, model)`` returns rows of the raster, given as many rows of each layer.
         Rows go from north to south; NaN is no value. `grid` is a `RasterGrid`, `model` a
         `TerrainModel`.
-    margin : int
-        Number of rows and columns round a part of the raster that affect it.
+    margin : callable
+        ``margin(grid, model)`` returns the number of rows and columns round a part of the raster
+        that affect it.
     kind : str
         The type of its values.
     nodata : float
@@ -45,7 +53,7 @@ class Raster(NamedTuple):
     shows: str
     layers: tuple[str, ...]
     make: Callable[..., np.ndarray]
-    margin: int = 0
+    margin: Callable[[RasterGrid, TerrainModel], int] = _none
     kind: str = "float32"
     nodata: float = NODATA
 
@@ -73,11 +81,29 @@ def _sure(
     return plain(np.where(np.isnan(terrain), np.nan, sure), grid, model)
 
 
+def _picture(heights: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.ndarray:
+    """Return the heights that pictures of the relief show."""
+    return without_noise(heights, grid.cell_metres) if model.smooths else heights
+
+
 def _shade(heights: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.ndarray:
-    altitude = model.hillshade_altitude
+    heights, altitude = _picture(heights, grid, model), model.hillshade_altitude
     if model.hillshade_light == "multidirectional":
         return multidirectional_hillshade(heights, grid.cell_metres, altitude)
     return hillshade(heights, grid.cell_metres, model.hillshade_azimuth, altitude)
+
+
+def _shade_margin(grid: RasterGrid, model: TerrainModel) -> int:
+    return 1 + (smoothing_reach(grid.cell_metres) if model.smooths else 0)
+
+
+def _relief(heights: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.ndarray:
+    heights, cells = _picture(heights, grid, model), (grid.cell_metres, grid.cell_metres)
+    return _heights(local_relief(heights, cells, model.relief_radius), grid, model)
+
+
+def _relief_margin(grid: RasterGrid, model: TerrainModel) -> int:
+    return relief_reach(grid.cell_metres, model.relief_radius, model.smooths)
 
 
 RASTERS = {
@@ -108,7 +134,7 @@ RASTERS = {
         "Brightness, 1 to 255",
         ("terrain",),
         _shade,
-        margin=1,
+        margin=_shade_margin,
         kind="uint8",
         nodata=0,
     ),
@@ -120,6 +146,14 @@ RASTERS = {
         ("confidence", "terrain"),
         _sure,
     ),
+    "relief": Raster(
+        "Local relief",
+        "The terrain model minus a smoothed one. Mounds, ditches and old paths stand out.",
+        "Local relief, {unit}",
+        ("terrain",),
+        _relief,
+        margin=_relief_margin,
+    ),
 }
 
 
@@ -129,9 +163,10 @@ class RasterFiles:
 
     Attributes
     ----------
-    dtm, dsm, chm, hillshade, confidence : Path or None
+    dtm, dsm, chm, hillshade, confidence, relief : Path or None
         Terrain, surface (with everything that stands on the terrain), canopy height (the
-        difference of the two), hillshade of the terrain, and confidence of the terrain.
+        difference of the two), hillshade of the terrain, confidence of the terrain, and its local
+        relief.
     """
 
     dtm: Path | None = None
@@ -139,6 +174,7 @@ class RasterFiles:
     chm: Path | None = None
     hillshade: Path | None = None
     confidence: Path | None = None
+    relief: Path | None = None
 
     @property
     def wanted(self) -> dict[str, Path]:

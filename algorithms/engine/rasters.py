@@ -300,7 +300,7 @@ def _write(
     """Write some cells of a raster; return where they lie."""
     grid = _grid_of(window, step.model.dtm_cell_size, frame)
     make = partial(raster.make, grid=grid, model=step.model)
-    strips = gathered_strips(layers, window, make, raster.margin, progress)
+    strips = gathered_strips(layers, window, make, raster.margin(grid, step.model), progress)
     temporary = outputs.enter_context(replacing_raster(path))
     rows = Rows(window.shape, raster.kind, strips)
     write_geotiff(temporary, rows, grid, raster.nodata, progress, raster.shows)

@@ -21,6 +21,7 @@ from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
 from ..las.lasfile import LasFile
+from ..survey.shapes import Geometry, Place
 from .blocks import Blocks, Store
 from .memory import Resources
 
@@ -95,6 +96,37 @@ class Step:
     def settings(self) -> dict[str, Any]:
         """Return everything that the result depends on, as plain values."""
         return {"step": type(self).__name__, **_plain(self)}
+
+
+def located(steps: Sequence[Any], place: Place, progress: Progress = SILENT) -> list[Any]:
+    """Return steps whose lines and polygons are in the CRS of the points.
+
+    Parameters
+    ----------
+    steps : sequence of Step
+        Steps that may share an area or other geometry, which is transformed once.
+    place : Place
+        Where the points lie.
+    progress : Progress
+        Receives messages.
+
+    Raises
+    ------
+    BareEarthError
+        As for `Geometry.located`.
+    """
+    known: dict[int, Geometry] = {}
+    found = []
+    for step in steps:
+        changed = {}
+        for name in (field.name for field in dataclasses.fields(step)):
+            value = getattr(step, name)
+            if isinstance(value, Geometry):
+                if id(value) not in known:
+                    known[id(value)] = value.located(place, progress)
+                changed[name] = known[id(value)]
+        found.append(dataclasses.replace(step, **changed) if changed else step)
+    return found
 
 
 class PointStep(Step):

@@ -8,12 +8,11 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import NamedTuple, Sequence
 
-from ..core.files import check_output, replacing, temporary_folder
+from ..core.files import replacing, temporary_folder
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
 from ..filters import DEFAULT_METHOD, METHODS
-from ..products.contours import Contours, Interval, write_contours
-from ..products.local_relief import LocalRelief, write_local_relief
+from ..products.contours import Contours, Interval, check_contours, write_contours
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import MapTerrain
 from ..rasters.writing import replacing_raster
@@ -42,13 +41,12 @@ class MapFiles(NamedTuple):
         The classified point cloud. For many files it is a folder of this name, without its ending.
     rasters : RasterFiles
         Terrain model, surface model and so on.
-    relief, contours : Path or None
-        Local relief, and contour lines.
+    contours : Path or None
+        Contour lines.
     """
 
     cloud: Path | None
     rasters: RasterFiles
-    relief: Path | None = None
     contours: Path | None = None
 
 
@@ -61,7 +59,6 @@ class MapRequest(Request):
     terrain: MapTerrain = field(default_factory=MapTerrain)
     surface: SurfaceModel = field(default_factory=SurfaceModel)
     contours: Contours = field(default_factory=Contours)
-    relief: LocalRelief = field(default_factory=LocalRelief)
     area: Area | None = None
     corrections: Corrections = NO_CORRECTIONS
     constraints: Constraints = NO_CONSTRAINTS
@@ -130,7 +127,7 @@ def make_maps(
     Cancelled
         If the user asked to stop.
     """
-    wanted = [files.cloud, *files.rasters.wanted.values(), files.relief, files.contours]
+    wanted = [files.cloud, *files.rasters.wanted.values(), files.contours]
     folders = [path.parent for path in wanted if path]
     beside = next((each for each in folders if each.is_dir()), Path(tempfile.gettempdir()))
     is_one = is_one_file(sources)
@@ -138,22 +135,17 @@ def make_maps(
     with temporary_folder(beside) as waiting, contextlib.ExitStack() as outputs:
         cloud = files.cloud or waiting / "cloud.las"
         files.rasters.check((*sources, cloud))
-        for each in filter(None, (files.relief, files.contours)):
-            check_output(each, tuple(sources))
+        if files.contours:
+            check_contours(files.contours, tuple(sources))
         if files.cloud and is_one:
             check_cloud(sources[0], cloud)
             cloud = outputs.enter_context(replacing(cloud))
-        rasters = {**files.rasters.wanted, **({"relief": files.relief} if files.relief else {})}
+        rasters = files.rasters.wanted
         maps = {name: outputs.enter_context(replacing_raster(rasters[name])) for name in rasters}
-        relief = maps.pop("relief", None)
-        if files.relief or files.contours:
+        if files.contours:
             maps.setdefault("dtm", waiting / "dtm.tif")
-        part, smoothing, tracing = progress.shares(
-            5.0 + 4.4 * bool(maps), 0.3 * bool(relief), 0.3 * bool(files.contours)
-        )
+        part, tracing = progress.shares(5.0 + 4.4 * bool(maps), 0.3 * bool(files.contours))
         summary = _classified(sources, cloud, request.classify(RasterFiles(**maps)), part)
-        if relief:
-            write_local_relief(maps["dtm"], relief, request.relief, smoothing)
         if files.contours:
             interval = write_contours(maps["dtm"], files.contours, request.contours, tracing)
             summary = summary._replace(contour_interval=interval)

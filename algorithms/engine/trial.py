@@ -8,13 +8,12 @@ from typing import Any, Iterable, Sequence
 
 from ..core.errors import BareEarthError
 from ..core.files import check_output, replacing
-from ..core.points import Box
+from ..core.points import Box, box_in_words
 from ..core.progress import SILENT, Progress
 from ..core.threads import may_use
 from ..products.profile import Profile, can_be_shown
 from ..products.trial_page import TrialPage
 from ..products.window_trial import Outcome, figures_of, line_across
-from ..survey.area import box_in_words
 from .file_points import fits_in_memory
 from .memory import Resources
 from .trial_commands import commands_for

@@ -10,7 +10,7 @@ from typing import NamedTuple, Sequence
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.points import Box, Points
+from ..core.points import Box, Points, box_in_words
 from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads
 from ..crs.system import Crs
@@ -19,7 +19,7 @@ from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..products.window_trial import Line, Outcome, Window, outcome_of
-from ..survey.area import Area, box_in_words
+from ..survey.area import Area
 from ..survey.files import is_one_file, open_survey
 from ..survey.window import read_window
 from .labelling import LabelGround

@@ -1,32 +1,37 @@
-"""Contour lines of a terrain model, made with GDAL."""
+"""Contour lines of a terrain model, of its heights smoothed for the lines only."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Iterator, NamedTuple
+
+import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import replace_with_files_of, temporary_folder
+from ..core.files import check_output, replace_with_files_of, temporary_folder
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
-from ..rasters.libraries import GdalErrors
+from ..crs.system import unit_symbol
+from ..grids.isolines import Isoline, Isolines
+from ..grids.local_trend import local_trend, reach_of
+from ..rasters.rows import RowsOfRaster, raster_rows
+from .line_files import ContourLine, files_beside, line_writer
 
 # A map with about so many lines is easy to read.
 _LINES = 20
-_STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
-# A smaller interval would show noise.
-_LEAST = 0.25
-# One of so many lines is drawn thick.
+_STEPS = (1.0, 2.0, 5.0, 10.0)
+# A smaller interval, in metres, would show noise.
+_LEAST = 0.2
+# So many lines cannot be told apart; with more, memory would not be bounded.
+_MOST_LEVELS = 20_000
+# One of so many lines is drawn thick, and has its height as a label.
 INDEX = 5
-# The formats that QGIS offers first, and their names in GDAL.
-_DRIVERS = {".gpkg": "GPKG", ".shp": "ESRI Shapefile", ".geojson": "GeoJSON", ".fgb": "FlatGeobuf"}
-# Further files of these formats. Old indices and journals would do harm to new lines.
-_BESIDE = {
-    ".shp": (".dbf", ".shx", ".prj", ".cpg", ".qpj", ".qix", ".sbn", ".sbx"),
-    ".gpkg": (".gpkg-wal", ".gpkg-shm", ".gpkg-journal"),
-}
+# Cells that are worked on at a time.
+_CELLS = 4_000_000
+# A smaller standard deviation, in cells, changes nothing.
+_LEAST_SIGMA = 0.3
 
 
 @dataclass(frozen=True)
@@ -36,17 +41,38 @@ class Contours(ParameterSet):
     contour_interval: float | None = parameter(
         None,
         kind="number",
-        label="Contour interval",
+        label="Contour interval, in the unit of heights (m or ft)",
         minimum=0.001,
         maximum=10_000.0,
         advanced=True,
         empty="automatic",
-        help="The height between contour lines, in the vertical unit of the CRS. Empty: a value"
-        f" that gives about {_LINES} lines.",
+        help="The height between contour lines, in the vertical unit of the CRS: metres, or feet if"
+        " the heights are feet. Empty: 1, 2 or 5 times a power of ten, so that there are about"
+        f" {_LINES} lines. Every fifth line is an index contour.",
+    )
+    contour_smoothing: float = parameter(
+        3.0,
+        label="Smoothing of the contour lines",
+        unit="m",
+        minimum=0.0,
+        maximum=1000.0,
+        advanced=True,
+        help="For the lines, each height is averaged with its surroundings up to about this"
+        " distance, so that they do not show noise. The terrain model does not change. 0: as the"
+        " terrain model is.",
+    )
+    contour_min_length: float = parameter(
+        10.0,
+        label="Shortest closed contour line",
+        unit="m",
+        minimum=0.0,
+        maximum=10_000.0,
+        advanced=True,
+        help="Closed lines that are shorter are left out: they show single plants and noise.",
     )
 
-    def interval(self, low: float, high: float) -> float:
-        """Return the interval for terrain between two heights.
+    def interval(self, low: float, high: float, unit: float = 1.0) -> float:
+        """Return the interval for terrain between two heights; `unit` is their unit in metres.
 
         >>> Contours().interval(130.0, 172.0)
         2.0
@@ -55,9 +81,11 @@ class Contours(ParameterSet):
         """
         if self.contour_interval is not None:
             return self.contour_interval
-        wanted = max((high - low) / _LINES, _LEAST)
+        wanted = max((high - low) / _LINES, _LEAST / unit)
         power = 10.0 ** math.floor(math.log10(wanted))
-        return min((step * power for step in _STEPS), key=lambda each: abs(each - wanted))
+        # The step that is nearest by its factor.
+        step = min(_STEPS, key=lambda each: abs(math.log(each * power / wanted)))
+        return float(f"{step * power:.6g}")
 
 
 class Interval(NamedTuple):
@@ -83,10 +111,24 @@ class Interval(NamedTuple):
         return f"{lines * self.height:g} {self.unit}".rstrip()
 
 
+def check_contours(target: Path, others: tuple[Path, ...] = ()) -> None:
+    """Refuse, before any work is done, contour lines that could not be written at the end.
+
+    Raises
+    ------
+    BareEarthError
+        If the name or folder is unsuitable, or a library is missing.
+    """
+    check_output(target, others)
+    line_writer(target)
+
+
 def write_contours(
     source: Path, target: Path, contours: Contours = Contours(), progress: Progress = SILENT
 ) -> Interval:
     """Write the contour lines of a raster, each with its height in the field ELEV.
+
+    The field INDEX is 1 for every fifth line, else 0. The raster is read some rows at a time.
 
     Parameters
     ----------
@@ -95,7 +137,7 @@ def write_contours(
     target : Path
         The file to make: .gpkg, .shp, .geojson or .fgb.
     contours : Contours
-        The interval.
+        Interval and smoothing.
     progress : Progress
         Receives progress and messages.
 
@@ -107,47 +149,76 @@ def write_contours(
     Raises
     ------
     BareEarthError
-        If GDAL is missing or cannot write the lines; nothing is left behind.
+        If the raster cannot be read, a library is missing, or the lines cannot be written; nothing
+        is left behind.
     """
-    try:
-        from osgeo import gdal
-    except ImportError:
-        raise BareEarthError("Contour lines need GDAL with Python, which QGIS has.") from None
     target = Path(target)
-    if target.suffix.lower() not in _DRIVERS:
-        raise BareEarthError(f"{target} is not one of {', '.join(_DRIVERS)}. Name it so.")
-    raster = gdal.Open(str(source))
-    band = raster.GetRasterBand(1)
-    # The description that `write_geotiff` gives to bands of terrain models.
-    unit = band.GetDescription().partition(", ")[2]
-    interval = Interval(contours.interval(*band.ComputeRasterMinMax(False)), unit)
-    with temporary_folder(target.parent) as folder:
-        with GdalErrors(gdal, "write") as errors:
-            count = _draw(raster, folder / target.name, interval.height)
-            errors.check(target)
-        progress.info(f"{count:,} contour lines, one every {interval.text()}")
-        progress(1.0)
-        suffix = target.suffix.lower()
-        beside = [f"{target.stem}{each}" for each in _BESIDE.get(suffix, ())]
-        replace_with_files_of(folder, target, beside)
+    check_contours(target, (Path(source),))
+    write = line_writer(target)
+    with raster_rows(source) as raster:
+        low, high = _range_of(raster, progress.part(0.0, 0.2))
+        height = contours.interval(low, high, raster.frame.vertical_unit)
+        # The description that `write_geotiff` gives to bands of terrain models.
+        unit = raster.description.partition(", ")[2]
+        if not unit and raster.frame.wkt:
+            unit = unit_symbol(raster.frame.vertical_unit)
+        interval = Interval(height, unit)
+        if (high - low) / height > _MOST_LEVELS:
+            raise BareEarthError(
+                f"An interval of {interval.text()} would give more than {_MOST_LEVELS:,} heights of"
+                " contour lines. Choose a larger one."
+            )
+        with temporary_folder(target.parent) as folder:
+            lines = _lines_of(raster, contours, height, progress.part(0.2, 1.0))
+            count = write(folder / target.name, lines, raster.frame.wkt, progress)
+            progress.info(f"{count:,} contour lines, one every {interval.text()}")
+            progress(1.0)
+            replace_with_files_of(folder, target, files_beside(target))
     return interval
 
 
-def _draw(raster: Any, target: Path, interval: float) -> int:
-    """Write the lines to a new file; return how many there are."""
-    from osgeo import gdal, ogr
+def _range_of(raster: RowsOfRaster, progress: Progress) -> tuple[float, float]:
+    """Return the lowest and the highest height."""
+    low, high, count = math.inf, -math.inf, raster.shape[0]
+    rows = _rows_of(raster)
+    for start in range(0, count, rows):
+        heights = raster.read(start, start + rows)
+        known = heights[np.isfinite(heights)]
+        if len(known):
+            low, high = min(low, float(known.min())), max(high, float(known.max()))
+        progress(min(start + rows, count) / count)
+    return (low, high) if low <= high else (0.0, 0.0)
 
-    band = raster.GetRasterBand(1)
-    options = [f"LEVEL_INTERVAL={interval}", "ID_FIELD=0", "ELEV_FIELD=1"]
-    options += [f"NODATA={band.GetNoDataValue()}"] if band.GetNoDataValue() is not None else []
-    made = ogr.GetDriverByName(_DRIVERS[target.suffix.lower()]).CreateDataSource(str(target))
-    if made is None:
-        return 0
-    lines = made.CreateLayer("contours", raster.GetSpatialRef(), ogr.wkbLineString)
-    lines.CreateField(ogr.FieldDefn("ID", ogr.OFTInteger))
-    lines.CreateField(ogr.FieldDefn("ELEV", ogr.OFTReal))
-    # One transaction, since a GeoPackage would otherwise commit each line.
-    lines.StartTransaction()
-    gdal.ContourGenerateEx(band, lines, options=options)
-    lines.CommitTransaction()
-    return lines.GetFeatureCount()
+
+def _rows_of(raster: RowsOfRaster) -> int:
+    return max(_CELLS // raster.shape[1], 1)
+
+
+def _lines_of(
+    raster: RowsOfRaster, how: Contours, interval: float, progress: Progress
+) -> Iterator[ContourLine]:
+    """Yield the lines of a raster."""
+    (count, columns), rows = raster.shape, _rows_of(raster)
+    (x, a, b, y, c, d), unit = raster.geotransform, raster.frame.horizontal_unit
+    cells = math.hypot(b, d) * unit, math.hypot(a, c) * unit
+    sigma = how.contour_smoothing / 2 / cells[0], how.contour_smoothing / 2 / cells[1]
+    smooths = max(sigma) > _LEAST_SIGMA
+    reach, lines = reach_of(sigma[0]) if smooths else 0, Isolines(interval, columns)
+    for start in range(0, max(count - 1, 1), rows):
+        end = min(start + rows + 1, count)  # the next strip begins with the last row
+        first = max(start - reach, 0)
+        heights = raster.read(first, end + reach)
+        if smooths:
+            heights = local_trend(heights, sigma)
+        for line in lines.add(heights[start - first : end - first], start, end == count):
+            row, column = (line.places + 0.5).T
+            corners = np.column_stack((x + a * column + b * row, y + c * column + d * row))
+            if not _is_speck(line, corners * unit, how.contour_min_length):
+                height = float(f"{line.level * interval:.9g}")
+                yield ContourLine(height, line.level % INDEX == 0, corners)
+        progress(end / count)
+
+
+def _is_speck(line: Isoline, corners: np.ndarray, least: float) -> bool:
+    """Return whether a line is closed and shorter than `least` metres."""
+    return line.is_closed and float(np.hypot(*np.diff(corners, axis=0).T).sum()) < least

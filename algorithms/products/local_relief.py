@@ -13,19 +13,24 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Iterator
 
 import numpy as np
 
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
-from ..grids.plane import plane_through
-from ..rasters.geotiff import NODATA, read_raster
-from ..rasters.writing import write_geotiff
+from ..grids.local_trend import local_trend, reach_of
+from ..grids.relief_smoothing import smoothing_reach, without_noise
+from ..rasters.geotiff import NODATA, Raster, read_raster
+from ..rasters.writing import Rows, check_raster_output, write_geotiff
+
+# Cells that are worked on at a time.
+_CELLS = 4_000_000
 
 
 @dataclass(frozen=True)
 class LocalRelief(ParameterSet):
-    """The size of the features that local relief shows."""
+    """The size of the features that local relief shows, and the smoothing of such pictures."""
 
     relief_radius: float = parameter(
         10.0,
@@ -37,6 +42,20 @@ class LocalRelief(ParameterSet):
         help="Each place is compared with its surroundings up to this distance. Choose about the"
         " width of the features that you want to see; larger landforms disappear.",
     )
+    relief_smoothing: str = parameter(
+        "automatic",
+        label="Smoothing of hillshade and local relief",
+        choices={"automatic": "Automatic", "none": "None"},
+        advanced=True,
+        help="Automatic: for the pictures, heights are smoothed as much as they are noisy, so that"
+        " low plants in a forest do not speckle them. Banks, ditches and walls stay sharp, and so"
+        " does open ground. The terrain model does not change.",
+    )
+
+    @property
+    def smooths(self) -> bool:
+        """Whether heights are smoothed for pictures."""
+        return self.relief_smoothing == "automatic"
 
 
 def local_relief(
@@ -57,22 +76,17 @@ def local_relief(
     Returns
     -------
     numpy.ndarray of float32, shape (rows, columns)
-        In the unit of the heights; NaN where these are NaN.
+        In the unit of the heights; NaN where these are NaN. A cell depends on others up to
+        `relief_reach` cells away.
     """
-    from scipy.ndimage import gaussian_filter
-
-    known = np.isfinite(heights)
-    if not known.any():
-        return heights.astype(np.float32)
     sigma = radius / 2 / cell_metres[1], radius / 2 / cell_metres[0]
-    # Relative to a plane, because a slope would be visible at the edge, where surroundings lie on
-    # one side only. Also, small numbers keep their millimetres as float32.
-    filled = np.where(known, heights - plane_through(heights, known), 0).astype(np.float32)
-    # Cells without a height have no weight.
-    total = gaussian_filter(filled, sigma, mode="constant")
-    weight = gaussian_filter(known.astype(np.float32), sigma, mode="constant")
-    mean = total / np.where(known, weight, 1)
-    return np.where(known, filled - mean, np.nan).astype(np.float32)
+    # At an edge the trend is that of a plane, because otherwise a slope would be visible there.
+    return (heights - local_trend(heights, sigma)).astype(np.float32)
+
+
+def relief_reach(cell_size: float, radius: float, smooths: bool) -> int:
+    """Return how many cells away a cell still matters to the local relief."""
+    return reach_of(radius / 2 / cell_size) + (smoothing_reach(cell_size) if smooths else 0)
 
 
 def write_local_relief(
@@ -97,11 +111,26 @@ def write_local_relief(
     BareEarthError
         If the raster cannot be read, or the output cannot be written.
     """
+    check_raster_output(target, (Path(source),))
     # Without progress: messages on units were given for the points.
     raster = read_raster(source)
-    progress(0.3)
-    relief = local_relief(raster.heights, raster.cell_metres, parameters.relief_radius)
-    progress(0.9)
-    values = np.where(np.isnan(relief), np.float32(NODATA), relief)
-    write_geotiff(target, values, raster, NODATA, progress, "Local relief, {unit}")
+    progress(0.2)
+    rows = Rows(raster.heights.shape, "float32", _strips(raster, parameters, progress))
+    write_geotiff(target, rows, raster, NODATA, progress, "Local relief, {unit}")
     progress(1.0)
+
+
+def _strips(raster: Raster, how: LocalRelief, progress: Progress) -> Iterator[np.ndarray]:
+    """Yield the local relief of a raster, some rows at a time."""
+    count, columns = raster.heights.shape
+    cell, unit = min(raster.cell_metres), raster.frame.vertical_unit
+    reach, rows = relief_reach(cell, how.relief_radius, how.smooths), max(_CELLS // columns, 1)
+    for start in range(0, count, rows):
+        first = max(start - reach, 0)
+        heights = raster.heights[first : start + rows + reach].astype(np.float64)
+        if how.smooths:
+            heights = without_noise(heights * unit, cell) / unit
+        relief = local_relief(heights, raster.cell_metres, how.relief_radius)
+        relief = relief[start - first :][:rows]
+        yield np.where(np.isnan(relief), np.float32(NODATA), relief)
+        progress(0.2 + 0.7 * min(start + rows, count) / count)

@@ -1,15 +1,16 @@
-"""Parameters of rasters of the terrain: cell size and light."""
+"""Parameters of rasters of the terrain: cell size, light, and pictures of the relief."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 from ..core.parameters import ParameterSet, parameter, parameter_of
+from .local_relief import LocalRelief
 
 
 @dataclass(frozen=True)
 class TerrainModel(ParameterSet):
-    """Cell size and light of rasters of the terrain."""
+    """Cell size and light of rasters of the terrain, and pictures of its relief."""
 
     dtm_cell_size: float = parameter(
         1.0,
@@ -50,6 +51,13 @@ class TerrainModel(ParameterSet):
         advanced=True,
         help="Angle of the light above the horizon.",
     )
+    relief_smoothing: str = parameter_of(LocalRelief, "relief_smoothing")
+    relief_radius: float = parameter_of(LocalRelief, "relief_radius")
+
+    @property
+    def smooths(self) -> bool:
+        """Whether heights are smoothed for pictures."""
+        return self.relief_smoothing == "automatic"
 
 
 @dataclass(frozen=True)

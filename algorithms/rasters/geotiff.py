@@ -204,7 +204,7 @@ def read_raster(
         cannot be read, or the CRS is geographic.
     """
     read = library(_read_with_gdal, _read_with_rasterio, "Reading")
-    _check_local(str(source))
+    check_local(str(source))
     content = read(str(source), band, window)
     values, valid = content.values, content.valid
     if values.dtype.kind not in "iuf":
@@ -213,14 +213,14 @@ def read_raster(
     if (content.scale, content.offset) != (1.0, 0.0):
         heights = (values * content.scale + content.offset).astype(np.float32)
     heights[~(valid & np.isfinite(values))] = np.nan
-    frame = _frame_of(source, content, progress)
+    frame = frame_of(source, content, progress)
     stated = read_wkt(content.wkt) if content.wkt else None
     states_unit = content.unit.strip().lower() in _UNITS or bool(stated and stated.has_vertical)
     whole = content.shape
     return Raster(heights, content.geotransform, frame, content.unit, whole, states_unit)
 
 
-class _Content(NamedTuple):
+class Content(NamedTuple):
     """The contents of a raster file."""
 
     values: np.ndarray
@@ -233,7 +233,7 @@ class _Content(NamedTuple):
     shape: tuple[int, int]
 
 
-def _frame_of(source: str | Path, content: _Content, progress: Progress) -> Frame:
+def frame_of(source: str | Path, content: Content, progress: Progress = SILENT) -> Frame:
     """Return a frame with the units of the band and the CRS, or metres if none are stated."""
     facts = read_wkt(content.wkt) if content.wkt else None
     if facts is not None and facts.is_geographic:
@@ -262,7 +262,7 @@ def _frame_of(source: str | Path, content: _Content, progress: Progress) -> Fram
     return Frame((0.0, 0.0), horizontal, vertical, content.wkt or None)
 
 
-def _check_local(source: str) -> None:
+def check_local(source: str) -> None:
     """Refuse a URL, and files such as VRT that contain one, since GDAL would fetch it."""
     if any("\ud800" <= each <= "\udfff" for each in source):
         raise BareEarthError(f"The name of {source} is not UTF-8, which GDAL needs. Rename it.")
@@ -284,7 +284,7 @@ def _check_local(source: str) -> None:
         raise BareEarthError(f"Cannot read {source}: it does not exist. Check the path.")
 
 
-def _read_with_gdal(source: str, band: int, window: Window | None) -> _Content:
+def _read_with_gdal(source: str, band: int, window: Window | None) -> Content:
     from osgeo import gdal
 
     with GdalErrors(gdal, "read") as errors:
@@ -300,7 +300,7 @@ def _read_with_gdal(source: str, band: int, window: Window | None) -> _Content:
         valid = layer.GetMaskBand().ReadAsArray(*part) != 0
         errors.check(source)
         scale, offset = layer.GetScale(), layer.GetOffset()
-        return _Content(
+        return Content(
             values,
             valid,
             tuple(dataset.GetGeoTransform()),
@@ -312,7 +312,7 @@ def _read_with_gdal(source: str, band: int, window: Window | None) -> _Content:
         )
 
 
-def _read_with_rasterio(source: str, band: int, window: Window | None) -> _Content:
+def _read_with_rasterio(source: str, band: int, window: Window | None) -> Content:
     import rasterio
     import rasterio.windows
     from rasterio.errors import RasterioError
@@ -321,7 +321,7 @@ def _read_with_rasterio(source: str, band: int, window: Window | None) -> _Conte
         with rasterio.open(source) as dataset:
             _check_size(source, band, dataset.count, dataset.shape, window)
             part = None if window is None else rasterio.windows.Window(*window)
-            return _Content(
+            return Content(
                 dataset.read(band, window=part),
                 dataset.read_masks(band, window=part) != 0,
                 dataset.transform.to_gdal(),

@@ -8,8 +8,10 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.points import Box
+from ..core.progress import SILENT, Progress
 from ..core.threads import parts_of
 from ..las.cloud import PointCloud
+from .shapes import Geometry, Place, located
 
 # Points that are sorted together: few enough for memory, and many enough for the loop over edges.
 _POINTS_A_STEP = 1 << 21
@@ -18,7 +20,7 @@ Polygon = tuple[np.ndarray, ...]
 
 
 @dataclass(frozen=True, eq=False)
-class Area:
+class Area(Geometry):
     """A part of the plane, in coordinates of the CRS.
 
     Attributes
@@ -29,6 +31,7 @@ class Area:
         The rings of each polygon, closed or not, in any direction. By the even-odd rule, rings
         inside another ring are holes. A point on the common border of two polygons belongs to one
         of them. If there is a box as well, the area is the part of the polygons in the box.
+        Those of a file can be in another CRS until the points are known; see `located`.
     """
 
     box: Box | None = None
@@ -49,6 +52,10 @@ class Area:
             raise BareEarthError(
                 "A corner of the boundary is not a finite number. Check the boundary and its CRS."
             )
+
+    def located(self, place: Place, progress: Progress = SILENT) -> Area:
+        """Return the area in the CRS of the points; see `Geometry.located`."""
+        return Area(self.box, located(self.polygons, "the area", place, progress))
 
     @property
     def bounds(self) -> Box:
@@ -116,12 +123,6 @@ class Area:
                 part = which[some]
                 numbers[part] = _last_polygon(x[part], y[part], self.polygons)
         return numbers
-
-
-def box_in_words(box: Box) -> str:
-    """Return the limits of a box in words."""
-    west, south, east, north = box
-    return f"x {west:.10g} to {east:.10g}, y {south:.10g} to {north:.10g}"
 
 
 def _bounds(polygon: Polygon) -> Box:

@@ -8,8 +8,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..core.errors import BareEarthError
+from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
 from .area import Area, Polygon
+from .shapes import Geometry, Place, located
 
 # Points that get this class by hand are classified again.
 _NEVER_CLASSIFIED = 0
@@ -19,7 +21,7 @@ CLASS_FIELD = "class"
 
 
 @dataclass(frozen=True, eq=False)
-class Corrections:
+class Corrections(Geometry):
     """Polygons with classes, in coordinates of the CRS.
 
     Attributes
@@ -45,6 +47,11 @@ class Corrections:
         if self.polygons:
             # This refuses corners that are not finite.
             Area(None, self.polygons)
+
+    def located(self, place: Place, progress: Progress = SILENT) -> Corrections:
+        """Return the corrections in the CRS of the points; see `Geometry.located`."""
+        polygons = located(self.polygons, "the polygons of the corrections", place, progress)
+        return Corrections(polygons, self.classes)
 
     def classes_of(self, part: PointCloud) -> np.ndarray:
         """Return the class of each point by the polygons; int16, shape (n,), -1 for none."""

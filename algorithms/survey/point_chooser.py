@@ -12,9 +12,10 @@ from ..core.points import Box
 from ..core.progress import Progress
 from ..las.cloud import PointCloud
 from ..las.records import check_class
-from .area import Area, box_in_words
+from .area import Area
 from .corrections import NO_CORRECTIONS, ByHand, Corrections
 from .selection import Selection
+from .shapes import outside
 from .tally import Tally
 
 
@@ -103,10 +104,7 @@ class PointChooser:
 
     def no_point_in_area(self, of: str, box: Box) -> BareEarthError:
         """Return the error for an area without points; `box` holds all points `of` some files."""
-        return BareEarthError(
-            f"No point of {of} lies in the area ({box_in_words(self.area.bounds)}): the points lie"
-            f" in {box_in_words(box)}. Give the area in the CRS of the points."
-        )
+        return outside("the area", self.area.bounds, of, box)
 
     def tell_of_corrections(self, progress: Progress) -> None:
         """Warn that no point gets its class from the polygons of the corrections, if any."""

@@ -1,58 +1,71 @@
-"""Reading polygons and lines from GeoJSON and WKT files."""
+"""Reading polygons and lines from files: GeoJSON and WKT here, other formats by a library."""
 
 from __future__ import annotations
 
 import json
 import re
 from pathlib import Path
-from typing import Any, Callable, Iterator, TypeVar
+from typing import Any, Callable, Iterator
 
 import numpy as np
 
 from ..core.errors import BareEarthError
+from ..crs.provider import LONGITUDE_LATITUDE
 from ..las.sources import read_text
 from .area import Polygon
 from .corrections import CLASS_FIELD, Corrections
-
-_Shape = TypeVar("_Shape")
+from .shapes import Shapes
+from .vector_library import read_features
 
 _WKT_PART = re.compile(r"[()]|[^()]+")
 # Errors while reading a text that is not valid GeoJSON or WKT.
 _INVALID = (
     ValueError, TypeError, KeyError, IndexError, AttributeError, RecursionError, OverflowError
 )  # fmt: skip
+# Formats that are read here, without a library.
+_TEXTS = {".geojson": "GeoJSON", ".json": "GeoJSON", ".wkt": "WKT"}
+# For the help of options.
+FORMATS = (
+    "GeoJSON, WKT, or with pyogrio GeoPackage, shapefile and others; if the file states its CRS, it"
+    " is transformed to that of the points"
+)
+# A CRS in GeoJSON: EPSG:25832, urn:ogc:def:crs:EPSG::25832, or a URL that ends with EPSG/0/25832.
+_CRS_NAME = re.compile(r"(EPSG|ESRI|IGNF|OGC|CRS)[:/](?:[\w.]*[:/])?(\w+)$", re.IGNORECASE)
+_SRID = re.compile(r"\s*SRID\s*=\s*(\d+)\s*;", re.IGNORECASE)
 # Levels of lists: a line is a list of corners, a polygon a list of rings.
 _DEPTHS = {"LineString": 1, "Polygon": 2}
 
 
 def read_boundary(path: Path) -> tuple[Polygon, ...]:
-    """Read the polygons of a GeoJSON or WKT file, and nothing else.
+    """Read the polygons of a file, and nothing else.
 
     Parameters
     ----------
     path : Path
-        A .geojson, .json or .wkt file.
+        A .geojson, .json or .wkt file, or with pyogrio or GDAL a GeoPackage, a shapefile and so on.
+        ``FILE|layername=NAME`` is one layer of a file.
 
     Returns
     -------
-    tuple of tuple of numpy.ndarray of float64, shape (n, 2)
-        The rings of each polygon.
+    Shapes of tuple of numpy.ndarray of float64, shape (n, 2)
+        The rings of each polygon, x (longitude) first, with the CRS that the file states. What uses
+        them knows the CRS of the points, and transforms them.
 
     Raises
     ------
     BareEarthError
-        If the file cannot be read, is not valid, or holds no polygon.
+        If the file cannot be read, is not valid, holds no polygon, or needs a library.
     """
     return _shapes(path, "Polygon", lambda rings, _: _polygon(rings))
 
 
 def read_corrections(path: Path) -> Corrections:
-    """Read the polygons of a GeoJSON file with their classes, and nothing else.
+    """Read the polygons of a file with their classes, and nothing else.
 
     Parameters
     ----------
     path : Path
-        A .geojson or .json file whose features have the property `class`.
+        A file as for `read_boundary`, but no .wkt, whose features have the attribute `class`.
 
     Raises
     ------
@@ -61,12 +74,13 @@ def read_corrections(path: Path) -> Corrections:
     """
     if Path(path).suffix.lower() == ".wkt":
         raise BareEarthError(f"{path} holds no classes. Give the corrections as GeoJSON.")
-    polygons, classes = zip(*_shapes(path, "Polygon", _polygon_with_class))
-    return Corrections(polygons, classes)
+    found = _shapes(path, "Polygon", _polygon_with_class)
+    polygons, classes = zip(*found)
+    return Corrections(Shapes(polygons, found.crs, found.source), classes)
 
 
 def read_lines(path: Path) -> tuple[np.ndarray, ...]:
-    """Read the lines of a GeoJSON or WKT file, and nothing else.
+    """Read the lines of a file, and nothing else.
 
     Parameters
     ----------
@@ -75,35 +89,38 @@ def read_lines(path: Path) -> tuple[np.ndarray, ...]:
 
     Returns
     -------
-    tuple of numpy.ndarray of float64, shape (n, 3)
-        x, y and z of the corners of each line; NaN for z where the file has none.
+    Shapes of numpy.ndarray of float64, shape (n, 3)
+        x, y and z of the corners of each line; NaN for z where the file has none. z is in the unit
+        of the heights of the points: only x and y are transformed to another CRS.
     """
     return _shapes(path, "LineString", lambda corners, _: _line(corners))
 
 
-def _shapes(path: Path, kind: str, made: Callable[[Any, dict], _Shape]) -> tuple[_Shape, ...]:
+def _shapes(path: Path, kind: str, made: Callable[[Any, dict], Any]) -> Shapes:
     """Return what `made` returns for coordinates and attributes of each geometry of a kind."""
-    path, what = Path(path), "polygon" if kind == "Polygon" else "line"
-    suffix = path.suffix.lower()
-    if suffix not in (".geojson", ".json", ".wkt"):
-        raise BareEarthError(
-            f"{path} is not a {'boundary' if what == 'polygon' else 'file of lines'} that can be"
-            " read. Give GeoJSON (.geojson, .json) or WKT (.wkt); 'ogr2ogr -f GeoJSON -t_srs"
-            " CRS_OF_THE_POINTS boundary.geojson FILE' converts other formats."
-        )
+    what = "polygon" if kind == "Polygon" else "line"
+    name = _TEXTS.get(Path(path).suffix.lower())
+    if name is None:
+        found, crs = read_features(path, kind, CLASS_FIELD)
+    else:
+        text = _text_of(path)
     try:
-        text = read_text(path)
-    except UnicodeDecodeError:
-        raise BareEarthError(f"{path} is not a text file. Give GeoJSON or WKT.") from None
-    try:
-        found = _of_wkt(text, kind) if suffix == ".wkt" else _of_geojson(text, kind)
+        if name is not None:
+            found, crs = (_of_wkt if name == "WKT" else _of_geojson)(text, kind)
         shapes = tuple(made(*each) for each in found)
     except _INVALID as error:
-        name = "WKT" if suffix == ".wkt" else "GeoJSON"
-        raise BareEarthError(f"{path} is not valid {name}: {_one_line(error)}.") from error
+        as_what = f" {name}" if name else ""
+        raise BareEarthError(f"{path} is not valid{as_what}: {_one_line(error)}.") from error
     if not any(map(len, shapes)):
         raise BareEarthError(f"{path} holds no {what}. Give one that does.")
-    return shapes
+    return Shapes(shapes, crs, str(path))
+
+
+def _text_of(path: Path) -> str:
+    try:
+        return read_text(path)
+    except UnicodeDecodeError:
+        raise BareEarthError(f"{path} is not a text file. Give GeoJSON or WKT.") from None
 
 
 def _one_line(error: Exception) -> str:
@@ -135,9 +152,23 @@ def _finite(corners: np.ndarray) -> np.ndarray:
     return corners
 
 
-def _of_geojson(text: str, kind: str) -> Iterator[tuple[Any, dict]]:
-    """Yield coordinates and attributes of each geometry of a kind in a GeoJSON text, in order."""
-    nodes = [(json.loads(text), {})]
+def _of_geojson(text: str, kind: str) -> tuple[Iterator[tuple[Any, dict]], str | None]:
+    """Return coordinates and attributes of each geometry of a kind, and the CRS that is stated."""
+    content = json.loads(text)
+    crs = content.get("crs")
+    if crs is None:
+        return _nodes_of(content, kind), None
+    named = _CRS_NAME.search(str(crs["properties"]["name"]))
+    if named is None:
+        raise ValueError(f"its CRS, {crs['properties']['name']}, is not a code such as EPSG:25832")
+    authority, code = named[1].upper(), named[2].upper()
+    is_degrees = authority in ("OGC", "CRS") and code in ("CRS84", "84", "CRS84H")
+    return _nodes_of(content, kind), LONGITUDE_LATITUDE if is_degrees else f"{authority}:{code}"
+
+
+def _nodes_of(content: Any, kind: str) -> Iterator[tuple[Any, dict]]:
+    """Yield coordinates and attributes of each geometry of a kind in GeoJSON, in order."""
+    nodes = [(content, {})]
     while nodes:
         node, attributes = nodes.pop()
         if node is None:  # a feature without geometry
@@ -154,7 +185,13 @@ def _of_geojson(text: str, kind: str) -> Iterator[tuple[Any, dict]]:
             nodes += [(each, attributes) for each in reversed(some)]
 
 
-def _of_wkt(text: str, kind: str) -> Iterator[tuple[Any, dict]]:
+def _of_wkt(text: str, kind: str) -> tuple[Iterator[tuple[Any, dict]], str | None]:
+    """Return the coordinates of each geometry of a kind, and the CRS of extended WKT."""
+    stated = _SRID.match(text)
+    return _wkt_of(text, kind), f"EPSG:{stated[1]}" if stated else None
+
+
+def _wkt_of(text: str, kind: str) -> Iterator[tuple[Any, dict]]:
     """Yield the coordinates of each geometry of a kind in a text that holds WKT; no attributes."""
     name = rf"\b(MULTI)?{kind.upper()}\s*(?:ZM|Z|M)?\s*(?=\()"
     for match in re.finditer(name, text, re.IGNORECASE):

@@ -7,7 +7,6 @@ from pathlib import Path
 from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.options import TileMethod
 from ...algorithms.products.contours import Contours
-from ...algorithms.products.local_relief import LocalRelief
 from ...algorithms.products.surface_model import SurfaceModel
 from ...algorithms.products.terrain_model import MapTerrain
 from ...algorithms.survey.selection import Selection
@@ -35,7 +34,7 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
 
     def parameter_sets(self):
         """Return method and cell size, then parameters that rarely need a change."""
-        return TileMethod, MapTerrain, Selection, SurfaceModel, Contours, LocalRelief, Resources
+        return TileMethod, Contours, MapTerrain, Selection, SurfaceModel, Resources
 
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""
@@ -61,8 +60,9 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         request = MapRequest.of(chosen, **limits)
         cloud = self.point_cloud_destination(parameters, "OUTPUT", context)
         results = outputs.raster_paths(self, parameters, context)
-        paths = [path and Path(path) for path in map(results.get, ("RELIEF", "CONTOURS"))]
-        files = MapFiles(cloud and Path(cloud), outputs.raster_files(results), *paths)
+        lines = results.get("CONTOURS")
+        rasters = outputs.raster_files(results)
+        files = MapFiles(cloud and Path(cloud), rasters, lines and Path(lines))
         summary = make_maps(self._sources, files, request, progress)
         made = str(cloud and summary.cloud)
         area = area_options(request.area, progress, is_all=True)

@@ -185,8 +185,10 @@ def test_boundaries_are_read(name, text, expected, tmp_path):
 @pytest.mark.parametrize(
     ("name", "text", "word"),
     [
-        ("a.shp", "", "Give GeoJSON .* or WKT"),
-        ("a.gpkg", "", "ogr2ogr"),
+        ("a.shp", "", "Cannot read"),
+        ("a.gpkg", "", "Cannot read"),
+        ("a.gml", "<gml/>", "is XML"),
+        ("a.geojson", '{"type": "Polygon", "crs": {"type": "link"}}', "is not valid GeoJSON"),
         ("a.geojson", "", "is not valid GeoJSON"),
         ("a.geojson", "{", "is not valid GeoJSON"),
         ("a.geojson", "[]", "is not valid GeoJSON"),

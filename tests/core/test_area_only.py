@@ -190,7 +190,8 @@ def test_the_command_writes_the_area_alone(inputs, tmp_path, capsys, threads_for
 
 def test_corrections_that_meet_no_point_are_told_once(inputs, tmp_path, las):
     request = ClassifyRequest(parameters=SlopeFilter())
-    for box, count in ((ELSEWHERE.box, 1), ((EAST, NORTH, EAST + 9.0, NORTH + 9.0), 0)):
+    between = EAST + 50.001, NORTH + 50.001, EAST + 50.002, NORTH + 50.002
+    for box, count in ((between, 1), ((EAST, NORTH, EAST + 9.0, NORTH + 9.0), 0)):
         west, south, east, north = box
         ring = np.array([(west, south), (east, south), (east, north), (west, north)])
         known = replace(request, corrections=Corrections(((ring,),), (6,)))

@@ -186,8 +186,8 @@ def test_the_command_line_takes_polygons_of_a_file(cloud, tmp_path, capsys):
     assert main(["classify", str(cloud), str(out), "--corrections", str(path), *words]) == 0
     assert set(_classes(out, HALL)) == {6} and set(_classes(out, MOUND)) == {2}
     far = _geojson(tmp_path / "far.geojson", ((900.0, 0.0, 910.0, 10.0), {"class": 2}))
-    assert main(["classify", str(cloud), str(out), "--corrections", str(far), *words]) == 0
-    assert "Give them in the CRS" in capsys.readouterr().err
+    assert main(["classify", str(cloud), str(out), "--corrections", str(far), *words]) == 1
+    assert "lies in the polygons of the corrections" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("properties", [{}, {"class": "ground"}, {"class": 256}, {"class": 2.5}])

@@ -241,7 +241,10 @@ def test_lines_far_from_any_ground_are_told(wall, tmp_path, las):
     heard = las.Heard()
     request = TerrainRequest(
         rasters=RasterFiles(dtm=tmp_path / "dtm.tif"),
-        constraints=Constraints(breaklines=(line,), water=(_square(800.0, 800.0, 850.0, 850.0),)),
+        constraints=Constraints(
+            breaklines=(line, _line((9.0, 9.0, 10.0), (19.0, 9.0, 10.0))),
+            water=(_square(800.0, 800.0, 850.0, 850.0), _square(20.0, 20.0, 30.0, 30.0)),
+        ),
     )
     terrain(source, request, heard)
     assert any("Breaklines left out: 1." in each for each in heard.warnings)

@@ -74,9 +74,9 @@ def test_libraries_agree_on_places(las):
     if not present:
         pytest.skip("no library that knows EPSG codes")
     for library in present:
-        found = library.to_wgs84(wkt, places)
+        found = library.transformed(wkt, "EPSG:4326", places)
         np.testing.assert_allclose(found, to_wgs84(wkt, places), atol=1e-6)
-        assert library.to_wgs84("no CRS", places) is None
+        assert library.transformed("no CRS", "EPSG:4326", places) is None
     longitudes, latitudes = found.T
     assert ((longitudes > -125) & (longitudes < -122)).all()
     assert ((latitudes > 45) & (latitudes < 49)).all()

@@ -75,9 +75,9 @@ def write_scene(path, epsg=25832, origin=(500_000.0, 5_700_000.0)):
     return ground
 
 
-def layer_of(kind, wkt):
+def layer_of(kind, wkt, crs="EPSG:25832"):
     """Return a layer in memory with one feature."""
-    layer = QgsVectorLayer(f"{kind}?crs=EPSG:25832", "layer", "memory")
+    layer = QgsVectorLayer(f"{kind}?crs={crs}", "layer", "memory")
     feature = QgsFeature()
     feature.setGeometry(QgsGeometry.fromWkt(wkt))
     assert layer.dataProvider().addFeatures([feature])[0]

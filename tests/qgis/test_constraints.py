@@ -4,10 +4,20 @@ import laspy
 import numpy as np
 import pytest
 from osgeo import gdal
-from qgis.core import QgsProcessingException
+from qgis.core import (
+    QgsCoordinateReferenceSystem,
+    QgsCoordinateTransform,
+    QgsCoordinateTransformContext,
+    QgsGeometry,
+    QgsProcessingException,
+    QgsVectorFileWriter,
+)
 from support import Log, layer_of, write_scene
 
 from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.crs.system import Crs
+from bare_earth.algorithms.survey.shapes import Place
+from bare_earth.algorithms.survey.vector_files import read_corrections
 from bare_earth.plugin.processing.inputs import CloudCrs
 
 EAST, NORTH = 500_000.0, 5_700_000.0
@@ -49,6 +59,39 @@ def test_the_terrain_model_respects_them_and_the_classes_stay(name, scene, tmp_p
     assert "add --breaklines breaklines.geojson." in said
 
 
+def moved(wkt, crs):
+    """Return a geometry of the scene in another CRS."""
+    shape = QgsGeometry.fromWkt(wkt)
+    systems = (QgsCoordinateReferenceSystem(each) for each in ("EPSG:25832", crs))
+    shape.transform(QgsCoordinateTransform(*systems, QgsCoordinateTransformContext()))
+    return shape.asWkt(12)
+
+
+@pytest.mark.parametrize("crs", ["EPSG:25832", "EPSG:25833", "EPSG:4326"])
+def test_layers_of_any_crs_have_their_effect_and_keep_their_heights(scene, tmp_path, crs):
+    path = str(tmp_path / "dtm.tif")
+    start, end = f"{EAST + 5} {NORTH + 60.5} 150", f"{EAST + 70} {NORTH + 60.5} 150"
+    line = layer_of("LineStringZ", moved(f"LINESTRINGZ({start}, {end})", crs), crs)
+    run("slopefilter", scene, tmp_path, DTM=path, BREAKLINES=line)
+    assert 145.0 < np.nanmax(heights(path)) < 150.1
+
+
+@pytest.mark.parametrize("crs", ["EPSG:25832", "EPSG:4326"])
+@pytest.mark.parametrize("name", ["NO_GROUND", "WATER", "RIVERS", "BREAKLINES", "CORRECTIONS"])
+def test_layers_outside_of_the_points_are_the_same_error(scene, tmp_path, name, crs):
+    kind = "LineString" if name in ("RIVERS", "BREAKLINES") else "Polygon"
+    x, y = EAST + 5000, NORTH
+    corners = f"{x} {y}, {x + 9} {y}, {x + 9} {y + 9}, {x} {y}"
+    text = f"LINESTRING({corners})" if kind == "LineString" else f"POLYGON(({corners}))"
+    field = "&field=class:integer" if name == "CORRECTIONS" else ""
+    layer = layer_of(kind, moved(text, crs), crs + field)
+    if field:
+        layer.dataProvider().changeAttributeValues({1: {0: 2}})
+    with pytest.raises(QgsProcessingException, match=r"No point of .* the points lie in x 500000"):
+        run("slopefilter", scene, tmp_path, DTM=str(tmp_path / "dtm.tif"), **{name: layer})
+    assert not (tmp_path / "dtm.tif").exists()
+
+
 def test_without_a_raster_they_have_no_use(scene, tmp_path, line):
     with pytest.raises(QgsProcessingException, match="terrain model"):
         run("slopefilter", scene, tmp_path, BREAKLINES=line, DTM="", HILLSHADE="")
@@ -87,3 +130,22 @@ def heights(path):
     raster = gdal.Open(path)
     values = raster.ReadAsArray()
     return np.where(values == raster.GetRasterBand(1).GetNoDataValue(), np.nan, values)
+
+
+@pytest.mark.parametrize("name", ["a.gpkg", "a.shp"])
+def test_the_library_reads_files_by_gdal_and_transforms_them(tmp_path, name):
+    square = (
+        f"POLYGON(({EAST} {NORTH}, {EAST + 9} {NORTH}, {EAST + 9} {NORTH + 9}, {EAST} {NORTH}))"
+    )
+    layer = layer_of("Polygon", moved(square, "EPSG:25833"), "EPSG:25833&field=class:integer")
+    layer.dataProvider().changeAttributeValues({1: {0: 6}})
+    options = QgsVectorFileWriter.SaveVectorOptions()
+    options.driverName = "GPKG" if name.endswith("gpkg") else "ESRI Shapefile"
+    path = str(tmp_path / name)
+    QgsVectorFileWriter.writeAsVectorFormatV3(layer, path, layer.transformContext(), options)
+    found = read_corrections(path)
+    place = Place("the points", Crs(epsg=25832), (EAST, NORTH, EAST + 80, NORTH + 80))
+    ((ring,),) = found.located(place).polygons
+    assert found.classes == (6,) and found.polygons.crs
+    assert np.allclose(np.ptp(ring, axis=0), 9.0, atol=1e-3)
+    assert np.allclose(ring.min(axis=0), (EAST, NORTH), atol=1e-3)

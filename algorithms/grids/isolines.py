@@ -1,0 +1,212 @@
+"""Lines of equal height of a raster, by marching squares, from strips of rows."""
+
+from __future__ import annotations
+
+from typing import Iterator, NamedTuple
+
+import numpy as np
+
+# An edge between two cells, and a level: one whole number for both.
+_LEVELS = 1 << 24
+# Edges of a square of four cells: north, east, south, west. For each set of corners that are at or
+# above the level (1 northwest, 2 northeast, 4 southeast, 8 southwest), the edges where a line comes
+# in and goes out; higher ground is on its left. Two opposite corners have a second line.
+_NORTH, _EAST, _SOUTH, _WEST, _NONE = 0, 1, 2, 3, -1
+_LINES = {
+    1: (_WEST, _NORTH), 2: (_NORTH, _EAST), 4: (_EAST, _SOUTH), 8: (_SOUTH, _WEST),
+    3: (_WEST, _EAST), 6: (_NORTH, _SOUTH), 12: (_EAST, _WEST), 9: (_SOUTH, _NORTH),
+    7: (_WEST, _SOUTH), 14: (_NORTH, _WEST), 13: (_EAST, _NORTH), 11: (_SOUTH, _EAST),
+}  # fmt: skip
+# The two lines of opposite corners, if the middle of the square is low or high.
+_SADDLES = {
+    5: (((_WEST, _NORTH), (_EAST, _SOUTH)), ((_EAST, _NORTH), (_WEST, _SOUTH))),
+    10: (((_NORTH, _EAST), (_SOUTH, _WEST)), ((_NORTH, _WEST), (_SOUTH, _EAST))),
+}
+
+
+class Isoline(NamedTuple):
+    """A line of equal height.
+
+    Attributes
+    ----------
+    level : int
+        Its height is so many times the interval.
+    places : numpy.ndarray of float64, shape (n, 2)
+        Row and column of its corners; whole numbers are centres of cells.
+    """
+
+    level: int
+    places: np.ndarray
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether the line ends where it begins."""
+        return bool((self.places[0] == self.places[-1]).all())
+
+
+class _Piece(NamedTuple):
+    """A part of a line: the nodes at its ends, and the places of its parts in order."""
+
+    first: int
+    last: int
+    parts: list[np.ndarray]
+
+
+class Isolines:
+    """Finds the lines of equal height of a raster whose rows are given strip by strip.
+
+    Only lines that cross the last row so far are kept in memory.
+
+    Parameters
+    ----------
+    interval : float
+        The height between the lines.
+    columns : int
+        Columns of the raster.
+    """
+
+    def __init__(self, interval: float, columns: int) -> None:
+        self._interval, self._columns = interval, columns
+        self._by_first: dict[int, _Piece] = {}
+        self._by_last: dict[int, _Piece] = {}
+
+    def add(self, heights: np.ndarray, row: int, is_last: bool) -> Iterator[Isoline]:
+        """Add a strip, and yield the lines that are complete.
+
+        Parameters
+        ----------
+        heights : numpy.ndarray of float, shape (rows, columns)
+            NaN where there is none. The first row is the last one of the strip before.
+        row : int
+            Number of the first row in the raster.
+        is_last : bool
+            Whether no strip follows.
+        """
+        found = _segments(heights, self._interval, row)
+        seam = np.iinfo(np.int64).max if is_last else 2 * (row + len(heights) - 1) * self._columns
+        done = []
+        for piece in _chains(*found):
+            whole = self._joined(piece)
+            if whole.first == whole.last:
+                done.append(whole)
+            else:
+                self._by_first[whole.first] = self._by_last[whole.last] = whole
+        for piece in list(self._by_first.values()):
+            if max(piece.first, piece.last) // _LEVELS < seam:
+                del self._by_first[piece.first], self._by_last[piece.last]
+                done.append(piece)
+        for piece in done:
+            yield Isoline(piece.first % _LEVELS - _LEVELS // 2, _distinct(piece.parts))
+
+    def _joined(self, piece: _Piece) -> _Piece:
+        """Return a piece with the pieces that end where it begins, and begin where it ends."""
+        before = self._by_last.pop(piece.first, None)
+        if before is not None:
+            del self._by_first[before.first]
+            piece = _Piece(before.first, piece.last, before.parts + piece.parts)
+        after = self._by_first.pop(piece.last, None)
+        if after is not None:
+            del self._by_last[after.last]
+            piece = _Piece(piece.first, after.last, piece.parts + after.parts)
+        return piece
+
+
+def _distinct(parts: list[np.ndarray]) -> np.ndarray:
+    """Return the places of all parts without repetitions."""
+    places = np.concatenate(parts)
+    moves = (places[1:] != places[:-1]).any(axis=1)
+    moves[-1] |= not moves.any()  # a line has two ends, even if they are the same place
+    return places[np.append(True, moves)]
+
+
+def _segments(
+    heights: np.ndarray, interval: float, row: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Return the nodes at which the segments of all lines begin and end, and the places of both."""
+    heights = heights.astype(np.float64)
+    valid = np.isfinite(heights)
+    levels = np.floor(np.where(valid, heights, 0.0) / interval).astype(np.int64)
+    corners = [levels[:-1, :-1], levels[:-1, 1:], levels[1:, 1:], levels[1:, :-1]]
+    low, high = np.minimum.reduce(corners), np.maximum.reduce(corners)
+    crossed = high - low
+    crossed[~(valid[:-1, :-1] & valid[:-1, 1:] & valid[1:, 1:] & valid[1:, :-1])] = 0
+    rows, columns = np.nonzero(crossed)
+    counts = crossed[rows, columns]
+    level = np.repeat(low[rows, columns] + 1, counts)
+    level += np.arange(len(level)) - np.repeat(np.cumsum(counts) - counts, counts)
+    rows, columns = np.repeat(rows, counts), np.repeat(columns, counts)
+    case = sum((each[rows, columns] >= level) << bit for bit, each in enumerate(corners))
+    squares = (
+        heights[rows + down, columns + right] for down, right in ((0, 0), (0, 1), (1, 1), (1, 0))
+    )
+    middle = sum(squares) / 4.0 >= level * interval
+    which, starts, ends = [], [], []
+    for number in range(2):
+        start, end = (_table(number, side)[case, middle.astype(int)] for side in (0, 1))
+        some = np.flatnonzero(start != _NONE)
+        which.append(some)
+        starts.append(start[some])
+        ends.append(end[some])
+    index = np.concatenate(which)
+    level, rows, columns = level[index], rows[index], columns[index]
+    nodes_and_places = [
+        _nodes(heights, level, rows, columns, np.concatenate(edges), interval, row)
+        for edges in (starts, ends)
+    ]
+    (first, begin), (last, end) = nodes_and_places
+    return first, last, begin, end
+
+
+def _table(number: int, side: int) -> np.ndarray:
+    """Return the edges at which the first or second line begins or ends, by case and middle."""
+    table = np.full((16, 2), _NONE)
+    if number == 0:
+        for case, line in _LINES.items():
+            table[case] = line[side]
+    for case, by_middle in _SADDLES.items():
+        table[case] = [lines[number][side] for lines in by_middle]
+    return table
+
+
+def _nodes(
+    heights: np.ndarray,
+    level: np.ndarray,
+    rows: np.ndarray,
+    columns: np.ndarray,
+    edges: np.ndarray,
+    interval: float,
+    row: int,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return numbers and places of the points where lines cross edges of squares."""
+    rows, columns = rows + (edges == _SOUTH), columns + (edges == _EAST)
+    is_vertical = (edges == _EAST) | (edges == _WEST)
+    one = heights[rows, columns]
+    other = heights[rows + is_vertical, columns + ~is_vertical]
+    share = np.clip((level * interval - one) / (other - one), 0.0, 1.0)
+    edge = 2 * ((rows + row) * heights.shape[1] + columns) + is_vertical
+    places = np.column_stack((rows + row + share * is_vertical, columns + share * ~is_vertical))
+    return edge * _LEVELS + level + _LEVELS // 2, places
+
+
+def _chains(
+    first: np.ndarray, last: np.ndarray, begin: np.ndarray, end: np.ndarray
+) -> Iterator[_Piece]:
+    """Yield the segments, joined to lines within the strip."""
+    order = np.argsort(first)
+    at = np.searchsorted(first, last, sorter=order)
+    following = order[np.minimum(at, len(order) - 1)] if len(order) else order
+    following = np.where(first[following] == last, following, -1)
+    heads = np.ones(len(first), dtype=bool)
+    heads[following[following >= 0]] = False
+    steps, seen = following.tolist(), bytearray(len(first))
+    # Open lines begin at heads; what is left afterwards are rings.
+    for start in (*np.flatnonzero(heads).tolist(), *range(len(first))):
+        if seen[start]:
+            continue
+        line, now = [], start
+        while now >= 0 and not seen[now]:
+            seen[now] = 1
+            line.append(now)
+            now = steps[now]
+        places = np.concatenate((begin[line], end[line[-1:]]))
+        yield _Piece(int(first[start]), int(last[line[-1]]), [places])

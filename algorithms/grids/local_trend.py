@@ -1,0 +1,112 @@
+"""The trend of a surface: a plane fitted to the surroundings of each cell."""
+
+from __future__ import annotations
+
+from typing import Callable
+
+import numpy as np
+
+# Cells farther than so many standard deviations have no weight.
+TRUNCATE = 3.0
+# Cells along a side of the pieces in which edges are worked on.
+_PIECE = 256
+# Surroundings are complete if no more than this share of their weight is missing.
+_COMPLETE = 1e-6
+
+Sigma = tuple[float, float]
+
+
+def reach_of(sigma: float) -> int:
+    """Return how many cells away a cell still matters, given the standard deviation in cells."""
+    return int(TRUNCATE * sigma + 0.5)
+
+
+def local_trend(heights: np.ndarray, sigma: Sigma) -> np.ndarray:
+    """Return at each cell the height of the plane that fits its surroundings best.
+
+    The weights of the surroundings are a normal distribution. Where they are complete this is
+    their weighted mean. At an edge it differs, since the surroundings lie on one side.
+
+    Parameters
+    ----------
+    heights : numpy.ndarray of float, shape (rows, columns)
+        Heights; NaN where there is none.
+    sigma : tuple of float
+        Standard deviation of the weights in cells, along a column and along a row.
+
+    Returns
+    -------
+    numpy.ndarray of float64, shape (rows, columns)
+        NaN where the heights are NaN. A value depends only on cells up to `reach_of(sigma)`.
+    """
+    known = np.isfinite(heights)
+    if not known.any():
+        return np.full(heights.shape, np.nan)
+    filled = np.where(known, heights, 0.0).astype(np.float64)
+    smooth, weights = _weighted(sigma), known.astype(np.float64)
+    if known.all():  # faster: the product of the weights along rows and along columns
+        weight = np.multiply(*(_edge_weights(*each) for each in zip(known.shape, sigma, (1, 0))))
+    else:
+        weight = smooth(weights, 0, 0)
+    lacks = known & (weight < 1.0 - _COMPLETE)
+    # Elsewhere the sum is the mean, whatever the rounding of the weights.
+    trend = smooth(filled, 0, 0)
+    trend[~known] = np.nan
+    reach = [reach_of(each) for each in sigma]
+    for row in range(0, heights.shape[0], _PIECE):
+        for column in range(0, heights.shape[1], _PIECE):
+            piece = np.s_[row : row + _PIECE, column : column + _PIECE]
+            if lacks[piece].any():
+                first = [max(start - by, 0) for start, by in zip((row, column), reach)]
+                wide = np.s_[
+                    first[0] : row + _PIECE + reach[0], first[1] : column + _PIECE + reach[1]
+                ]
+                fitted = _fitted(filled[wide], weights[wide], smooth)
+                fitted = fitted[row - first[0] :, column - first[1] :][:_PIECE, :_PIECE]
+                trend[piece] = np.where(lacks[piece], fitted, trend[piece])
+    return trend
+
+
+def _kernel(sigma: float, power: int = 0) -> np.ndarray:
+    """Return the weights of the cells along an axis, times a power of their distance."""
+    steps = np.arange(-reach_of(sigma), reach_of(sigma) + 1.0)
+    weights = np.exp(-0.5 * (steps / max(sigma, 1e-9)) ** 2)
+    return weights / weights.sum() * steps**power
+
+
+def _edge_weights(count: int, sigma: float, axis: int) -> np.ndarray:
+    """Return the sum of the weights at each of a line of cells, as a row or a column."""
+    from scipy.ndimage import correlate1d
+
+    weights = correlate1d(np.ones(count), _kernel(sigma), mode="constant")
+    return np.expand_dims(weights, axis)
+
+
+def _weighted(sigma: Sigma) -> Callable[[np.ndarray, int, int], np.ndarray]:
+    """Return a function that sums cells with weights times powers of their row and column."""
+    from scipy.ndimage import correlate1d
+
+    def summed(values: np.ndarray, row_power: int, column_power: int) -> np.ndarray:
+        for axis, power in enumerate((row_power, column_power)):
+            values = correlate1d(values, _kernel(sigma[axis], power), axis, mode="constant")
+        return values
+
+    return summed
+
+
+def _fitted(
+    filled: np.ndarray, weights: np.ndarray, summed: Callable[[np.ndarray, int, int], np.ndarray]
+) -> np.ndarray:
+    """Return the heights of the planes, by the normal equations of least squares."""
+    one, r, c = (summed(weights, *powers) for powers in ((0, 0), (1, 0), (0, 1)))
+    rr, rc, cc = (summed(weights, *powers) for powers in ((2, 0), (1, 1), (0, 2)))
+    z, zr, zc = (summed(filled, *powers) for powers in ((0, 0), (1, 0), (0, 1)))
+    one = np.where(one > 0, one, 1.0)
+    r, c, z = r / one, c / one, z / one
+    # A little is added to the variances: a line of cells, or a single one, has no slope across it.
+    least = 1e-9 * (rr + cc) / one + 1e-9
+    rr, rc, cc = rr / one - r * r + least, rc / one - r * c, cc / one - c * c + least
+    zr, zc = zr / one - z * r, zc / one - z * c
+    determinant = rr * cc - rc * rc
+    slope_r, slope_c = (zr * cc - zc * rc) / determinant, (zc * rr - zr * rc) / determinant
+    return z - slope_r * r - slope_c * c

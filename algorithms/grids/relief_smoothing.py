@@ -1,0 +1,82 @@
+"""Removes noise from heights for pictures of the relief, and keeps banks, ditches and walls.
+
+Under trees, ground points lie some decimetres too high on low plants, and are far apart, so that a
+hillshade of them is speckled. A surface of less detail is the trend of each place. What is left is
+noise where it has no direction, and a landform where it runs along a line: the structure tensor
+tells how much it varies along the direction in which it varies least. So the heights are smoothed
+only as much as they vary in all directions, which is little on open ground.
+
+References
+----------
+Foerstner, W. and Guelch, E. (1987): A fast operator for detection and precise location of distinct
+points, corners and centres of circular features. ISPRS Intercommission Workshop, Interlaken. The
+structure tensor and its smaller eigenvalue.
+Tukey, J. W. (1977): Exploratory Data Analysis. "Twicing": the residuals of a smoothed surface are
+smoothed and added again, so that rounded hills and hollows keep their height.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..core.threads import in_threads
+from .local_trend import TRUNCATE, local_trend, reach_of
+
+# Standard deviation of the surroundings: so many metres, but not more than so many cells. If it is
+# smaller than the last number of cells, nothing is smoothed.
+_METRES, _MOST_CELLS, _LEAST_CELLS = 2.0, 4.0, 0.5
+# The structure is looked at in surroundings wider by this factor.
+_WIDER = 1.5
+# Noise, as a slope, that is smoothed by half.
+_VISIBLE = 0.02
+
+
+def smoothing_reach(cell_size: float) -> int:
+    """Return how many cells away a cell still matters to `without_noise`."""
+    sigma = _sigma(cell_size)
+    return 2 * reach_of(sigma) + 1 + reach_of(_WIDER * sigma) if sigma else 0
+
+
+def without_noise(heights: np.ndarray, cell_size: float) -> np.ndarray:
+    """Return heights with less noise, for pictures of the relief.
+
+    Parameters
+    ----------
+    heights : numpy.ndarray of float, shape (rows, columns)
+        Heights in metres; NaN where there is none.
+    cell_size : float
+        Side of a cell in metres. Cells of 4 m and more stay as they are.
+
+    Returns
+    -------
+    numpy.ndarray of float64, shape (rows, columns)
+        NaN where the heights are NaN.
+    """
+    sigma = _sigma(cell_size)
+    heights = heights.astype(np.float64)
+    if not sigma or not np.isfinite(heights).any():
+        return heights
+    rough = heights - local_trend(heights, (sigma, sigma))
+    rough -= local_trend(rough, (sigma, sigma))
+    largest, smallest = _structure(np.nan_to_num(rough) / cell_size, _WIDER * sigma)
+    # Of what is left, the share that varies in all directions, and how visible it is.
+    share = smallest / np.maximum(largest, np.finfo(float).tiny)
+    return heights - rough * share * smallest / (smallest + _VISIBLE**2)
+
+
+def _sigma(cell_size: float) -> float:
+    sigma = min(_METRES / cell_size, _MOST_CELLS)
+    return sigma if sigma > _LEAST_CELLS else 0.0
+
+
+def _structure(rough: np.ndarray, sigma: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return the eigenvalues of the structure tensor: mean squared slopes, the largest first."""
+    from scipy.ndimage import correlate1d, gaussian_filter
+
+    def mean(values: np.ndarray) -> np.ndarray:
+        return gaussian_filter(values, sigma, mode="constant", truncate=TRUNCATE)
+
+    down, right = (correlate1d(rough, (-0.5, 0.0, 0.5), axis, mode="nearest") for axis in (0, 1))
+    rr, rc, cc = in_threads(mean, [down * down, down * right, right * right])
+    half, apart = (rr + cc) / 2, np.hypot((rr - cc) / 2, rc)
+    return half + apart, np.maximum(half - apart, 0.0)

@@ -1,0 +1,208 @@
+"""Lines and polygons that a user gives: their CRS, and whether they lie where the points are."""
+
+from __future__ import annotations
+
+from typing import Any, Iterator, NamedTuple, Sequence
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.points import Box, box_in_words
+from ..core.progress import SILENT, Progress
+from ..crs.provider import LONGITUDE_LATITUDE, library, transformed
+from ..crs.system import Crs
+
+
+class Place(NamedTuple):
+    """Where the points of a run lie.
+
+    Attributes
+    ----------
+    name : str
+        The file, or "the files", for messages.
+    crs : Crs
+        Their CRS.
+    box : tuple of float or None
+        Smallest x and y, largest x and y, in units of the CRS; None if it is not known.
+    """
+
+    name: str
+    crs: Crs
+    box: Box | None = None
+
+
+class Shapes(tuple):  # type: ignore[type-arg]
+    """Lines or polygons from a file, and the CRS that the file states.
+
+    Parameters
+    ----------
+    shapes : sequence
+        Polygons, as in `Area`, or lines: numpy.ndarray of float64, shape (n, 3).
+    crs : str or None
+        Their CRS, such as ``EPSG:25833``, or well-known text; None if the file states none.
+    source : str
+        The file, for messages.
+    """
+
+    crs: str | None
+    source: str
+
+    def __new__(
+        cls, shapes: Sequence[Any] = (), crs: str | None = None, source: str = ""
+    ) -> Shapes:
+        """Return the shapes with their CRS."""
+        made = super().__new__(cls, shapes)
+        made.crs, made.source = crs, source
+        return made
+
+
+class Geometry:
+    """Base of what holds lines and polygons: an area, corrections, constraints."""
+
+    def located(self, place: Place, progress: Progress = SILENT) -> Any:
+        """Return the same with all lines and polygons in the CRS of the points.
+
+        Parameters
+        ----------
+        place : Place
+            Where the points lie.
+        progress : Progress
+            Receives messages on what was transformed.
+
+        Raises
+        ------
+        BareEarthError
+            If the CRS cannot be transformed, or all of a kind lies outside of the points.
+        """
+        raise NotImplementedError
+
+
+def located(
+    shapes: Sequence[Any],
+    what: str,
+    place: Place,
+    progress: Progress = SILENT,
+    near: float | None = None,
+) -> tuple[Any, ...]:
+    """Return shapes in the CRS of the points.
+
+    Shapes of `Shapes` are transformed from the CRS that their file states. If it states none, they
+    are longitudes and latitudes if their numbers say so and those of the points do not. All others
+    are in the CRS of the points already. Heights (z) stay as they are.
+
+    Parameters
+    ----------
+    shapes : sequence
+        Polygons or lines, as for `Shapes`.
+    what : str
+        What they are, for the error: "the area".
+    place, progress
+        As for `Geometry.located`.
+    near : float, optional
+        How far from the points, in metres, shapes have an effect; for lines.
+
+    Raises
+    ------
+    BareEarthError
+        If they cannot be transformed, or all of them lie outside of the points.
+    """
+    if place.crs.is_geographic:  # the run refuses such points
+        return tuple(shapes)
+    found = _in_crs(shapes, place, progress) if isinstance(shapes, Shapes) else tuple(shapes)
+    boxes = np.array([_box_of(each) for each in found if len(each)]).reshape(-1, 4)
+    if place.box is not None and len(boxes):
+        reach = (near or 0.0) / place.crs.horizontal_unit
+        west, south, east, north = place.box
+        touches = (boxes[:, 0] <= east + reach) & (boxes[:, 2] >= west - reach)
+        touches &= (boxes[:, 1] <= north + reach) & (boxes[:, 3] >= south - reach)
+        if not touches.any():
+            bounds = (*boxes[:, :2].min(axis=0).tolist(), *boxes[:, 2:].max(axis=0).tolist())
+            raise outside(what, bounds, place.name, place.box, near)
+    return found
+
+
+def outside(what: str, bounds: Box, of: str, box: Box, near: float | None = None) -> BareEarthError:
+    """Return the error for geometry that lies outside of the points.
+
+    Parameters
+    ----------
+    what, of : str
+        What lies outside, and the file or files of the points.
+    bounds, box : tuple of float
+        The extents of both.
+    near : float, optional
+        As for `located`.
+    """
+    lies = "in" if near is None else f"within {near:g} m of"
+    return BareEarthError(
+        f"No point of {of} lies {lies} {what} ({box_in_words(bounds)}): the points lie"
+        f" in {box_in_words(box)}. Give {what} in the CRS of the points."
+    )
+
+
+def _in_crs(shapes: Shapes, place: Place, progress: Progress) -> tuple[Any, ...]:
+    """Return shapes of a file in the CRS of the points."""
+    stated, target = shapes.crs, place.crs
+    is_guess = stated is None and _are_degrees(shapes) and not _is_in_degrees(place.box)
+    if stated is None and not is_guess:
+        return tuple(shapes)
+    source = stated or LONGITUDE_LATITUDE
+    if target.wkt is None and target.epsg is None:
+        progress.warning(
+            f"{shapes.source} is in another CRS than the points may be, which state none: its"
+            " coordinates are taken as in the CRS of the points."
+        )
+        return tuple(shapes)
+    if target.epsg is not None and source == f"EPSG:{target.epsg}":
+        return tuple(shapes)
+    named = "longitude and latitude" if is_guess else _name_of(source)
+    if library() is None:
+        raise BareEarthError(
+            f"{shapes.source} is in {named}, and the points are in {target.name or 'another CRS'}:"
+            " pip install pyproj, which transforms it."
+        )
+    corners = np.concatenate([np.zeros((0, 2)), *(each[:, :2] for each in _parts(shapes))])
+    moved = transformed(source, target.wkt or f"EPSG:{target.epsg}", corners)
+    if moved is None:
+        raise BareEarthError(
+            f"{shapes.source} cannot be transformed from {named} to the CRS of the points"
+            f" ({target.name or f'EPSG:{target.epsg}'}). Save it in the CRS of the points."
+        )
+    if is_guess:
+        named += ", as its numbers say"
+    progress.info(f"{shapes.source} is transformed to the CRS of the points from {named}.")
+    places = iter(np.split(moved, np.cumsum([len(each) for each in _parts(shapes)])))
+    return tuple(_moved(each, places) for each in shapes)
+
+
+def _parts(shapes: Sequence[Any]) -> Iterator[np.ndarray]:
+    """Yield all lines and rings, in order."""
+    for shape in shapes:
+        yield from (shape,) if isinstance(shape, np.ndarray) else shape
+
+
+def _moved(shape: Any, places: Iterator[np.ndarray]) -> Any:
+    """Return a shape at other places; its z stays."""
+    if isinstance(shape, np.ndarray):
+        return np.column_stack((next(places), shape[:, 2:]))
+    return tuple(_moved(ring, places) for ring in shape)
+
+
+def _box_of(shape: Any) -> Box:
+    corners = shape if isinstance(shape, np.ndarray) else np.concatenate(shape)
+    return (*corners[:, :2].min(axis=0), *corners[:, :2].max(axis=0))
+
+
+def _are_degrees(shapes: Sequence[Any]) -> bool:
+    """Return whether the coordinates can be longitudes and latitudes."""
+    boxes = [_box_of(each) for each in shapes if len(each)]
+    return all(map(_is_in_degrees, boxes))
+
+
+def _is_in_degrees(box: Box | None) -> bool:
+    return box is not None and bool((np.abs(box) <= (180.0, 90.0, 180.0, 90.0)).all())
+
+
+def _name_of(crs: str) -> str:
+    """Return a short name of a CRS: its code, or the name in its well-known text."""
+    return crs.partition('["')[2].partition('"')[0] or crs

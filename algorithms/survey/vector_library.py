@@ -1,0 +1,145 @@
+"""Reading vector files by a library: pyogrio, or GDAL in QGIS."""
+
+from __future__ import annotations
+
+import importlib.util
+import warnings
+from pathlib import Path
+from typing import Any, Iterator, NamedTuple, Sequence
+
+from ..core.errors import BareEarthError
+from ..core.temporary import shown
+from ..las.sources import open_source
+from .wkb import geometries_of
+
+# Between a file and the name of a layer, as QGIS writes it.
+_LAYER = "|layername="
+_FOLDERS = (".gdb",)
+# XML that the library may read. Other XML can tell it to fetch files from other computers.
+_XML = (".kml", ".gpx")
+
+
+class _Layer(NamedTuple):
+    """A layer: its name, its CRS, and the WKB and attributes of its features."""
+
+    name: str
+    crs: str | None
+    features: Sequence[tuple[bytes | None, dict[str, Any]]]
+
+
+def read_features(
+    path: Path | str, kind: str, attribute: str
+) -> tuple[list[tuple[Any, dict[str, Any]]], str | None]:
+    """Read the geometries of a kind from a vector file.
+
+    Parameters
+    ----------
+    path : Path or str
+        The file; ``FILE|layername=NAME`` for one layer of it.
+    kind : str
+        "Polygon" or "LineString".
+    attribute : str
+        The attribute to read as well, if there is one of this name.
+
+    Returns
+    -------
+    features : list of tuple
+        Coordinates, as in GeoJSON, and attributes of each geometry.
+    crs : str or None
+        The CRS of the layer, as a code or well-known text.
+
+    Raises
+    ------
+    BareEarthError
+        If there is no library, the file cannot be read, or several layers hold such geometries.
+    """
+    name, _, wanted = str(path).partition(_LAYER)
+    _check(Path(name))
+    reads = _library(name)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # on what is left out of geometries, such as M
+            layers = [each for each in reads(name, attribute) if wanted in ("", each.name)]
+        found = {each.name: (list(_of_kind(each, kind)), each.crs) for each in layers}
+    except (BareEarthError, MemoryError):
+        raise
+    except Exception as error:  # the errors of the libraries have many types
+        reason = " ".join(shown(error).split()).rstrip(".")
+        raise BareEarthError(f"Cannot read {name}: {reason}.") from error
+    if wanted and not found:
+        raise BareEarthError(f"{name} has no layer {wanted}. Check its name.")
+    filled = [each for each in found if found[each][0]]
+    if len(filled) > 1:
+        what = "polygons" if kind == "Polygon" else "lines"
+        raise BareEarthError(
+            f"{name} has {what} in the layers {', '.join(filled)}. Give one of them:"
+            f" '{name}{_LAYER}{filled[0]}'."
+        )
+    return found[filled[0]] if filled else ([], None)
+
+
+def _check(path: Path) -> None:
+    """Refuse what is no file, and files that could refer to others."""
+    if path.suffix.lower() in _FOLDERS and path.is_dir():
+        return
+    with open_source(path) as file:
+        is_xml = file.read(256).lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<")
+    if is_xml and path.suffix.lower() not in _XML:
+        raise BareEarthError(f"{path} is XML, which is not read. Save it as GeoPackage or GeoJSON.")
+
+
+def _library(name: str) -> Any:
+    """Return the function that reads with the installed library."""
+    if importlib.util.find_spec("pyogrio") is not None:
+        return _by_pyogrio
+    if importlib.util.find_spec("osgeo") is not None:
+        return _by_gdal
+    raise BareEarthError(
+        f"{name} needs pyogrio to be read: pip install pyogrio. GeoJSON (.geojson, .json) and WKT"
+        " (.wkt) are read without it."
+    )
+
+
+def _by_pyogrio(name: str, attribute: str) -> Iterator[_Layer]:
+    import pyogrio
+
+    for layer, kind in pyogrio.list_layers(name):
+        if kind is None:  # a table
+            continue
+        columns = [
+            field for field in pyogrio.read_info(name, layer)["fields"] if field == attribute
+        ]
+        about, _, shapes, values = pyogrio.raw.read(name, layer, columns=columns)
+        rows = zip(*(each.tolist() for each in values)) if columns else [()] * len(shapes)
+        features = [(shape, dict(zip(columns, row))) for shape, row in zip(shapes, rows)]
+        yield _Layer(layer, about["crs"], features)
+
+
+def _by_gdal(name: str, attribute: str) -> Iterator[_Layer]:
+    from osgeo import gdal
+
+    gdal.PushErrorHandler("CPLQuietErrorHandler")
+    try:
+        source = gdal.OpenEx(name, gdal.OF_VECTOR | gdal.OF_READONLY)
+        if source is None:
+            raise BareEarthError(f"Cannot read {name}: it is no vector file that GDAL can read.")
+        for number in range(source.GetLayerCount()):
+            layer, features = source.GetLayer(number), []
+            has = layer.GetLayerDefn().GetFieldIndex(attribute) >= 0
+            for feature in layer:
+                shape = feature.GetGeometryRef()
+                shape = shape.GetLinearGeometry() if shape is not None else None
+                values = {attribute: feature.GetField(attribute)} if has else {}
+                features.append((bytes(shape.ExportToIsoWkb()) if shape else None, values))
+            reference = layer.GetSpatialRef()
+            yield _Layer(layer.GetName(), reference and reference.ExportToWkt(), features)
+    finally:
+        gdal.PopErrorHandler()
+
+
+def _of_kind(layer: _Layer, kind: str) -> Iterator[tuple[Any, dict[str, Any]]]:
+    """Yield coordinates and attributes of the geometries of a kind in a layer."""
+    for data, attributes in layer.features:
+        for name, coordinates in geometries_of(data) if data else ():
+            if name == kind:
+                yield coordinates, attributes

@@ -1,0 +1,275 @@
+"""Lines and polygons in any CRS and format, for every option that takes them."""
+
+import json
+import struct
+
+import laspy
+import numpy as np
+import pytest
+from conftest import Heard
+from realdata import real
+
+from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.crs import provider
+from bare_earth.algorithms.engine.constraints import Constraints
+from bare_earth.algorithms.engine.raster_files import RasterFiles
+from bare_earth.algorithms.engine.requests import ClassifyRequest, TerrainRequest
+from bare_earth.algorithms.engine.runs import classify, terrain
+from bare_earth.algorithms.survey.area import Area
+from bare_earth.algorithms.survey.vector_files import read_boundary, read_corrections, read_lines
+
+pyproj = pytest.importorskip("pyproj")
+rasterio = pytest.importorskip("rasterio")
+UTM = "EPSG:25832"
+# West, south, east and north of the hut in the middle of the points.
+HUT = (500_040.0, 5_600_040.0, 500_080.0, 5_600_080.0)
+CORNERS = np.array([(HUT[0], HUT[1]), (HUT[2], HUT[1]), (HUT[2], HUT[3]), (HUT[0], HUT[3])])
+
+
+def write(path, east=0.0, count=12_000, size=120.0):
+    """Write level ground at 50 m, with a hut of 5 m that counts as ground."""
+    random = np.random.default_rng(1)
+    header = laspy.LasHeader(point_format=6, version="1.4")
+    header.scales, header.offsets = (0.001,) * 3, (500_000, 5_600_000, 0)
+    header.add_crs(pyproj.CRS(UTM))
+    las = laspy.LasData(header)
+    las.x = random.uniform(0, size, count) + 500_000 + east
+    las.y = random.uniform(0, size, count) + 5_600_000
+    x, y = np.asarray(las.x), np.asarray(las.y)
+    is_hut = (x > HUT[0] + 1) & (x < HUT[2] - 1) & (y > HUT[1] + 1) & (y < HUT[3] - 1)
+    las.z = np.where(is_hut, 55.0, 50.0)
+    las.classification[:] = 2
+    las.return_number[:] = las.number_of_returns[:] = 1
+    las.write(str(path))
+    return path
+
+
+@pytest.fixture
+def cloud(tmp_path):
+    return write(tmp_path / "in.laz")
+
+
+def moved(corners, crs):
+    """Return corners in another CRS, longitude first."""
+    to = pyproj.Transformer.from_crs(UTM, crs, always_xy=True)
+    return np.column_stack((*to.transform(*corners.T[:2]), corners[:, 2:]))
+
+
+def geojson(path, corners, crs=None, kind="Polygon", **attributes):
+    ring = corners.tolist()
+    shape = {"type": kind, "coordinates": [[*ring, ring[0]]] if kind == "Polygon" else ring}
+    feature = {"type": "Feature", "geometry": shape, "properties": attributes}
+    content = {"type": "FeatureCollection", "features": [feature]}
+    if crs is not None:
+        content["crs"] = {"type": "name", "properties": {"name": crs}}
+    path.write_text(json.dumps(content), encoding="utf-8")
+    return path
+
+
+def by_library(path, corners, crs, kind="Polygon", layer=None, append=False, **attributes):
+    """Write a file with pyogrio, from WKB that is made here."""
+    pyogrio = pytest.importorskip("pyogrio")
+    ring = np.concatenate((corners, corners[:1])) if kind == "Polygon" else corners
+    has_z = 1000 * (ring.shape[1] > 2)
+    start = struct.pack("<BI", 1, (3 if kind == "Polygon" else 2) + has_z)
+    start += struct.pack("<I", 1) if kind == "Polygon" else b""
+    data = start + struct.pack("<I", len(ring)) + np.ascontiguousarray(ring, "<f8").tobytes()
+    pyogrio.raw.write(
+        str(path), np.array([data], object), [np.array([each]) for each in attributes.values()],
+        list(attributes), geometry_type=f"{kind} Z" if has_z else kind, crs=crs, layer=layer,
+        append=append,
+    )  # fmt: skip
+    return path
+
+
+def highest(source, target, progress=None, **constraints):
+    known = Constraints(**constraints)
+    request = TerrainRequest(rasters=RasterFiles(dtm=target), constraints=known)
+    terrain(source, request, *[progress] if progress else [])
+    with rasterio.open(target) as raster:
+        return float(raster.read(1, masked=True).max())
+
+
+@pytest.mark.parametrize(
+    ("name", "crs", "stated"),
+    [
+        ("a.geojson", "EPSG:4326", None),
+        ("a.geojson", "EPSG:4326", "urn:ogc:def:crs:OGC:1.3:CRS84"),
+        ("a.geojson", "EPSG:4326", "urn:ogc:def:crs:EPSG::4326"),
+        ("a.geojson", "EPSG:25833", "urn:ogc:def:crs:EPSG::25833"),
+        ("a.geojson", "EPSG:3857", "EPSG:3857"),
+        ("a.geojson", UTM, "http://www.opengis.net/def/crs/EPSG/0/25832"),
+        ("a.geojson", UTM, None),
+        ("a.gpkg", "EPSG:25833", None),
+        ("a.gpkg", "EPSG:4326", None),
+        ("a.shp", "EPSG:25833", None),
+        ("a.fgb", UTM, None),
+    ],
+)
+def test_polygons_of_any_crs_and_format_have_their_effect(cloud, tmp_path, name, crs, stated):
+    corners = moved(CORNERS, crs)
+    if name.endswith(".geojson"):
+        path = geojson(tmp_path / name, corners, stated)
+    else:
+        path = by_library(tmp_path / name, corners, crs)
+    assert highest(cloud, tmp_path / "dtm.tif") > 54.9
+    assert highest(cloud, tmp_path / "dtm.tif", no_ground=read_boundary(path)) < 50.1
+
+
+def test_extended_wkt_states_its_crs(cloud, tmp_path):
+    ring = ", ".join(f"{x} {y}" for x, y in moved(CORNERS, "EPSG:25833"))
+    (tmp_path / "a.wkt").write_text(f"SRID=25833;POLYGON (({ring}))", encoding="utf-8")
+    assert highest(cloud, tmp_path / "a.tif", no_ground=read_boundary(tmp_path / "a.wkt")) < 50.1
+
+
+def test_the_same_points_are_classified_in_a_boundary_of_any_crs(cloud, tmp_path):
+    path = geojson(tmp_path / "a.geojson", moved(CORNERS, "EPSG:4326"))
+    x, y = (np.asarray(getattr(laspy.read(cloud), each)) for each in "xy")
+    inside = Area(None, ((CORNERS,),)).contains(x, y)
+    summary = classify(
+        cloud, tmp_path / "o.laz", ClassifyRequest(area=Area(None, read_boundary(path)))
+    )
+    assert summary.area_count == np.count_nonzero(inside) > 1000
+
+
+def test_corrections_of_another_crs_give_their_class(cloud, tmp_path):
+    for path in (
+        geojson(tmp_path / "a.geojson", moved(CORNERS, "EPSG:4326"), **{"class": 6}),
+        by_library(tmp_path / "a.gpkg", moved(CORNERS, "EPSG:25833"), "EPSG:25833", **{"class": 6}),
+    ):
+        known = ClassifyRequest(corrections=read_corrections(path))
+        summary = classify(cloud, tmp_path / "o.laz", known)
+        assert summary.class_counts[6] > 1000
+
+
+@pytest.mark.parametrize("name", ["a.geojson", "a.gpkg", "a.shp"])
+def test_breaklines_keep_their_heights(cloud, tmp_path, name):
+    line = np.column_stack((CORNERS[:2] - (0.0, 20.5), [77.0, 77.0]))
+    if name == "a.geojson":
+        path = geojson(tmp_path / name, moved(line, "EPSG:4326"), kind="LineString")
+    else:
+        path = by_library(tmp_path / name, moved(line, "EPSG:25833"), "EPSG:25833", "LineString")
+    assert highest(cloud, tmp_path / "a.tif", breaklines=read_lines(path)) == pytest.approx(
+        77, abs=0.5
+    )
+
+
+FAR = np.add(CORNERS, (5000.0, 0.0))
+
+
+@pytest.mark.parametrize("option", ["boundary", "corrections", "no-ground", "water"])
+@pytest.mark.parametrize("crs", ["EPSG:4326", UTM])
+def test_polygons_outside_of_the_points_are_the_same_error(cloud, tmp_path, capsys, option, crs):
+    path = geojson(tmp_path / "a.geojson", moved(FAR, crs), **{"class": 2})
+    target = str(tmp_path / "o.laz")
+    command = ["classify", str(cloud), target, "--dtm", str(tmp_path / "o.tif")]
+    assert main([*command, f"--{option}", str(path)]) == 1
+    text = capsys.readouterr().err
+    assert "in.laz lies in the " in text and "the points lie in x 500000" in text
+    assert "x 505040 to 505080" in text and "in the CRS of the points" in text
+    assert not list(tmp_path.glob("o.*"))
+
+
+@pytest.mark.parametrize("option", ["breaklines", "rivers"])
+def test_lines_outside_of_the_points_are_the_same_error(cloud, tmp_path, capsys, option):
+    path = geojson(tmp_path / "a.geojson", moved(FAR, "EPSG:4326"), kind="LineString")
+    assert main(["terrain", str(cloud), "--dtm", str(tmp_path / "o.tif"), f"--{option}", str(path)])
+    text = capsys.readouterr().err
+    assert f"lies within 10 m of the {option}" in text and "the points lie in x 500000" in text
+    assert not list(tmp_path.glob("o.*"))
+
+
+def test_geometry_may_lie_in_one_of_many_files(tmp_path, threads_for_processes, capsys):
+    for number in range(2):
+        write(tmp_path / f"{number}.laz", 500.0 * number)
+    near, far = (
+        geojson(tmp_path / f"{name}.geojson", moved(corners, "EPSG:4326"))
+        for name, corners in (("near", CORNERS), ("far", FAR))
+    )
+    sources = [str(tmp_path / f"{number}.laz") for number in range(2)]
+    command = ["terrain", *sources, "--dtm", str(tmp_path / "o.tif"), "--no-ground"]
+    assert main([*command, str(near)]) == 0
+    with rasterio.open(tmp_path / "o.tif") as raster:
+        assert raster.read(1, masked=True).max() < 50.1
+    assert main([*command, str(far)]) == 1
+    assert "No point of the files lies in the polygons without ground" in capsys.readouterr().err
+
+
+def test_a_river_that_meets_no_water_is_told(cloud, tmp_path):
+    water = read_boundary(geojson(tmp_path / "w.geojson", moved(CORNERS, "EPSG:4326")))
+    through, beside = (
+        read_lines(
+            geojson(
+                tmp_path / "r.geojson",
+                moved(np.add(CORNERS[:2], (0.0, by)), "EPSG:4326"),
+                kind="LineString",
+            )
+        )
+        for by in (20.0, -20.0)
+    )
+    for rivers, with_water, is_told in (
+        (through, water, False), (beside, water, True), (through, (), True),
+    ):  # fmt: skip
+        heard = Heard()
+        highest(cloud, tmp_path / "a.tif", heard, rivers=rivers, water=with_water)
+        assert (
+            any("Rivers that meet no polygon of water" in text for text in heard.warnings)
+            is is_told
+        )
+
+
+def test_without_a_library_one_sentence_tells_what_to_install(cloud, tmp_path, monkeypatch):
+    path = geojson(tmp_path / "a.geojson", moved(CORNERS, "EPSG:4326"))
+    monkeypatch.setattr("bare_earth.algorithms.survey.shapes.library", lambda: None)
+    with pytest.raises(BareEarthError, match="pip install pyproj"):
+        highest(cloud, tmp_path / "a.tif", no_ground=read_boundary(path))
+    same = geojson(tmp_path / "b.geojson", CORNERS, "EPSG:25832")
+    assert highest(cloud, tmp_path / "a.tif", no_ground=read_boundary(same)) < 50.1
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    by = tmp_path / "a.gpkg"
+    by.write_bytes(b"")
+    with pytest.raises(BareEarthError, match="pip install pyogrio"):
+        read_boundary(by)
+
+
+def test_a_crs_that_is_not_known_is_one_sentence(cloud, tmp_path):
+    path = geojson(tmp_path / "a.geojson", CORNERS, "EPSG:999999")
+    with pytest.raises(BareEarthError, match="cannot be transformed from EPSG:999999"):
+        highest(cloud, tmp_path / "a.tif", no_ground=read_boundary(path))
+
+
+def test_a_layer_of_several_must_be_named(cloud, tmp_path):
+    path = by_library(tmp_path / "a.gpkg", CORNERS, UTM, layer="huts")
+    by_library(path, FAR, UTM, layer="ponds", append=True)
+    by_library(path, CORNERS[:2], UTM, "LineString", layer="lines", append=True)
+    assert len(read_lines(path)) == 1
+    with pytest.raises(
+        BareEarthError, match=r"polygons in the layers huts, ponds.*\|layername=huts"
+    ):
+        read_boundary(path)
+    chosen = read_boundary(f"{path}|layername=huts")
+    assert highest(cloud, tmp_path / "a.tif", no_ground=chosen) < 50.1
+    with pytest.raises(BareEarthError, match="has no layer roads"):
+        read_boundary(f"{path}|layername=roads")
+
+
+def test_longitude_and_latitude_come_in_this_order():
+    found = provider.transformed("EPSG:4326", UTM, np.array([[9.0, 50.0]]))
+    assert found[0] == pytest.approx((500_000, 5_538_630.7), abs=0.1)
+    assert provider.transformed(UTM, "EPSG:4326", found)[0] == pytest.approx((9.0, 50.0))
+    compound = pyproj.CRS("EPSG:25832+7837").to_wkt()
+    assert provider.transformed("EPSG:4326", compound, np.array([[9.0, 50.0]])) == pytest.approx(
+        found
+    )
+
+
+@pytest.mark.parametrize("name", ["square-lonlat.geojson", "square-25833.geojson"])
+def test_squares_from_the_field(tmp_path, name):
+    source, shape = real("field/ground-25832.laz"), real(f"field/{name}")
+    request = TerrainRequest(
+        rasters=RasterFiles(dtm=tmp_path / "o.tif"),
+        constraints=Constraints(no_ground=read_boundary(shape)),
+    )
+    all_of_it = TerrainRequest(rasters=RasterFiles(dtm=tmp_path / "o.tif"))
+    assert terrain(source, request).ground_count < terrain(source, all_of_it).ground_count - 1000
