@@ -8,13 +8,24 @@ from typing import TYPE_CHECKING, Sequence
 
 from ..core.errors import BareEarthError
 from .command import DONE, Command
-from .options import UsageError, add_extent, add_inputs, add_json, add_parameters, chosen
+from .options import (
+    KEPT,
+    UsageError,
+    add_crs,
+    add_extent,
+    add_inputs,
+    add_json,
+    add_parameters,
+    chosen,
+)
 from .surveys import (
     add_constraints,
+    add_raster_target,
     add_rasters,
     add_scheduler,
     constraints_of,
     finished_files_stay,
+    raster_target_of,
     rasters_of,
     tell_of_survey,
     workers_of,
@@ -34,11 +45,13 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
     from ..survey.selection import Selection
 
     add_inputs(parser)
+    add_crs(parser, KEPT)
     parser.add_argument(
         "output", metavar="OUTPUT", type=Path,
         help="the file to write (.las, .laz or .copc.laz), or a folder if there are many inputs",
     )  # fmt: skip
     add_rasters(parser)
+    add_raster_target(parser)
     add_constraints(parser, "for the rasters, ")
     add_extent(
         parser, "classify only points in this rectangle",
@@ -101,7 +114,8 @@ def _classify(options: argparse.Namespace) -> int:
         corrections = read_corrections(options.corrections)
     request = ClassifyRequest.of(
         chosen(options), rasters=rasters_of(options), area=area, corrections=corrections,
-        constraints=constraints_of(options),
+        constraints=constraints_of(options), crs=options.crs,
+        raster_target=raster_target_of(options),
     )  # fmt: skip
     if options.command != _TILES and not options.scheduler and is_one_file(options.input):
         with Terminal(options.verbose) as progress:

@@ -7,13 +7,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Sequence
 
 from .command import DONE, Command
-from .options import add_inputs, add_json, add_parameters, chosen
+from .options import KEPT, add_crs, add_inputs, add_json, add_parameters, chosen
 from .surveys import (
     add_constraints,
+    add_raster_target,
     add_rasters,
     add_scheduler,
     constraints_of,
     finished_files_stay,
+    raster_target_of,
     rasters_of,
     tell_of_survey,
     workers_of,
@@ -63,6 +65,7 @@ def _add_files(parser: argparse.ArgumentParser, *sets: type[ParameterSet]) -> No
     from ..survey.ground_classes import GroundClasses
 
     add_inputs(parser, "a classified file, or ")
+    add_crs(parser, KEPT)
     parser.add_argument(
         "output", metavar="OUTPUT", type=Path,
         help="the file to write (.las, .laz or .copc.laz), or a folder if there are many inputs",
@@ -80,12 +83,13 @@ def _write(options: argparse.Namespace) -> int:
     from ..survey.files import is_one_file
 
     kind = HeightRequest if options.command == "height" else KeyPointRequest
-    request = kind.of(chosen(options))
+    request = kind.of(chosen(options), crs=options.crs)
     if is_one_file(options.input) and not options.scheduler:
         with Terminal(options.verbose) as progress:
             summary = write_points(
-                options.input[0], options.output, request.step, request.resources, progress
-            )
+                options.input[0], options.output, request.step, request.resources, progress,
+                request.stated,
+            )  # fmt: skip
         tell(options, summary, f"{options.output.parent / summary.text}")
         return DONE
     workers = workers_of(options, request.resources)
@@ -104,7 +108,9 @@ def _add_terrain(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> N
     from ..survey.ground_classes import GroundClasses
 
     add_inputs(parser)
+    add_crs(parser)
     add_rasters(parser)
+    add_raster_target(parser)
     add_constraints(parser)
     add_scheduler(parser)
     add_json(parser)
@@ -118,7 +124,10 @@ def _terrain(options: argparse.Namespace) -> int:
     from ..engine.runs import terrain
 
     known = constraints_of(options)
-    request = TerrainRequest.of(chosen(options), rasters=rasters_of(options), constraints=known)
+    request = TerrainRequest.of(
+        chosen(options), rasters=rasters_of(options), constraints=known, crs=options.crs,
+        raster_target=raster_target_of(options),
+    )  # fmt: skip
     with Terminal(options.verbose) as progress:
         workers = workers_of(options, request.resources)
         summary = terrain(options.input, request, progress, workers)

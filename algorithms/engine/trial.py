@@ -11,6 +11,7 @@ from ..core.files import check_output, replacing
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..core.threads import may_use
+from ..crs.stated import stated_wkt
 from ..products.profile import Profile, can_be_shown
 from ..products.trial_page import TrialPage
 from ..products.window_trial import Outcome, figures_of, line_across
@@ -62,6 +63,7 @@ def compare_settings(
     options: TrialOptions = TrialOptions(),
     resources: Resources = Resources(),
     progress: Progress = SILENT,
+    crs: str | None = None,
 ) -> TrialSummary:
     """Classify a window of a survey with several settings, and write a page that compares them.
 
@@ -82,6 +84,8 @@ def compare_settings(
         Threads and memory.
     progress : Progress
         Receives progress and messages.
+    crs : str, optional
+        The CRS of the points in place of the one that files state, as for `stated_wkt`.
 
     Raises
     ------
@@ -99,7 +103,7 @@ def compare_settings(
     reach = max(each.reach for each in settings)
     context = min(reach, USUAL_CONTEXT) if options.context is None else options.context
     with may_use(resources.thread_count):
-        points = read_trial_points(paths, extent, context, progress.part(0.0, 0.4))
+        points = read_trial_points(paths, extent, context, progress.part(0.0, 0.4), stated_wkt(crs))
         if not fits_in_memory(points.count, resources):
             raise BareEarthError(
                 f"The window and what lies round it have {points.count:,} points, more than fit"
@@ -110,7 +114,8 @@ def compare_settings(
             points.labelled(setting, resources, part, is_first=part is parts[0])
             for setting, part in zip(settings, parts)
         ]
-        found = _page(paths, points, points.outcomes(labelled), options, (context, reach))
+        outcomes = points.outcomes(labelled)
+        found = _page(paths, points, outcomes, options, (context, reach), crs)
         html = found.html()
     with replacing(page) as temporary:
         temporary.write_text(html, encoding="utf-8")
@@ -125,6 +130,7 @@ def _page(
     outcomes: Sequence[Outcome],
     options: TrialOptions,
     seen: tuple[float, float],
+    crs: str | None,
 ) -> TrialPage:
     """Return the page; `seen` is how far was read, and how far the methods look."""
     window, first = points.window, outcomes[0]
@@ -137,7 +143,7 @@ def _page(
         window,
         outcomes,
         [figures_of(window, each, first) for each in outcomes],
-        [commands_for(paths, each) for each in options.chosen],
+        [commands_for(paths, each, crs) for each in options.chosen],
         profile,
     )
 

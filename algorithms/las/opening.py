@@ -29,8 +29,15 @@ _KEPT, _LARGEST_KEPT = ("LASF_Projection", "LASF_Spec"), 1 << 20
 _SMALLEST_SCALE, _LARGEST_SCALE, _LARGEST_OFFSET = 1e-12, 1e6, 1e12
 
 
-def open_las(path: Path | LasFile) -> LasFile:
+def open_las(path: Path | LasFile, stated: str | None = None) -> LasFile:
     """Open a file and read everything but its points. An opened file is returned as it is.
+
+    Parameters
+    ----------
+    path : Path or LasFile
+        The file.
+    stated : str, optional
+        The CRS that the user states in place of its records, as well-known text.
 
     Raises
     ------
@@ -47,7 +54,7 @@ def open_las(path: Path | LasFile) -> LasFile:
         points_start, vlr_count = fields.POINTS_START.get(header), fields.VLR_COUNT.get(header)
         vlrs, padding = _split_vlrs(file.read(points_start - len(header)), vlr_count)
         evlrs, waveforms = _read_evlrs(file, size, header)
-    layout = LasFile(path, size, header, vlrs, padding, evlrs, waveforms, state)
+    layout = LasFile(path, size, header, vlrs, padding, evlrs, waveforms, state, stated)
     _check_points(layout)
     return layout
 

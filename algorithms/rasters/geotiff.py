@@ -186,7 +186,7 @@ def read_raster(source: str | Path, band: int = 1, progress: Progress = SILENT) 
         cannot be read, or the CRS is geographic.
     """
     read = library(_read_with_gdal, _read_with_rasterio, "Reading")
-    _check_local(str(source))
+    check_local(str(source))
     content = read(str(source), band)
     values, valid = content.values, content.valid
     if values.dtype.kind not in "iuf":
@@ -240,7 +240,7 @@ def _frame_of(source: str | Path, content: _Content, progress: Progress) -> Fram
     return Frame((0.0, 0.0), horizontal, vertical, content.wkt or None)
 
 
-def _check_local(source: str) -> None:
+def check_local(source: str) -> None:
     """Refuse a URL, and files such as VRT that contain one, since GDAL would fetch it."""
     if any("\ud800" <= each <= "\udfff" for each in source):
         raise BareEarthError(f"The name of {source} is not UTF-8, which GDAL needs. Rename it.")
