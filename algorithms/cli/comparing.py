@@ -20,12 +20,11 @@ def _add_info(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None
 
 
 def _info(options: argparse.Namespace) -> int:
-    from ..crs.stated import stated_wkt
     from ..las.opening import open_las
     from ..las.reading import inspect
 
     with Terminal(options.verbose) as progress:
-        file = open_las(options.input, stated_wkt(options.crs))
+        file = open_las(options.input, options.crs)
         description = inspect(file, progress)
     print(json.dumps(description.as_dict()) if options.json else "\n".join(description.lines()))
     return DONE

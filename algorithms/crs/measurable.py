@@ -92,9 +92,9 @@ def _not_projected(subject: object, crs: Crs, box: Box | None) -> BareEarthError
     """Return the error for degrees, and for what is wrongly said to be degrees."""
     if box is not None and not _is_geocentric(crs) and not _can_be_degrees(box):
         return BareEarthError(
-            f"{subject} states a CRS in degrees ({crs.name}), but its coordinates cannot be degrees"
-            f" (x from {box[0]:.10g}, y from {box[1]:.10g}): its CRS is wrong. Give the right one:"
-            f" {HOW}."
+            f"{subject} is not in a projected CRS as far as its records say ({crs.name}), but its"
+            f" coordinates cannot be degrees (x from {box[0]:.10g}, y from {box[1]:.10g}), so the"
+            f" records are wrong. Give the right CRS: {HOW}."
         )
     return BareEarthError(
         f"{subject} is not in a projected CRS ({crs.name}), so that nothing can be measured in it."

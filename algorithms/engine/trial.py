@@ -11,7 +11,6 @@ from ..core.files import check_output, replacing
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..core.threads import may_use
-from ..crs.stated import stated_wkt
 from ..products.profile import Profile, can_be_shown
 from ..products.trial_page import TrialPage
 from ..products.window_trial import Outcome, figures_of, line_across
@@ -103,7 +102,7 @@ def compare_settings(
     reach = max(each.reach for each in settings)
     context = min(reach, USUAL_CONTEXT) if options.context is None else options.context
     with may_use(resources.thread_count):
-        points = read_trial_points(paths, extent, context, progress.part(0.0, 0.4), stated_wkt(crs))
+        points = read_trial_points(paths, extent, context, progress.part(0.0, 0.4), crs)
         if not fits_in_memory(points.count, resources):
             raise BareEarthError(
                 f"The window and what lies round it have {points.count:,} points, more than fit"

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from ..core.errors import BareEarthError
+from ..crs.stated import stated_wkt
 from . import header as fields
 from .lasfile import (
     EVLR_HEADER,
@@ -37,7 +38,7 @@ def open_las(path: Path | LasFile, stated: str | None = None) -> LasFile:
     path : Path or LasFile
         The file.
     stated : str, optional
-        The CRS that the user states in place of its records, as well-known text.
+        The CRS that the user states in place of its records, as for `stated_wkt`.
 
     Raises
     ------
@@ -54,7 +55,7 @@ def open_las(path: Path | LasFile, stated: str | None = None) -> LasFile:
         points_start, vlr_count = fields.POINTS_START.get(header), fields.VLR_COUNT.get(header)
         vlrs, padding = _split_vlrs(file.read(points_start - len(header)), vlr_count)
         evlrs, waveforms = _read_evlrs(file, size, header)
-    layout = LasFile(path, size, header, vlrs, padding, evlrs, waveforms, state, stated)
+    layout = LasFile(path, size, header, vlrs, padding, evlrs, waveforms, state, stated_wkt(stated))
     _check_points(layout)
     return layout
 

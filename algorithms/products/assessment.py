@@ -11,7 +11,6 @@ from ..core.errors import BareEarthError
 from ..core.files import check_output, replacing
 from ..core.points import Frame, Points
 from ..core.progress import SILENT, Progress
-from ..crs.stated import stated_wkt
 from ..las.cloud import PointCloud
 from ..las.opening import open_las
 from ..las.reading import read_cloud
@@ -45,7 +44,7 @@ def assess_files(
     progress : Progress
         Receives progress and messages.
     crs : str, optional
-        The CRS of the points in place of the one that the files state, as for `stated_wkt`.
+        The CRS of the points in place of the one that the files state, as for `open_las`.
 
     Raises
     ------
@@ -61,9 +60,8 @@ def assess_files(
             raise BareEarthError(f"Cannot write {report}: the report is HTML, name it .html.")
     if error_map is not None:
         check_raster_output(error_map, (classified, reference))
-    stated = stated_wkt(crs)
-    result = read_cloud(open_las(classified, stated), progress.part(0.0, 0.3))
-    truth = read_cloud(open_las(reference, stated), progress.part(0.3, 0.6))
+    result = read_cloud(open_las(classified, crs), progress.part(0.0, 0.3))
+    truth = read_cloud(open_las(reference, crs), progress.part(0.3, 0.6))
     order_result, order_truth = _matching_orders(result, truth)
     progress(0.64)
     ground = result.classification[order_result] == GROUND

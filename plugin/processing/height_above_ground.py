@@ -47,8 +47,10 @@ class HeightAboveGroundAlgorithm(ProductAlgorithm):
 
         chosen = self.chosen(parameters, context)
         output = self.cloud_output(parameters, context, progress)
-        progress.command(command_line("height", [str(self.source), output], chosen, {}))
-        request = HeightRequest.of(chosen)
+        progress.command(
+            command_line("height", [str(self.source), output], chosen, {"crs": self.stated})
+        )
+        request = HeightRequest.of(chosen, crs=self.stated)
         summary = heights(self.source, Path(output), request, progress)
         progress.info(
             tr("Heights above ground are {low:.2f} to {high:.2f} {unit}.").format(

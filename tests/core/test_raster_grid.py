@@ -1,4 +1,4 @@
-"""Rasters on the grid of a given raster, in units of the CRS, of a given extent and no-data value."""
+"""Rasters on the grid of a given one, in units of the CRS, and of a given extent."""
 
 import laspy
 import numpy as np
@@ -10,8 +10,8 @@ from surveys import cut, strip, write
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.engine import blocks as blocks_module
 from bare_earth.algorithms.engine.raster_grid import RasterTarget
-from bare_earth.algorithms.engine.requests import TerrainRequest
 from bare_earth.algorithms.engine.rasters import RasterFiles
+from bare_earth.algorithms.engine.requests import TerrainRequest
 from bare_earth.algorithms.engine.runs import terrain
 
 rasterio = pytest.importorskip("rasterio")
@@ -250,9 +250,7 @@ def test_three_feet_are_three_feet(tmp_path):
 def test_cells_without_data_have_the_value_that_is_asked_for(source, tmp_path, option, nodata):
     box = 499_990, 5_700_000, 500_050, 5_700_050
     usual = made(tmp_path / "usual", source, "--raster-extent", *box)
-    rasters = made(
-        tmp_path / "out", source, "--raster-extent", *box, "--raster-nodata", option
-    )
+    rasters = made(tmp_path / "out", source, "--raster-extent", *box, "--raster-nodata", option)
     for name, raster in rasters.items():
         expected = 0.0 if name == "hillshade" else nodata
         assert np.array_equal(raster.nodata, expected, equal_nan=True)
