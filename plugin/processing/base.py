@@ -98,6 +98,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
     def check(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
         """Check the values before a run; raise BareEarthError to refuse them."""
         check_area_only(parameters, self.chosen(parameters, context))
+        stated_crs_of(self, parameters, context)
         self.find_inputs(parameters, context)
 
     def chosen(

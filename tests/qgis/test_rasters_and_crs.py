@@ -19,6 +19,23 @@ BOX = QgsRectangle(500_010.5, 5_700_020.0, 500_050.0, 5_700_060.0)
 
 
 @pytest.fixture
+def run(registry, context, log):
+    """What runs an algorithm as the dialog does, and raises its errors."""
+
+    def run(name, **parameters):
+        algorithm = registry.createAlgorithmById(name)
+        possible, text = algorithm.checkParameterValues(parameters, context)
+        if not possible:
+            raise QgsProcessingException(text)
+        results, done = algorithm.run(parameters, context, log, {}, False)
+        if not done:
+            raise QgsProcessingException(log.text)
+        return results
+
+    return run
+
+
+@pytest.fixture
 def feet(tmp_path):
     """Return a file that states no CRS; its 80 feet are few metres."""
     write_scene(tmp_path / "feet.las", None, (6_653_000.0, 1_923_000.0))
