@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from .engine.options import TileOutput as TileOutput
     from .engine.output import Output as Output
     from .engine.raster_files import RasterFiles as RasterFiles
+    from .engine.raster_grid import RasterTarget as RasterTarget
     from .engine.requests import ClassifyRequest as ClassifyRequest
     from .engine.requests import HeightRequest as HeightRequest
     from .engine.requests import KeyPointRequest as KeyPointRequest
@@ -62,6 +63,7 @@ _MODULES = {
     "TileOutput": "engine.options",
     "Output": "engine.output",
     "RasterFiles": "engine.raster_files",
+    "RasterTarget": "engine.raster_grid",
     "ClassifyRequest": "engine.requests",
     "HeightRequest": "engine.requests",
     "KeyPointRequest": "engine.requests",

@@ -47,6 +47,12 @@ else:
     FILES = QgsProcessing.SourceType.TypeFile
     FOLDER = QgsProcessingParameterFile.Behavior.Folder
 
+# QGIS 3.36 moved this one, too.
+if hasattr(Qgis, "CrsWktVariant"):
+    WKT = Qgis.CrsWktVariant.Preferred
+else:
+    WKT = core.QgsCoordinateReferenceSystem.WktVariant.WKT_PREFERRED
+
 # Since QGIS 3.26.
 HAS_POINT_CLOUD_OUTPUTS = hasattr(core, "QgsProcessingParameterPointCloudDestination")
 

@@ -8,15 +8,26 @@ from typing import TYPE_CHECKING, Sequence
 
 from ..core.errors import BareEarthError
 from .command import DONE, Command
-from .options import UsageError, add_extent, add_inputs, add_json, add_parameters, chosen
+from .options import (
+    KEPT,
+    UsageError,
+    add_crs,
+    add_extent,
+    add_inputs,
+    add_json,
+    add_parameters,
+    chosen,
+)
 from .surveys import (
     add_constraints,
     add_contours,
+    add_raster_target,
     add_rasters,
     add_scheduler,
     constraints_of,
     contours_after,
     finished_files_stay,
+    raster_target_of,
     tell_of_survey,
     workers_of,
 )
@@ -38,12 +49,14 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
     from ..survey.vector_files import FORMATS
 
     add_inputs(parser)
+    add_crs(parser, KEPT)
     parser.add_argument(
         "output", metavar="OUTPUT", type=Path,
         help="the file to write (.las, .laz or .copc.laz), or a folder if there are many inputs",
     )  # fmt: skip
     add_rasters(parser)
     add_contours(parser)
+    add_raster_target(parser)
     add_constraints(parser, "for the rasters, ")
     add_extent(
         parser, "classify only points in this rectangle",
@@ -103,8 +116,9 @@ def _classify(options: argparse.Namespace) -> int:
     area, known = _area_of(options), constraints_of(options)
     with contours_after(options, sets) as (rasters, rest):
         request = ClassifyRequest.of(
-            rest, rasters=rasters, area=area, corrections=corrections, constraints=known
-        )
+            rest, rasters=rasters, area=area, corrections=corrections, constraints=known,
+            crs=options.crs, raster_target=raster_target_of(options),
+        )  # fmt: skip
         return _classified(options, request)
 
 

@@ -9,20 +9,23 @@ from pathlib import Path
 from typing import Sequence
 
 from .command import DONE, Command
-from .options import add_extent, add_inputs, add_json, add_parameters, chosen
+from .options import add_crs, add_extent, add_inputs, add_json, add_parameters, chosen
 from .terminal import Terminal
 
 
 def _add_info(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     parser.add_argument("input", metavar="FILE", type=Path, help="a .las, .laz or .copc.laz file")
+    add_crs(parser)
     add_json(parser, "")
 
 
 def _info(options: argparse.Namespace) -> int:
+    from ..las.opening import open_las
     from ..las.reading import inspect
 
     with Terminal(options.verbose) as progress:
-        description = inspect(options.input, progress)
+        file = open_las(options.input, options.crs)
+        description = inspect(file, progress)
     print(json.dumps(description.as_dict()) if options.json else "\n".join(description.lines()))
     return DONE
 
@@ -37,6 +40,7 @@ def _add_assess(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> No
         type=Path,
         help="a file with the same points and their true classes",
     )
+    add_crs(parser)
     add_json(parser, "")
     parser.add_argument("--report", metavar="FILE", type=Path, help="write a report (.html)")
     parser.add_argument(
@@ -53,8 +57,9 @@ def _assess(options: argparse.Namespace) -> int:
     what = AssessmentOptions.among(chosen(options))
     with Terminal(options.verbose) as progress:
         assessment = assess_files(
-            options.classified, options.reference, what, options.report, options.error_map, progress
-        )
+            options.classified, options.reference, what, options.report, options.error_map,
+            progress, options.crs,
+        )  # fmt: skip
     print(json.dumps(assessment.as_dict()) if options.json else "\n".join(assessment.lines()))
     return DONE
 
@@ -64,6 +69,7 @@ def _add_compare_settings(parser: argparse.ArgumentParser, arguments: Sequence[s
     from ..engine.trial_options import TrialOptions
 
     add_inputs(parser)
+    add_crs(parser)
     parser.add_argument("page", metavar="PAGE", type=Path, help="the page to write (.html)")
     add_extent(parser, "the window", required=True)
     add_json(parser, "the figures ")
@@ -81,7 +87,7 @@ def _compare_settings(options: argparse.Namespace) -> int:
     what, resources = TrialOptions.among(sets), Resources.among(sets)
     with Terminal(options.verbose) as progress:
         summary = compare_settings(
-            options.input, options.page, options.extent, what, resources, progress
+            options.input, options.page, options.extent, what, resources, progress, options.crs
         )
     print(json.dumps(asdict(summary)) if options.json else "\n".join(summary.lines()))
     return DONE

@@ -9,6 +9,8 @@ from typing import Any, Sequence
 from ..core.errors import BareEarthError
 from ..core.parameters import Declaration, ParameterSet, shown_value
 
+# End of the help of `add_crs`.
+KEPT = "; written point clouds keep the records that the files have"
 _NOT_USED = ("none", "automatic")
 
 
@@ -22,6 +24,16 @@ def add_inputs(parser: argparse.ArgumentParser, first: str = "") -> None:
         "input", metavar="INPUT", type=Path, nargs="+",
         help=first + "files, folders, virtual point clouds (.vpc), or lists of files (.txt); all"
         " of them together are one survey",
+    )  # fmt: skip
+
+
+def add_crs(parser: argparse.ArgumentParser, note: str = "") -> None:
+    """Add the option for the CRS of the points; `note` ends its help."""
+    parser.add_argument(
+        "--crs", metavar="CRS",
+        help="the CRS of the points, for files that state none or a wrong one: an EPSG code, such"
+        " as EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state"
+        + note,
     )  # fmt: skip
 
 

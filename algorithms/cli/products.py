@@ -7,15 +7,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Sequence
 
 from .command import DONE, Command
-from .options import add_inputs, add_json, add_parameters, chosen
+from .options import KEPT, add_crs, add_inputs, add_json, add_parameters, chosen
 from .surveys import (
     add_constraints,
     add_contours,
+    add_raster_target,
     add_rasters,
     add_scheduler,
     constraints_of,
     contours_after,
     finished_files_stay,
+    raster_target_of,
     tell_of_survey,
     workers_of,
 )
@@ -113,6 +115,7 @@ def _add_files(parser: argparse.ArgumentParser, *sets: type[ParameterSet]) -> No
     from ..survey.ground_classes import GroundClasses
 
     add_inputs(parser, "a classified file, or ")
+    add_crs(parser, KEPT)
     parser.add_argument(
         "output", metavar="OUTPUT", type=Path,
         help="the file to write (.las, .laz or .copc.laz), or a folder if there are many inputs",
@@ -132,14 +135,17 @@ def _write(options: argparse.Namespace) -> int:
 
     if options.command == "height":
         dtm = None if options.dtm is None else HeightRaster.of(options.dtm)
-        request: HeightRequest | KeyPointRequest = HeightRequest.of(chosen(options), dtm=dtm)
+        request: HeightRequest | KeyPointRequest = HeightRequest.of(
+            chosen(options), dtm=dtm, crs=options.crs
+        )
     else:
-        request = KeyPointRequest.of(chosen(options))
+        request = KeyPointRequest.of(chosen(options), crs=options.crs)
     if is_one_file(options.input) and not options.scheduler:
         with Terminal(options.verbose) as progress:
             summary = write_points(
-                options.input[0], options.output, request.step, request.resources, progress
-            )
+                options.input[0], options.output, request.step, request.resources, progress,
+                request.stated,
+            )  # fmt: skip
         tell(options, summary, f"{options.output.parent / summary.text}")
         return DONE
     workers = workers_of(options, request.resources)
@@ -159,8 +165,10 @@ def _add_terrain(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> N
     from ..survey.ground_classes import GroundClasses
 
     add_inputs(parser)
+    add_crs(parser)
     add_rasters(parser)
     add_contours(parser)
+    add_raster_target(parser)
     add_constraints(parser)
     add_scheduler(parser)
     add_json(parser)
@@ -176,7 +184,10 @@ def _terrain(options: argparse.Namespace) -> int:
 
     known, sets = constraints_of(options), chosen(options)
     with contours_after(options, sets) as (rasters, rest):
-        request = TerrainRequest.of(rest, rasters=rasters, constraints=known)
+        request = TerrainRequest.of(
+            rest, rasters=rasters, constraints=known, crs=options.crs,
+            raster_target=raster_target_of(options),
+        )  # fmt: skip
         with Terminal(options.verbose) as progress:
             workers = workers_of(options, request.resources)
             summary = terrain(options.input, request, progress, workers)

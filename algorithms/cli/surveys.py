@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Iterator, Sequence
 
 from ..core.errors import BareEarthError, Cancelled
 from .command import DONE, FAILED
+from .options import UsageError
 from .terminal import Terminal, tell
 
 if TYPE_CHECKING:
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from ..engine.many_files import SurveySummary
     from ..engine.memory import Resources
     from ..engine.raster_files import RasterFiles
+    from ..engine.raster_grid import RasterTarget
     from ..engine.workers import Workers
 
 
@@ -85,6 +87,31 @@ def contours_after(
         source = virtual_of(rasters.dtm) if not rasters.dtm.exists() and per_file else rasters.dtm
         with Terminal(options.verbose) as progress:
             write_contours(source, options.contours, how, progress)
+
+
+def add_raster_target(parser: argparse.ArgumentParser) -> None:
+    """Add the options for the grid and the extent of the rasters."""
+    parser.add_argument(
+        "--like", metavar="RASTER",
+        help="a raster in the CRS of the points, such as dem.tif: all rasters get its CRS, cell"
+        " size, position of the cells, and extent; it replaces --dtm-cell-size",
+    )  # fmt: skip
+    parser.add_argument(
+        "--raster-extent", nargs=4, type=float, metavar=("XMIN", "YMIN", "XMAX", "YMAX"),
+        help="the rasters cover this rectangle in the CRS of the points, widened to whole cells,"
+        " which stay where they are; all points are used",
+    )  # fmt: skip
+
+
+def raster_target_of(options: argparse.Namespace) -> RasterTarget:
+    """Return the grid and the extent of the rasters."""
+    from ..engine.raster_grid import RasterTarget
+
+    extent = options.raster_extent
+    try:
+        return RasterTarget(options.like, extent and tuple(extent))
+    except BareEarthError as error:
+        raise UsageError(str(error)) from error
 
 
 def add_constraints(parser: argparse.ArgumentParser, note: str = "") -> None:

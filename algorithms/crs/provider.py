@@ -24,6 +24,25 @@ def wkt_of_epsg(code: int) -> str | None:
     return None if known is None else known.wkt_of_epsg(code)
 
 
+def wkt_of_text(text: str) -> str | None:
+    """Return the well-known text (WKT 1) of a CRS in any form that the library understands.
+
+    None if there is no library, or it does not understand the text.
+    """
+    known = library()
+    # GDAL would read the address.
+    return None if known is None or "://" in text else known.wkt_of_text(text)
+
+
+def are_same(one: str, other: str) -> bool | None:
+    """Return whether two well-known texts have the same horizontal CRS.
+
+    None if there is no library, or it does not understand a text.
+    """
+    known = library()
+    return None if known is None else known.are_same(one, other)
+
+
 def to_wgs84(wkt: str, places: np.ndarray) -> np.ndarray | None:
     """Transform places to WGS 84.
 
@@ -98,6 +117,34 @@ class _Gdal:
         return None if failed else reference.ExportToWkt()
 
     @staticmethod
+    def wkt_of_text(text: str) -> str | None:
+        from osgeo import osr
+
+        reference = osr.SpatialReference()
+        try:
+            with _quiet():
+                failed = reference.SetFromUserInput(text)
+        except RuntimeError:  # the application made GDAL raise its errors
+            return None
+        return None if failed else reference.ExportToWkt()
+
+    @staticmethod
+    def are_same(one: str, other: str) -> bool | None:
+        from osgeo import osr
+
+        references = osr.SpatialReference(), osr.SpatialReference()
+        try:
+            with _quiet():
+                for reference, text in zip(references, (one, other)):
+                    if reference.ImportFromWkt(text):
+                        return None
+                    if reference.IsCompound():
+                        reference.DemoteTo2D()
+                return bool(references[0].IsSame(references[1]))
+        except RuntimeError:  # the application made GDAL raise its errors
+            return None
+
+    @staticmethod
     def transformed(source: str, target: str, places: np.ndarray) -> np.ndarray | None:
         from osgeo import osr
 
@@ -144,6 +191,29 @@ class _Pyproj:
             return CRS.from_epsg(code).to_wkt("WKT1_GDAL")
         except CRSError:
             return None
+
+    @staticmethod
+    def wkt_of_text(text: str) -> str | None:
+        from pyproj import CRS
+        from pyproj.exceptions import CRSError
+
+        try:
+            crs = CRS.from_user_input(text)
+            return crs.to_wkt("WKT1_GDAL") or crs.to_wkt()
+        except CRSError:
+            return None
+
+    @staticmethod
+    def are_same(one: str, other: str) -> bool | None:
+        from pyproj import CRS
+        from pyproj.exceptions import CRSError
+
+        try:
+            pair = [CRS.from_wkt(text) for text in (one, other)]
+        except CRSError:
+            return None
+        flat = [crs.sub_crs_list[0] if crs.is_compound else crs for crs in pair]
+        return bool(flat[0].equals(flat[1], ignore_axis_order=True))
 
     @staticmethod
     def transformed(source: str, target: str, places: np.ndarray) -> np.ndarray | None:

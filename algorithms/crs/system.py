@@ -176,7 +176,7 @@ def _crs_of(text: str | None, facts: WktFacts, progress: Progress) -> Crs:
             )
         elif not math.isclose(horizontal, 1.0):
             progress.info(
-                "The file does not state the unit of its heights: that of x and y is used,"
+                "The unit of the heights is not stated: that of x and y is used,"
                 f" {unit_name(horizontal)}."
             )
     return replace(crs, horizontal_unit=horizontal, vertical_unit=vertical)

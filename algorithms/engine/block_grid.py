@@ -52,10 +52,13 @@ class BlockGrid:
         Frame of all files, with its origin at (0, 0) of the CRS.
     blocks : Blocks
         How the survey is cut.
+    stated : str or None
+        The CRS that the user states for all files, as for `open_las`.
     """
 
     frame: Frame
     blocks: Blocks
+    stated: str | None = None
 
     def window(self, places: Iterable[BlockIndex]) -> Box:
         """Return the box that holds all points that the blocks need, in units of the CRS."""
@@ -105,7 +108,7 @@ def places_of(grid: BlockGrid, tile: LasFile) -> list[BlockIndex]:
     columns, rows = grid.places_in(tile.outer_box)
     if len(columns) * len(rows) <= _MOST_PLACES:
         return [BlockIndex(column, row) for row, column in itertools.product(rows, columns)]
-    row, column = row_and_column(np.unique(grid.codes(read_cloud(tile.path))))
+    row, column = row_and_column(np.unique(grid.codes(read_cloud(tile))))
     return [BlockIndex(*each) for each in zip(column.tolist(), row.tolist())]
 
 

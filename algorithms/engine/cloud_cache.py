@@ -29,7 +29,7 @@ class CloudCache:
 
     def __init__(self, limit: int = 0) -> None:
         self._limit, self._lock = limit, threading.Lock()
-        # By path and state of the file; the last used ones at the end.
+        # By path, state and stated CRS of the file; the last used ones at the end.
         self._kept: dict[Any, _Kept] = {}
 
     def whole(self, las: LasFile, progress: Progress) -> PointCloud | None:
@@ -43,7 +43,7 @@ class CloudCache:
         size = las.count * _BYTES_A_POINT
         if size > self._limit:
             return None
-        key = las.path, las.state
+        key = las.path, las.state, las.stated
         with self._lock:
             kept = self._kept.pop(key) if key in self._kept else _Kept(size)
             self._kept[key] = kept
@@ -55,9 +55,14 @@ class CloudCache:
                 kept.cloud = read_cloud(las, progress)
         return kept.cloud
 
-    def window(self, path: Path, box: Box, progress: Progress) -> PointCloud:
-        """Return the points of a file in a box, as `read_window` with `trust_header` does."""
-        las, cloud = open_las(path), None
+    def window(
+        self, path: Path, box: Box, progress: Progress, stated: str | None = None
+    ) -> PointCloud:
+        """Return the points of a file in a box, as `read_window` with `trust_header` does.
+
+        `stated` is as for `open_las`.
+        """
+        las, cloud = open_las(path, stated), None
         # The nodes of a COPC file are read by themselves.
         if not las.is_copc and may_touch(las, box):
             cloud = self.whole(las, progress)

@@ -203,19 +203,23 @@ def fixed_terrain(
     """
     if not constraints.any:
         return None
-    unit, step = frame.horizontal_unit, cell / _PER_CELL
+    unit, step, origin = frame.horizontal_unit, cell / _PER_CELL, np.array(frame.origin)
     lines = [
-        along(line * (unit, unit, frame.vertical_unit), step) for line in constraints.breaklines
+        along((line - (*origin, 0.0)) * (unit, unit, frame.vertical_unit), step)
+        for line in constraints.breaklines
     ]
     waters = [
-        tuple(np.column_stack((ring * unit, np.zeros(len(ring)))) for ring in polygon)
+        tuple(np.column_stack(((ring - origin) * unit, np.zeros(len(ring)))) for ring in polygon)
         for polygon in constraints.water
     ]
     borders = [
         np.concatenate([along(ring, step, is_closed=True) for ring in polygon])
         for polygon in waters
     ]
-    rivers = [along(line * (unit, unit, 1.0), _STATION)[:, :2] for line in constraints.rivers]
+    rivers = [
+        along((line - (*origin, 0.0)) * (unit, unit, 1.0), _STATION)[:, :2]
+        for line in constraints.rivers
+    ]
     near = _ground_near([*lines, *borders], clouds, ground, frame)
     if waters:
         # Points in the water are not on its banks.

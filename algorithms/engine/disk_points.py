@@ -41,6 +41,8 @@ class DiskPoints:
         The points are sorted by their leaves, part by part.
     kind : type
         Type of the value that is stored for each point.
+    origin : tuple of float
+        Origin of the frame of the blocks, in units of the CRS.
 
     Attributes
     ----------
@@ -52,7 +54,13 @@ class DiskPoints:
         As `Store` says; `leaves` after `finish` only.
     """
 
-    def __init__(self, target: Path, blocks: Blocks, kind: type = np.uint8) -> None:
+    def __init__(
+        self,
+        target: Path,
+        blocks: Blocks,
+        kind: type = np.uint8,
+        origin: tuple[float, float] = (0.0, 0.0),
+    ) -> None:
         self._kind = np.dtype(kind)
         self.count, self.has_known, self.leaves = 0, False, None
         self._target = Path(target)
@@ -61,7 +69,7 @@ class DiskPoints:
         with self._told():
             self._records, self._labels = self._file(), self._file()
         self.cloud: PointCloud | None = None
-        self._frame = Frame()
+        self._frame, self._origin = Frame(), origin
         # For each part the index of its first point here, and a mask of its points, as bits.
         self._parts: list[tuple[int, np.ndarray]] = []
         self._runs = LeafIndex()
@@ -106,7 +114,7 @@ class DiskPoints:
             names = ("x", "y", "z", "classification", "return_number", "number_of_returns")
             nothing = {name: getattr(part, name)[:0] for name in (*names, "withheld")}
             self.cloud = dataclasses.replace(part, **nothing)
-            self._frame = survey_frame(part.crs)
+            self._frame = survey_frame(part.crs, self._origin)
         which, found = self._sorted(part, selected)
         records = np.empty(len(which), dtype=_RECORD)
         for name in ("x", "y", "z"):

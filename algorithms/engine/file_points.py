@@ -201,7 +201,8 @@ class FilePoints:
         stores, shares = [], progress.shares(*[1.0] * len(steps))
         for (step, tally), marks, part in zip(steps, every, shares):
             step.tell(tally, self.path, progress)
-            files, frame = [SurveyFile(self.cloud, *marks)], survey_frame(self.cloud.crs)
+            files = [SurveyFile(self.cloud, *marks)]
+            frame = survey_frame(self.cloud.crs, step.origin)
             stores.append(MemoryPoints(files, frame, step.blocks, part, step.kind))
         return stores
 
@@ -209,7 +210,7 @@ class FilePoints:
         self, steps: Sequence[tuple[Step, Any]], parts: Parts, progress: Progress
     ) -> list[Store]:
         stores = [
-            self._files.enter_context(DiskPoints(self._target, step.blocks, step.kind))
+            self._files.enter_context(DiskPoints(self._target, step.blocks, step.kind, step.origin))
             for step, _ in steps
         ]
         for _, part in parts:

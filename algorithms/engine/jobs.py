@@ -105,7 +105,7 @@ class BlockJob:
         window = self.grid.window(self.places)
         for source, part in zip(self.sources, progress.shares(*[1.0] * len(self.sources))):
             try:
-                cloud = cache.window(source, window, part.quiet())
+                cloud = cache.window(source, window, part.quiet(), self.grid.stated)
             except BareEarthError as error:
                 progress.warning(
                     f"{source.name} is left out: the results beside it are made without its"

@@ -11,6 +11,7 @@ from typing import Any, Iterable, Sequence
 from ..core.errors import BareEarthError
 from ..core.files import check_output, is_same_file, split_name, temporary_folder
 from ..core.progress import SILENT, Progress
+from ..crs.measurable import require_measurable
 from ..las.writing import check_writable
 from ..survey.files import Survey, open_survey
 from ..survey.shapes import Place
@@ -165,12 +166,14 @@ def write_files(
                 f"Input and output are the same file, {source}. Choose another output."
             )
     recursive = request.files.recursive
-    survey = open_survey(sources, recursive, progress.part(0.0, 0.02))
+    survey = open_survey(sources, recursive, progress.part(0.0, 0.02), request.stated)
     _check_survey(survey, folder, vpc, sources if recursive else [])
     made = [rasters] if rasters is not None else []
     steps = located([*steps, *made], _place_of(survey), progress)
     rasters = steps.pop() if made else None
     steps[0].check_survey(survey.box)
+    if rasters is not None:  # refused now, and not at the end
+        rasters.placed(survey.crs, survey.box)
     targets = _targets_of(survey, folder, request.tiles.format)
     if rasters is not None:
         _check_rasters(rasters, survey, folder, (vpc, *targets, *targets.values()))
@@ -196,7 +199,8 @@ def write_files(
         if is_last:
             break
         if run.done:
-            survey = open_survey([place / each.name for each in run.done], progress=SILENT)
+            made = [place / each.name for each in run.done]
+            survey = open_survey(made, progress=SILENT, stated=request.stated)
         elif tasks[-1].kept:  # all that was left to do has failed
             tasks[-1] = replace(tasks[-1], only=frozenset())
         else:
@@ -216,7 +220,8 @@ def write_files(
         )
     for each in waiting:
         shutil.rmtree(each, ignore_errors=True)
-    write_vpc(vpc, [folder / each.name for each in run.done], progress.part(0.98, 1.0))
+    made = [folder / each.name for each in run.done]
+    write_vpc(vpc, made, progress.part(0.98, 1.0), request.stated)
     return SurveySummary(
         tile_count=len(inputs) - empty_count + len(failures.keys() - inputs.keys()),
         done_count=len(run.done),
@@ -256,7 +261,8 @@ def rasters_of_files(
         If the user asked to stop; no output is left behind.
     """
     recursive = request.files.recursive
-    survey = open_survey(sources, recursive, progress.part(0.0, 0.05))
+    survey = open_survey(sources, recursive, progress.part(0.0, 0.05), request.stated)
+    require_measurable("The survey", survey.crs, survey.box)
     per_file = request.raster_output.raster_per_file
     request.rasters.check(tuple(each.path for each in survey.tiles), per_file)
     if per_file:
@@ -277,11 +283,7 @@ def _place_of(survey: Survey) -> Place:
 
 def _check_survey(survey: Survey, folder: Path, vpc: Path, searched: Sequence[Path]) -> None:
     """Refuse, before any work, a survey and outputs that would fail or overwrite something."""
-    if survey.crs.is_geographic:
-        raise BareEarthError(
-            f"The files are not in a projected CRS ({survey.crs.name}), so that nothing can be"
-            " measured in them. Reproject them first."
-        )
+    require_measurable("The survey", survey.crs, survey.box)
     if folder.exists() and not folder.is_dir():
         raise BareEarthError(f"Cannot write into {folder}: it is a file. Give a folder.")
     if not folder.exists():

@@ -39,10 +39,12 @@ class Mosaic:
         self, made: Sequence[BlockRasters], layer: str, window: CellWindow, cell: float
     ) -> None:
         self._made, self._layer, self.window, self._cell = made, layer, window, cell
+        # Where gaps are filled; `window` may become a part of it, or reach beyond.
         self._gaps: Surface | None = None
+        self._filled = window
 
     def columns(self, start: int, end: int) -> Mosaic:
-        """Return some columns of the layer."""
+        """Return some columns of the layer, from `start` on; those beyond it are NaN."""
         part, whole = copy.copy(self), self.window
         part.window = CellWindow(whole.row, whole.column + start, whole.rows, end - start)
         part._made = [each for each in self._made if _overlap(each.window, part.window)]
@@ -62,8 +64,9 @@ class Mosaic:
             target, source = _overlap(strip, each.window), _overlap(each.window, strip)
             if target is not None:
                 heights[target] = each.layers[self._layer][source]
-        if self._gaps is not None:
-            self._fill(heights, strip, self._gaps)
+        filled = _overlap(strip, self._filled)
+        if self._gaps is not None and filled is not None:
+            self._fill(heights[filled], strip.within(self._filled), self._gaps)
         return heights[::-1]
 
     def fill_gaps(self, points: np.ndarray, progress: Progress = SILENT) -> None:
@@ -130,7 +133,7 @@ def gathered_strips(
     mosaics : sequence of Mosaic
         One or more mosaics with the same cells.
     window : CellWindow
-        The cells to make.
+        The cells to make. Those beyond the mosaics have no value.
     make : callable
         Returns rows of the raster, given as many rows of each mosaic.
     margin : int
@@ -141,12 +144,10 @@ def gathered_strips(
     whole = mosaics[0].window
     north = whole.row + whole.rows - window.row - window.rows
     left = window.column - whole.column
-    west, east = max(left - margin, 0), min(left + window.columns + margin, whole.columns)
-    parts = [each.columns(west, east) for each in mosaics]
-    columns = slice(left - west, left - west + window.columns)
+    parts = [each.columns(left - margin, left + window.columns + margin) for each in mosaics]
+    inside = slice(margin, margin + window.columns)
     for start, end in _strips(window):
-        start, end = north + start, north + end
-        first, last = max(start - margin, 0), min(end + margin, whole.rows)
+        first, last = north + start - margin, north + end + margin
         made = make(*(each.rows(first, last) for each in parts))
-        yield made[start - first : end - first, columns]
-        progress((end - north) / window.rows)
+        yield made[margin : margin + end - start, inside]
+        progress(end / window.rows)

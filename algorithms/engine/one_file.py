@@ -13,7 +13,9 @@ from ..core.files import check_output
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
 from ..core.threads import may_use
+from ..crs.measurable import require_measurable
 from ..las.cloud import PointCloud, survey_frame
+from ..las.crs_records import read_crs
 from ..las.extrabytes import remembers
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
@@ -24,7 +26,7 @@ from ..survey.selection import Selection
 from .file_points import FilePoints
 from .labelling import ClassifiedPoints, LabelGround
 from .memory import Resources
-from .rasters import RasterSize, write_rasters
+from .rasters import MakeRasters, RasterSize, write_rasters
 from .requests import ClassifyRequest, TerrainRequest
 from .steps import PointStep, Step, located
 
@@ -134,9 +136,9 @@ def classify_file(
     Cancelled
         If the user asked to stop; no output is left behind.
     """
-    las, resources = _checked(source, target, request.resources)
+    las, resources = _checked(source, target, request.resources, request.stated)
     request.rasters.check((source, target))
-    step, products = request.step, _products(request)
+    step, products = request.step, _products(request, las, progress)
     tally = step.tally()
     # Shares of the progress bar.
     raster_count = len(request.rasters.wanted)
@@ -156,7 +158,7 @@ def classify_file(
         # All outputs or none: the rasters get their names after the cloud is written.
         if "rasters" in products:
             part, writing = drawing.shares(4.0, 1.0)
-            frame = survey_frame(points.cloud.crs)
+            frame = survey_frame(points.cloud.crs, products["rasters"].origin)
             parts = (result.part(*each) for each in points.parts())
             drawn = products["rasters"].seeing(parts, frame, progress)
             made = drawn.work(waiting["rasters"], points.resources, part)
@@ -168,14 +170,21 @@ def classify_file(
     return _summary(result, tally, request)
 
 
-def _products(request: ClassifyRequest) -> dict[str, Step]:
-    """Return the steps that use the classified points."""
+def _products(request: ClassifyRequest, las: LasFile, progress: Progress) -> dict[str, Step]:
+    """Return the steps that use the classified points of a file."""
     products: dict[str, Step] = {}
     if request.rasters.wanted:
-        products["rasters"] = request.raster_step
+        products["rasters"] = _placed(request.raster_step, las, progress)
     if request.output.height_above_ground:
         products["heights"] = request.height_step
     return products
+
+
+def _placed(step: MakeRasters, las: LasFile, progress: Progress) -> MakeRasters:
+    """Return a step that knows where its cells lie, given the file of the points."""
+    crs, box = read_crs(las), las.outer_box if las.states_extent else None
+    require_measurable(las.path, crs, box)
+    return step.placed(crs, box, progress)
 
 
 def _worked(points: FilePoints, step: PointStep, store: Any, progress: Progress) -> Any:
@@ -206,6 +215,7 @@ def write_points(
     step: PointStep,
     resources: Resources = Resources(),
     progress: Progress = SILENT,
+    stated: str | None = None,
 ) -> Any:
     """Write a file with the values that a step finds for its points, such as heights.
 
@@ -219,6 +229,8 @@ def write_points(
         Threads and memory.
     progress : Progress
         Receives progress and messages.
+    stated : str, optional
+        The CRS that the user states in place of that of the file, as well-known text.
 
     Returns
     -------
@@ -232,7 +244,7 @@ def write_points(
     Cancelled
         If the user asked to stop; no output is left behind.
     """
-    las, resources = _checked(source, target, resources)
+    las, resources = _checked(source, target, resources, stated)
     with may_use(resources.thread_count):
         first = progress.part(0.0, 0.1)
         with FilePoints.opened(las, target, resources, progress=first) as points:
@@ -267,14 +279,14 @@ def rasters_of_file(
     resources = request.resources.now()
     beside = next(iter(request.rasters.wanted.values()))
     with may_use(resources.thread_count), contextlib.ExitStack() as outputs:
-        las, first = open_las(source), progress.part(0.0, 0.1)
-        step = request.raster_step
+        las, first = open_las(source, request.stated), progress.part(0.0, 0.1)
+        step = _placed(request.raster_step, las, progress)
         points = FilePoints.opened(las, beside, resources, False, first)
         outputs.enter_context(points)
         (step,) = located([step], points.place, progress)
         parts = points.parts(progress.part(0.1, 0.13))
         (store,) = points.gathered([(step, step.tally())], parts, progress.part(0.13, 0.15))
-        frame = survey_frame(points.cloud.crs)
+        frame = survey_frame(points.cloud.crs, step.origin)
         step = step.seeing((part for _, part in points.parts()), frame, progress)
         made = step.work(store, points.resources, progress.part(0.15, 0.9))
         return write_rasters(made, frame, step, outputs, progress.part(0.9, 1.0))
@@ -292,7 +304,9 @@ def check_cloud(source: Path, target: Path) -> None:
     check_writable(target)
 
 
-def _checked(source: Path, target: Path, resources: Resources) -> tuple[LasFile, Resources]:
+def _checked(
+    source: Path, target: Path, resources: Resources, stated: str | None
+) -> tuple[LasFile, Resources]:
     """Refuse an output that cannot be written. Return the opened input and the resources."""
     check_cloud(source, target)
-    return open_las(source), resources.now()
+    return open_las(source, stated), resources.now()

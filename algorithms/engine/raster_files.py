@@ -15,7 +15,7 @@ from ..grids.relief_smoothing import smoothing_reach, without_noise
 from ..products.local_relief import local_relief, relief_reach
 from ..products.surface_model import canopy_height
 from ..products.terrain_model import TerrainModel
-from ..rasters.geotiff import NODATA, RasterGrid
+from ..rasters.geotiff import RasterGrid
 from ..rasters.writing import check_raster_output
 
 
@@ -44,8 +44,8 @@ class Raster(NamedTuple):
         that affect it.
     kind : str
         The type of its values.
-    nodata : float
-        The value of cells without data.
+    nodata : float or None
+        The value of cells without data; None for the one that the user chooses.
     """
 
     label: str
@@ -55,12 +55,16 @@ class Raster(NamedTuple):
     make: Callable[..., np.ndarray]
     margin: Callable[[RasterGrid, TerrainModel], int] = _none
     kind: str = "float32"
-    nodata: float = NODATA
+    nodata: float | None = None
+
+    def empty(self, model: TerrainModel) -> float:
+        """Return the value of cells without data."""
+        return model.nodata if self.nodata is None else self.nodata
 
 
 def plain(values: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.ndarray:
-    """Return values with NODATA for NaN."""
-    return np.where(np.isnan(values), NODATA, values).astype(np.float32)
+    """Return values with the no-data value for NaN."""
+    return np.where(np.isnan(values), model.nodata, values).astype(np.float32)
 
 
 def _heights(heights: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.ndarray:

@@ -68,7 +68,7 @@ class RasterJob(BlockJob):
 
     def _place_of(self, window: CellWindow) -> BlockIndex:
         """Return the index of the block that holds the centre of the first cell."""
-        cell, blocks = self.step.model.dtm_cell_size, self.grid.blocks
+        cell, blocks = self.step.cell, self.grid.blocks
         x, y = ((each + 0.5) * cell for each in (window.column, window.row))
         return BlockIndex(int(blocks.number(x)), int(blocks.number(y)))
 
@@ -158,7 +158,8 @@ def make_rasters(
     Cancelled
         If the user asked to stop.
     """
-    grid = BlockGrid(survey_frame(survey.crs), step.blocks)
+    step = step.placed(survey.crs, survey.box, progress)
+    grid = BlockGrid(survey_frame(survey.crs, step.origin), step.blocks, survey.stated)
     seen, progress = progress.part(0.0, 0.05), progress.part(0.05, 1.0)
     step = step.seeing(parts_of(survey.tiles, seen), grid.frame, seen)
     places = sorted({place for tile in survey.tiles for place in places_of(grid, tile)})

@@ -14,6 +14,7 @@ from ..core.errors import BareEarthError
 from ..core.files import new_folder, replacing
 from ..core.points import Box, Frame
 from ..core.progress import SILENT, Progress
+from ..crs.system import Crs
 from ..grids.cell_window import CellWindow
 from ..grids.dense_surface import VERTICES_A_SIDE
 from ..las.cloud import PointCloud
@@ -32,9 +33,17 @@ from .ground import over_blocks
 from .memory import Cost, Resources
 from .mosaic import Mosaic, gathered_strips
 from .raster_files import RASTERS, Raster, RasterFiles, folder_of, virtual_of
+from .raster_grid import (
+    ANYWHERE,
+    MOST_CELLS,
+    CellGrid,
+    RasterTarget,
+    box_of,
+    cell_grid,
+    no_points,
+)
 from .steps import Marks, Step
 
-_MOST_CELLS = 4_000_000_000
 # In a raster of more cells, blocks with points must cover this share. Otherwise it is so large
 # because of a few points with stray coordinates.
 _MANY_CELLS, _LEAST_COVERED = 10_000_000, 0.01
@@ -101,6 +110,10 @@ class MakeRasters(Step):
         Whether each of many files gets its own rasters.
     fixed : FixedTerrain or None
         The vertices that follow from the constraints; `seeing` finds these.
+    target : RasterTarget
+        A grid or an extent that the rasters must have.
+    cells : CellGrid or None
+        Where the cells lie; `placed` finds this.
     """
 
     files: RasterFiles = field(default_factory=RasterFiles)
@@ -112,6 +125,8 @@ class MakeRasters(Step):
     constraints: Constraints = NO_CONSTRAINTS
     per_file: bool = False
     fixed: FixedTerrain | None = None
+    target: RasterTarget = ANYWHERE
+    cells: CellGrid | None = None
 
     tally = RasterTally
 
@@ -126,9 +141,23 @@ class MakeRasters(Step):
         return "surface" in self.files.layers
 
     @property
+    def cell(self) -> float:
+        """Side of a cell in metres."""
+        return self.cells.metres if self.cells else self.model.dtm_cell_size
+
+    @property
+    def origin(self) -> tuple[float, float]:
+        """The origin of the cells, in units of the CRS."""
+        return self.cells.origin if self.cells else (0.0, 0.0)
+
+    def placed(self, crs: Crs, box: Box | None = None, progress: Progress = SILENT) -> MakeRasters:
+        """Return the step for points in a CRS; see `cell_grid`."""
+        return replace(self, cells=cell_grid(self.target, self.model, crs, box, progress))
+
+    @property
     def of_block(self) -> RasterStep:
         """Makes the rasters of a single block."""
-        return RasterStep(self.model.dtm_cell_size, self.files.layers, self.surface.max_edge)
+        return RasterStep(self.cell, self.files.layers, self.surface.max_edge)
 
     def seeing(
         self, clouds: Iterable[PointCloud], frame: Frame, progress: Progress = SILENT
@@ -144,15 +173,15 @@ class MakeRasters(Step):
         progress : Progress
             Receives warnings.
         """
-        cell = self.model.dtm_cell_size / VERTICES_A_SIDE
+        cell = self.cell / VERTICES_A_SIDE
         fixed = fixed_terrain(self.constraints, clouds, frame, self.ground, cell, progress)
         return replace(self, fixed=fixed)
 
     @property
     def blocks(self) -> Blocks:
         """The blocks in which the rasters are made."""
-        cell = self.model.dtm_cell_size
-        return Blocks.of(self.of_block.reach, Cost(_BYTES_A_POINT, _BYTES_A_CELL / cell**2))
+        cost = Cost(_BYTES_A_POINT, _BYTES_A_CELL / self.cell**2)
+        return Blocks.of(self.of_block.reach, cost)
 
     def marks(self, part: PointCloud, tally: RasterTally) -> Marks:
         """Return which points the rasters cover, which are ground, and which are of the surface."""
@@ -243,7 +272,7 @@ def write_rasters(
     made : sequence of BlockRasters
         The rasters of its blocks.
     frame : Frame
-        Frame of the survey, with its origin at (0, 0) of the CRS.
+        Frame of the survey, with the origin of the step.
     step : MakeRasters
         Which rasters, and where they go.
     outputs : contextlib.ExitStack
@@ -258,7 +287,7 @@ def write_rasters(
     BareEarthError
         If there are no points, or a raster cannot be written.
     """
-    cell, wanted = step.model.dtm_cell_size, step.files.wanted
+    cell, wanted = step.cell, step.files.wanted
     window = _window_of(made, cell)
     mosaics = {}
     for name in step.files.layers:
@@ -266,6 +295,7 @@ def write_rasters(
         loose = [each.loose[name] for each in made if name in each.loose]
         if loose and step.surface.max_edge is None:
             mosaics[name].fill_gaps(np.concatenate(loose), progress.part(0.0, 0.3))
+    window = _covered(window, step, frame)
     parts = progress.part(0.3, 1.0).shares(*[1.0] * len(wanted))
     for (name, path), part in zip(wanted.items(), parts):
         raster = RASTERS[name]
@@ -279,9 +309,9 @@ def write_rasters(
             folder = outputs.enter_context(new_folder(folder_of(path)))
             names = [folder / f"{each}.tif" for each in windows]
             grids = dict(zip(names, map(write, names, windows.values(), shares)))
-            virtual, grid = virtual_of(path), _grid_of(window, cell, frame)
+            virtual, grid = virtual_of(path), _grid_of(window, step, frame)
             temporary = outputs.enter_context(replacing(virtual))
-            band = Band.of(grid, raster.nodata, raster.shows)
+            band = Band.of(grid, raster.empty(step.model), raster.shows)
             write_virtual(temporary, virtual.parent, grid, grids, raster.kind, band)
     counts = np.sum([each.counts for each in made], axis=0)
     return RasterSize(int(counts[0]), int(counts[1]), window.columns, window.rows)
@@ -298,12 +328,12 @@ def _write(
     progress: Progress,
 ) -> RasterGrid:
     """Write some cells of a raster; return where they lie."""
-    grid = _grid_of(window, step.model.dtm_cell_size, frame)
+    grid = _grid_of(window, step, frame)
     make = partial(raster.make, grid=grid, model=step.model)
     strips = gathered_strips(layers, window, make, raster.margin(grid, step.model), progress)
     temporary = outputs.enter_context(replacing_raster(path))
     rows = Rows(window.shape, raster.kind, strips)
-    write_geotiff(temporary, rows, grid, raster.nodata, progress, raster.shows)
+    write_geotiff(temporary, rows, grid, raster.empty(step.model), progress, raster.shows)
     return grid
 
 
@@ -313,8 +343,8 @@ def _windows_of(
     """Return the cells of each file, without files that lie outside of all cells."""
     windows = {}
     for name, box in files.items():
-        west, south, east, north = (each * frame.horizontal_unit for each in box)
-        window = CellWindow.around((west, south, east, north), cell).within(whole)
+        metres = (np.array(box) - np.tile(frame.origin, 2)) * frame.horizontal_unit
+        window = CellWindow.around(tuple(metres.tolist()), cell).within(whole)
         if min(window.shape) > 0:
             windows[name] = window
     return windows
@@ -332,7 +362,7 @@ def _window_of(made: Sequence[BlockRasters], cell: float) -> CellWindow:
     window = CellWindow.around((*low, *high), cell)
     cells = window.rows * window.columns
     covered = np.prod(boxes[:, 2:] - boxes[:, :2] + cell, axis=1).sum() / (cells * cell**2)
-    if cells > _MOST_CELLS or (cells > _MANY_CELLS and covered < _LEAST_COVERED):
+    if cells > MOST_CELLS or (cells > _MANY_CELLS and covered < _LEAST_COVERED):
         raise BareEarthError(
             f"The raster would have {window.columns:,} x {window.rows:,} cells of {cell:g} m."
             " Choose a larger cell size, or remove points with stray coordinates."
@@ -340,7 +370,16 @@ def _window_of(made: Sequence[BlockRasters], cell: float) -> CellWindow:
     return window
 
 
-def _grid_of(window: CellWindow, cell: float, frame: Frame) -> RasterGrid:
-    size = cell / frame.horizontal_unit
-    north = (window.row + window.rows) * size
-    return RasterGrid(window.column * size, north, size, window.columns, window.rows, frame)
+def _covered(window: CellWindow, step: MakeRasters, frame: Frame) -> CellWindow:
+    """Return the cells of the rasters, given those that have points."""
+    wanted = step.cells.window if step.cells else None
+    if wanted is None:
+        return window
+    if min(wanted.within(window).shape) <= 0:
+        raise no_points(*(box_of(_grid_of(each, step, frame)) for each in (wanted, window)))
+    return wanted
+
+
+def _grid_of(window: CellWindow, step: MakeRasters, frame: Frame) -> RasterGrid:
+    cells = step.cells or CellGrid(step.cell, step.cell / frame.horizontal_unit)
+    return cells.of(window, frame)

@@ -7,6 +7,7 @@ from typing import Any, Iterable, TypeVar
 
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet
+from ..crs.stated import stated_wkt
 from ..filters import DEFAULT_METHOD, METHODS
 from ..grids.model_key_points import ModelKeyPoints
 from ..products.raster_block import LAYERS
@@ -25,6 +26,7 @@ from .memory import Resources
 from .options import RasterOutput, TileInput, TileMethod, TileOutput
 from .output import Output
 from .raster_files import RasterFiles
+from .raster_grid import ANYWHERE, RasterTarget
 from .rasters import MakeRasters
 
 _Request = TypeVar("_Request", bound="Request")
@@ -42,11 +44,26 @@ class Request:
         For many files: the format of the outputs, and whether finished ones are kept.
     resources : Resources
         Threads and memory.
+    crs : str or None
+        The CRS of the points in place of the one that files state, as for `stated_wkt`: an EPSG
+        code such as "EPSG:2230", or well-known text. Written point clouds keep their records.
     """
 
     files: TileInput = field(default_factory=TileInput)
     tiles: TileOutput = field(default_factory=TileOutput)
     resources: Resources = field(default_factory=Resources)
+    crs: str | None = None
+
+    @property
+    def stated(self) -> str | None:
+        """The well-known text of `crs`.
+
+        Raises
+        ------
+        BareEarthError
+            If it is not known.
+        """
+        return stated_wkt(self.crs)
 
     @classmethod
     def of(cls: type[_Request], sets: Iterable[ParameterSet], **others: Any) -> _Request:
@@ -91,6 +108,8 @@ class ClassifyRequest(Request):
         Breaklines, water, and areas without ground, for the rasters.
     raster_output : RasterOutput
         Whether each of many files gets its own rasters.
+    raster_target : RasterTarget
+        A raster whose grid the rasters get, and their extent.
     """
 
     parameters: ParameterSet = field(default_factory=METHODS[DEFAULT_METHOD].parameters)
@@ -103,6 +122,7 @@ class ClassifyRequest(Request):
     surface: SurfaceModel = field(default_factory=SurfaceModel)
     constraints: Constraints = NO_CONSTRAINTS
     raster_output: RasterOutput = field(default_factory=RasterOutput)
+    raster_target: RasterTarget = ANYWHERE
 
     def __post_init__(self) -> None:
         self.output.check_area(self.area is not None)
@@ -132,6 +152,7 @@ class ClassifyRequest(Request):
         return MakeRasters(
             self.rasters, self.terrain, self.surface, self._ground, self.selection.roads,
             covers_ground, self.constraints, self.raster_output.raster_per_file,
+            target=self.raster_target,
         )  # fmt: skip
 
     @property
@@ -205,6 +226,8 @@ class TerrainRequest(Request):
         Breaklines, water, and areas without ground.
     raster_output : RasterOutput
         Whether each of many files gets its own rasters.
+    raster_target : RasterTarget
+        A raster whose grid the rasters get, and their extent.
     """
 
     rasters: RasterFiles = field(default_factory=RasterFiles)
@@ -213,11 +236,12 @@ class TerrainRequest(Request):
     surface: SurfaceModel = field(default_factory=SurfaceModel)
     constraints: Constraints = NO_CONSTRAINTS
     raster_output: RasterOutput = field(default_factory=RasterOutput)
+    raster_target: RasterTarget = ANYWHERE
 
     @property
     def raster_step(self) -> MakeRasters:
         """The step that makes the rasters."""
         return MakeRasters(
             self.rasters, self.terrain, self.surface, self.ground, constraints=self.constraints,
-            per_file=self.raster_output.raster_per_file,
+            per_file=self.raster_output.raster_per_file, target=self.raster_target,
         )  # fmt: skip

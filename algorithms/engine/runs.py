@@ -169,7 +169,9 @@ def _written(
     workers: Workers | None,
 ) -> Any:
     if is_one_file(paths):
-        return write_points(paths[0], output, request.step, request.resources, progress)
+        return write_points(
+            paths[0], output, request.step, request.resources, progress, request.stated
+        )
     return write_files(paths, output, [request.step], request, progress, workers)
 
 

@@ -65,6 +65,11 @@ class Step:
     tally: type
 
     @property
+    def origin(self) -> tuple[float, float]:
+        """The origin of the frame in which the step works, in units of the CRS."""
+        return 0.0, 0.0
+
+    @property
     def blocks(self) -> Blocks:
         """The blocks in which the step works."""
         raise NotImplementedError

@@ -26,6 +26,7 @@ from .one_file import check_cloud, classify_file
 from .options import TileOutput
 from .output import Output
 from .raster_files import RasterFiles
+from .raster_grid import ANYWHERE, RasterTarget
 from .requests import ClassifyRequest, Request
 
 # The longest first, since it ends as the second does.
@@ -62,22 +63,25 @@ class MapRequest(Request):
     area: Area | None = None
     corrections: Corrections = NO_CORRECTIONS
     constraints: Constraints = NO_CONSTRAINTS
+    raster_target: RasterTarget = ANYWHERE
 
     def classify(self, rasters: RasterFiles) -> ClassifyRequest:
         """Return the request to classify and to make rasters in the same run."""
         return ClassifyRequest(
-            self.files,
-            self.tiles,
-            self.resources,
-            self.parameters,
-            self.selection,
-            self.area,
+            files=self.files,
+            tiles=self.tiles,
+            resources=self.resources,
+            crs=self.crs,
+            parameters=self.parameters,
+            selection=self.selection,
+            area=self.area,
             output=Output(area_only=self.area is not None),
             corrections=self.corrections,
             rasters=rasters,
             terrain=self.terrain,
             surface=self.surface,
             constraints=self.constraints,
+            raster_target=self.raster_target,
         )
 
 

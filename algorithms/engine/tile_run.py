@@ -101,7 +101,7 @@ class TileRun:
     ) -> None:
         self.done: list[Any] = []
         self.kept_count, self.empty_count, self.failures = 0, 0, {}
-        self._grid = BlockGrid(survey_frame(survey.crs), step.blocks)
+        self._grid = BlockGrid(survey_frame(survey.crs), step.blocks, survey.stated)
         self._survey, self._folder, self._targets = survey, folder, targets
         self._step, self._progress, self._task = step, progress, task
         self._sources: dict[BlockIndex, list[Path]] = {}
@@ -157,7 +157,7 @@ class TileRun:
             self.failures.update(queue.failures)
             if self.done and rasters is not None:
                 paths = [self._folder / each.name for each in self.done]
-                made = open_survey(paths, progress=progress.quiet())
+                made = open_survey(paths, progress=progress.quiet(), stated=self._survey.stated)
                 make_rasters(made, waiting, rasters, workers, progress.part(end, 1.0))
             self._clear(values=True)
 

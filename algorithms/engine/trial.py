@@ -61,6 +61,7 @@ def compare_settings(
     options: TrialOptions = TrialOptions(),
     resources: Resources = Resources(),
     progress: Progress = SILENT,
+    crs: str | None = None,
 ) -> TrialSummary:
     """Classify a window of a survey with several settings, and write a page that compares them.
 
@@ -81,6 +82,8 @@ def compare_settings(
         Threads and memory.
     progress : Progress
         Receives progress and messages.
+    crs : str, optional
+        The CRS of the points in place of the one that files state, as for `stated_wkt`.
 
     Raises
     ------
@@ -98,7 +101,7 @@ def compare_settings(
     reach = max(each.reach for each in settings)
     context = min(reach, USUAL_CONTEXT) if options.context is None else options.context
     with may_use(resources.thread_count):
-        points = read_trial_points(paths, extent, context, progress.part(0.0, 0.4))
+        points = read_trial_points(paths, extent, context, progress.part(0.0, 0.4), crs)
         if not fits_in_memory(points.count, resources):
             raise BareEarthError(
                 f"The window and what lies round it have {points.count:,} points, more than fit"
@@ -109,7 +112,8 @@ def compare_settings(
             points.labelled(setting, resources, part, is_first=part is parts[0])
             for setting, part in zip(settings, parts)
         ]
-        found = _page(paths, points, points.outcomes(labelled), options, (context, reach))
+        outcomes = points.outcomes(labelled)
+        found = _page(paths, points, outcomes, options, (context, reach), crs)
         html = found.html()
     with replacing(page) as temporary:
         temporary.write_text(html, encoding="utf-8")
@@ -124,6 +128,7 @@ def _page(
     outcomes: Sequence[Outcome],
     options: TrialOptions,
     seen: tuple[float, float],
+    crs: str | None,
 ) -> TrialPage:
     """Return the page; `seen` is how far was read, and how far the methods look."""
     window, first = points.window, outcomes[0]
@@ -136,7 +141,7 @@ def _page(
         window,
         outcomes,
         [figures_of(window, each, first) for each in outcomes],
-        [commands_for(paths, each) for each in options.chosen],
+        [commands_for(paths, each, crs) for each in options.chosen],
         profile,
     )
 

@@ -15,7 +15,7 @@ from .trial_options import Setting
 _MANY_FILES = "bareearth:classifytiles"
 
 
-def commands_for(paths: Sequence[Path], setting: Setting) -> Commands:
+def commands_for(paths: Sequence[Path], setting: Setting, crs: str | None = None) -> Commands:
     """Return the commands that run a setting on all points of the inputs.
 
     Parameters
@@ -24,9 +24,12 @@ def commands_for(paths: Sequence[Path], setting: Setting) -> Commands:
         One file, or the inputs of a survey.
     setting : Setting
         Method and preset.
+    crs : str, optional
+        The CRS that the user states in place of that of the files.
     """
     method, preset, is_one = setting.method.name, setting.preset, is_one_file(paths)
     output, options = _output(paths[0], setting, is_one), ["--method", method, "--preset", preset]
+    options += ["--crs", crs] if crs else []
     shell = shell_line(["bare-earth", "classify", *map(str, paths), str(output), *options])
     # QGIS has another current folder.
     *sources, target = (str(path.absolute()) for path in (*paths, output))
@@ -41,6 +44,8 @@ def commands_for(paths: Sequence[Path], setting: Setting) -> Commands:
         call = _MANY_FILES, {
             "INPUT": sources, "METHOD": method, "PRESET": preset, "OUTPUT_FOLDER": target,
         }  # fmt: skip
+    if crs:
+        call[1]["CRS"] = crs
     return Commands(shell, "processing.run({!r}, {!r})".format(*call))
 
 

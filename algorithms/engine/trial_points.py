@@ -13,6 +13,7 @@ from ..core.errors import BareEarthError
 from ..core.points import Box, Points, box_in_words
 from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads
+from ..crs.measurable import require_measurable
 from ..crs.system import Crs
 from ..las.cloud import PointCloud, survey_frame
 from ..las.crs_records import read_crs
@@ -143,7 +144,11 @@ class TrialPoints:
 
 
 def read_trial_points(
-    paths: Sequence[Path], box: Box, context: float, progress: Progress = SILENT
+    paths: Sequence[Path],
+    box: Box,
+    context: float,
+    progress: Progress = SILENT,
+    stated: str | None = None,
 ) -> TrialPoints:
     """Read the points in and round a window.
 
@@ -157,6 +162,8 @@ def read_trial_points(
         Metres to read round it.
     progress : Progress
         Receives progress, and warnings about the files.
+    stated : str, optional
+        The CRS that the user states in place of that of the files, as well-known text.
 
     Raises
     ------
@@ -167,14 +174,15 @@ def read_trial_points(
     """
     area = Area(tuple(map(float, box)))
     if is_one_file(paths):
-        las = open_las(paths[0])
+        las = open_las(paths[0], stated)
         files, crs = [las], read_crs(las)
         extent = las.box
     else:
-        survey = open_survey(paths, progress=progress.part(0.0, 0.1))
+        survey = open_survey(paths, progress=progress.part(0.0, 0.1), stated=stated)
         crs, extent = survey.crs, survey.box
         wide = area.buffered_box(context / crs.horizontal_unit)
         files = survey.touching(wide)
+    require_measurable("The survey", crs, extent)
     _check_width(area, crs)
     clouds = _read(files, area.buffered_box(context / crs.horizontal_unit), progress)
     if not any(area.of(cloud).any() for cloud in clouds):

@@ -158,8 +158,7 @@ def _low_outliers(
     low = scattered_lows(points)
     if np.count_nonzero(low) > _MANY_OUTLIERS * points.count:
         progress.info(
-            "Low outliers are scattered all over the points. They are left out, and are not"
-            " ground."
+            "Low outliers are scattered all over the points. They are left out, and are not ground."
         )
     rest = np.flatnonzero(~low) if low.any() else slice(None)
     groups = LowGroups().find(points.take(rest))

@@ -10,10 +10,10 @@ from typing import Iterator, NamedTuple, Sequence
 
 import numpy as np
 
-from ..core.errors import BareEarthError
 from ..core.points import Frame, Points
 from ..core.progress import SILENT
 from ..core.threads import in_threads, over_parts, parts_of
+from ..crs.measurable import require_measurable
 from ..crs.system import Crs
 from .lasfile import LasFile
 
@@ -195,25 +195,22 @@ class PointCloud:
         ]
 
     def require_projected(self) -> None:
-        """Refuse coordinates in degrees, in which distances cannot be measured.
+        """Refuse coordinates in which distances cannot be measured, such as degrees.
 
         Raises
         ------
         BareEarthError
-            If the CRS is not projected.
+            If the CRS is not projected, or its lengths are far too long or too short.
         """
-        if self.crs.is_geographic:
-            raise BareEarthError(
-                f"{self.path} is not in a projected CRS ({self.crs.name}), so that nothing can be"
-                " measured in it. Reproject it first: in QGIS with 'Reproject' of the group Point"
-                " cloud data management, elsewhere with 'pdal translate INPUT OUTPUT reprojection"
-                " --filters.reprojection.out_srs=EPSG:...'."
-            )
+        require_measurable(self.path, self.crs, self.file.box if self.file else None)
 
 
-def survey_frame(crs: Crs) -> Frame:
-    """Return the frame of a survey and its blocks, with its origin at (0, 0) of the CRS."""
-    return Frame((0.0, 0.0), crs.horizontal_unit, crs.vertical_unit, crs.wkt)
+def survey_frame(crs: Crs, origin: tuple[float, float] = (0.0, 0.0)) -> Frame:
+    """Return the frame of a survey and its blocks, with its origin at (0, 0) of the CRS.
+
+    Rasters whose cells do not begin there have another origin, in units of the CRS.
+    """
+    return Frame(origin, crs.horizontal_unit, crs.vertical_unit, crs.wkt)
 
 
 class _Axis(NamedTuple):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 
 from ..core.progress import Progress
@@ -172,7 +174,8 @@ def _is_kept(record: Vlr | Evlr) -> bool:
 
 def _wkt(layout: LasFile, progress: Progress) -> Vlr | None:
     """Return the record of the CRS as well-known text, which COPC requires."""
-    crs = read_crs(layout)
+    # As in LAS and LAZ, the file states what it stated before.
+    crs = read_crs(dataclasses.replace(layout, stated=None))
     text = compound_wkt(crs)
     if text is None:
         if layout.vlr(*GEOKEY_RECORDS) is not None:

@@ -96,6 +96,8 @@ class LasFile:
         Position of waveform packets inside this file (LAS 1.3 and 1.4); 0 if there are none.
     state : FileState
         State of the file, by which later changes are noticed.
+    stated : str or None
+        The CRS that the user states in place of its records, as well-known text.
     """
 
     path: Path
@@ -106,6 +108,7 @@ class LasFile:
     evlrs: tuple[Evlr, ...]
     waveform_record: int
     state: FileState
+    stated: str | None = None
 
     @property
     def minor_version(self) -> int:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from ..core.errors import BareEarthError
+from ..crs.stated import stated_wkt
 from . import header as fields
 from .lasfile import (
     EVLR_HEADER,
@@ -29,8 +30,15 @@ _KEPT, _LARGEST_KEPT = ("LASF_Projection", "LASF_Spec"), 1 << 20
 _SMALLEST_SCALE, _LARGEST_SCALE, _LARGEST_OFFSET = 1e-12, 1e6, 1e12
 
 
-def open_las(path: Path | LasFile) -> LasFile:
+def open_las(path: Path | LasFile, stated: str | None = None) -> LasFile:
     """Open a file and read everything but its points. An opened file is returned as it is.
+
+    Parameters
+    ----------
+    path : Path or LasFile
+        The file.
+    stated : str, optional
+        The CRS that the user states in place of its records, as for `stated_wkt`.
 
     Raises
     ------
@@ -47,7 +55,7 @@ def open_las(path: Path | LasFile) -> LasFile:
         points_start, vlr_count = fields.POINTS_START.get(header), fields.VLR_COUNT.get(header)
         vlrs, padding = _split_vlrs(file.read(points_start - len(header)), vlr_count)
         evlrs, waveforms = _read_evlrs(file, size, header)
-    layout = LasFile(path, size, header, vlrs, padding, evlrs, waveforms, state)
+    layout = LasFile(path, size, header, vlrs, padding, evlrs, waveforms, state, stated_wkt(stated))
     _check_points(layout)
     return layout
 

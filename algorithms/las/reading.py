@@ -11,6 +11,7 @@ import numpy as np
 from ..core.errors import printable
 from ..core.progress import SILENT, Progress
 from ..core.threads import over_parts, parts_of
+from ..crs.measurable import MOST_WRONG, length_scale
 from ..crs.system import Crs, unit_name
 from .backends import require
 from .cloud import PointCloud
@@ -125,6 +126,8 @@ class Description:
         Extent of the points in units of the CRS.
     density : float or None
         Points per square metre of the extent; None if it cannot be measured.
+    length_scale : float
+        How many metres of the CRS a true metre takes here; not 1 for Web Mercator and its kin.
     classes, returns : dict of int to int
         Number of points of each class, and of each return number.
     records : list of str
@@ -147,6 +150,7 @@ class Description:
     is_geographic: bool
     horizontal_unit: float
     vertical_unit: float
+    length_scale: float
     classes: dict[int, int]
     returns: dict[int, int]
     withheld: int
@@ -164,6 +168,8 @@ class Description:
         units = f"{unit_name(self.horizontal_unit)}, height {unit_name(self.vertical_unit)}"
         if self.is_geographic:
             units = "degree or geocentric: reproject before classifying"
+        if abs(self.length_scale - 1.0) > MOST_WRONG:
+            units += f"; lengths are {self.length_scale:.2f} times too long here: reproject first"
         code = f" (EPSG:{self.epsg})" if self.epsg else ""
         rows = {
             "file": f"{self.path} ({self.file_size:,} bytes)",
@@ -206,6 +212,7 @@ def inspect(path: Path | LasFile, progress: Progress = SILENT) -> Description:
         )
         for pick in (np.min, np.max)
     ]
+    scale = length_scale(cloud.crs, (*corners[0][:2], *corners[1][:2]))
     return Description(
         path=str(layout.path),
         file_size=layout.size,
@@ -217,12 +224,13 @@ def inspect(path: Path | LasFile, progress: Progress = SILENT) -> Description:
         maximum=corners[1],
         scale=layout.scale,
         offset=layout.offset,
-        density=_density(cloud, *corners),
+        density=_density(cloud, scale, *corners),
         crs=cloud.crs.name,
         epsg=cloud.crs.epsg,
         is_geographic=cloud.crs.is_geographic,
         horizontal_unit=cloud.crs.horizontal_unit,
         vertical_unit=cloud.crs.vertical_unit,
+        length_scale=scale,
         classes=_histogram(cloud.classification),
         returns=_histogram(cloud.return_number),
         withheld=int(np.count_nonzero(cloud.withheld)),
@@ -291,9 +299,10 @@ def _fill(cloud: PointCloud, where: slice, points: laspy.PackedPointRecord) -> N
 
 
 def _density(
-    cloud: PointCloud, minimum: tuple[float, ...], maximum: tuple[float, ...]
+    cloud: PointCloud, scale: float, minimum: tuple[float, ...], maximum: tuple[float, ...]
 ) -> float | None:
-    area = (maximum[0] - minimum[0]) * (maximum[1] - minimum[1]) * cloud.crs.horizontal_unit**2
+    area = (maximum[0] - minimum[0]) * (maximum[1] - minimum[1])
+    area *= (cloud.crs.horizontal_unit / scale) ** 2
     return None if cloud.crs.is_geographic or area <= 0 else cloud.count / area
 
 

@@ -12,6 +12,7 @@ from ..core.files import check_output, replacing
 from ..core.points import Frame, Points
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
+from ..las.opening import open_las
 from ..las.reading import read_cloud
 from ..rasters.geotiff import NODATA, RasterGrid
 from ..rasters.writing import check_raster_output, write_geotiff
@@ -26,6 +27,7 @@ def assess_files(
     report: Path | None = None,
     error_map: Path | None = None,
     progress: Progress = SILENT,
+    crs: str | None = None,
 ) -> Assessment:
     """Compare two files that hold the same points, in any order.
 
@@ -41,6 +43,8 @@ def assess_files(
         GeoTIFF file to make, with the share of wrong points in each cell, 0 to 1.
     progress : Progress
         Receives progress and messages.
+    crs : str, optional
+        The CRS of the points in place of the one that the files state, as for `open_las`.
 
     Raises
     ------
@@ -56,8 +60,8 @@ def assess_files(
             raise BareEarthError(f"Cannot write {report}: the report is HTML, name it .html.")
     if error_map is not None:
         check_raster_output(error_map, (classified, reference))
-    result = read_cloud(classified, progress.part(0.0, 0.3))
-    truth = read_cloud(reference, progress.part(0.3, 0.6))
+    result = read_cloud(open_las(classified, crs), progress.part(0.0, 0.3))
+    truth = read_cloud(open_las(reference, crs), progress.part(0.3, 0.6))
     order_result, order_truth = _matching_orders(result, truth)
     progress(0.64)
     ground = result.classification[order_result] == GROUND

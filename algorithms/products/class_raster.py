@@ -74,6 +74,8 @@ def write_class_raster(
     cell_size: float = 1.0,
     ground_class: int = GROUND,
     progress: Progress = SILENT,
+    crs: str | None = None,
+    in_units: bool = False,
 ) -> list[int]:
     """Write the classes of a point cloud, or of the files of a survey, as a raster.
 
@@ -89,6 +91,10 @@ def write_class_raster(
         The class of the ground.
     progress : Progress
         Receives progress.
+    crs : str, optional
+        The CRS that the user states in place of that of the files, as for `open_las`.
+    in_units : bool
+        Whether the cell size is in units of the CRS.
 
     Returns
     -------
@@ -100,7 +106,8 @@ def write_class_raster(
     BareEarthError
         If the input cannot be read or the output cannot be written.
     """
-    survey = open_survey([source])
+    survey = open_survey([source], stated=crs)
+    cell_size *= survey.crs.horizontal_unit if in_units else 1.0
     grid = _grid_of(survey, cell_size)
     cells = ClassCells(grid.rows * grid.columns, ground_class)
     parts = progress.part(0.0, 0.9).shares(*(max(each.count, 1) for each in survey.tiles))

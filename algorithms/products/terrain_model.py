@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+
+import numpy as np
 
 from ..core.parameters import ParameterSet, parameter, parameter_of
 from .local_relief import LocalRelief
+
+# The largest number that rounds to one of 32 bits.
+_LARGEST = 3.4028235e38
 
 
 @dataclass(frozen=True)
@@ -20,6 +26,26 @@ class TerrainModel(ParameterSet):
         maximum=1000.0,
         help="Side of a cell of the terrain model and of its hillshade. Choose about the distance"
         " between ground points; smaller cells only make the file larger.",
+    )
+    dtm_cell_unit: str = parameter(
+        "m",
+        label="Unit of the cell size",
+        choices={"m": "Metres", "crs": "Units of the CRS, such as its feet"},
+        advanced=True,
+        help="In a CRS in feet, a size of 3 in units of the CRS gives cells of exactly 3 feet that"
+        " begin at whole multiples of 3 feet.",
+    )
+    raster_nodata: float | None = parameter(
+        -9999.0,
+        label="No-data value of the rasters",
+        kind="number",
+        minimum=-_LARGEST,
+        maximum=_LARGEST,
+        optional=True,
+        advanced=True,
+        empty="NaN",
+        help="The value of cells without data. Choose one that no height has. Empty: NaN. The"
+        " hillshade has 0.",
     )
     hillshade_light: str = parameter(
         "one",
@@ -58,6 +84,19 @@ class TerrainModel(ParameterSet):
     def smooths(self) -> bool:
         """Whether heights are smoothed for pictures."""
         return self.relief_smoothing == "automatic"
+
+    def cell_metres(self, unit: float) -> float:
+        """Return the side of a cell in metres, given the metres in a unit of the CRS."""
+        return self.dtm_cell_size * (unit if self.dtm_cell_unit == "crs" else 1.0)
+
+    def cell_in_units(self, unit: float) -> float:
+        """Return the side of a cell in units of the CRS, given the metres in one."""
+        return self.dtm_cell_size / (1.0 if self.dtm_cell_unit == "crs" else unit)
+
+    @property
+    def nodata(self) -> float:
+        """The value of cells without data, as 32 bits hold it; NaN if it is empty."""
+        return math.nan if self.raster_nodata is None else float(np.float32(self.raster_nodata))
 
 
 @dataclass(frozen=True)

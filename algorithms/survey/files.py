@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections import Counter
 from dataclasses import dataclass
@@ -15,7 +14,9 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.points import Box
 from ..core.progress import SILENT, Notes, Progress
-from ..crs.system import Crs, unit_name
+from ..crs.matching import described, has_same_units, is_same_crs
+from ..crs.stated import HOW
+from ..crs.system import Crs
 from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
@@ -50,11 +51,14 @@ class Survey:
         The files that cannot be read.
     crs : Crs
         The common CRS.
+    stated : str or None
+        The CRS that the user states in place of their records, as well-known text.
     """
 
     tiles: tuple[LasFile, ...]
     broken: tuple[BrokenTile, ...]
     crs: Crs
+    stated: str | None = None
 
     @property
     def count(self) -> int:
@@ -80,7 +84,10 @@ class Survey:
 
 
 def open_survey(
-    sources: Iterable[Path], recursive: bool = False, progress: Progress = SILENT
+    sources: Iterable[Path],
+    recursive: bool = False,
+    progress: Progress = SILENT,
+    stated: str | None = None,
 ) -> Survey:
     """Find the files of a survey, and read their headers.
 
@@ -94,6 +101,8 @@ def open_survey(
         Whether subfolders are searched, too.
     progress : Progress
         Receives progress and warnings.
+    stated : str, optional
+        The CRS that the user states in place of the records of the files, as well-known text.
 
     Raises
     ------
@@ -106,12 +115,12 @@ def open_survey(
     paths = find_files(sources, recursive, progress)
     files = [each for each in sources if not each.is_dir()]
     named = set(map(_key, find_files(files, may_be_none=True)))
-    heard, tiles, stated, broken = Notes(), [], [], []
+    heard, tiles, found, broken = Notes(), [], [], []
     for number, path in enumerate(paths, start=1):
         try:
-            tile = open_las(path)
+            tile = open_las(path, stated)
             _check_extent(tile)
-            stated.append(_crs_of(tile, heard))
+            found.append(_crs_of(tile, heard))
             tiles.append(tile)
         except BareEarthError as error:
             broken.append(BrokenTile(path, str(error)))
@@ -124,11 +133,11 @@ def open_survey(
         )
     _tell(heard, progress)
     copies = copies_in(tiles, [_key(each.path) in named for each in tiles], progress)
-    pairs = [each for each in zip(tiles, stated) if each[0].path not in copies]
-    tiles, stated = (list(each) for each in zip(*pairs))
-    crs = _common_crs(tiles, stated, progress)
+    pairs = [each for each in zip(tiles, found) if each[0].path not in copies]
+    tiles, found = (list(each) for each in zip(*pairs))
+    crs = _common_crs(tiles, found, progress)
     tell_of_twins(tiles, progress)
-    return Survey(tuple(tiles), tuple(broken), crs)
+    return Survey(tuple(tiles), tuple(broken), crs, stated)
 
 
 def find_files(
@@ -251,56 +260,25 @@ def _common_crs(tiles: list[LasFile], stated: list[Crs], progress: Progress) -> 
     """Return the common CRS of all tiles; refuse tiles that differ in their CRS."""
     groups: dict[Crs, list[LasFile]] = {}
     for tile, crs in zip(tiles, stated):
-        same = next((each for each in groups if _is_same(each, crs)), crs)
+        same = next((each for each in groups if is_same_crs(each, crs)), crs)
         groups.setdefault(same, []).append(tile)
     known, unstated = [crs for crs in groups if crs != Crs()], groups.get(Crs(), [])
     lack = f"{_names(unstated)} {'do' if len(unstated) > 1 else 'does'} not say the CRS:"
     if not known:
-        progress.warning(f"{lack} coordinates are taken as metres.")
+        progress.warning(
+            f"{lack} coordinates are taken as metres. If they are not, give the CRS: {HOW}."
+        )
         return Crs()
-    if len(known) > 1 or (unstated and not _has_same_units(known[0], Crs())):
+    if len(known) > 1 or (unstated and not has_same_units(known[0], Crs())):
         raise BareEarthError(
             "The files are not in the same CRS: "
-            + "; ".join(f"{_described(crs)}: {_names(some)}" for crs, some in groups.items())
-            + ". Reproject them to one CRS, or work on each group alone."
+            + "; ".join(f"{described(crs)}: {_names(some)}" for crs, some in groups.items())
+            + ". Reproject them to one CRS, or work on each group alone. If they are in one CRS all"
+            f" the same, give it: {HOW}."
         )
     if unstated:
         progress.warning(f"{lack} that of the others is used, {known[0].name}.")
     return known[0]
-
-
-def _is_same(one: Crs, other: Crs) -> bool:
-    if one == other:
-        return True
-    if Crs() in (one, other) or not _has_same_units(one, other):
-        return False
-    if one.epsg and other.epsg:
-        return one.epsg == other.epsg
-    return _bare(one.name) == _bare(other.name)
-
-
-def _has_same_units(one: Crs, other: Crs) -> bool:
-    # The two kinds of feet differ by two millionths.
-    return one.is_geographic == other.is_geographic and all(
-        math.isclose(*pair, rel_tol=1e-8)
-        for pair in (
-            (one.horizontal_unit, other.horizontal_unit),
-            (one.vertical_unit, other.vertical_unit),
-        )
-    )
-
-
-def _bare(name: str) -> str:
-    """Return only the letters and digits of a name, since programs write the rest differently."""
-    return "".join(filter(str.isalnum, name)).lower()
-
-
-def _described(crs: Crs) -> str:
-    if crs == Crs():
-        return "none stated"
-    if crs.is_geographic:
-        return f"{crs.name} in degrees"
-    return f"{crs.name} in {unit_name(crs.horizontal_unit)}, height {unit_name(crs.vertical_unit)}"
 
 
 def _names(tiles: list[LasFile]) -> str:

@@ -115,7 +115,9 @@ def read_vpc(path: Path) -> list[Path]:
     return files
 
 
-def write_vpc(path: Path, files: Iterable[Path], progress: Progress = SILENT) -> None:
+def write_vpc(
+    path: Path, files: Iterable[Path], progress: Progress = SILENT, stated: str | None = None
+) -> None:
     """Write a virtual point cloud. QGIS shows the points of COPC files, and outlines of others.
 
     Only the headers of the files are read. Paths are relative to the folder of `path`, so that it
@@ -129,6 +131,8 @@ def write_vpc(path: Path, files: Iterable[Path], progress: Progress = SILENT) ->
         LAS, LAZ or COPC files.
     progress : Progress
         Receives progress, and a warning if the CRS of files is not known.
+    stated : str, optional
+        The CRS that the user states in place of their records, as well-known text.
 
     Raises
     ------
@@ -145,7 +149,7 @@ def write_vpc(path: Path, files: Iterable[Path], progress: Progress = SILENT) ->
     check_output(path, tuple(files))
     features, unplaced = [], 0
     for number, file in enumerate(files, start=1):
-        feature = _feature(path, open_las(file))
+        feature = _feature(path, open_las(file, stated))
         unplaced += not feature["properties"]["proj:wkt2"]
         features.append(feature)
         progress(number / len(files))

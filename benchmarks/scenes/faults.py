@@ -1,4 +1,4 @@
-"""Kinds of land with groups of points far below and far above it, as sensors and birds make them."""
+"""Kinds of land with groups of points far below and above it, as sensors and birds make them."""
 
 from __future__ import annotations
 

@@ -21,6 +21,8 @@ from ..i18n import tr
 from .constraints import add_constraints, constraints_of
 from .corrections import add_corrections, corrections_of
 from .inputs import CloudCrs, features_of, is_empty, polygons_of
+from .raster_target import add_raster_target, raster_target_of
+from .raster_target import given_options as given_options
 
 # Name, label and help of the fields of an area.
 _AREA_FIELDS = {
@@ -133,10 +135,11 @@ def add_limits(
     advanced: Sequence[str] = ("BOUNDARY",),
     is_all: bool = False,
 ) -> None:
-    """Add the fields of an area, of corrections and of constraints to a dialog."""
+    """Add the fields of an area, of corrections, constraints and rasters to a dialog."""
     add_area(algorithm, advanced, is_all)
     add_corrections(algorithm)
     add_constraints(algorithm)
+    add_raster_target(algorithm)
 
 
 def limits_of(
@@ -146,9 +149,11 @@ def limits_of(
     crs: CloudCrs,
     progress: Progress,
 ) -> dict[str, Any]:
-    """Return area, corrections and constraints, by their names in the requests."""
+    """Return CRS, area, corrections, constraints and grid, by their names in the requests."""
     given = parameters, context, crs
     return {
+        "crs": crs.stated,
+        "raster_target": raster_target_of(algorithm, *given),
         "area": area_of(algorithm, *given),
         "corrections": corrections_of(algorithm, *given, progress),
         "constraints": constraints_of(algorithm, *given, progress),

@@ -10,7 +10,7 @@ from qgis.core import QgsProcessingParameterRasterDestination as Raster
 from ...algorithms.products.assessment import AssessmentOptions, assess_files
 from ..i18n import tr
 from .base import BareEarthAlgorithm, command_line
-from .inputs import PointCloudInput, name_of, source_path
+from .inputs import PointCloudInput, add_crs, name_of, source_path
 
 _INPUTS = {
     "CLASSIFIED": (
@@ -46,6 +46,7 @@ class AssessAlgorithm(BareEarthAlgorithm):
         """Declare the fields of the dialog and the results."""
         for name, (label, text) in _INPUTS.items():
             self.addParameter(PointCloudInput(name, label), text)
+        add_crs(self)
         self.add_declared()
         self.addParameter(
             File("REPORT", "Report", tr("HTML files (*.html)"), None, True, True),
@@ -69,10 +70,10 @@ class AssessAlgorithm(BareEarthAlgorithm):
             "REPORT": self.parameterAsFileOutput(parameters, "REPORT", context),
             "ERROR_MAP": self.parameterAsOutputLayer(parameters, "ERROR_MAP", context),
         }
-        flags = dict(zip(("report", "error-map"), paths.values()))
+        flags = dict(zip(("report", "error-map", "crs"), (*paths.values(), self.stated)))
         progress.command(command_line("assess", [*map(str, self._files)], [options], flags))
         outputs = (Path(path) if path else None for path in paths.values())
-        assessment = assess_files(*self._files, options, *outputs, progress)
+        assessment = assess_files(*self._files, options, *outputs, progress, self.stated)
         progress.info("\n".join(assessment.lines()))
         numbers = {name: assessment.as_dict()[name.lower()] for name in _NUMBERS}
         return {name: it for name, it in {**paths, **numbers}.items() if it not in (None, "")}

@@ -29,9 +29,11 @@ from .area import check_area_only
 from .feedback import FeedbackProgress, tell_of_unknown
 from .fields import field_of, parameters_of
 from .help_pages import address_of
+from .inputs import CloudCrs
 from .outputs import NOTHING_STAYS, do_not_load
 from .presets import presets_of
 from .search_words import words_of
+from .stated_crs import crs_of_text, stated_crs_of
 
 _ICONS = Path(__file__).parents[1] / "icons"
 
@@ -57,6 +59,8 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         The declared parameters that are not advanced. None: as they are declared.
     subject : str
         Name of the input; set by `find_inputs`.
+    stated : str or None
+        The CRS of the points that the user states; set before `prepare`.
     class_counts : mapping of int to int
         Points of each class in the output, for the end of the log; set by `compute`.
     """
@@ -64,6 +68,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
     identifier = title = section = summary = about = page = run_name = subject = ""
     cancelled = NOTHING_STAYS
     shown: tuple[str, ...] | None = None
+    stated: str | None = None
 
     def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
         """Return the declared parameters, in the order of the dialog."""
@@ -93,6 +98,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
     def check(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
         """Check the values before a run; raise BareEarthError to refuse them."""
         check_area_only(parameters, self.chosen(parameters, context))
+        stated_crs_of(self, parameters, context)
         self.find_inputs(parameters, context)
 
     def chosen(
@@ -135,6 +141,10 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         if not compat.can_load(path):
             do_not_load(context, [path])
         return path
+
+    def crs_of(self, *sources: Path, recursive: bool = False) -> CloudCrs:
+        """Return the CRS of point clouds, or the one that the user states instead."""
+        return CloudCrs(*sources, recursive=recursive, stated=self.stated)
 
     def show(self, path: str, look: layers.Look) -> None:
         """Set the look of an output layer; rasters in `layers.RASTERS` do not need this."""
@@ -230,6 +240,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         """Run `prepare`."""
         tell_of_unknown(self, parameters, feedback)
         with _errors_for_qgis():
+            self.stated = stated_crs_of(self, parameters, context)
             self.prepare(parameters, context, FeedbackProgress(feedback))
         self.class_counts: Mapping[int, int] = {}
         self._looks: dict[str, layers.Look] = {}
@@ -266,6 +277,9 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
             if name in layers.RASTERS:
                 looks[results[name]] = layers.RASTERS[name]
         looks.update(self._looks)
+        if self.stated:
+            crs = crs_of_text(self.stated)
+            looks = {path: layers.in_crs(look, crs) for path, look in looks.items()}
         subject = self.subject or tr(self.title)
         layers.arrange(context, looks, labels, subject, self._group)
 
@@ -287,7 +301,7 @@ def _errors_for_qgis() -> Iterator[None]:
 
 
 def command_line(
-    command: str, files: list[str], chosen: list[ParameterSet], options: dict[str, str]
+    command: str, files: list[str], chosen: list[ParameterSet], options: Mapping[str, Any]
 ) -> str:
     """Return the command line that does the same without QGIS.
 
@@ -299,12 +313,13 @@ def command_line(
         Its positional arguments.
     chosen : list of ParameterSet
         Parameters; default values are left out.
-    options : dict of str to str
+    options : mapping of str to str or tuple of str
         Other options and their values; empty values are left out.
     """
     words = ["bare-earth", command, *files]
     for option, value in options.items():
-        words += [f"--{option.lower()}", value] if value else []
+        values = value if isinstance(value, tuple) else (value,)
+        words += [f"--{option.lower()}", *values] if value else []
     for parameters in chosen:
         for each in parameters.declarations():
             value = getattr(parameters, each.name)

@@ -14,13 +14,12 @@ from ...algorithms.filters import METHODS
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
 from ..i18n import tr
-from .area import add_limits, area_options, limits_of
+from .area import add_limits, area_options, given_options, limits_of
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified
 from .feedback import FeedbackProgress
 from .inputs import (
     CLOUD_HELP,
-    CloudCrs,
     PointCloudInput,
     ignored_filter,
     name_of,
@@ -32,6 +31,7 @@ from .outputs import (
     raster_files,
     raster_paths,
 )
+from .stated_crs import add_crs
 
 
 class ClassificationAlgorithm(BareEarthAlgorithm):
@@ -63,6 +63,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
     def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
         """Declare the fields of the dialog and the results."""
         self.addParameter(PointCloudInput("INPUT", "Point cloud"), CLOUD_HELP)
+        add_crs(self)
         self.add_declared()
         add_limits(self)
         add_cloud(self)
@@ -87,7 +88,8 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         super().prepare(parameters, context, progress)
         if ignored_filter(self, parameters, "INPUT", context):
             progress.warning(tr("The layer's filter is not applied: all points are read."))
-        self._limits = limits_of(self, parameters, context, CloudCrs(self._source), progress)
+        crs = self.crs_of(self._source)
+        self._limits = limits_of(self, parameters, context, crs, progress)
 
     def compute(
         self,
@@ -103,7 +105,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         chosen = self.chosen(parameters, context)
         output = self.point_cloud_destination(parameters, "OUTPUT", context)
         paths = raster_paths(self, parameters, context)
-        options = {"method": self.method, **paths}
+        options = {"method": self.method, **given_options(**self._limits), **paths}
         command = command_line("classify", [str(self._source), output], chosen, options)
         progress.command(" ".join([command, *area_options(self._limits["area"], progress)]))
         request = ClassifyRequest.of(chosen, rasters=raster_files(paths), **self._limits)

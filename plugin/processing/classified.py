@@ -64,10 +64,12 @@ def show_classified(
     from ...algorithms.products.class_raster import write_class_raster
 
     path = QgsProcessingUtils.generateTempFilename("classes.tif")
-    cell_size = request.terrain.dtm_cell_size
+    cell_size, in_units = request.terrain.dtm_cell_size, request.terrain.dtm_cell_unit == "crs"
     try:
         files = Path(cloud), Path(path)
-        found = write_class_raster(*files, cell_size, ground_class, progress.beyond())
+        found = write_class_raster(
+            *files, cell_size, ground_class, progress.beyond(), request.crs, in_units
+        )
     except Cancelled:
         # All outputs of the run are complete.
         return

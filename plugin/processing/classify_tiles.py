@@ -8,10 +8,10 @@ from ...algorithms.engine.output import Output
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
 from ..i18n import mark
-from .area import add_limits, area_options, limits_of
+from .area import add_limits, area_options, given_options, limits_of
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified
-from .inputs import CloudCrs, add_clouds, clouds_of, names_of
+from .inputs import add_clouds, clouds_of, names_of
 from .outputs import TILES_STAY, add_rasters, add_tiles, raster_files, raster_paths, shown_rasters
 
 _NUMBERS = {
@@ -55,7 +55,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         """Find the files, and read area, corrections and constraints."""
         super().prepare(parameters, context, progress)
         recursive = self.parameterAsBool(parameters, "RECURSIVE", context)
-        crs = CloudCrs(*self._sources, recursive=recursive)
+        crs = self.crs_of(*self._sources, recursive=recursive)
         self._limits = limits_of(self, parameters, context, crs, progress)
 
     def compute(self, parameters, context, progress):
@@ -68,7 +68,8 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         vpc = self.parameterAsFileOutput(parameters, "OUTPUT_VPC", context)
         paths = raster_paths(self, parameters, context)
         words = [*map(str, sources), folder, *area_options(self._limits["area"], progress)]
-        progress.command(command_line("classify-tiles", words, chosen, {"VPC": vpc, **paths}))
+        options = {"VPC": vpc, **given_options(**self._limits), **paths}
+        progress.command(command_line("classify-tiles", words, chosen, options))
         request = ClassifyRequest.of(chosen, rasters=raster_files(paths), **self._limits)
         summary = classify_files(sources, folder, request, progress, vpc=vpc or None)
         progress.info(f"{summary.text}.")

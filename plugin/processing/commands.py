@@ -12,6 +12,7 @@ from ...algorithms.products.surface_model import SurfaceModel
 from ...algorithms.products.terrain_model import MapTerrain, TerrainModel
 from ...algorithms.survey.selection import GROUND, Selection
 from .base import command_line
+from .raster_target import NOTHING_GIVEN
 
 # Maps that no command makes.
 _OF_QGIS = ("RELIEF", "CONTOURS")
@@ -23,6 +24,7 @@ def terrain_commands(
     rasters: Mapping[str, str],
     chosen: Sequence[ParameterSet],
     area: Sequence[str] = (),
+    given: Mapping[str, Any] = NOTHING_GIVEN,
 ) -> Iterator[str]:
     """Yield the commands for a classified cloud and its rasters, except maps made only in QGIS.
 
@@ -38,17 +40,22 @@ def terrain_commands(
         The parameters of all commands.
     area : sequence of str
         Options that name the area.
+    given : mapping of str to str or tuple of str
+        The options of `given_options`.
     """
     of_type: dict[type, Any] = {type(each): each for each in chosen}
     made = cloud or "classified.laz"
     # For many files, the folder of their virtual point cloud.
     target = str(Path(made).parent) if made.endswith(".vpc") else made
     finding = [of_type[each] for each in (TileMethod, Selection, Resources)]
-    yield command_line("classify", [*map(str, sources), target, *area], finding, {})
+    yield command_line(
+        "classify", [*map(str, sources), target, *area], finding, {"crs": given["crs"]}
+    )
     models = {name: path for name, path in rasters.items() if name not in _OF_QGIS}
     if models:
         ground = of_type[Selection].to_class
-        options = {"ground-classes": "" if ground == GROUND else str(ground), **models}
+        classes = {"ground-classes": "" if ground == GROUND else str(ground)}
+        options = {**classes, **given, **models}
         # The command has other defaults.
         model = TerrainModel(**vars(of_type[MapTerrain]))
         drawing = [model, *(of_type[each] for each in (SurfaceModel, Resources))]

@@ -12,7 +12,7 @@ from ...algorithms.engine.trial_options import TrialOptions
 from ..i18n import tr
 from .area import area_of
 from .base import BareEarthAlgorithm, command_line
-from .inputs import ANY_CLOUD_HELP, CloudCrs, PointCloudInput, name_of, source_path
+from .inputs import ANY_CLOUD_HELP, PointCloudInput, add_crs, name_of, source_path
 
 _EXTENT_HELP = (
     "The window to classify, such as the map's extent: at most 1,000 m wide, and quick up to about"
@@ -42,6 +42,7 @@ class CompareSettingsAlgorithm(BareEarthAlgorithm):
         """Declare the fields of the dialog and the results."""
         self.addParameter(PointCloudInput("INPUT", "Point cloud"), ANY_CLOUD_HELP)
         self.addParameter(Extent("EXTENT", "Window"), _EXTENT_HELP)
+        add_crs(self)
         self.add_declared()
         self.addParameter(
             File("OUTPUT", "Comparison of settings", tr("HTML files (*.html)")),
@@ -56,7 +57,7 @@ class CompareSettingsAlgorithm(BareEarthAlgorithm):
     def prepare(self, parameters, context, progress):
         """Find the input, and read the window in the CRS of the points."""
         super().prepare(parameters, context, progress)
-        self._window = area_of(self, parameters, context, CloudCrs(self._source)).box
+        self._window = area_of(self, parameters, context, self.crs_of(self._source)).box
 
     def compute(self, parameters, context, progress):
         """Make the page."""
@@ -65,10 +66,11 @@ class CompareSettingsAlgorithm(BareEarthAlgorithm):
 
         chosen = self.chosen(parameters, context)
         page = self.parameterAsFileOutput(parameters, "OUTPUT", context)
-        command = command_line("compare-settings", [str(self._source), page], chosen, {})
+        words = [str(self._source), page]
+        command = command_line("compare-settings", words, chosen, {"crs": self.stated})
         progress.command(" ".join([command, "--extent", *map(repr, self._window)]))
         options, resources = TrialOptions.among(chosen), Resources.among(chosen)
         files = [self._source], Path(page)
-        summary = compare_settings(*files, self._window, options, resources, progress)
+        summary = compare_settings(*files, self._window, options, resources, progress, self.stated)
         progress.info("\n".join(summary.lines()))
         return {"OUTPUT": page}

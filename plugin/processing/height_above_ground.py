@@ -75,10 +75,10 @@ class HeightAboveGroundAlgorithm(ProductAlgorithm):
 
         chosen = self.chosen(parameters, context)
         output = self.cloud_output(parameters, context, progress)
-        options = {"DTM": self._dtm}
+        options = {"DTM": self._dtm, "crs": self.stated}
         progress.command(command_line("height", [str(self.source), output], chosen, options))
         dtm = HeightRaster.of(self._dtm, progress) if self._dtm else None
-        request = HeightRequest.of(chosen, dtm=dtm)
+        request = HeightRequest.of(chosen, dtm=dtm, crs=self.stated)
         summary = heights(self.source, Path(output), request, progress)
         progress.info(
             tr("Heights above ground are {low:.2f} to {high:.2f} {unit}.").format(

@@ -35,6 +35,8 @@ from ...algorithms.survey.area import Polygon
 from ...algorithms.survey.files import find_files, open_survey
 from .. import compat
 from ..i18n import tr
+from .stated_crs import add_crs as add_crs
+from .stated_crs import crs_of_text
 
 # As a name, so that the widget is imported only in dialogs, not in qgis_process.
 _WIDGET = f"{__package__}.widgets.PointCloudWidget"
@@ -134,6 +136,7 @@ def add_survey(algorithm: QgsProcessingAlgorithm) -> None:
     """Add fields for a point cloud, or a folder of them, to a dialog."""
     algorithm.addParameter(SurveyInput("INPUT", "Point cloud", None, True), _SURVEY_HELP)
     _add_folder(algorithm)
+    add_crs(algorithm)
 
 
 def _add_folder(algorithm: QgsProcessingAlgorithm) -> None:
@@ -180,6 +183,7 @@ def add_clouds(algorithm: QgsProcessingAlgorithm) -> None:
     files = QgsProcessingParameterMultipleLayers("INPUT", "Point clouds", compat.FILES, None, True)
     algorithm.addParameter(files, _FILES_HELP)
     _add_folder(algorithm)
+    add_crs(algorithm)
 
 
 def clouds_of(
@@ -234,10 +238,12 @@ class CloudCrs:
         Files, folders, and lists of files.
     recursive : bool
         Whether subfolders are searched, too.
+    stated : str, optional
+        The CRS that the user states in place of that of the files.
     """
 
-    def __init__(self, *sources: Path, recursive: bool = False) -> None:
-        self._sources, self._recursive = sources, recursive
+    def __init__(self, *sources: Path, recursive: bool = False, stated: str | None = None) -> None:
+        self._sources, self._recursive, self.stated = sources, recursive, stated
 
     @functools.cached_property
     def value(self) -> QgsCoordinateReferenceSystem:
@@ -248,12 +254,14 @@ class CloudCrs:
         BareEarthError
             If there is no file, or no file can be read.
         """
-        crs = self._stated()
+        if self.stated:
+            return crs_of_text(self.stated)
+        crs = self._of_files()
         if crs.epsg:
             return QgsCoordinateReferenceSystem.fromEpsgId(crs.epsg)
         return QgsCoordinateReferenceSystem.fromWkt(crs.wkt or "")
 
-    def _stated(self) -> Crs:
+    def _of_files(self) -> Crs:
         """Return the CRS of the first file that states one; all files must have the same."""
         paths = find_files(self._sources, self._recursive)
         for path in paths:

@@ -47,8 +47,10 @@ class ModelKeyPointsAlgorithm(ProductAlgorithm):
 
         chosen = self.chosen(parameters, context)
         output = self.cloud_output(parameters, context, progress)
-        progress.command(command_line("key-points", [str(self.source), output], chosen, {}))
-        summary = key_points(self.source, Path(output), KeyPointRequest.of(chosen), progress)
+        files = [str(self.source), output]
+        progress.command(command_line("key-points", files, chosen, {"crs": self.stated}))
+        request = KeyPointRequest.of(chosen, crs=self.stated)
+        summary = key_points(self.source, Path(output), request, progress)
         progress.info(
             tr("{key:,} of {ground:,} ground points are key points ({share:.1%}).").format(
                 key=summary.key_point_count,

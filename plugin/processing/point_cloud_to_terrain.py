@@ -13,11 +13,11 @@ from ...algorithms.survey.selection import Selection
 from ..i18n import mark
 from ..styles.layers import BELOW_TERRAIN, contours
 from . import outputs
-from .area import add_limits, area_options, limits_of
+from .area import add_limits, area_options, given_options, limits_of
 from .base import BareEarthAlgorithm
 from .classified import show_classified
 from .commands import terrain_commands
-from .inputs import CloudCrs, add_survey, names_of, survey_of
+from .inputs import add_survey, names_of, survey_of
 
 
 class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
@@ -55,7 +55,7 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         """Make the wanted outputs."""
         from ...algorithms.engine.terrain_maps import MapFiles, MapRequest, make_maps
 
-        limits = limits_of(self, parameters, context, CloudCrs(*self._sources), progress)
+        limits = limits_of(self, parameters, context, self.crs_of(*self._sources), progress)
         chosen = self.chosen(parameters, context)
         request = MapRequest.of(chosen, **limits)
         cloud = self.point_cloud_destination(parameters, "OUTPUT", context)
@@ -65,8 +65,8 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         files = MapFiles(cloud and Path(cloud), rasters, lines and Path(lines))
         summary = make_maps(self._sources, files, request, progress)
         made = str(cloud and summary.cloud)
-        area = area_options(request.area, progress, is_all=True)
-        for each in terrain_commands(self._sources, made, results, chosen, area):
+        words = area_options(request.area, progress, is_all=True), given_options(**limits)
+        for each in terrain_commands(self._sources, made, results, chosen, *words):
             progress.command(each)
         progress.share(summary.ground_count, summary.point_count, bool(request.area))
         if "CONTOURS" in results:

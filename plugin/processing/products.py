@@ -12,6 +12,7 @@ from .base import BareEarthAlgorithm
 from .feedback import FeedbackProgress
 from .inputs import ANY_CLOUD_HELP, PointCloudInput, ignored_filter, name_of, source_path
 from .outputs import add_cloud
+from .stated_crs import add_crs
 
 
 class ProductAlgorithm(BareEarthAlgorithm):
@@ -37,6 +38,7 @@ class ProductAlgorithm(BareEarthAlgorithm):
     def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
         """Declare the fields of the dialog and the results."""
         self.addParameter(PointCloudInput("INPUT", "Classified point cloud"), ANY_CLOUD_HELP)
+        add_crs(self)
         self.add_declared()
         self.add_outputs()
         for name, label in self.numbers:

@@ -12,9 +12,9 @@ from ...algorithms.survey.ground_classes import GroundClasses
 from ..i18n import mark, tr
 from .base import command_line
 from .constraints import add_constraints, constraints_of
-from .inputs import CloudCrs
 from .outputs import add_rasters, raster_files, raster_paths, shown_rasters
 from .products import ProductAlgorithm
+from .raster_target import add_raster_target, given_options, raster_target_of
 
 
 class TerrainModelAlgorithm(ProductAlgorithm):
@@ -40,6 +40,7 @@ class TerrainModelAlgorithm(ProductAlgorithm):
     def add_outputs(self):
         """Add the fields of constraints and rasters; all of them are optional."""
         add_constraints(self)
+        add_raster_target(self)
         add_rasters(self)
 
     def compute(self, parameters, context, progress):
@@ -51,9 +52,15 @@ class TerrainModelAlgorithm(ProductAlgorithm):
         paths = raster_paths(self, parameters, context)
         if not paths:
             raise BareEarthError(tr("Choose at least one raster to make."))
-        progress.command(command_line("terrain", [str(self.source)], chosen, paths))
-        known = constraints_of(self, parameters, context, CloudCrs(self.source), progress)
-        request = TerrainRequest.of(chosen, rasters=raster_files(paths), constraints=known)
+        crs = self.crs_of(self.source)
+        target = raster_target_of(self, parameters, context, crs)
+        options = {**given_options(self.stated, target), **paths}
+        progress.command(command_line("terrain", [str(self.source)], chosen, options))
+        wanted = {
+            "rasters": raster_files(paths), "crs": self.stated, "raster_target": target,
+            "constraints": constraints_of(self, parameters, context, crs, progress),
+        }  # fmt: skip
+        request = TerrainRequest.of(chosen, **wanted)
         summary = terrain(self.source, request, progress)
         size = summary.columns, summary.rows
         progress.info(tr("The rasters have {:,} x {:,} cells.").format(*size))

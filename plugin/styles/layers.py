@@ -5,9 +5,11 @@ from __future__ import annotations
 from typing import Any, Callable, Iterable, Mapping, NamedTuple
 
 from qgis.core import (
+    QgsCoordinateReferenceSystem,
     QgsLayerTreeGroup,
     QgsMapLayer,
     QgsMapLayerLegendUtils,
+    QgsPointCloudLayer,
     QgsProcessingContext,
     QgsProcessingFeedback,
     QgsProcessingLayerPostProcessorInterface,
@@ -67,6 +69,17 @@ RASTERS = {
     "DTM": TERRAIN, "DSM": SURFACE, "CHM": CANOPY, "HILLSHADE": HILLSHADE,
     "CONFIDENCE": CONFIDENCE, "RELIEF": RELIEF, "ERROR_MAP": ERRORS,
 }  # fmt: skip
+
+
+def in_crs(look: Look, crs: QgsCoordinateReferenceSystem) -> Look:
+    """Return the look of a point cloud whose file does not state its CRS, or a wrong one."""
+
+    def dress(layer: Any) -> None:
+        if isinstance(layer, QgsPointCloudLayer):
+            layer.setCrs(crs)
+        look.dress(layer)
+
+    return look._replace(dress=dress)
 
 
 CLASSES = mark("classes")

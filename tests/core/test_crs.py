@@ -200,7 +200,9 @@ def test_an_unknown_unit_is_taken_as_metres_and_told(las):
 def test_no_crs_is_taken_as_metres_and_told(las):
     crs, heard = crs_of(las)
     assert crs == Crs()
-    assert heard.warnings == ["in.las does not say its CRS: its coordinates are taken as metres."]
+    (warning,) = heard.warnings
+    assert warning.startswith("in.las does not say its CRS: its coordinates are taken as metres.")
+    assert "--crs" in warning and "in QGIS" in warning
 
 
 @pytest.mark.parametrize(("encoding", "unit"), [(0x00, FOOT), (0x10, SURVEY)])

@@ -25,10 +25,11 @@ from bare_earth.plugin.processing.classification import ClassificationAlgorithm
 SHARED_PARAMETERS = [
     "FROM_CLASSES", "SEED_CLASSES", "TO_CLASS", "RETURNS", "OVERLAP", "OTHERS",
     "LOW_NOISE_CLASS", "LOW_NOISE_DEPTH", "BRIDGES", "BRIDGE_CLASS", "REMEMBER_CLASSES",
-    "DTM_CELL_SIZE", "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
+    "DTM_CELL_SIZE", "DTM_CELL_UNIT", "RASTER_NODATA",
+        "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
     "GROUND_ONLY", "AREA_ONLY", "HEIGHT_ABOVE_GROUND", "THREADS", "MEMORY",
     "EXTENT", "BOUNDARY", "CORRECTIONS", "CORRECTIONS_FIELD",
-    "BREAKLINES", "WATER", "RIVERS", "NO_GROUND",
+    "BREAKLINES", "WATER", "RIVERS", "NO_GROUND", "LIKE", "RASTER_EXTENT",
     "OUTPUT", "DTM", "HILLSHADE",
 ]  # fmt: skip
 SHARED_OUTPUTS = [
@@ -36,7 +37,7 @@ SHARED_OUTPUTS = [
 ]  # fmt: skip
 PARAMETERS = {
     "bareearth:tindensification": [
-        "INPUT",
+        "INPUT", "CRS",
         "PRESET", "MAX_BUILDING_SIZE", "MAX_TERRAIN_ANGLE", "ITERATION_ANGLE",
         "ITERATION_DISTANCE", "REDUCE_ANGLE_EDGE", "STOP_EDGE", "NOISE_DISTANCE",
         "GROUND_TOLERANCE", "GROUND_TOLERANCE_BELOW", "SLOPE_TOLERANCE", "ONLY_KEY_POINTS",
@@ -44,63 +45,67 @@ PARAMETERS = {
         *SHARED_PARAMETERS,
     ],
     "bareearth:pointcloudtoterrain": [
-        "INPUT", "INPUT_FOLDER",
+        "INPUT", "INPUT_FOLDER", "CRS",
         "METHOD", "PRESET",
-        "DTM_CELL_SIZE", "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
+        "DTM_CELL_SIZE", "DTM_CELL_UNIT", "RASTER_NODATA",
+        "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
         "FROM_CLASSES", "SEED_CLASSES", "TO_CLASS", "RETURNS", "OVERLAP", "OTHERS",
         "LOW_NOISE_CLASS", "LOW_NOISE_DEPTH", "BRIDGES", "BRIDGE_CLASS", "REMEMBER_CLASSES",
         "SURFACE_RETURNS", "SURFACE_CLASSES", "MAX_EDGE", "CONTOUR_INTERVAL", "RELIEF_RADIUS",
         "THREADS", "MEMORY",
         "EXTENT", "BOUNDARY", "CORRECTIONS", "CORRECTIONS_FIELD",
-        "BREAKLINES", "WATER", "RIVERS", "NO_GROUND",
+        "BREAKLINES", "WATER", "RIVERS", "NO_GROUND", "LIKE", "RASTER_EXTENT",
         "OUTPUT", "DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE", "RELIEF", "CONTOURS",
     ],
     "bareearth:gridminimum": [
-        "INPUT",
+        "INPUT", "CRS",
         "PRESET", "CELL_SIZE", "HEIGHT_THRESHOLDS", "FINAL_HEIGHT", "MAX_OBJECT_SIZE",
         "GROUND_TOLERANCE", "SLOPE_TOLERANCE",
         *SHARED_PARAMETERS,
     ],
     "bareearth:slopefilter": [
-        "INPUT",
+        "INPUT", "CRS",
         "PRESET", "SEARCH_RADIUS", "MIN_NEIGHBOURS", "SLOPE_THRESHOLD", "HEIGHT_THRESHOLD",
         "SLOPE_NORM", "CELL_SIZE", "MAX_BUILDING_SIZE", "GROUND_TOLERANCE", "SLOPE_TOLERANCE",
         *SHARED_PARAMETERS,
     ],
     "bareearth:classifytiles": [
-        "INPUT", "INPUT_FOLDER",
+        "INPUT", "INPUT_FOLDER", "CRS",
         "METHOD", "PRESET",
         "FROM_CLASSES", "SEED_CLASSES", "TO_CLASS", "RETURNS", "OVERLAP", "OTHERS",
         "LOW_NOISE_CLASS", "LOW_NOISE_DEPTH", "BRIDGES", "BRIDGE_CLASS", "REMEMBER_CLASSES",
         "RECURSIVE", "FORMAT", "RESUME", "GROUND_ONLY", "AREA_ONLY", "HEIGHT_ABOVE_GROUND",
-        "DTM_CELL_SIZE", "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
+        "DTM_CELL_SIZE", "DTM_CELL_UNIT", "RASTER_NODATA",
+        "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
         "RASTER_PER_FILE",
         "THREADS", "MEMORY", "EXTENT", "BOUNDARY", "CORRECTIONS", "CORRECTIONS_FIELD",
-        "BREAKLINES", "WATER", "RIVERS", "NO_GROUND",
+        "BREAKLINES", "WATER", "RIVERS", "NO_GROUND", "LIKE", "RASTER_EXTENT",
         "OUTPUT_FOLDER", "OUTPUT_VPC", "DTM", "HILLSHADE",
     ],
     "bareearth:heightaboveground": [
-        "INPUT", "GROUND_CLASSES", "OVERLAP", "OUTPUT_AS", "THREADS", "MEMORY", "OUTPUT", "DTM",
+        "INPUT", "CRS", "GROUND_CLASSES", "OVERLAP", "OUTPUT_AS", "THREADS", "MEMORY", "OUTPUT",
+        "DTM",
     ],
     "bareearth:modelkeypoints": [
-        "INPUT",
+        "INPUT", "CRS",
         "TOLERANCE_ABOVE", "TOLERANCE_BELOW", "GRID_SIZE",
         "GROUND_CLASSES", "OVERLAP", "MARK_AS", "KEY_CLASS",
         "THREADS", "MEMORY", "OUTPUT",
     ],
     "bareearth:terrainmodel": [
-        "INPUT", "GROUND_CLASSES", "OVERLAP",
-        "DTM_CELL_SIZE", "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
+        "INPUT", "CRS", "GROUND_CLASSES", "OVERLAP",
+        "DTM_CELL_SIZE", "DTM_CELL_UNIT", "RASTER_NODATA",
+        "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
         "SURFACE_RETURNS", "SURFACE_CLASSES", "MAX_EDGE",
         "RASTER_PER_FILE", "THREADS", "MEMORY",
-        "BREAKLINES", "WATER", "RIVERS", "NO_GROUND",
+        "BREAKLINES", "WATER", "RIVERS", "NO_GROUND", "LIKE", "RASTER_EXTENT",
         "DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE",
     ],
     "bareearth:comparesettings": [
-        "INPUT", "EXTENT", "SETTINGS", "CONTEXT", "PROFILE", "THREADS", "MEMORY", "OUTPUT",
+        "INPUT", "EXTENT", "CRS", "SETTINGS", "CONTEXT", "PROFILE", "THREADS", "MEMORY", "OUTPUT",
     ],
     "bareearth:assess": [
-        "CLASSIFIED", "REFERENCE", "GROUND_CLASSES", "IGNORED_CLASSES", "MAP_CELL_SIZE",
+        "CLASSIFIED", "REFERENCE", "CRS", "GROUND_CLASSES", "IGNORED_CLASSES", "MAP_CELL_SIZE",
         "REPORT", "ERROR_MAP",
     ],
     "bareearth:removeoffterrainobjects": [
@@ -275,7 +280,9 @@ def test_the_help_speaks_of_every_parameter(each):
 def test_numbers_have_ranges_and_names_are_upper_case(each):
     for parameter in each.parameterDefinitions():
         assert re.fullmatch(r"[A-Z][A-Z0-9_]*", parameter.name())
-        if isinstance(parameter, QgsProcessingParameterNumber):
+        # A value for no data may be any number of 32 bits.
+        is_length = parameter.name() != "RASTER_NODATA"
+        if isinstance(parameter, QgsProcessingParameterNumber) and is_length:
             assert parameter.minimum() > -1e6 and parameter.maximum() < 1e6, parameter.name()
         if isinstance(parameter, QgsProcessingParameterEnum):
             assert parameter.usesStaticStrings()

@@ -30,7 +30,7 @@ _EXACT = 0.1
 _SLOPE_CELLS = 5
 # Share of the known heights below which the fit of the plane starts: under roofs and crowns.
 _START = 0.3
-# The standard deviation of a normal distribution as a multiple of the median of its absolute values.
+# The deviation of a normal distribution as a multiple of the median of its absolute values.
 _DEVIATION = 1.48
 
 
@@ -137,8 +137,7 @@ class LowGroups:
         reach = math.ceil(_OF_GROUP * self.width / cells.size)
         near = np.zeros(cells.shape, dtype=bool)
         places = [
-            (math.floor(group.y / cells.size), math.floor(group.x / cells.size))
-            for group in groups
+            (math.floor(group.y / cells.size), math.floor(group.x / cells.size)) for group in groups
         ]
         rows, columns = (np.array(places) - cells.first).T
         near[rows, columns] = True

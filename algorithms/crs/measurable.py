@@ -1,0 +1,123 @@
+"""Whether lengths can be measured in a CRS at some place, and what to do if not."""
+
+from __future__ import annotations
+
+import functools
+import math
+import re
+
+from ..core.errors import BareEarthError
+from ..core.points import Box
+from .stated import HOW
+from .system import Crs
+
+# Longitudes and latitudes in degrees are at most this large; some are counted from 0 to 360.
+_FARTHEST_EAST, _FARTHEST_NORTH = 360.0, 90.0
+_MERCATOR = re.compile(r"(?:PROJECTION|METHOD)\s*[\[(]\s*\"([^\"]*mercator[^\"]*)\"", re.IGNORECASE)
+_TRUE_ELSEWHERE = ("transverse", "oblique", "hotine", "space")
+# Codes of Web Mercator, for keys without well-known text.
+_WEB_MERCATOR = {3785, 3857, 41001, 54004, 102100, 102113, 900913}
+_PARAMETER = re.compile(r"PARAMETER\s*[\[(]\s*\"([^\"]+)\"\s*,\s*([-+.0-9eE]+)", re.IGNORECASE)
+# Metres. The flattening of the earth changes lengths here by less than 0.4 %.
+_RADIUS = 6378137.0
+# Lengths may be wrong by this share. National CRS are far better.
+MOST_WRONG = 0.05
+
+
+def require_measurable(subject: object, crs: Crs, box: Box | None = None) -> None:
+    """Refuse coordinates in which distances cannot be measured.
+
+    Parameters
+    ----------
+    subject : object
+        What the error names: a file, or "The survey".
+    crs : Crs
+        Its CRS.
+    box : tuple of float, optional
+        Smallest x and y, largest x and y, as far as known; they may be wrong.
+
+    Raises
+    ------
+    BareEarthError
+        If the CRS is geographic or geocentric, or lengths in it are far too long or too short here,
+        as in Web Mercator.
+    """
+    if crs.is_geographic:
+        raise _not_projected(subject, crs, box)
+    scale = length_scale(crs, box)
+    if abs(scale - 1.0) > MOST_WRONG:
+        wrong = f"{scale:.2f} times too long" if scale > 1.0 else f"too short ({scale:.2f} times)"
+        raise BareEarthError(
+            f"{subject} is in a Mercator projection ({crs.name}), in which lengths are {wrong} at"
+            f" this latitude, so that nothing can be measured in it. {_reproject()} If the file"
+            f" states the wrong CRS, give the right one: {HOW}."
+        )
+
+
+def length_scale(crs: Crs, box: Box | None) -> float:
+    """Return how many metres of a CRS a true metre takes in the middle of a box.
+
+    It is 1 but for Mercator projections, where it grows with the latitude. Other projections of the
+    world are rare for point clouds.
+    """
+    true_scale = _mercator(crs.wkt or "", crs.epsg)
+    if true_scale is None or box is None or not all(map(math.isfinite, box)):
+        return 1.0
+    at_standard, north = true_scale
+    y = ((box[1] + box[3]) / 2.0 - north) * crs.horizontal_unit
+    return at_standard * math.cosh(min(max(y / (_RADIUS * at_standard), -20.0), 20.0))
+
+
+@functools.lru_cache(maxsize=16)
+def _mercator(wkt: str, epsg: int | None) -> tuple[float, float] | None:
+    """Return the scale at the equator and the false northing of a Mercator projection."""
+    method = _MERCATOR.search(wkt)
+    if method is None:
+        return (1.0, 0.0) if epsg in _WEB_MERCATOR else None
+    if any(word in method[1].lower() for word in _TRUE_ELSEWHERE):
+        return None
+    scale, north = 1.0, 0.0
+    for name, value in _PARAMETER.findall(wkt):
+        words = name.lower().replace("_", " ")
+        if words.startswith("scale factor"):
+            scale *= float(value)
+        elif "standard parallel" in words:
+            scale *= math.cos(math.radians(float(value)))
+        elif words == "false northing":
+            north = float(value)
+    return scale, north
+
+
+def _not_projected(subject: object, crs: Crs, box: Box | None) -> BareEarthError:
+    """Return the error for degrees, and for what is wrongly said to be degrees."""
+    if box is not None and not _is_geocentric(crs) and not _can_be_degrees(box):
+        return BareEarthError(
+            f"{subject} is not in a projected CRS as far as its records say ({crs.name}), but its"
+            f" coordinates cannot be degrees (x from {box[0]:.10g}, y from {box[1]:.10g}), so the"
+            f" records are wrong. Give the right CRS: {HOW}."
+        )
+    return BareEarthError(
+        f"{subject} is not in a projected CRS ({crs.name}), so that nothing can be measured in it."
+        f" {_reproject()}"
+    )
+
+
+def _can_be_degrees(box: Box) -> bool:
+    west, south, east, north = box
+    return (
+        max(abs(west), abs(east)) <= _FARTHEST_EAST
+        and max(abs(south), abs(north)) <= _FARTHEST_NORTH
+    )
+
+
+def _is_geocentric(crs: Crs) -> bool:
+    text = (crs.wkt or "").upper()
+    return text.startswith("GEOCCS") or "CS[CARTESIAN,3]" in text.replace(" ", "")
+
+
+def _reproject() -> str:
+    return (
+        "Reproject it first: in QGIS with 'Reproject' of the group Point cloud data management,"
+        " elsewhere with 'pdal translate INPUT OUTPUT reprojection"
+        " --filters.reprojection.out_srs=EPSG:...'."
+    )

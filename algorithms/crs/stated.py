@@ -1,0 +1,63 @@
+"""The CRS that a user states, in place of what files say."""
+
+from __future__ import annotations
+
+import functools
+import re
+
+from ..core.errors import BareEarthError
+from .provider import library, wkt_of_epsg, wkt_of_text
+from .wkt import read_wkt
+
+# How a user states the CRS, for the end of a sentence.
+HOW = (
+    "in QGIS as 'CRS of the points' (an advanced parameter), elsewhere with --crs, such as"
+    " --crs EPSG:25832"
+)
+_CODE = re.compile(r"(?:EPSG:{1,2})?([0-9]{1,9})", re.IGNORECASE)
+# A library would fetch such a text from another computer.
+_REMOTE = re.compile(r"[a-z][a-z0-9+.-]+://|/vsi", re.IGNORECASE)
+_LONGEST_SHOWN = 60
+
+
+def stated_wkt(text: str | None) -> str | None:
+    """Return the well-known text of a CRS that a user states; None if nothing is stated.
+
+    Parameters
+    ----------
+    text : str or None
+        An EPSG code, with or without a vertical one ("EPSG:2230", "EPSG:2230+6360"), well-known
+        text, or another text that pyproj or GDAL understand, such as PROJ strings.
+
+    Raises
+    ------
+    BareEarthError
+        If the text describes no CRS of places, or there is no library that knows it.
+    """
+    text = (text or "").strip()
+    return _wkt_of(text, library()) if text else None
+
+
+@functools.lru_cache(maxsize=16)
+def _wkt_of(text: str, library: object) -> str:
+    """Return the well-known text; the result also depends on the library."""
+    if read_wkt(text) is not None:
+        return text
+    code = _CODE.fullmatch(text)
+    known = None
+    if code:
+        known = wkt_of_epsg(int(code[1]))
+    elif not _REMOTE.match(text):
+        known = wkt_of_text(text)
+    if known is None or read_wkt(known) is None:
+        short = text if len(text) <= _LONGEST_SHOWN else f"{text[:_LONGEST_SHOWN]}..."
+        if library is None:
+            raise BareEarthError(
+                f"The CRS {short} cannot be looked up without pyproj: pip install pyproj, or give"
+                " the CRS as well-known text (WKT)."
+            )
+        raise BareEarthError(
+            f"{short} is no known CRS of points on a map. Give an EPSG code, such as EPSG:25832, or"
+            " well-known text (WKT)."
+        )
+    return known

@@ -1,0 +1,219 @@
+"""Where the cells of rasters lie: by default, or as a given raster or extent asks."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from ..core.errors import BareEarthError
+from ..core.points import Box, Frame
+from ..core.progress import SILENT, Progress
+from ..crs.matching import described, is_same_map
+from ..crs.stated import HOW
+from ..crs.system import Crs, crs_of_wkt, unit_symbol
+from ..grids.cell_window import CellWindow
+from ..products.terrain_model import TerrainModel
+from ..rasters.geotiff import RasterGrid
+from ..rasters.given_grid import GivenGrid, read_grid
+from ..survey.area import box_in_words
+
+MOST_CELLS = 4_000_000_000
+# A corner of a given raster so near a multiple of the cell size, as a share of it, is one.
+_ROUNDING = 1e-6
+
+
+@dataclass(frozen=True)
+class RasterTarget:
+    """Which cells the rasters of a run get, beside their size.
+
+    Attributes
+    ----------
+    like : Path or str, or None
+        A raster whose grid they get: CRS, size and position of the cells, extent. It replaces the
+        cell size.
+    extent : tuple of float, or None
+        Smallest x and y, largest x and y in units of the CRS: the rasters cover this rectangle,
+        wider by up to a cell on each side, as their cells stay where they are. It replaces the
+        extent of `like`.
+
+    Raises
+    ------
+    BareEarthError
+        If the extent is no rectangle.
+    """
+
+    like: Path | str | None = None
+    extent: Box | None = None
+
+    def __post_init__(self) -> None:
+        if self.extent is None:
+            return
+        west, south, east, north = box = tuple(map(float, self.extent))
+        if not all(map(math.isfinite, box)) or west >= east or south >= north:
+            raise BareEarthError(
+                "The extent of the rasters must be smallest x and y, then largest x and y, not"
+                f" {' '.join(f'{each:.10g}' for each in box)}."
+            )
+        object.__setattr__(self, "extent", box)
+
+
+ANYWHERE = RasterTarget()
+
+
+@dataclass(frozen=True)
+class CellGrid:
+    """The cells of the rasters of a run.
+
+    Attributes
+    ----------
+    metres, size : float
+        Side of a cell in metres, and in units of the CRS.
+    origin : tuple of float
+        x and y, in units of the CRS, from which columns and rows are counted: that of the frame of
+        the rasters and of their blocks. It is (0, 0), or less than a cell north and east of it.
+    anchor : tuple of float
+        x and y of a corner of cells, as exactly as it is known.
+    anchor_column, anchor_row : int
+        Column and row of the cell that lies northeast of the anchor.
+    window : CellWindow or None
+        The cells that the rasters cover; None for those that have points.
+    wkt : str or None
+        The CRS of the rasters, if the points state none.
+    """
+
+    metres: float
+    size: float
+    origin: tuple[float, float] = (0.0, 0.0)
+    anchor: tuple[float, float] = (0.0, 0.0)
+    anchor_column: int = 0
+    anchor_row: int = 0
+    window: CellWindow | None = None
+    wkt: str | None = None
+
+    def of(self, window: CellWindow, frame: Frame) -> RasterGrid:
+        """Return the grid of a raster that covers a window of cells."""
+        west = self.anchor[0] + (window.column - self.anchor_column) * self.size
+        north = self.anchor[1] + (window.row + window.rows - self.anchor_row) * self.size
+        frame = replace(frame, wkt=self.wkt or frame.wkt)
+        return RasterGrid(west, north, self.size, window.columns, window.rows, frame)
+
+
+def cell_grid(
+    target: RasterTarget,
+    model: TerrainModel,
+    crs: Crs,
+    box: Box | None = None,
+    progress: Progress = SILENT,
+) -> CellGrid:
+    """Return the cells of the rasters of a run.
+
+    Parameters
+    ----------
+    target : RasterTarget
+        Which cells the user wants.
+    model : TerrainModel
+        The cell size, if no raster gives it.
+    crs : Crs
+        The CRS of the points.
+    box : tuple of float, optional
+        Their extent in units of the CRS, as far as known.
+    progress : Progress
+        Receives messages.
+
+    Raises
+    ------
+    BareEarthError
+        If the raster is unsuitable, or the rasters would hold no point or too many cells.
+    """
+    unit = crs.horizontal_unit
+    if target.like is None:
+        cells = CellGrid(model.cell_metres(unit), model.cell_in_units(unit))
+    else:
+        given = read_grid(target.like)
+        cells = _on_grid(given, unit)
+        cells = replace(cells, wkt=_wkt_of(target.like, given, crs, progress))
+    if target.extent is not None:
+        (x, y), (west, south, east, north) = cells.origin, target.extent
+        inside = CellWindow.around((west - x, south - y, east - x, north - y), cells.size)
+        cells = replace(cells, window=inside)
+    if cells.window is not None:
+        _check(cells, cells.window, box, crs)
+    return cells
+
+
+def no_points(box: Box, extent: Box) -> BareEarthError:
+    """Return the error for rasters that would hold no points, given both extents."""
+    return BareEarthError(
+        f"No point lies in the rasters ({box_in_words(box)}): the points lie in"
+        f" {box_in_words(extent)}. Give a raster (--like, in QGIS 'Raster with the grid to use') or"
+        " an extent (--raster-extent, in QGIS 'Extent of the rasters') that meets them."
+    )
+
+
+def box_of(grid: RasterGrid) -> Box:
+    """Return smallest x and y, largest x and y of a raster."""
+    south = grid.north - grid.rows * grid.cell_size
+    return grid.west, south, grid.west + grid.columns * grid.cell_size, grid.north
+
+
+def _on_grid(given: GivenGrid, unit: float) -> CellGrid:
+    """Return the cells of a given raster."""
+    size = given.cell_size
+    (column, x), (top, y) = (_counted(at, size) for at in (given.west, given.north))
+    return CellGrid(
+        metres=size * unit,
+        size=size,
+        origin=(x, y),
+        anchor=(given.west, given.north),
+        anchor_column=column,
+        anchor_row=top,
+        window=CellWindow(top - given.rows, column, given.rows, given.columns),
+    )
+
+
+def _counted(place: float, size: float) -> tuple[int, float]:
+    """Return a place as a number of cells, and where these are counted from."""
+    number = math.floor(place / size + _ROUNDING)
+    rest = place - number * size
+    return number, rest if abs(rest) > _ROUNDING * size else 0.0
+
+
+def _wkt_of(like: Path | str, given: GivenGrid, crs: Crs, progress: Progress) -> str | None:
+    """Check the CRS of a given raster; return it if the points state none."""
+    stated = crs_of_wkt(given.wkt) if given.wkt else None
+    if stated is None:
+        progress.warning(f"{like} does not say its CRS: that of the points is used.")
+        return None
+    if crs == Crs():
+        if stated.is_geographic or not math.isclose(stated.horizontal_unit, 1.0):
+            raise BareEarthError(
+                f"The points do not say their CRS, and that of {like} is not in metres"
+                f" ({described(stated)}). Give the CRS of the points: {HOW}."
+            )
+        progress.warning(f"The points are taken to be in the CRS of {like}, {stated.name}.")
+        return given.wkt
+    if not is_same_map(stated, crs):
+        raise BareEarthError(
+            f"{like} is in another CRS ({described(stated)}) than the points ({described(crs)})."
+            " Give a raster in the CRS of the points. If they are in that of the raster, say so:"
+            f" {HOW}."
+        )
+    return None
+
+
+def _check(cells: CellGrid, window: CellWindow, box: Box | None, crs: Crs) -> None:
+    """Refuse rasters without points, or with too many cells."""
+    grid = cells.of(window, Frame())
+    if grid.columns * grid.rows > MOST_CELLS:
+        raise BareEarthError(
+            f"The rasters would have {grid.columns:,} x {grid.rows:,} cells of {cells.size:g}"
+            f" {unit_symbol(crs.horizontal_unit)}. Choose a larger cell size, or a smaller extent."
+        )
+    covered = box_of(grid)
+    if box is not None and not _overlap(covered, box):
+        raise no_points(covered, box)
+
+
+def _overlap(one: Box, other: Box) -> bool:
+    return one[0] <= other[2] and one[2] >= other[0] and one[1] <= other[3] and one[3] >= other[1]

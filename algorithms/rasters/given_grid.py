@@ -1,0 +1,98 @@
+"""The grid of a raster file, without its cells."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import NamedTuple
+
+from ..core.errors import BareEarthError
+from .geotiff import check_local
+from .libraries import GdalErrors, library
+
+# Sides of cells, and corners, may be off by this share of a cell over the whole raster.
+_ROUNDING = 0.01
+
+
+class GivenGrid(NamedTuple):
+    """The grid of a raster whose cells are square, with north up.
+
+    Attributes
+    ----------
+    west, north : float
+        Upper left corner in units of the CRS.
+    cell_size : float
+        Side of a cell in units of the CRS.
+    columns, rows : int
+        Size of the raster.
+    wkt : str
+        The CRS as well-known text; empty if the raster states none.
+    """
+
+    west: float
+    north: float
+    cell_size: float
+    columns: int
+    rows: int
+    wkt: str
+
+
+def read_grid(source: str | Path) -> GivenGrid:
+    """Read the grid of a raster file.
+
+    Parameters
+    ----------
+    source : str or Path
+        The file, or a part of one as GDAL names it.
+
+    Raises
+    ------
+    BareEarthError
+        If there is no library to read rasters with, the raster cannot be read or is not on this
+        computer, or its cells are not square with north up.
+    """
+    read = library(_with_gdal, _with_rasterio, "Reading")
+    check_local(str(source))
+    (columns, rows), (west, width, tilt, north, lean, height), wkt = read(str(source))
+    if height > 0.0 and width > 0.0 and not tilt and not lean:
+        raise BareEarthError(
+            f"{source} states no place on the map, or has south up. Give a raster with north up."
+        )
+    most = max(columns, rows)
+    if max(abs(tilt), abs(lean)) * most > _ROUNDING * abs(width):
+        raise BareEarthError(
+            f"The cells of {source} are rotated. Give a raster with north up, such as gdalwarp"
+            " makes."
+        )
+    if width <= 0.0 or abs(width + height) * most > _ROUNDING * width:
+        raise BareEarthError(
+            f"The cells of {source} are not square ({width:.10g} x {abs(height):.10g}). Give a"
+            " raster with square cells, such as gdalwarp -tr makes."
+        )
+    return GivenGrid(west, north, width, columns, rows, wkt)
+
+
+_Content = tuple[tuple[int, int], tuple[float, ...], str]
+
+
+def _with_gdal(source: str) -> _Content:
+    from osgeo import gdal
+
+    with GdalErrors(gdal, "read") as errors:
+        dataset = gdal.Open(source, gdal.GA_ReadOnly)
+        errors.check(source)
+        if dataset is None:
+            raise BareEarthError(f"Cannot read {source}: it is not a raster that GDAL can read.")
+        size = dataset.RasterXSize, dataset.RasterYSize
+        return size, tuple(dataset.GetGeoTransform()), dataset.GetProjection()
+
+
+def _with_rasterio(source: str) -> _Content:
+    import rasterio
+    from rasterio.errors import RasterioError
+
+    try:
+        with rasterio.open(source) as dataset:
+            size = dataset.width, dataset.height
+            return size, dataset.transform.to_gdal(), dataset.crs.to_wkt() if dataset.crs else ""
+    except RasterioError as error:
+        raise BareEarthError(f"Cannot read {source}: {str(error).rstrip('.')}.") from error

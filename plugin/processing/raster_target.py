@@ -1,0 +1,74 @@
+"""The fields for the grid and the extent of rasters."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from qgis.core import (
+    QgsProcessingAlgorithm,
+    QgsProcessingContext,
+    QgsProcessingParameterExtent,
+    QgsProcessingParameterRasterLayer,
+)
+
+from ...algorithms.core.errors import BareEarthError
+from ...algorithms.engine.raster_grid import ANYWHERE, RasterTarget
+from .. import compat
+from ..i18n import tr
+from .inputs import CloudCrs, is_empty
+
+_LIKE, _EXTENT = "LIKE", "RASTER_EXTENT"
+_LIKE_HELP = (
+    "All rasters get the grid of this raster: CRS, cell size, position of the cells, and extent. It"
+    " must be in the CRS of the points, with square cells and north up. It replaces the cell size."
+)
+_EXTENT_HELP = (
+    "The rasters cover this rectangle, widened to whole cells, which stay where they are. All"
+    " points are used. Empty: where the points are."
+)
+
+
+def add_raster_target(algorithm: QgsProcessingAlgorithm) -> None:
+    """Add the fields to a dialog, as advanced parameters."""
+    like = QgsProcessingParameterRasterLayer(_LIKE, "Raster with the grid to use", None, True)
+    extent = QgsProcessingParameterExtent(_EXTENT, "Extent of the rasters", None, True)
+    for field, text in ((like, _LIKE_HELP), (extent, _EXTENT_HELP)):
+        field.setFlags(field.flags() | compat.ADVANCED)
+        algorithm.addParameter(field, text)
+
+
+def raster_target_of(
+    algorithm: QgsProcessingAlgorithm,
+    parameters: dict[str, Any],
+    context: QgsProcessingContext,
+    crs: CloudCrs,
+) -> RasterTarget:
+    """Return what is in the fields, with the extent in the CRS of the points.
+
+    Raises
+    ------
+    BareEarthError
+        If the raster is not a file, or the cloud cannot be read.
+    """
+    like = extent = None
+    if not is_empty(parameters.get(_LIKE)):
+        layer = algorithm.parameterAsRasterLayer(parameters, _LIKE, context)
+        if layer is None or layer.providerType() != "gdal":
+            raise BareEarthError(
+                tr("The raster with the grid to use is not a file. Export it as GeoTIFF first.")
+            )
+        like = layer.source()
+    if not is_empty(parameters.get(_EXTENT)):
+        box = algorithm.parameterAsExtent(parameters, _EXTENT, context, crs.value)
+        extent = box.xMinimum(), box.yMinimum(), box.xMaximum(), box.yMaximum()
+    return RasterTarget(like, extent)
+
+
+def given_options(crs: str | None, raster_target: RasterTarget, **others: Any) -> dict[str, Any]:
+    """Return options of the command line; takes what `limits_of` returns."""
+    extent = raster_target.extent and tuple(map(repr, raster_target.extent))
+    like = raster_target.like and str(raster_target.like)
+    return {"crs": crs, "like": like, "raster-extent": extent}
+
+
+NOTHING_GIVEN = given_options(None, ANYWHERE)

@@ -1,0 +1,61 @@
+"""The field for the CRS of the points, for files that state none or a wrong one."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from qgis.core import (
+    QgsCoordinateReferenceSystem,
+    QgsProcessingAlgorithm,
+    QgsProcessingContext,
+    QgsProcessingParameterCrs,
+)
+
+from ...algorithms.core.errors import BareEarthError
+from .. import compat
+from ..i18n import tr
+
+_NAME = "CRS"
+_HELP = (
+    "The CRS of the points, for files that state none or a wrong one. It replaces what files state:"
+    " it decides the units of lengths and heights, and rasters and layers get it. Written point"
+    " clouds keep the records that the files have. Empty: what the files state."
+)
+
+
+def add_crs(algorithm: QgsProcessingAlgorithm) -> None:
+    """Add the field to a dialog, as an advanced parameter."""
+    field = QgsProcessingParameterCrs(_NAME, "CRS of the points", None, True)
+    field.setFlags(field.flags() | compat.ADVANCED)
+    algorithm.addParameter(field, _HELP)
+
+
+def stated_crs_of(
+    algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], context: QgsProcessingContext
+) -> str | None:
+    """Return the CRS in the field, as the requests take it; None if it is empty.
+
+    Raises
+    ------
+    BareEarthError
+        If it is not known.
+    """
+    if algorithm.parameterDefinition(_NAME) is None or _is_empty(parameters.get(_NAME)):
+        return None
+    crs = algorithm.parameterAsCrs(parameters, _NAME, context)
+    if not crs.isValid():
+        raise BareEarthError(
+            tr("{} is no known CRS. Choose one from the list.").format(parameters[_NAME])
+        )
+    if crs.authid().startswith("EPSG:"):
+        return crs.authid()
+    return crs.toWkt(compat.WKT)
+
+
+def _is_empty(value: Any) -> bool:
+    return compat.is_null(value) or value == ""
+
+
+def crs_of_text(text: str) -> QgsCoordinateReferenceSystem:
+    """Return the CRS that `stated_crs_of` returned."""
+    return QgsCoordinateReferenceSystem(text)
