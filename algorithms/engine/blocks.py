@@ -36,7 +36,7 @@ _POINTS_A_PART = 1 << 15
 _LEVELS = 4
 
 # Labels of points; 0 is none of these.
-GROUND, LOW, BRIDGE = 1, 2, 3
+GROUND, LOW, BRIDGE, HIGH = 1, 2, 3, 4
 
 # x and y in metres.
 Corner = tuple[float, float]

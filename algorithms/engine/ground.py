@@ -15,9 +15,10 @@ from ..filters import method_of
 from ..filters.shared.below_ground import below_ground
 from ..filters.shared.bridges import bridge_decks
 from ..filters.shared.doubts import tell_of_extent, tell_of_little_ground
+from ..filters.shared.high_groups import HighGroups
 from ..grids.cells import apart
 from ..survey.selection import Selection
-from .blocks import BRIDGE, GROUND, LOW, Block, BlockPoints, Blocks, Corner, Store
+from .blocks import BRIDGE, GROUND, HIGH, LOW, Block, BlockPoints, Blocks, Corner, Store
 from .memory import Resources, give_back
 from .scheduling import run_jobs
 
@@ -52,7 +53,7 @@ def label_ground(
     resources: Resources = Resources(),
     progress: Progress = SILENT,
 ) -> None:
-    """Label every wanted point of a store with `GROUND`, `LOW`, `BRIDGE` or 0.
+    """Label every wanted point of a store with `GROUND`, `LOW`, `BRIDGE`, `HIGH` or 0.
 
     Parameters
     ----------
@@ -63,7 +64,7 @@ def label_ground(
     blocks : Blocks
         How the survey is cut, as `blocks_of` returns it.
     selection : Selection
-        Decides whether low outliers get `LOW`, and bridge decks `BRIDGE`.
+        Decides whether low outliers get `LOW`, high ones `HIGH`, and bridge decks `BRIDGE`.
     resources : Resources
         Threads, and the memory for the blocks.
     progress : Progress
@@ -191,6 +192,9 @@ def _label(
         if outliers is not None:
             low |= outliers
         labels[low & (labels == 0)] = LOW
+    if selection.high_noise_class:
+        high = HighGroups(height=selection.high_noise_height).find(points)
+        labels[high & (labels == 0)] = HIGH
     return labels
 
 

@@ -23,7 +23,7 @@ from ..survey.kept_classes import overlapping
 from ..survey.point_chooser import PointChooser
 from ..survey.selection import Selection
 from ..survey.tally import Tally, count_classes
-from .blocks import BRIDGE, GROUND, LOW, Blocks, Store
+from .blocks import BRIDGE, GROUND, HIGH, LOW, Blocks, Store
 from .ground import blocks_of, label_ground
 from .memory import Resources
 from .output import Output, height_dimension
@@ -190,9 +190,9 @@ class ClassifiedPoints(PointResult):
         The new class of every point, in file order.
     class_counts : numpy.ndarray of int64, shape (256,)
         Numbers of written points of each class.
-    area_ground_count, area_low_count, area_deck_count : int
-        Numbers of points in the area with the class of the ground, of low outliers, and of
-        points on bridge decks.
+    area_ground_count, area_low_count, area_deck_count, area_high_count : int
+        Numbers of points in the area with the class of the ground, of low outliers, of points on
+        bridge decks, and of high outliers.
     """
 
     def __init__(self, step: LabelGround, path: Path, room: Room) -> None:
@@ -202,6 +202,7 @@ class ClassifiedPoints(PointResult):
         self._memory = Memory(room, step.selection.remember_classes)
         self.class_counts = np.zeros(256, dtype=np.int64)
         self.area_ground_count = self.area_low_count = self.area_deck_count = 0
+        self.area_high_count = 0
         self._area_count = self._by_hand_count = self._overlap_count = 0
         self._counts_before = np.zeros(256, dtype=np.int64)
         self._has_ground = False
@@ -210,9 +211,9 @@ class ClassifiedPoints(PointResult):
         """Set the classes of some points from their labels, and count them."""
         selection, chooser = self._step.selection, self._step.chooser
         inside = chooser.inside(part)
-        ground, low, decks = (values == each for each in (GROUND, LOW, BRIDGE))
+        ground, low, decks, high = (values == label for label in (GROUND, LOW, BRIDGE, HIGH))
         by_hand = chooser.by_hand(part)
-        classes = selection.classes(part, ground, low, inside, decks, by_hand)
+        classes = selection.classes(part, ground, low, inside, decks, by_hand, high)
         self.classification[where] = classes
         self._counts_before += count_classes(part.classification)
         self._overlap_count += int(np.count_nonzero(overlapping(part)))
@@ -228,6 +229,7 @@ class ClassifiedPoints(PointResult):
         self.area_ground_count += int(np.count_nonzero(ground & inside))
         self.area_low_count += int(np.count_nonzero(low & inside))
         self.area_deck_count += int(np.count_nonzero(decks & inside))
+        self.area_high_count += int(np.count_nonzero(high & inside))
 
     def part(self, where: slice, part: PointCloud) -> PointCloud:
         """Return points with their new classes; points that are not written become withheld."""
@@ -254,11 +256,17 @@ class ClassifiedPoints(PointResult):
             raise BareEarthError(why or f"No ground was found in {self._path}.")
 
     def tell(self, progress: Progress) -> None:
-        """Report the numbers of low outliers and of points on bridges in the area."""
-        if self._step.selection.low_noise_class:
-            depth = self._step.selection.low_noise_depth
+        """Report the numbers of outliers and of points on bridges in the area."""
+        selection = self._step.selection
+        if selection.low_noise_class:
             progress.info(
-                f"{self.area_low_count:,} points lie more than {depth:g} m below the ground."
+                f"{self.area_low_count:,} points lie more than {selection.low_noise_depth:g} m"
+                " below the ground, or in groups below ground all round them: low noise."
+            )
+        if selection.high_noise_class:
+            progress.info(
+                f"{self.area_high_count:,} points hang {selection.high_noise_height:g} m and more"
+                " above all others of their place: high noise."
             )
         if self.area_deck_count:
             progress.info(

@@ -61,7 +61,7 @@ class MemoryPoints:
     ----------
     labels : list of numpy.ndarray, shape (n,)
         For each file the values of its points; 0 if none was stored. For `LabelGround` they are
-        `GROUND`, `LOW` or `BRIDGE`.
+        `GROUND`, `LOW`, `BRIDGE` or `HIGH`.
     leaves, has_known
         As `Store` says.
     """

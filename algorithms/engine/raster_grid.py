@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..core.errors import BareEarthError
-from ..core.points import Box, Frame
+from ..core.points import Box, Frame, box_in_words
 from ..core.progress import SILENT, Progress
 from ..crs.matching import described, is_same_map
 from ..crs.stated import HOW
@@ -16,7 +16,6 @@ from ..grids.cell_window import CellWindow
 from ..products.terrain_model import TerrainModel
 from ..rasters.geotiff import RasterGrid
 from ..rasters.given_grid import GivenGrid, read_grid
-from ..survey.area import box_in_words
 
 MOST_CELLS = 4_000_000_000
 # A corner of a given raster so near a multiple of the cell size, as a share of it, is one.

@@ -12,6 +12,7 @@ from ..core.points import Box, Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import parts_of
 from ..filters.shared.confidence import confidence
+from ..filters.shared.high_groups import HighGroups
 from ..grids.cell_window import CellWindow
 from ..grids.cells import are_inside, first_of_each
 from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
@@ -174,9 +175,15 @@ def _terrain(step: RasterStep, seen: Seen, progress: Progress) -> Made:
 
 
 def _surface(step: RasterStep, seen: Seen, progress: Progress) -> Made:
-    """Return the height of the highest point of each cell; in empty cells, of their TIN."""
+    """Return the height of the highest point of each cell; in empty cells, of their TIN.
+
+    Points that hang in the air, such as birds, are left out.
+    """
     window, corner, cell = seen.window, seen.corner, step.cell
-    points, core = seen.points.take(seen.top), seen.core[seen.top]
+    which = seen.top
+    if seen.top.any():
+        which = seen.top & ~HighGroups().find(seen.points)
+    points, core = seen.points.take(which), seen.core[which]
     heights = np.full(window.shape, np.nan)
     if not points.count or not min(window.shape):
         return heights.astype(np.float32), _placed(points, corner, core)

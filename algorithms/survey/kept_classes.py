@@ -12,8 +12,8 @@ from ..las.cloud import PointCloud
 from .tally import Tally
 
 NEVER_CLASSIFIED, UNCLASSIFIED, GROUND = 0, 1, 2
-LOW_NOISE = 7
-NOISE = (LOW_NOISE, 18)
+LOW_NOISE, HIGH_NOISE = 7, 18
+NOISE = (LOW_NOISE, HIGH_NOISE)
 # Classes that a classification decides anew by default. All others say more of a point than whether
 # it is ground: water, wires, bridge decks, the sea floor, or what a producer defined.
 DECIDED = (0, 1, 2, 3, 4, 5, 6, 8, 12)

@@ -17,6 +17,7 @@ from .kept_classes import (
     ALL_CLASSES,
     DECIDED,
     GROUND,
+    HIGH_NOISE,
     LOW_NOISE,
     NEVER_CLASSIFIED,
     NOISE,
@@ -113,8 +114,27 @@ class Selection(ParameterSet):
         maximum=1000.0,
         advanced=True,
         help="A point becomes low noise if it lies farther below the ground than this. On slopes,"
-        " the rise of the ground over 1 m is added. Used only if low outliers are put into class"
-        " 7.",
+        " the rise of the ground over 1 m is added. Points with ground all round them that lie"
+        " 0.4 m and more below it become low noise too. Used only if low outliers are put into"
+        " class 7.",
+    )
+    high_noise_class: bool = parameter(
+        False,
+        label="Put high outliers into class 18",
+        help="Points that took part and hang far above all others of their place, alone or in small"
+        " groups (birds, clouds, faults of the sensor) become high noise, class 18. Wires, masts"
+        " and trees do not. Surface and canopy models never use such points, whether this is on or"
+        " off.",
+    )
+    high_noise_height: float = parameter(
+        10.0,
+        label="Height of high outliers",
+        unit="m",
+        minimum=1.0,
+        maximum=1000.0,
+        advanced=True,
+        help="A point becomes high noise if it hangs at least this far above all others within"
+        " about 10 m. Used only if high outliers are put into class 18.",
     )
     bridges: str = parameter(
         "automatic",
@@ -278,6 +298,7 @@ class Selection(ParameterSet):
         inside: np.ndarray | None = None,
         decks: np.ndarray | None = None,
         by_hand: ByHand | None = None,
+        high: np.ndarray | None = None,
     ) -> np.ndarray:
         """Return the new class of every point.
 
@@ -295,6 +316,8 @@ class Selection(ParameterSet):
             Which of the others lie on decks of bridges.
         by_hand : ByHand, optional
             Classes set by hand.
+        high : numpy.ndarray of bool, shape (n,), optional
+            Which of the others are high outliers.
 
         Returns
         -------
@@ -311,6 +334,8 @@ class Selection(ParameterSet):
         np.copyto(classes, self.to_class, where=eligible & ground)
         if low is not None:
             np.copyto(classes, LOW_NOISE, where=eligible & low)
+        if high is not None:
+            np.copyto(classes, HIGH_NOISE, where=eligible & high)
         if decks is not None and self.bridge_class is not None:
             np.copyto(classes, self.bridge_class, where=eligible & decks)
         if by_hand is not None:

@@ -1,16 +1,21 @@
 """Groups of points far below the ground, and far above everything."""
 
+import laspy
 import numpy as np
 import pytest
 from realdata import real
 
+from bare_earth.algorithms import ClassifyRequest, TerrainRequest, classify, terrain
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.engine.one_file import classify_cloud
+from bare_earth.algorithms.engine.raster_files import RasterFiles
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.shared.high_groups import HighGroups
 from bare_earth.algorithms.filters.shared.low_groups import LowGroups
 from bare_earth.algorithms.las.reading import read_cloud
+from bare_earth.algorithms.rasters.geotiff import read_raster
 from bare_earth.algorithms.survey.selection import Selection
+from benchmarks.peers import write_las
 from benchmarks.scenes import make
 
 LOW_KINDS = ("low_groups_meadow", "low_groups_slope", "low_groups_town", "low_groups_road")
@@ -143,3 +148,50 @@ def test_sparse_points_of_a_wire_are_one_row():
 def test_a_point_far_from_all_others_is_not_judged():
     points = joined(even(), [(400.0, 400.0, 900.0)])
     assert not HighGroups().find(points).any()
+
+
+def test_high_groups_become_class_18_where_wanted_and_are_never_ground():
+    scene = make("birds", seed=13, size=80.0)
+    high = scene.classes == 18
+    for method in METHODS.values():
+        plain, _ = classify_cloud(scene.cloud(), method.parameters())
+        assert (plain[high] == 1).all()
+    found, _ = classify_cloud(scene.cloud(), method.parameters(), Selection(high_noise_class=True))
+    assert np.array_equal(found == 18, high)
+    assert np.array_equal(found == 2, plain == 2)
+    higher, _ = classify_cloud(
+        scene.cloud(), method.parameters(), Selection(high_noise_class=True, high_noise_height=300)
+    )
+    assert not (higher == 18).any()
+
+
+def test_surfaces_leave_out_what_is_high_noise_by_default():
+    assert Selection().high_noise_height == HighGroups().height
+
+
+def test_birds_that_someone_reported_are_not_in_the_surface(tmp_path):
+    cloud = real("field/birds.laz")
+    request = ClassifyRequest(
+        selection=Selection(high_noise_class=True),
+        rasters=RasterFiles(dsm=tmp_path / "dsm.tif", chm=tmp_path / "chm.tif"),
+    )
+    classify(cloud, tmp_path / "out.laz", request)
+    assert np.count_nonzero(read_cloud(tmp_path / "out.laz").classification == 18) == 12
+    assert np.nanmax(read_raster(tmp_path / "chm.tif").heights) < 25.0
+
+
+@pytest.mark.parametrize("classify_first", [True, False])
+def test_no_bird_is_in_a_surface_or_canopy_model(tmp_path, classify_first):
+    scene, path = make("birds", seed=14, size=80.0), tmp_path / "birds.las"
+    write_las(scene.cloud(), path)
+    rasters = RasterFiles(dsm=tmp_path / "dsm.tif", chm=tmp_path / "chm.tif")
+    if classify_first:
+        classify(path, tmp_path / "out.las", ClassifyRequest(rasters=rasters))
+    else:
+        with laspy.open(path) as reader:
+            content = reader.read()
+        content.classification = np.where(scene.classes == 18, 1, scene.classes)
+        content.write(path)
+        terrain(path, TerrainRequest(rasters=rasters))
+    chm = read_raster(tmp_path / "chm.tif").heights
+    assert np.nanmax(chm) < 24.0
