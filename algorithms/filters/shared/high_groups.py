@@ -12,6 +12,8 @@ from ...grids.morphology import within_square
 
 # Least side of a cell as a multiple of the usual distance between points.
 _SPACINGS = 5.0
+# Metres by which groups of a row may differ in height, however near.
+_ROW_RISE = 2.0
 # Largest number of groups above one another in one place.
 _MOST_ROUNDS = 8
 
@@ -35,8 +37,10 @@ class HighGroups:
     reach : float
         The place reaches at least so many metres from the group.
     row, row_climb : float
-        Groups belong to one row, such as a wire, if they are at most so many metres apart, and if
-        one is higher by at most `row_climb` times their distance.
+        Groups may belong to one row, such as a wire, if they are at most so many metres apart, and
+        one is higher by at most 2 m and `row_climb` times their distance.
+    row_share : float
+        Largest width of a row as a share of its length, both as standard deviations.
     most : int
         A row of more groups is an object.
     """
@@ -46,7 +50,8 @@ class HighGroups:
     width: float = 5.0
     reach: float = 10.0
     row: float = 25.0
-    row_climb: float = 0.3
+    row_climb: float = 0.2
+    row_share: float = 0.35
     most: int = 3
 
     def find(self, points: Points) -> np.ndarray:
@@ -105,19 +110,19 @@ class HighGroups:
         if not points.count:
             return np.zeros(0, dtype=bool)
 
-        def linked(places: np.ndarray, distance: float, climb: float) -> np.ndarray:
+        def linked(places: np.ndarray, distance: float, rise: float, climb: float) -> np.ndarray:
             first, second = (
                 cKDTree(places[:, :2]).query_pairs(distance, output_type="ndarray").reshape(-1, 2).T
             )
             steps = places[first] - places[second]
             along = np.hypot(steps[:, 0], steps[:, 1])
-            near = np.abs(steps[:, 2]) <= self.width + climb * along
+            near = np.abs(steps[:, 2]) <= rise + climb * along
             shape = (len(places),) * 2
             links = coo_matrix((np.ones(near.sum()), (first[near], second[near])), shape=shape)
             return connected_components(links, directed=False)[1]
 
         places = np.column_stack(points)
-        group = linked(places, self.width, 0.0)
+        group = linked(places, self.width, self.width, 0.0)
         sizes = np.bincount(group)
         low, high = np.full((2, len(sizes), 2), np.inf)
         for axis in (0, 1):
@@ -125,6 +130,9 @@ class HighGroups:
             lower_at(high[:, axis], group, -places[:, axis])
         small = (sizes <= self.points) & ((-high - low).max(axis=1) <= self.width)
         middles = np.column_stack([np.bincount(group, axis) / sizes for axis in places.T])
-        row = linked(middles, self.row, self.row_climb)
-        small &= np.bincount(row)[row] <= self.most
+        row = linked(middles, self.row, _ROW_RISE, self.row_climb)
+        for number in np.flatnonzero(np.bincount(row) > self.most):
+            of_row = row == number
+            across, along = np.linalg.eigvalsh(np.cov(middles[of_row, :2].T))
+            small[of_row] &= across > self.row_share**2 * along
         return small[group]
