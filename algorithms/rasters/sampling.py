@@ -95,10 +95,15 @@ class HeightSampler:
     ----------
     raster : HeightRaster
         The raster.
+
+    Attributes
+    ----------
+    unit : float or None
+        As in `HeightRaster`.
     """
 
     def __init__(self, raster: HeightRaster) -> None:
-        self._raster = raster
+        self._raster, self.unit = raster, raster.unit
         self._kept: OrderedDict[tuple[int, int], _Square] = OrderedDict()
         _, a, b, _, c, d = raster.geotransform
         if not a * d - b * c:
