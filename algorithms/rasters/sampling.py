@@ -15,7 +15,7 @@ from ..crs.system import Crs, crs_of_wkt
 from .geotiff import read_raster
 
 # Cells along a side of the squares that are read, and how many of these stay in memory.
-_SIDE, _MOST_KEPT = 512, 64
+_SIDE, _MOST_KEPT = 512, 16
 
 
 @dataclass(frozen=True)
@@ -153,7 +153,7 @@ class HeightSampler:
         right = min((column + 1) * side + 1, columns)
         window = left, top, right - left, bottom - top
         heights = read_raster(self._raster.path, window=window).heights
-        square = self._kept[row, column] = _Square(top, left, heights.astype(np.float64))
+        square = self._kept[row, column] = _Square(top, left, heights)
         if len(self._kept) > _MOST_KEPT:
             self._kept.popitem(last=False)
         return square
