@@ -172,8 +172,8 @@ class BlockPoints(NamedTuple):
     def empty(cls, count: int, kind: type) -> BlockPoints:
         """Return uninitialised arrays for `count` points; `kind` is the type of the positions."""
         known, wanted, roads = (np.zeros(count, dtype=bool) for _ in range(3))
-        points, positions = Points(*np.empty((3, count))), np.empty(count, dtype=kind)
-        return cls(points, known, wanted, positions, roads)
+        points = Points(*np.empty((3, count)))
+        return cls(points, known, wanted, np.empty(count, dtype=kind), roads)
 
     def put(self, start: int, some: BlockPoints) -> None:
         """Overwrite points from index `start` on with other points."""

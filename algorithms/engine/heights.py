@@ -172,30 +172,19 @@ class HeightsOfPoints(PointResult):
         """Convert heights from metres to the vertical unit, without noise from rounding."""
         unit = part.crs.vertical_unit
         if self._sampler is not None:
-            values = self._above_raster(part)
+            values = _above_raster(part, self._sampler)
         # So that ground points have 0, not -0.
         heights = np.round(values / unit, 6) + 0.0
         self.heights[where] = heights
         ground = self._step.ground.points_of(part, self._step.ground.ground_classes)
         if self._kept is not None:
-            # Points of known ground can have other classes.
-            ground &= part.classification == self._step.ground.ground_classes[0]
-            self._kept[where] = ground
+            # Known ground can have other classes than the first.
+            self._kept[where] = part.classification == self._step.ground.ground_classes[0]
         self._ground_count += int(np.count_nonzero(ground))
         self._unit = unit
         self._unknown_count += int(np.count_nonzero(np.isnan(heights)))
         self._lowest = min(self._lowest, float(np.fmin.reduce(heights, initial=np.inf)))
         self._highest = max(self._highest, float(np.fmax.reduce(heights, initial=-np.inf)))
-
-    def _above_raster(self, part: PointCloud) -> np.ndarray:
-        """Return heights of points above the raster in metres."""
-        x, y, z = (
-            np.asarray(column, dtype=np.float64) * scale + offset
-            for column, scale, offset in zip((part.x, part.y, part.z), part.scale, part.offset)
-        )
-        below = self._sampler.heights(x, y)
-        unit = part.crs.vertical_unit
-        return z * unit - below * (self._step.dtm.unit or unit)
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
         """Return the heights as z or as a dimension.
@@ -206,35 +195,47 @@ class HeightsOfPoints(PointResult):
             If they do not fit into z, or no point lies on the raster.
         """
         if self._step.dtm is not None and self._unknown_count:
-            raster, count = self._step.dtm.path, len(self.heights)
-            if self._unknown_count == count:
-                raise BareEarthError(
-                    f"{raster} has no value at any point of {cloud.path}. Give a raster that covers"
-                    " the points."
-                )
-            if self._as_z:
-                raise BareEarthError(
-                    f"{raster} has no value at {self._unknown_count:,} of the {count:,} points of"
-                    f" {cloud.path}, so that these have no height. Write the heights as an extra"
-                    " dimension."
-                )
-            progress.warning(
-                f"{self._unknown_count:,} of {count:,} points have no height (NaN): the raster has"
-                " no value there."
-            )
+            self._tell_of_unknown(cloud.path, self._step.dtm, progress)
         if self._as_z:
             z, offset = _z_of(cloud, self.heights)
             return Edits(z=z, z_offset=offset, kept=self._kept)
         return Edits(extra=height_dimension(cloud, self.heights), kept=self._kept)
+
+    def _tell_of_unknown(self, path: Path, raster: HeightRaster, progress: Progress) -> None:
+        """Tell of points at which a raster has no value, or refuse the file."""
+        count, unknown = len(self.heights), self._unknown_count
+        if unknown == count:
+            raise BareEarthError(
+                f"{raster.path} has no value at any point of {path}. Give a raster that covers the"
+                " points."
+            )
+        if self._as_z:
+            raise BareEarthError(
+                f"{raster.path} has no value at {unknown:,} of the {count:,} points of {path}, so"
+                " that these have no height. Write the heights as an extra dimension."
+            )
+        progress.warning(
+            f"{unknown:,} of {count:,} points have no height (NaN): the raster has no value there."
+        )
 
     def summary(self, name: str) -> HeightSummary:
         """Return the lowest and the highest height."""
         extremes = self._lowest, self._highest
         if self._lowest > self._highest:
             extremes = np.nan, np.nan
-        written = len(self.heights) if self._kept is None else self._ground_count
+        written = len(self.heights) if self._kept is None else int(np.count_nonzero(self._kept))
         unit = unit_name(self._unit), self._unit
         return HeightSummary(name, written, self._ground_count, *extremes, *unit)
+
+
+def _above_raster(part: PointCloud, raster: HeightSampler) -> np.ndarray:
+    """Return heights of points above a raster in metres; NaN where it has no value."""
+    x, y, z = (
+        np.asarray(column, dtype=np.float64) * scale + offset
+        for column, scale, offset in zip((part.x, part.y, part.z), part.scale, part.offset)
+    )
+    unit = part.crs.vertical_unit
+    return z * unit - raster.heights(x, y) * (raster.unit or unit)
 
 
 def _z_of(cloud: PointCloud, heights: np.ndarray) -> tuple[np.ndarray, float]:

@@ -8,7 +8,6 @@ from html import escape
 import numpy as np
 
 from ..core.errors import printable
-from ..las.class_names import CLASSES as CLASSES
 from .pictures import Picture, png
 
 _STYLE = """

@@ -6,8 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..las.class_names import CLASSES
 from ..survey.kept_classes import NOISE
-from .page import CLASSES, data_uri, key, round_length
+from .page import data_uri, key, round_length
 from .pictures import rgb
 from .window_trial import Line, Outcome, Window
 

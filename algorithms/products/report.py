@@ -7,8 +7,9 @@ from pathlib import Path
 from ..core.files import replacing
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
+from ..las.class_names import CLASSES
 from .comparison import Assessment, AssessmentOptions, Comparison
-from .page import CLASSES, key, map_figure, page_html, percent, text
+from .page import key, map_figure, page_html, percent, text
 from .pictures import LONGEST_SIDE, Picture, Relief
 
 # These colours differ for colour-blind people and in print.

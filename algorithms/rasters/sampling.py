@@ -15,7 +15,7 @@ from ..crs.system import Crs, crs_of_wkt
 from .geotiff import read_raster
 
 # Cells along a side of the squares that are read, and how many of these stay in memory.
-_SIDE, _MOST_KEPT = 512, 64
+_SIDE, _MOST_KEPT = 512, 16
 
 
 @dataclass(frozen=True)
@@ -95,10 +95,15 @@ class HeightSampler:
     ----------
     raster : HeightRaster
         The raster.
+
+    Attributes
+    ----------
+    unit : float or None
+        As in `HeightRaster`.
     """
 
     def __init__(self, raster: HeightRaster) -> None:
-        self._raster = raster
+        self._raster, self.unit = raster, raster.unit
         self._kept: OrderedDict[tuple[int, int], _Square] = OrderedDict()
         _, a, b, _, c, d = raster.geotransform
         if not a * d - b * c:
@@ -148,7 +153,7 @@ class HeightSampler:
         right = min((column + 1) * side + 1, columns)
         window = left, top, right - left, bottom - top
         heights = read_raster(self._raster.path, window=window).heights
-        square = self._kept[row, column] = _Square(top, left, heights.astype(np.float64))
+        square = self._kept[row, column] = _Square(top, left, heights)
         if len(self._kept) > _MOST_KEPT:
             self._kept.popitem(last=False)
         return square

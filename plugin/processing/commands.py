@@ -10,7 +10,8 @@ from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.options import TileMethod
 from ...algorithms.products.surface_model import SurfaceModel
 from ...algorithms.products.terrain_model import MapTerrain, TerrainModel
-from ...algorithms.survey.selection import GROUND, Selection
+from ...algorithms.survey.kept_classes import GROUND
+from ...algorithms.survey.selection import Selection
 from .base import command_line
 from .raster_target import NOTHING_GIVEN
 

@@ -69,7 +69,7 @@ def test_a_file_that_the_box_does_not_touch_is_not_read(tmp_path, read):
 
 
 def test_a_file_that_is_too_large_is_read_as_without_a_cache(source, read):
-    cache = CloudCache(18 * COUNT - 1)
+    cache = CloudCache(19 * COUNT - 1)
     assert cache.whole(open_las(source), SILENT) is None
     assert_same(cache.window(source, BOX, SILENT), read_window(source, BOX))
     assert not read
@@ -77,7 +77,7 @@ def test_a_file_that_is_too_large_is_read_as_without_a_cache(source, read):
 
 def test_the_file_that_was_used_longest_ago_makes_room(las, read):
     one, two, three = (las.make(f"{n}.laz", count=COUNT) for n in (1, 2, 3))
-    cache = CloudCache(2 * 18 * COUNT)
+    cache = CloudCache(2 * 19 * COUNT)
     for each in (one, two, one, three, one, two):
         cache.window(each, BOX, SILENT)
     assert read == ["1.laz", "2.laz", "3.laz", "2.laz"]

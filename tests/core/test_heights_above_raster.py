@@ -17,7 +17,7 @@ from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.requests import HeightRequest
 from bare_earth.algorithms.engine.runs import heights
 from bare_earth.algorithms.rasters import sampling
-from bare_earth.algorithms.rasters.geotiff import NODATA, RasterGrid
+from bare_earth.algorithms.rasters.geotiff import NODATA, RasterGrid, read_raster
 from bare_earth.algorithms.rasters.sampling import HeightRaster, HeightSampler
 from bare_earth.algorithms.rasters.writing import write_geotiff
 
@@ -160,9 +160,25 @@ def test_a_raster_without_crs_is_taken_as_that_of_the_points(tmp_path):
     np.testing.assert_allclose(found(tmp_path / "out.las"), true_heights(source), atol=0.001)
 
 
-def test_the_unit_of_heights_is_that_of_the_points_unless_it_is_stated(tmp_path):
-    raster = HeightRaster.of(dtm(tmp_path / "dtm.tif"))
-    assert raster.unit is None and raster.shape == (SIDE, SIDE)
+def test_heights_of_a_raster_in_its_stated_unit(tmp_path):
+    source, metres = points(tmp_path / "in.las"), dtm(tmp_path / "metres.tif")
+    assert HeightRaster.of(metres).unit is None
+    raster, feet = read_raster(metres), tmp_path / "feet.tif"
+    grid = raster._replace(unit="ft")
+    write_geotiff(feet, raster.heights / np.float32(0.3048), grid, NODATA, SILENT, "heights")
+    known = HeightRaster.of(feet)
+    assert known.unit == 0.3048 and known.shape == (SIDE, SIDE)
+    heights(source, tmp_path / "out.las", HeightRequest(dtm=known))
+    np.testing.assert_allclose(found(tmp_path / "out.las"), true_heights(source), atol=0.001)
+
+
+def test_points_in_feet_above_a_raster_in_feet(tmp_path):
+    # EPSG:2260 is in US survey feet; neither states the unit of heights.
+    source, target = points(tmp_path / "in.las", epsg=2260), tmp_path / "out.las"
+    raster = HeightRaster.of(dtm(tmp_path / "dtm.tif", epsg=2260))
+    summary = heights(source, target, HeightRequest(dtm=raster))
+    np.testing.assert_allclose(found(target), true_heights(source), atol=0.001)
+    assert summary.unit == "US survey foot"
 
 
 def test_a_missing_raster_is_told(tmp_path):

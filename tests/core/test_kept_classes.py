@@ -6,6 +6,7 @@ import pytest
 from realdata import real
 from runs import said
 
+from bare_earth.algorithms.engine import file_points
 from bare_earth.algorithms.engine.output import Output
 from bare_earth.algorithms.engine.raster_files import RasterFiles
 from bare_earth.algorithms.engine.requests import ClassifyRequest, TerrainRequest
@@ -16,13 +17,15 @@ from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
 
 SIDE, ROAD, BRIDGE = 120, 11, 5.0
+# The border of two blocks, at 500,000 m, runs through the scenes.
+EAST, NORTH = 499_940.0, 5_700_000.0
 
 
 def write(path, x, y, z, classes, overlap=0):
     header = laspy.LasHeader(point_format=6, version="1.4")
-    header.scales, header.offsets = (0.001,) * 3, (500_000.0, 5_700_000.0, 0.0)
+    header.scales, header.offsets = (0.001,) * 3, (EAST, NORTH, 0.0)
     las = laspy.LasData(header)
-    las.x, las.y, las.z = x + 500_000.0, y + 5_700_000.0, z
+    las.x, las.y, las.z = x + EAST, y + NORTH, z
     las.classification[:] = classes
     las.overlap[:] = overlap
     las.return_number[:] = las.number_of_returns[:] = 1
@@ -87,10 +90,20 @@ def test_many_files_give_the_roads_of_one(town, tmp_path, threads_for_processes)
     for name in ("west", "east"):
         part = laspy.read(tmp_path / "many" / "out" / f"{name}.las")
         same = (
-            np.asarray(whole.x) < 500_060.0 if name == "west" else np.asarray(whole.x) >= 500_060.0
+            np.asarray(whole.x) < 500_000.0 if name == "west" else np.asarray(whole.x) >= 500_000.0
         )
         for each in ("classification", "HeightAboveGround"):
             np.testing.assert_array_equal(np.asarray(whole[each])[same], np.asarray(part[each]))
+
+
+def test_roads_that_wait_on_disk_are_the_same(town, tmp_path, monkeypatch):
+    for name in ("memory", "disk"):
+        (tmp_path / name).mkdir()
+        classify(town / "one.las", tmp_path / name / "out.las", request(tmp_path / name))
+        monkeypatch.setattr(file_points, "fits_in_memory", lambda *_: False)
+    for name in ("out.las", "dtm.tif", "confidence.tif"):
+        one, other = ((tmp_path / each / name).read_bytes() for each in ("memory", "disk"))
+        assert one == other, name
 
 
 def test_known_ground_that_keeps_its_class_is_ground_for_the_rasters(town, tmp_path):

@@ -163,6 +163,22 @@ def test_the_log_tells_the_same_command_line(algorithm, scene, out, context, log
         assert file.read() == before
 
 
+@pytest.mark.parametrize("chosen", [None, "", "all", "1, 9"])
+def test_classes_with_a_meaning_stay_unless_they_are_given(
+    registry, scene, out, context, log, chosen
+):
+    algorithm = registry.createAlgorithmById(ALGORITHM)
+    las = laspy.read(scene.path)
+    water = np.asarray(las.x) > np.median(las.x)
+    las.classification[:] = np.where(water, 9, 1)
+    las.write(str(scene.path))
+    results, done = algorithm.run({**everything(scene, out), "FROM_CLASSES": chosen}, context, log)
+    assert done
+    stays = (np.asarray(laspy.read(results["OUTPUT"]).classification)[water] == 9).all()
+    assert stays == (not chosen)
+    assert ("of class 9 (water) keep their class" in log.text) == (not chosen)
+
+
 def test_parameters_reach_the_classifier(algorithm, scene, out, context, log):
     parameters = {**everything(scene, out), "MAX_BUILDING_SIZE": 2, "TO_CLASS": 9}
     results, done = algorithm.run(parameters, context, log)

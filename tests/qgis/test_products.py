@@ -65,6 +65,27 @@ def test_heights(labelled, out, output_as):
     assert results["MAXIMUM"] == pytest.approx(expected.max(), abs=0.002)
 
 
+def test_heights_above_a_raster_need_no_classes(labelled, out):
+    import processing
+
+    dtm = str(out / "dtm.tif")
+    processing.run(TERRAIN, {"INPUT": str(labelled.path), "DTM": dtm})
+    las = laspy.read(labelled.path)
+    las.classification[:] = 0
+    las.write(str(labelled.path))
+    log = Log()
+    parameters = {**parameters_for(HEIGHT, labelled, out), "DTM": dtm}
+    results = processing.run(HEIGHT, parameters, feedback=log)
+    expected = np.asarray(las.z) - plane(np.asarray(las.x), np.asarray(las.y))
+    found = np.asarray(laspy.read(results["OUTPUT"])["HeightAboveGround"])
+    # The raster is rounded and ends at the outermost cells.
+    assert np.nanmax(np.abs(found - expected)) < 0.1 and np.isnan(found).mean() < 0.01
+    assert results["GROUND_COUNT"] == 0
+    assert f"--dtm {dtm}" in log.text
+    with pytest.raises(QgsProcessingException):
+        processing.run(HEIGHT, parameters_for(HEIGHT, labelled, out))
+
+
 @pytest.mark.parametrize("mark", ["class", "flag"])
 def test_key_points(labelled, out, mark):
     import processing
