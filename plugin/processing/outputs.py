@@ -83,8 +83,8 @@ def add_contours(algorithm: QgsProcessingAlgorithm) -> None:
     )
     algorithm.addParameter(
         field,
-        "Lines of equal height of the terrain model, with the field ELEV. They are smoothed, so that"
-        " they do not show noise. Every fifth line has its height as a label.",
+        "Lines of equal height of the terrain model, with the field ELEV. They are smoothed, so"
+        " that they do not show noise. Every fifth line has its height as a label.",
     )
 
 
