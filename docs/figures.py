@@ -30,10 +30,19 @@ from drawing import FEW_COLOURS, IMAGES, OTHER, draw_errors, save, shade, shrink
 from method_figures import grid_minimum_steps, slope_filter_steps, tin_densification_steps
 from noise_figure import noise
 
-from bare_earth.algorithms import ClassifyRequest, RasterFiles, TerrainRequest, classify, terrain
+from bare_earth.algorithms import (
+    ClassifyRequest,
+    RasterFiles,
+    TerrainModel,
+    TerrainRequest,
+    classify,
+    terrain,
+)
 from bare_earth.algorithms.filters.tin_densification.filter import PRESETS
 from bare_earth.algorithms.grids.cells import Cells
 from bare_earth.algorithms.grids.inpaint import inpaint
+from bare_earth.algorithms.grids.relief_smoothing import without_noise
+from benchmarks.data import real
 from benchmarks.generated import TrueModel, score_scene
 from benchmarks.measure import Filter
 from benchmarks.scenes import make
@@ -79,6 +88,7 @@ def main() -> None:
         "grid-minimum-steps": grid_minimum_steps,
         "by-hand": by_hand,
         "noise": noise,
+        "relief-smoothing": relief_smoothing,
         "presets": print_presets,
         **{f"which-method-{name}": partial(small_multiples, name) for name in TERRAIN},
     }
@@ -172,6 +182,29 @@ def maps(grids: dict[str, np.ndarray]) -> None:
     figure.colorbar(image, ax=axes[1], shrink=0.7, pad=0.01, label="m")
     axes[1].set_title("Canopy height (buildings too) over the hillshade")
     save(figure, "tutorial-maps")
+
+
+def relief_smoothing() -> None:
+    """Draw hillshades of a forest and of fields, as the points are and smoothed; of real tiles."""
+    figure, axes = pyplot.subplots(2, 2, figsize=(8.2, 8.4), layout="constrained")
+    places = {"hawaii_forest": (300, 300), "nrw_rural": (700, 900)}
+    for row, (name, (top, left)) in zip(axes, places.items()):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "dtm.tif"
+            terrain(
+                real(f"{name}.laz"),
+                TerrainRequest(
+                    rasters=RasterFiles(dtm=path), terrain=TerrainModel(dtm_cell_size=0.5)
+                ),
+            )
+            with rasterio.open(path) as raster:
+                heights = raster.read(1, masked=True).astype(float).filled(np.nan)
+        window = np.s_[top : top + 360, left : left + 360]
+        shade(row[0], heights[window], 0.5)
+        shade(row[1], without_noise(heights, 0.5)[window], 0.5)
+        row[0].set_title(f"{name}, cells of 0.5 m: not smoothed")
+        row[1].set_title("automatic")
+    save(figure, "relief-smoothing", 75, FEW_COLOURS)
 
 
 # Small multiples: kinds of terrain, and what each method makes of them.

@@ -103,6 +103,22 @@ def point_cloud_output_path(
     return algorithm.parameterAsFileOutput(parameters, name, context)
 
 
+def place_on_line(settings: core.QgsPalLayerSettings) -> None:
+    """Place labels on their lines."""
+    if hasattr(Qgis, "LabelPlacement"):  # since QGIS 3.26
+        settings.placement = Qgis.LabelPlacement.Line
+    else:
+        settings.placement = core.QgsPalLayerSettings.Placement.Line
+    if hasattr(Qgis, "LabelLinePlacementFlag"):  # since QGIS 3.32
+        flag = Qgis.LabelLinePlacementFlag.OnLine
+        flags = Qgis.LabelLinePlacementFlags(flag)
+    else:
+        flags = core.QgsLabeling.LinePlacementFlags(core.QgsLabeling.LinePlacementFlag.OnLine)
+    lines = settings.lineSettings()
+    lines.setPlacementFlags(flags)
+    settings.setLineSettings(lines)
+
+
 def mark_as_elevation(layer: QgsRasterLayer) -> None:
     """Tell 3D views and elevation profiles that the raster is a surface."""
     properties = layer.elevationProperties()

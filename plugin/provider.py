@@ -8,6 +8,7 @@ from qgis.core import QgsProcessingProvider
 from qgis.PyQt.QtGui import QIcon
 
 from .. import __version__
+from ..algorithms.products.line_files import FORMATS
 from .processing import ALGORITHMS
 from .processing.models import shipped_models
 from .processing.outputs import point_cloud_formats
@@ -58,6 +59,14 @@ class BareEarthProvider(QgsProcessingProvider):
     def defaultRasterFileExtension(self) -> str:
         """Return the format of rasters without a name, whatever the user's settings are."""
         return "tif"
+
+    def supportedOutputVectorLayerExtensions(self) -> list[str]:
+        """Return the formats of lines that the algorithms write."""
+        return [each[1:] for each in FORMATS]
+
+    def defaultVectorFileExtension(self, hasGeometry: bool = True) -> str:
+        """Return the format of lines without a name, whatever the user's settings are."""
+        return self.supportedOutputVectorLayerExtensions()[0]
 
     def supportedOutputPointCloudLayerExtensions(self) -> list[str]:
         """Return the point cloud formats that can be written."""

@@ -96,7 +96,8 @@ def _add_options(parser: Any, declared: type[ParameterSet]) -> None:
         elif each.kind in ("numbers", "integers"):
             parser.add_argument(flag, nargs="*", metavar=each.unit or "N", **words)
         else:
-            parser.add_argument(flag, metavar=each.unit or "N", **words)
+            unit = each.unit.replace(" ", "_")
+            parser.add_argument(flag, metavar=unit or "N", **words)
 
 
 def _help_of(each: Declaration) -> str:

@@ -81,10 +81,10 @@ def contours_after(
         return
     check_contours(options.contours, tuple(options.input))
     with temporary_folder(options.contours.parent) as folder:
-        rasters = dataclasses.replace(rasters, dtm=rasters.dtm or folder / "dtm.tif")
-        yield rasters, rest
+        dtm = rasters.dtm or folder / "dtm.tif"
+        yield dataclasses.replace(rasters, dtm=dtm), rest
         per_file = RasterOutput.among(sets).raster_per_file
-        source = virtual_of(rasters.dtm) if not rasters.dtm.exists() and per_file else rasters.dtm
+        source = virtual_of(dtm) if per_file and virtual_of(dtm).exists() else dtm
         with Terminal(options.verbose) as progress:
             write_contours(source, options.contours, how, progress)
 

@@ -96,7 +96,9 @@ class Isolines:
                 del self._by_first[piece.first], self._by_last[piece.last]
                 done.append(piece)
         for piece in done:
-            yield Isoline(piece.first % _LEVELS - _LEVELS // 2, _distinct(piece.parts))
+            places = _distinct(piece.parts)
+            if len(places) > 1:  # not a single cell at the height of a line
+                yield Isoline(piece.first % _LEVELS - _LEVELS // 2, places)
 
     def _joined(self, piece: _Piece) -> _Piece:
         """Return a piece with the pieces that end where it begins, and begin where it ends."""
@@ -114,9 +116,7 @@ class Isolines:
 def _distinct(parts: list[np.ndarray]) -> np.ndarray:
     """Return the places of all parts without repetitions."""
     places = np.concatenate(parts)
-    moves = (places[1:] != places[:-1]).any(axis=1)
-    moves[-1] |= not moves.any()  # a line has two ends, even if they are the same place
-    return places[np.append(True, moves)]
+    return places[np.append(True, (places[1:] != places[:-1]).any(axis=1))]
 
 
 def _segments(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Iterator, NamedTuple
+from typing import Iterator
 
 import numpy as np
 
@@ -41,7 +41,8 @@ class Contours(ParameterSet):
     contour_interval: float | None = parameter(
         None,
         kind="number",
-        label="Contour interval, in the unit of heights (m or ft)",
+        label="Contour interval",
+        unit="m or ft",
         minimum=0.001,
         maximum=10_000.0,
         advanced=True,
@@ -88,7 +89,8 @@ class Contours(ParameterSet):
         return float(f"{step * power:.6g}")
 
 
-class Interval(NamedTuple):
+@dataclass(frozen=True)
+class Interval:
     """The height between contour lines.
 
     Attributes

@@ -57,6 +57,8 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         Name of the group of layers, after the name of the input; the title if empty.
     shown : tuple of str or None
         The declared parameters that are not advanced. None: as they are declared.
+    unused : tuple of str
+        The declared parameters without a field, since no output depends on them.
     subject : str
         Name of the input; set by `find_inputs`.
     stated : str or None
@@ -69,6 +71,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
     cancelled = NOTHING_STAYS
     shown: tuple[str, ...] | None = None
     stated: str | None = None
+    unused: tuple[str, ...] = ()
 
     def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
         """Return the declared parameters, in the order of the dialog."""
@@ -111,7 +114,8 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         """Add the fields of the declared parameters to the dialog."""
         for declared in self.parameter_sets():
             for each in declared.declarations():
-                super().addParameter(field_of(each, self._is_shown(each)))
+                if each.name not in self.unused:
+                    super().addParameter(field_of(each, self._is_shown(each)))
 
     def addParameter(self, field: QgsProcessingParameterDefinition, help: str = "") -> bool:
         """Add a field to the dialog, with label and help in the user's language."""

@@ -45,6 +45,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
 
     method = ""
     section = "Ground classification"
+    unused = ("relief_radius",)
 
     @property
     def shown(self) -> tuple[str, ...]:

@@ -25,7 +25,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
 
     identifier, page, section = "classifytiles", "classify-tiles", "Ground classification"
     title, run_name = "Classify ground (many files)", mark("classified files")
-    cancelled, shown = TILES_STAY, ("method", "preset")
+    cancelled, shown, unused = TILES_STAY, ("method", "preset"), ("relief_radius",)
     summary = "Finds the ground points of the many files of a survey, without seams between them."
     about = (
         "Classifies the ground points of many files as if they were one file, and writes each file"

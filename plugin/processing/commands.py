@@ -8,15 +8,13 @@ from typing import Any, Iterator, Mapping, Sequence
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.options import TileMethod
+from ...algorithms.products.contours import Contours
 from ...algorithms.products.surface_model import SurfaceModel
 from ...algorithms.products.terrain_model import MapTerrain, TerrainModel
 from ...algorithms.survey.kept_classes import GROUND
 from ...algorithms.survey.selection import Selection
 from .base import command_line
 from .raster_target import NOTHING_GIVEN
-
-# Maps that no command makes.
-_OF_QGIS = ("RELIEF", "CONTOURS")
 
 
 def terrain_commands(
@@ -27,7 +25,7 @@ def terrain_commands(
     area: Sequence[str] = (),
     given: Mapping[str, Any] = NOTHING_GIVEN,
 ) -> Iterator[str]:
-    """Yield the commands for a classified cloud and its rasters, except maps made only in QGIS.
+    """Yield the commands for a classified cloud, and for its rasters and contour lines.
 
     Parameters
     ----------
@@ -36,7 +34,7 @@ def terrain_commands(
     cloud : str
         The classified file, or the virtual point cloud of many files; empty if none is kept.
     rasters : mapping of str to str
-        The raster files, by the names of their fields.
+        The rasters and contour lines, by the names of their fields.
     chosen : sequence of ParameterSet
         The parameters of all commands.
     area : sequence of str
@@ -52,12 +50,11 @@ def terrain_commands(
     yield command_line(
         "classify", [*map(str, sources), target, *area], finding, {"crs": given["crs"]}
     )
-    models = {name: path for name, path in rasters.items() if name not in _OF_QGIS}
-    if models:
+    if rasters:
         ground = of_type[Selection].to_class
         classes = {"ground-classes": "" if ground == GROUND else str(ground)}
-        options = {**classes, **given, **models}
+        options = {**classes, **given, **rasters}
         # The command has other defaults.
         model = TerrainModel(**vars(of_type[MapTerrain]))
-        drawing = [model, *(of_type[each] for each in (SurfaceModel, Resources))]
+        drawing = [model, *(of_type[each] for each in (SurfaceModel, Contours, Resources))]
         yield command_line("terrain", [made], drawing, options)

@@ -27,13 +27,7 @@ NOTHING_STAYS = mark("Cancelled; nothing was written.")
 TILES_STAY = mark("Cancelled. The finished tiles stay, and a later run can continue with them.")
 _MODELS = {name.upper(): each for name, each in MODELS.items()}
 # Label and help of each raster, by the name of its field.
-RASTERS = {
-    **{name: (each.label, each.help) for name, each in _MODELS.items()},
-    "RELIEF": (
-        "Local relief",
-        "The terrain model minus a smoothed one. Mounds, ditches and old paths stand out.",
-    ),
-}
+RASTERS = {name: (each.label, each.help) for name, each in _MODELS.items()}
 
 
 def after_cancel(sources: Sequence[Path]) -> str:
@@ -88,7 +82,9 @@ def add_contours(algorithm: QgsProcessingAlgorithm) -> None:
         "CONTOURS", "Contour lines", optional=True, createByDefault=False
     )
     algorithm.addParameter(
-        field, "Lines of equal height of the terrain model, with the field ELEV."
+        field,
+        "Lines of equal height of the terrain model, with the field ELEV. They are smoothed, so"
+        " that they do not show noise. Every fifth line has its height as a label.",
     )
 
 

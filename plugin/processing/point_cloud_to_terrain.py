@@ -42,7 +42,7 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         self.add_declared()
         add_limits(self, ("EXTENT", "BOUNDARY"), is_all=True)
         outputs.add_cloud(self, optional=True)
-        outputs.add_rasters(self, outputs.RASTERS, ("DTM", "HILLSHADE", "DSM", "CHM"))
+        outputs.add_rasters(self, default=("DTM", "HILLSHADE", "DSM", "CHM"))
         outputs.add_contours(self)
         self.add_numbers({"POINT_COUNT": "Points", "GROUND_COUNT": "Ground points"})
 

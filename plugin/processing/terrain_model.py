@@ -30,7 +30,7 @@ class TerrainModelAlgorithm(ProductAlgorithm):
         " All lie on the same grid. Heights are in the vertical unit of the CRS."
     )
     page, run_name = "terrain-model", mark("terrain and surface")
-    shown = "dtm_cell_size", "max_edge"
+    shown, unused = ("dtm_cell_size", "max_edge"), ("relief_radius",)
     numbers = (("GROUND_COUNT", "Ground points"), ("SURFACE_COUNT", "Points of the surface"))
 
     def parameter_sets(self):
@@ -41,7 +41,7 @@ class TerrainModelAlgorithm(ProductAlgorithm):
         """Add the fields of constraints and rasters; all of them are optional."""
         add_constraints(self)
         add_raster_target(self)
-        add_rasters(self)
+        add_rasters(self, ("DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE"))
 
     def compute(self, parameters, context, progress):
         """Make the wanted rasters."""

@@ -4,21 +4,35 @@ from __future__ import annotations
 
 from typing import Callable
 
-from qgis.core import QgsLineSymbol, QgsRuleBasedRenderer, QgsVectorLayer
+from qgis.core import (
+    QgsLineSymbol,
+    QgsPalLayerSettings,
+    QgsRuleBasedLabeling,
+    QgsRuleBasedRenderer,
+    QgsTextBufferSettings,
+    QgsTextFormat,
+    QgsVectorLayer,
+)
+from qgis.PyQt.QtGui import QColor
 
 from ...algorithms.products.contours import INDEX, Interval
+from .. import compat
 from ..i18n import tr
 
 _THIN = {"line_color": "110,72,36,160", "line_width": "0.2"}
 _THICK = {"line_color": "110,72,36,220", "line_width": "0.35"}
+# Of the labels: colours of text and halo, and sizes in points and millimetres.
+_TEXT, _HALO = (96, 60, 28), (255, 255, 255, 200)
+_SIZE, _HALO_SIZE = 7.0, 0.7
 
 
 def contours(interval: Interval) -> Callable[[QgsVectorLayer], None]:
-    """Return a function that draws contour lines in brown, every fifth line thicker."""
+    """Return a function that draws contour lines in brown, every fifth line thicker with label."""
 
     def dress(layer: QgsVectorLayer) -> None:
         root = QgsRuleBasedRenderer.Rule(None)
-        rule = f'round("ELEV" / {interval.height!r}) % {INDEX} = 0'
+        is_index = f'round("ELEV" / {interval.height!r}) % {INDEX} = 0'
+        rule = is_index
         for properties, lines in ((_THICK, INDEX), (_THIN, 1)):
             symbol = QgsLineSymbol.createSimple(properties)
             words = tr("Every {}").format(interval.text(lines))
@@ -26,5 +40,26 @@ def contours(interval: Interval) -> Callable[[QgsVectorLayer], None]:
             root.appendChild(each)
             rule = "ELSE"
         layer.setRenderer(QgsRuleBasedRenderer(root))
+        labels = QgsRuleBasedLabeling.Rule(None)
+        labels.appendChild(QgsRuleBasedLabeling.Rule(_label(), 0, 0, is_index))
+        layer.setLabeling(QgsRuleBasedLabeling(labels))
+        layer.setLabelsEnabled(True)
 
     return dress
+
+
+def _label() -> QgsPalLayerSettings:
+    """Return the settings of labels: the height, on the line."""
+    halo = QgsTextBufferSettings()
+    halo.setEnabled(True)
+    halo.setSize(_HALO_SIZE)
+    halo.setColor(QColor(*_HALO))
+    text = QgsTextFormat()
+    text.setSize(_SIZE)
+    text.setColor(QColor(*_TEXT))
+    text.setBuffer(halo)
+    settings = QgsPalLayerSettings()
+    settings.fieldName = "ELEV"
+    settings.setFormat(text)
+    compat.place_on_line(settings)
+    return settings

@@ -29,7 +29,7 @@ def test_relief_does_not_see_cells_without_a_height():
 
 @pytest.mark.parametrize(
     ("low", "high", "interval"),
-    [(130.0, 172.0, 2.0), (0.0, 1000.0, 50.0), (-1.0, 1.2, 0.25), (5.0, 5.0, 0.25)],
+    [(130.0, 172.0, 2.0), (0.0, 1000.0, 50.0), (-1.0, 1.2, 0.2), (5.0, 5.0, 0.2)],
 )
 def test_the_interval_of_contours_is_a_round_number_for_about_twenty_lines(low, high, interval):
     assert Contours().interval(low, high) == pytest.approx(interval)

@@ -1,0 +1,246 @@
+"""Contour lines: marching squares, their smoothing, and the files of the lines."""
+
+import json
+
+import numpy as np
+import pytest
+
+from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.points import Frame
+from bare_earth.algorithms.core.progress import SILENT
+from bare_earth.algorithms.grids.isolines import Isolines
+from bare_earth.algorithms.products import contours as contours_module
+from bare_earth.algorithms.products.contours import INDEX, Contours, write_contours
+from bare_earth.algorithms.rasters.geotiff import NODATA, RasterGrid
+from bare_earth.algorithms.rasters.writing import write_geotiff
+
+rasterio = pytest.importorskip("rasterio")
+EAST, NORTH = 500_000.0, 5_700_000.0
+
+
+def lines_of(heights, interval, *edges):
+    """Return the lines of a raster that is given in strips which begin at some rows."""
+    found, rows = Isolines(interval, heights.shape[1]), len(heights) - 1
+    edges = [0, *edges, rows]
+    return [
+        line
+        for first, last in zip(edges, edges[1:])
+        for line in found.add(heights[first : last + 1], first, last == rows)
+    ]
+
+
+def plain(lines):
+    """Return lines in a form that does not depend on where rings begin, nor on their order."""
+    rows = []
+    for line in lines:
+        places = line.places
+        if line.is_closed:
+            places = places[:-1]
+            places = np.roll(places, -np.lexsort(places.T)[0], axis=0)
+        rows.append((line.level, places.tolist()))
+    return sorted(rows)
+
+
+def bumps(rows=90, columns=110, seed=1):
+    from scipy.ndimage import gaussian_filter
+
+    heights = gaussian_filter(np.random.default_rng(seed).normal(size=(rows, columns)), 3) * 20
+    heights[30:40, 60:80] = np.nan
+    return heights
+
+
+def test_a_cone_has_rings_of_the_right_size():
+    rows, columns = np.mgrid[:101.0, :101.0]
+    cone = 50.0 - np.hypot(rows - 50, columns - 50)
+    rings = {line.level: line for line in lines_of(cone, 5.0) if line.level > 0}
+    assert sorted(rings) == list(range(1, 10))
+    for level, ring in rings.items():
+        assert ring.is_closed
+        radius = np.hypot(*(ring.places - 50.0).T)
+        assert np.abs(radius - (50.0 - 5.0 * level)).max() < 0.05
+        x, y = ring.places[:, 1], -ring.places[:, 0]
+        area = np.sum(x[:-1] * y[1:] - x[1:] * y[:-1]) / 2
+        # Higher ground is on the left, so that rings round a top run counterclockwise.
+        assert area == pytest.approx(np.pi * (50.0 - 5.0 * level) ** 2, rel=0.01)
+
+
+def test_lines_are_those_of_a_library():
+    contourpy = pytest.importorskip("contourpy")
+    heights = bumps()
+    generator = contourpy.contour_generator(
+        z=np.ma.masked_invalid(heights), name="serial", corner_mask=False
+    )
+    found = lines_of(heights, 0.5)
+    for level in range(-30, 31):
+        expected = generator.lines(level * 0.5)
+        mine = [line.places for line in found if line.level == level]
+        assert len(mine) == len(expected)
+        for some in (mine, expected):
+            some[:] = [np.hypot(*np.diff(each, axis=0).T).sum() for each in some]
+        assert sorted(mine) == pytest.approx(sorted(expected), abs=1e-9)
+    assert len(found) > 300
+
+
+@pytest.mark.parametrize("edges", [(1,), (45,), (30, 31, 32), (5, 40, 88), tuple(range(1, 89))])
+def test_strips_make_no_difference(edges):
+    heights = bumps()
+    assert plain(lines_of(heights, 0.5, *edges)) == plain(lines_of(heights, 0.5))
+
+
+def test_level_ground_at_a_height_of_a_line_has_lines_along_its_border_only():
+    heights = np.zeros((10, 10))
+    heights[3:6, 3:6] = 1.0
+    (ring,) = lines_of(heights, 1.0)
+    assert ring.is_closed and ring.level == 1
+    assert not lines_of(np.full((5, 5), 3.0), 1.0)
+    assert not lines_of(np.full((5, 5), np.nan), 1.0)
+
+
+def raster(path, heights, cell=0.5, epsg=25832, unit=1.0):
+    pyproj = pytest.importorskip("pyproj")
+    wkt = pyproj.CRS.from_epsg(epsg).to_wkt("WKT1_GDAL") if epsg else None
+    rows, columns = heights.shape
+    frame = Frame((0.0, 0.0), unit, unit, wkt)
+    grid = RasterGrid(EAST, NORTH, cell, columns, rows, frame)
+    values = np.where(np.isnan(heights), NODATA, heights).astype(np.float32)
+    write_geotiff(path, values, grid, NODATA, SILENT, "Height, {unit}")
+    return path
+
+
+def noisy_slope(size=300, noise=0.15, seed=4):
+    rows, columns = np.mgrid[: float(size), : float(size)]
+    slope = 100.0 + 0.04 * columns + 0.02 * rows
+    return slope + np.random.default_rng(seed).normal(0, noise, slope.shape)
+
+
+def read(path):
+    content = json.loads(path.read_text(encoding="utf-8"))
+    shapes = [np.array(each["geometry"]["coordinates"]) for each in content["features"]]
+    return content, [each["properties"] for each in content["features"]], shapes
+
+
+def test_noise_makes_no_specks_and_lines_stay_where_they_are(tmp_path):
+    noisy = noisy_slope()
+    noisy[100:110, 100:110] = np.nan
+    path, lines = raster(tmp_path / "dtm.tif", noisy), tmp_path / "lines.geojson"
+    none = Contours(contour_interval=1.0, contour_smoothing=0.0, contour_min_length=0.0)
+    write_contours(path, lines, none)
+    many = len(read(lines)[2])
+    write_contours(path, lines, Contours(contour_interval=1.0))
+    _, values, shapes = read(lines)
+    assert many > 1000 and len(shapes) < 30
+    for value, shape in zip(values, shapes):
+        column, row = (shape[:, 0] - EAST) / 0.5 - 0.5, (NORTH - shape[:, 1]) / 0.5 - 0.5
+        expected = 100.0 + 0.04 * column + 0.02 * row
+        assert np.abs(expected - value["ELEV"]).max() < 0.12
+        assert value["INDEX"] == (round(value["ELEV"]) % INDEX == 0)
+
+
+def test_small_rings_are_left_out_and_large_ones_stay(tmp_path):
+    rows, columns = np.mgrid[:200.0, :200.0]
+    heights = np.full((200, 200), 10.2)
+    for row, column, radius in ((40, 40, 2), (40, 150, 8), (150, 100, 30)):
+        heights += np.maximum(0.0, 1.0 - np.hypot(rows - row, columns - column) / radius)
+    path, lines = raster(tmp_path / "dtm.tif", heights), tmp_path / "lines.geojson"
+    lengths = {}
+    for least in (0.0, 4.6, 18.0):
+        how = Contours(contour_interval=0.5, contour_smoothing=0, contour_min_length=least)
+        write_contours(path, lines, how)
+        lengths[least] = [np.hypot(*np.diff(each, axis=0).T).sum() for each in read(lines)[2]]
+        assert min(lengths[least]) >= least
+    assert [len(each) for each in lengths.values()] == [6, 4, 2]
+
+
+@pytest.mark.parametrize("suffix", [".gpkg", ".shp", ".fgb", ".geojson"])
+def test_all_formats_hold_the_same_lines(tmp_path, suffix):
+    pyogrio = pytest.importorskip("pyogrio")
+    path = raster(tmp_path / "dtm.tif", bumps() + 100.0)
+    target = tmp_path / f"lines{suffix}"
+    for _ in range(2):  # also in the place of an old file
+        write_contours(path, target, Contours(contour_interval=1.0))
+    write_contours(path, tmp_path / "expected.geojson", Contours(contour_interval=1.0))
+    _, values, shapes = read(tmp_path / "expected.geojson")
+    about, _, found, fields = pyogrio.raw.read(str(target))
+    assert about["crs"] == "EPSG:25832" and about["geometry_type"] == "LineString"
+    found_values = sorted(zip(*(each.tolist() for each in fields)))
+    assert found_values == sorted(tuple(each.values()) for each in values)
+    assert len(found) == len(shapes) > 20
+
+
+def test_strips_of_a_raster_make_no_difference(tmp_path, monkeypatch):
+    path = raster(tmp_path / "dtm.tif", bumps(120, 90))
+    write_contours(path, tmp_path / "one.geojson")
+    monkeypatch.setattr(contours_module, "_CELLS", 900)
+    write_contours(path, tmp_path / "many.geojson")
+    one, many = (
+        sorted(
+            (value["ELEV"], len(shape), shape.mean(axis=0).round(2).tolist())
+            for value, shape in zip(*read(tmp_path / f"{name}.geojson")[1:])
+        )
+        for name in ("one", "many")
+    )
+    # The mean of a ring depends on the place at which it begins.
+    assert [each[:2] for each in one] == [each[:2] for each in many] and len(one) > 10
+
+
+def test_intervals_are_one_two_or_five(tmp_path):
+    for span in np.geomspace(0.01, 9000.0, 300):
+        interval = Contours().interval(100.0, 100.0 + span)
+        assert f"{interval:e}"[0] in "125" and float(f"{interval:.0e}") == interval
+        assert interval >= 0.2 and (interval == 0.2 or 8 <= span / interval <= 32)
+    assert Contours().interval(100.0, 101.0, 0.3048) == 0.5  # feet
+
+
+def test_the_unit_of_feet_is_told(tmp_path, las):
+    path = raster(tmp_path / "dtm.tif", bumps() * 3, epsg=2264, unit=0.3048006096012192)
+    heard = las.Heard()
+    interval = write_contours(path, tmp_path / "a.geojson", Contours(), heard)
+    assert interval.unit == "US survey ft" and "US survey ft" in heard.infos[-1]
+
+
+def test_the_commands_draw_the_same_lines(tmp_path):
+    import laspy
+
+    x, y = np.random.default_rng(2).uniform(0, 100, (2, 9000))
+    header = laspy.LasHeader(point_format=6, version="1.4")
+    header.scales, header.offsets = (0.001,) * 3, (EAST, NORTH, 0)
+    cloud = laspy.LasData(header)
+    cloud.x, cloud.y, cloud.z = x + EAST, y + NORTH, 50 + 0.1 * x + 2 * np.sin(y / 9)
+    cloud.classification[:] = 2
+    cloud.return_number[:] = cloud.number_of_returns[:] = 1
+    cloud.write(str(tmp_path / "in.laz"))
+    source, dtm = str(tmp_path / "in.laz"), str(tmp_path / "dtm.tif")
+    words = ["--contour-interval", "0.5"]
+    names = [str(tmp_path / f"{each}.geojson") for each in "abc"]
+    assert main(["terrain", source, "--dtm", dtm, "--contours", names[0], *words]) == 0
+    assert main(["contours", dtm, names[1], "--interval", "0.5", "--json"]) == 0
+    assert main(["terrain", source, "--contours", names[2], *words]) == 0
+    one, two, three = ((tmp_path / f"{each}.geojson").read_bytes() for each in "abc")
+    assert one == two == three and one.count(b"LineString") > 20
+    out = str(tmp_path / "out.laz")
+    assert main(["classify", source, out, "--contours", names[0]]) == 0
+    assert sorted(each.name for each in tmp_path.iterdir()) == [
+        "a.geojson", "b.geojson", "c.geojson", "dtm.tif", "in.laz", "out.laz",
+    ]  # fmt: skip
+
+
+def test_what_cannot_be_drawn_is_one_sentence(tmp_path, capsys, monkeypatch):
+    path = raster(tmp_path / "dtm.tif", bumps())
+    lines = tmp_path / "lines.geojson"
+    lines.write_text("old")
+    for words, text in (
+        ((str(path), str(tmp_path / "a.kml")), "are written as .gpkg"),
+        ((str(tmp_path / "b.tif"), str(lines)), "does not exist"),
+        ((str(path), str(lines), "--interval", "0.001"), None),
+        ((str(path), str(tmp_path / "no" / "a.gpkg")), "does not exist"),
+    ):
+        code = main(["contours", *words])
+        if text is not None:
+            assert code == 1 and text in capsys.readouterr().err
+    steep = raster(tmp_path / "steep.tif", bumps() * 100)
+    with pytest.raises(BareEarthError, match="Choose a larger one"):
+        write_contours(steep, lines, Contours(contour_interval=0.001))
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    with pytest.raises(BareEarthError, match="pip install pyogrio"):
+        write_contours(path, tmp_path / "a.gpkg")
