@@ -157,7 +157,8 @@ def make_maps(
         )
         summary = _classified(sources, cloud, request.classify(RasterFiles(**maps)), part)
         if relief:
-            write_local_relief(maps["dtm"], relief, request.relief, smoothing)
+            nodata = request.terrain.nodata
+            write_local_relief(maps["dtm"], relief, request.relief, smoothing, nodata)
         if files.contours:
             interval = write_contours(maps["dtm"], files.contours, request.contours, tracing)
             summary = summary._replace(contour_interval=interval)

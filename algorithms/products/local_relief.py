@@ -80,6 +80,7 @@ def write_local_relief(
     target: Path,
     parameters: LocalRelief = LocalRelief(),
     progress: Progress = SILENT,
+    nodata: float = NODATA,
 ) -> None:
     """Write the local relief of a terrain model.
 
@@ -91,6 +92,8 @@ def write_local_relief(
         The size of the features.
     progress : Progress
         Receives progress and messages.
+    nodata : float
+        The value of cells without data.
 
     Raises
     ------
@@ -102,6 +105,6 @@ def write_local_relief(
     progress(0.3)
     relief = local_relief(raster.heights, raster.cell_metres, parameters.relief_radius)
     progress(0.9)
-    values = np.where(np.isnan(relief), np.float32(NODATA), relief)
-    write_geotiff(target, values, raster, NODATA, progress, "Local relief, {unit}")
+    values = np.where(np.isnan(relief), np.float32(nodata), relief)
+    write_geotiff(target, values, raster, nodata, progress, "Local relief, {unit}")
     progress(1.0)
