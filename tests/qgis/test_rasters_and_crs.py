@@ -132,7 +132,8 @@ def test_an_extent_in_another_crs_is_transformed(run, scene, tmp_path, log):
     corners = box.xMinimum(), box.xMaximum(), box.yMinimum(), box.yMaximum()
     made = run(
         "bareearth:pointcloudtoterrain", INPUT=str(scene.path), DTM=str(tmp_path / "dtm.tif"),
-        RELIEF=str(tmp_path / "relief.tif"), RASTER_EXTENT=",".join(map(repr, corners)) + " [EPSG:4326]", RASTER_NODATA=-32768,
+        RELIEF=str(tmp_path / "relief.tif"), RASTER_NODATA=-32768,
+        RASTER_EXTENT=",".join(map(repr, corners)) + " [EPSG:4326]",
     )  # fmt: skip
     layer = raster(made["DTM"])
     assert layer.extent().contains(BOX)
