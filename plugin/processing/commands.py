@@ -11,8 +11,8 @@ from ...algorithms.engine.options import TileMethod
 from ...algorithms.products.surface_model import SurfaceModel
 from ...algorithms.products.terrain_model import MapTerrain, TerrainModel
 from ...algorithms.survey.selection import GROUND, Selection
+from .area import NOTHING_GIVEN
 from .base import command_line
-from .raster_target import NOTHING_GIVEN
 
 # Maps that no command makes.
 _OF_QGIS = ("RELIEF", "CONTOURS")
