@@ -21,7 +21,15 @@ _PARAMETER = re.compile(r"PARAMETER\s*[\[(]\s*\"([^\"]+)\"\s*,\s*([-+.0-9eE]+)",
 # Metres. The flattening of the earth changes lengths here by less than 0.4 %.
 _RADIUS = 6378137.0
 # Lengths may be wrong by this share. National CRS are far better.
-MOST_WRONG = 0.05
+_MOST_WRONG = 0.05
+
+
+def wrong_lengths(scale: float) -> str:
+    """Return in words how wrong lengths are, given the `length_scale`; empty if they will do."""
+    if abs(scale - 1.0) <= _MOST_WRONG:
+        return ""
+    wrong = f"{scale:.2f} times too long" if scale > 1.0 else f"too short ({scale:.2f} times)"
+    return f"lengths are {wrong} at this latitude"
 
 
 def require_measurable(subject: object, crs: Crs, box: Box | None = None) -> None:
@@ -44,13 +52,12 @@ def require_measurable(subject: object, crs: Crs, box: Box | None = None) -> Non
     """
     if crs.is_geographic:
         raise _not_projected(subject, crs, box)
-    scale = length_scale(crs, box)
-    if abs(scale - 1.0) > MOST_WRONG:
-        wrong = f"{scale:.2f} times too long" if scale > 1.0 else f"too short ({scale:.2f} times)"
+    wrong = wrong_lengths(length_scale(crs, box))
+    if wrong:
         raise BareEarthError(
-            f"{subject} is in a Mercator projection ({crs.name}), in which lengths are {wrong} at"
-            f" this latitude, so that nothing can be measured in it. {_reproject()} If the file"
-            f" states the wrong CRS, give the right one: {HOW}."
+            f"{subject} is in a Mercator projection ({crs.name}), in which {wrong}, so that nothing"
+            f" can be measured in it. {_reproject()} If the file states the wrong CRS, give the"
+            f" right one: {HOW}."
         )
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from ..core.errors import printable
 from ..core.progress import SILENT, Progress
 from ..core.threads import over_parts, parts_of
-from ..crs.measurable import MOST_WRONG, length_scale
+from ..crs.measurable import length_scale, wrong_lengths
 from ..crs.system import Crs, unit_name
 from .backends import require
 from .cloud import PointCloud
@@ -168,8 +168,9 @@ class Description:
         units = f"{unit_name(self.horizontal_unit)}, height {unit_name(self.vertical_unit)}"
         if self.is_geographic:
             units = "degree or geocentric: reproject before classifying"
-        if abs(self.length_scale - 1.0) > MOST_WRONG:
-            units += f"; lengths are {self.length_scale:.2f} times too long here: reproject first"
+        wrong = wrong_lengths(self.length_scale)
+        if wrong:
+            units += f"; {wrong}: reproject before classifying"
         code = f" (EPSG:{self.epsg})" if self.epsg else ""
         rows = {
             "file": f"{self.path} ({self.file_size:,} bytes)",

@@ -94,6 +94,7 @@ def write_local_relief(
     target: Path,
     parameters: LocalRelief = LocalRelief(),
     progress: Progress = SILENT,
+    nodata: float = NODATA,
 ) -> None:
     """Write the local relief of a terrain model.
 
@@ -105,6 +106,8 @@ def write_local_relief(
         The size of the features.
     progress : Progress
         Receives progress and messages.
+    nodata : float
+        The value of cells without data.
 
     Raises
     ------
@@ -115,12 +118,14 @@ def write_local_relief(
     # Without progress: messages on units were given for the points.
     raster = read_raster(source)
     progress(0.2)
-    rows = Rows(raster.heights.shape, "float32", _strips(raster, parameters, progress))
-    write_geotiff(target, rows, raster, NODATA, progress, "Local relief, {unit}")
+    rows = Rows(raster.heights.shape, "float32", _strips(raster, parameters, nodata, progress))
+    write_geotiff(target, rows, raster, nodata, progress, "Local relief, {unit}")
     progress(1.0)
 
 
-def _strips(raster: Raster, how: LocalRelief, progress: Progress) -> Iterator[np.ndarray]:
+def _strips(
+    raster: Raster, how: LocalRelief, nodata: float, progress: Progress
+) -> Iterator[np.ndarray]:
     """Yield the local relief of a raster, some rows at a time."""
     count, columns = raster.heights.shape
     cell, unit = min(raster.cell_metres), raster.frame.vertical_unit
@@ -132,5 +137,5 @@ def _strips(raster: Raster, how: LocalRelief, progress: Progress) -> Iterator[np
             heights = without_noise(heights * unit, cell) / unit
         relief = local_relief(heights, raster.cell_metres, how.relief_radius)
         relief = relief[start - first :][:rows]
-        yield np.where(np.isnan(relief), np.float32(NODATA), relief)
+        yield np.where(np.isnan(relief), np.float32(nodata), relief)
         progress(0.2 + 0.7 * min(start + rows, count) / count)

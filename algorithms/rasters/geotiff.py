@@ -15,7 +15,8 @@ from ..core.errors import BareEarthError
 from ..core.points import Frame, Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import parts_of
-from ..crs.system import unit_name
+from ..crs.measurable import length_scale, wrong_lengths
+from ..crs.system import crs_of_wkt, unit_name
 from ..crs.wkt import read_wkt
 from .libraries import GdalErrors, library
 
@@ -236,6 +237,7 @@ class Content(NamedTuple):
 def frame_of(source: str | Path, content: Content, progress: Progress = SILENT) -> Frame:
     """Return a frame with the units of the band and the CRS, or metres if none are stated."""
     facts = read_wkt(content.wkt) if content.wkt else None
+    _require_measurable(source, content)
     if facts is not None and facts.is_geographic:
         raise BareEarthError(
             f"{source} is not in a projected CRS ({facts.name}), so that nothing can be measured in"
@@ -260,6 +262,20 @@ def frame_of(source: str | Path, content: Content, progress: Progress = SILENT) 
                 f" {unit_name(horizontal)}."
             )
     return Frame((0.0, 0.0), horizontal, vertical, content.wkt or None)
+
+
+def _require_measurable(source: str | Path, content: _Content) -> None:
+    """Refuse Web Mercator and its kin where lengths are far too long."""
+    crs = crs_of_wkt(content.wkt) if content.wkt else None
+    west, a, b, north, c, d = content.geotransform
+    rows, columns = content.values.shape
+    centre = west + (a * columns + b * rows) / 2.0, north + (c * columns + d * rows) / 2.0
+    wrong = "" if crs is None else wrong_lengths(length_scale(crs, (*centre, *centre)))
+    if wrong:
+        raise BareEarthError(
+            f"{source} is in a Mercator projection, in which {wrong}. Reproject it first: in QGIS"
+            " with 'Warp (reproject)', elsewhere with 'gdalwarp -t_srs EPSG:... INPUT OUTPUT'."
+        )
 
 
 def check_local(source: str) -> None:

@@ -15,6 +15,7 @@ from ...algorithms.core.errors import BareEarthError
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.core.progress import Progress
 from ...algorithms.engine.output import Output
+from ...algorithms.engine.raster_grid import ANYWHERE, RasterTarget
 from ...algorithms.survey.area import Area, Polygon
 from .. import compat
 from ..i18n import tr
@@ -22,7 +23,6 @@ from .constraints import add_constraints, constraints_of
 from .corrections import add_corrections, corrections_of
 from .inputs import CloudCrs, features_of, is_empty, polygons_of
 from .raster_target import add_raster_target, raster_target_of
-from .raster_target import given_options as given_options
 
 # Name, label and help of the fields of an area.
 _AREA_FIELDS = {
@@ -128,6 +128,16 @@ def area_options(area: Area | None, progress: Progress, is_all: bool = False) ->
             )
         )
     return [*options, *(["--extent", *map(repr, area.box)] if area.box else [])]
+
+
+def given_options(crs: str | None, raster_target: RasterTarget, **others: Any) -> dict[str, Any]:
+    """Return options of the command line; takes what `limits_of` returns."""
+    extent = raster_target.extent and tuple(map(repr, raster_target.extent))
+    like = raster_target.like and str(raster_target.like)
+    return {"crs": crs, "like": like, "raster-extent": extent}
+
+
+NOTHING_GIVEN = given_options(None, ANYWHERE)
 
 
 def add_limits(

@@ -13,8 +13,8 @@ from ...algorithms.products.surface_model import SurfaceModel
 from ...algorithms.products.terrain_model import MapTerrain, TerrainModel
 from ...algorithms.survey.kept_classes import GROUND
 from ...algorithms.survey.selection import Selection
+from .area import NOTHING_GIVEN
 from .base import command_line
-from .raster_target import NOTHING_GIVEN
 
 
 def terrain_commands(

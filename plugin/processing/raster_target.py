@@ -12,7 +12,7 @@ from qgis.core import (
 )
 
 from ...algorithms.core.errors import BareEarthError
-from ...algorithms.engine.raster_grid import ANYWHERE, RasterTarget
+from ...algorithms.engine.raster_grid import RasterTarget
 from .. import compat
 from ..i18n import tr
 from .inputs import CloudCrs, is_empty
@@ -62,13 +62,3 @@ def raster_target_of(
         box = algorithm.parameterAsExtent(parameters, _EXTENT, context, crs.value)
         extent = box.xMinimum(), box.yMinimum(), box.xMaximum(), box.yMaximum()
     return RasterTarget(like, extent)
-
-
-def given_options(crs: str | None, raster_target: RasterTarget, **others: Any) -> dict[str, Any]:
-    """Return options of the command line; takes what `limits_of` returns."""
-    extent = raster_target.extent and tuple(map(repr, raster_target.extent))
-    like = raster_target.like and str(raster_target.like)
-    return {"crs": crs, "like": like, "raster-extent": extent}
-
-
-NOTHING_GIVEN = given_options(None, ANYWHERE)

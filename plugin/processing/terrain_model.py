@@ -10,11 +10,12 @@ from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.files import is_one_file
 from ...algorithms.survey.ground_classes import GroundClasses
 from ..i18n import mark, tr
+from .area import given_options
 from .base import command_line
 from .constraints import add_constraints, constraints_of
 from .outputs import add_rasters, raster_files, raster_paths, shown_rasters
 from .products import ProductAlgorithm
-from .raster_target import add_raster_target, given_options, raster_target_of
+from .raster_target import add_raster_target, raster_target_of
 
 
 class TerrainModelAlgorithm(ProductAlgorithm):

@@ -204,8 +204,13 @@ def test_a_rotated_raster(tmp_path):
         assert raster.transform.almost_equals(transform)
 
 
+NORTHERN = rasterio.Affine(1.0, 0.0, 3e6, 0.0, -1.0, 8_399_000.0)
 BAD = {
     "geographic": (lambda path: write(path, terrain(), "EPSG:4326"), "not in a projected CRS"),
+    "Web Mercator": (
+        lambda path: write(path, terrain(), "EPSG:3857", transform=NORTHERN),
+        r"2\.00 times too long",
+    ),
     "empty": (lambda path: path.write_bytes(b""), "Cannot read"),
     "text": (lambda path: path.write_text("not a raster"), "Cannot read"),
     "missing": (lambda path: None, "does not exist"),

@@ -119,18 +119,24 @@ def test_the_same_grid_from_disk(source, tmp_path):
 
 
 def test_constraints_lie_where_they_are_on_any_grid(source, tmp_path):
-    wall = tmp_path / "water.geojson"
-    x, y = 500_040.0, 5_700_040.0
-    ring = [[x, y], [x + 30, y], [x + 30, y + 30], [x, y + 30], [x, y]]
-    wall.write_text(f'{{"type": "Polygon", "coordinates": [{ring}]}}')
-    like = given(tmp_path / "like.tif")
-    (dtm,) = made(
-        tmp_path / "out", source, "--crs", CRS, "--like", like, "--water", wall, names=["dtm"]
-    ).values()
-    inside = values(dtm)[dtm.index(x + 5, y + 25)[0] : dtm.index(x + 5, y + 5)[0],
-                         dtm.index(x + 5, y)[1] : dtm.index(x + 25, y)[1]]  # fmt: skip
-    assert inside.size > 100
-    assert np.ptp(inside) < 1e-3
+    west, south, width = 500_040.0, 5_700_040.0, 49.0
+    east, north = west + width, south + width
+    ring = [[west, south], [east, south], [east, north], [west, north], [west, south]]
+    water = tmp_path / "water.geojson"
+    water.write_text(f'{{"type": "Polygon", "coordinates": [{ring}]}}')
+    # Cells so large that the water would lie elsewhere if it did not follow their origin.
+    like = given(tmp_path / "like.tif", 500_013.0, 5_700_117.0, 7.0, (14, 24))
+    options = "--crs", CRS, "--like", like, "--water", water
+    dtm = made(tmp_path / "out", source, *options, names=["dtm"])["dtm"]
+    found = values(dtm)
+    x, y = (
+        np.array(each).reshape(found.shape) for each in dtm.xy(*np.mgrid[:14, :24].reshape(2, -1))
+    )
+    depth = np.minimum(np.minimum(x - west, east - x), np.minimum(y - south, north - y))
+    is_flat = np.abs(found - np.ma.median(found[depth > 10.0])) < 1e-3
+    assert (depth > 1.0).sum() >= 36
+    assert is_flat[depth > 1.0].all()
+    assert is_flat[depth < -1.0].mean() < 0.05
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ from qgis.core import (
     QgsCoordinateReferenceSystem,
     QgsCoordinateTransform,
     QgsProcessingException,
+    QgsProcessingOutputLayerDefinition,
     QgsProject,
     QgsRasterLayer,
     QgsRectangle,
@@ -131,12 +132,15 @@ def test_an_extent_in_another_crs_is_transformed(run, scene, tmp_path, log):
     corners = box.xMinimum(), box.xMaximum(), box.yMinimum(), box.yMaximum()
     made = run(
         "bareearth:pointcloudtoterrain", INPUT=str(scene.path), DTM=str(tmp_path / "dtm.tif"),
-        RASTER_EXTENT=",".join(map(repr, corners)) + " [EPSG:4326]", RASTER_NODATA=-32768,
+        RELIEF=str(tmp_path / "relief.tif"), RASTER_NODATA=-32768,
+        RASTER_EXTENT=",".join(map(repr, corners)) + " [EPSG:4326]",
     )  # fmt: skip
     layer = raster(made["DTM"])
     assert layer.extent().contains(BOX)
     assert layer.extent().width() < 50.0
-    assert layer.dataProvider().sourceNoDataValue(1) == -32768.0
+    assert grid_of(raster(made["RELIEF"])) == grid_of(layer)
+    for name in ("DTM", "RELIEF"):
+        assert raster(made[name]).dataProvider().sourceNoDataValue(1) == -32768.0
 
 
 def test_the_command_of_the_log_makes_the_same_raster(run, scene, tmp_path, log):
@@ -162,3 +166,18 @@ def test_a_raster_in_another_crs_is_refused(run, scene, feet, tmp_path):
             DTM=str(tmp_path / "dtm.tif"), LIKE=like,
         )  # fmt: skip
     assert not (tmp_path / "out.las").exists()
+
+
+def test_layers_get_the_crs_that_is_chosen(feet, tmp_path, context):
+    import processing
+
+    project = QgsProject.instance()
+    # QGIS 3.22 may load no point cloud; then it shows a raster of the classes.
+    files = {"OUTPUT": tmp_path / "out.copc.laz", "DTM": tmp_path / "dtm.tif"}
+    outputs = {
+        name: QgsProcessingOutputLayerDefinition(str(path), project) for name, path in files.items()
+    }
+    processing.runAndLoadResults(ALGORITHM, {"INPUT": str(feet), "CRS": FEET, **outputs})
+    layers = list(project.mapLayers().values())
+    assert len(layers) == 2
+    assert {layer.crs().authid() for layer in layers} == {FEET}
