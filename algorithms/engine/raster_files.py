@@ -38,6 +38,8 @@ class Raster(NamedTuple):
         The type of its values.
     nodata : float
         The value of cells without data.
+    is_measured : bool
+        Whether it has values only where surface and terrain were measured nearby.
     """
 
     label: str
@@ -48,6 +50,7 @@ class Raster(NamedTuple):
     margin: int = 0
     kind: str = "float32"
     nodata: float = NODATA
+    is_measured: bool = False
 
 
 def plain(values: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.ndarray:
@@ -101,6 +104,7 @@ RASTERS = {
         "Height above ground, {unit}",
         ("surface", "terrain"),
         _canopy,
+        is_measured=True,
     ),
     "hillshade": Raster(
         "Hillshade",

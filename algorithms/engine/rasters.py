@@ -30,6 +30,7 @@ from .constraints import NO_CONSTRAINTS, Constraints, FixedTerrain, fixed_terrai
 from .ground import over_blocks
 from .memory import Cost, Resources
 from .mosaic import Mosaic, gathered_strips
+from .outlines import Held, Outlines
 from .raster_files import RASTERS, Raster, RasterFiles, folder_of, virtual_of
 from .steps import Marks, Step
 
@@ -248,16 +249,13 @@ def write_rasters(
     """
     cell, wanted = step.model.dtm_cell_size, step.files.wanted
     window = _window_of(made, cell)
-    mosaics = {}
-    for name in step.files.layers:
-        mosaics[name] = Mosaic(made, name, window, cell)
-        loose = [each.loose[name] for each in made if name in each.loose]
-        if loose and step.surface.max_edge is None:
-            mosaics[name].fill_gaps(np.concatenate(loose), progress.part(0.0, 0.3))
+    outlines = Outlines(Held(made, window, cell), step.of_block)
+    mosaics = _mosaics_of(made, window, step, outlines, progress.part(0.0, 0.3))
     parts = progress.part(0.3, 1.0).shares(*[1.0] * len(wanted))
     for (name, path), part in zip(wanted.items(), parts):
         raster = RASTERS[name]
-        layers = [mosaics[each] for each in raster.layers]
+        measured = outlines.canopy() if raster.is_measured else None
+        layers = [mosaics[each].limited(measured) for each in raster.layers]
         write = partial(_write, raster, layers, frame, step, outputs)
         if files is None:
             write(path, window, part)
@@ -273,6 +271,26 @@ def write_rasters(
             write_virtual(temporary, virtual.parent, grid, grids, raster.kind, band)
     counts = np.sum([each.counts for each in made], axis=0)
     return RasterSize(int(counts[0]), int(counts[1]), window.columns, window.rows)
+
+
+def _mosaics_of(
+    made: Sequence[BlockRasters],
+    window: CellWindow,
+    step: MakeRasters,
+    outlines: Outlines,
+    progress: Progress,
+) -> dict[str, Mosaic]:
+    """Return the layers of all blocks inside their outlines, with the gaps there filled."""
+    names, cell = step.files.layers, step.model.dtm_cell_size
+    parts = iter(progress.shares(*[1.0] * (2 * len(names) + 1)))
+    survey, mosaics = outlines.survey(next(parts)), {}
+    for name in names:
+        outline = outlines.terrain(survey, next(parts)) if name == "terrain" else survey
+        mosaics[name] = Mosaic(made, name, window, cell, outline)
+        loose = [each.loose[name] for each in made if name in each.loose]
+        if loose and step.surface.max_edge is None:
+            mosaics[name].fill_gaps(np.concatenate(loose), next(parts))
+    return mosaics
 
 
 def _write(
