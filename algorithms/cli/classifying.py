@@ -6,13 +6,14 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Sequence
 
-from ..core.errors import BareEarthError
 from .command import DONE, Command
-from .options import UsageError, add_extent, add_inputs, add_json, add_parameters, chosen
+from .options import add_inputs, add_json, add_parameters, chosen
 from .surveys import (
+    add_area,
     add_constraints,
     add_rasters,
     add_scheduler,
+    area_of,
     constraints_of,
     finished_files_stay,
     rasters_of,
@@ -23,13 +24,13 @@ from .terminal import Terminal, tell
 
 if TYPE_CHECKING:
     from ..filters.method import Method
-    from ..survey.area import Area
 
 
 def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..engine.memory import Resources
     from ..engine.options import RasterOutput, TileInput, TileOutput
     from ..engine.output import Output
+    from ..products.surface_model import SurfaceModel
     from ..products.terrain_model import TerrainModel
     from ..survey.selection import Selection
 
@@ -40,15 +41,9 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
     )  # fmt: skip
     add_rasters(parser)
     add_constraints(parser, "for the rasters, ")
-    add_extent(
-        parser, "classify only points in this rectangle",
-        "; points outside are written too, with the class that they have, unless --area-only is"
-        " given",
-    )  # fmt: skip
-    parser.add_argument(
-        "--boundary", metavar="FILE", type=Path,
-        help="classify only points in these polygons (.geojson, .json, .wkt), in the CRS of the"
-        " points; for points outside as --extent",
+    add_area(
+        parser, "classify only points in", "; points outside are written too, with the class that"
+        " they have, unless --area-only is given; rasters end at its border",
     )  # fmt: skip
     parser.add_argument(
         "--corrections", metavar="FILE", type=Path,
@@ -64,11 +59,12 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
     method = _add_method(parser, arguments)
     add_json(parser, "the counts ")
     add_parameters(
-        parser, method.parameters, Selection, TerrainModel, Output, TileInput, TileOutput,
-        RasterOutput, Resources,
+        parser, method.parameters, Selection, TerrainModel, SurfaceModel, Output, TileInput,
+        TileOutput, RasterOutput, Resources,
         titles=(
-            f"{method.label} parameters", "Which points, which classes", "Terrain model", "Output",
-            "Files", "Output of many files", "Rasters of many files", "Threads and memory",
+            f"{method.label} parameters", "Which points, which classes", "Terrain model",
+            "Surface model and gaps", "Output", "Files", "Output of many files",
+            "Rasters of many files", "Threads and memory",
         ),
     )  # fmt: skip
 
@@ -95,7 +91,7 @@ def _classify(options: argparse.Namespace) -> int:
     from ..survey.files import is_one_file
     from ..survey.vector_files import read_corrections
 
-    area = _area_of(options)
+    area = area_of(options)
     corrections = NO_CORRECTIONS
     if options.corrections is not None:
         corrections = read_corrections(options.corrections)
@@ -117,20 +113,6 @@ def _classify(options: argparse.Namespace) -> int:
             options.input, options.output, request, progress, workers, options.vpc
         )
     return tell_of_survey(options, done)
-
-
-def _area_of(options: argparse.Namespace) -> Area | None:
-    """Return the area of the options, or None if there is none."""
-    from ..survey.area import Area
-    from ..survey.vector_files import read_boundary
-
-    if options.extent is None and options.boundary is None:
-        return None
-    try:
-        box = None if options.extent is None else Area(tuple(options.extent)).box
-    except BareEarthError as error:
-        raise UsageError(str(error)) from error
-    return Area(box, () if options.boundary is None else read_boundary(options.boundary))
 
 
 _TILES = "classify-tiles"

@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING, Sequence
 from .command import DONE, Command
 from .options import add_inputs, add_json, add_parameters, chosen
 from .surveys import (
+    add_area,
     add_constraints,
     add_rasters,
     add_scheduler,
+    area_of,
     constraints_of,
     finished_files_stay,
     rasters_of,
@@ -105,6 +107,7 @@ def _add_terrain(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> N
 
     add_inputs(parser)
     add_rasters(parser)
+    add_area(parser, "make the rasters only in", "; points outside still help along its border")
     add_constraints(parser)
     add_scheduler(parser)
     add_json(parser)
@@ -117,8 +120,10 @@ def _terrain(options: argparse.Namespace) -> int:
     from ..engine.requests import TerrainRequest
     from ..engine.runs import terrain
 
-    known = constraints_of(options)
-    request = TerrainRequest.of(chosen(options), rasters=rasters_of(options), constraints=known)
+    request = TerrainRequest.of(
+        chosen(options), rasters=rasters_of(options), constraints=constraints_of(options),
+        area=area_of(options),
+    )  # fmt: skip
     with Terminal(options.verbose) as progress:
         workers = workers_of(options, request.resources)
         summary = terrain(options.input, request, progress, workers)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Iterator
 
 from ..core.errors import BareEarthError, Cancelled
 from .command import DONE, FAILED
+from .options import UsageError, add_extent
 from .terminal import tell
 
 if TYPE_CHECKING:
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from ..engine.memory import Resources
     from ..engine.raster_files import RasterFiles
     from ..engine.workers import Workers
+    from ..survey.area import Area
 
 
 _CONSTRAINTS = {
@@ -43,6 +45,30 @@ def rasters_of(options: argparse.Namespace) -> RasterFiles:
     from ..engine.raster_files import RASTERS, RasterFiles
 
     return RasterFiles(**{name: getattr(options, name) for name in RASTERS})
+
+
+def add_area(parser: argparse.ArgumentParser, what: str, more: str = "") -> None:
+    """Add the options for a rectangle and for polygons; `what` and `more` are of their help."""
+    add_extent(parser, f"{what} this rectangle", more)
+    parser.add_argument(
+        "--boundary", metavar="FILE", type=Path,
+        help=f"{what} these polygons (.geojson, .json, .wkt), in the CRS of the points; as --extent"
+        " otherwise, and with it only what lies in both",
+    )  # fmt: skip
+
+
+def area_of(options: argparse.Namespace) -> Area | None:
+    """Return the area of the options, or None if there is none."""
+    from ..survey.area import Area
+    from ..survey.vector_files import read_boundary
+
+    if options.extent is None and options.boundary is None:
+        return None
+    try:
+        box = None if options.extent is None else Area(tuple(options.extent)).box
+    except BareEarthError as error:
+        raise UsageError(str(error)) from error
+    return Area(box, () if options.boundary is None else read_boundary(options.boundary))
 
 
 def add_constraints(parser: argparse.ArgumentParser, note: str = "") -> None:

@@ -80,17 +80,22 @@ class Held:
         last = (window.row + window.rows) // side, (window.column + window.columns) // side
         counts = np.zeros((2, *(b - a + 1 for a, b in zip(first, last))), dtype=np.int64)
         for each in self._made:
-            if not min(each.window.shape):
+            shared = each.window.within(window)
+            if min(shared.shape) <= 0:
                 continue
-            held = each.layers[HELD]
+            rows, columns = (
+                slice(at - start, at - start + count)
+                for at, start, count in zip(shared[:2], each.window[:2], shared.shape)
+            )
+            held = each.layers[HELD][rows, columns]
             places = [
                 np.unique((start + np.arange(count)) // side, return_index=True)
-                for start, count in zip(each.window[:2], each.window.shape)
+                for start, count in zip(shared[:2], shared.shape)
             ]
             here = np.ix_(*(number - at for (number, _), at in zip(places, first)))
             for some, which in zip(counts, (held >= ANY, held % ANY > 0)):
-                rows = np.add.reduceat(which, places[0][1], axis=0, dtype=np.int64)
-                some[here] += np.add.reduceat(rows, places[1][1], axis=1)
+                along = np.add.reduceat(which, places[0][1], axis=0, dtype=np.int64)
+                some[here] += np.add.reduceat(along, places[1][1], axis=1)
         return _apart(counts[0], side), _apart(counts[1], side)
 
 

@@ -15,14 +15,16 @@ from ..core.files import new_folder, replacing
 from ..core.points import Box, Frame
 from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
+from ..grids.cells import are_inside, first_of_each
 from ..grids.dense_surface import VERTICES_A_SIDE
-from ..las.cloud import PointCloud
+from ..las.cloud import PointCloud, survey_frame
 from ..products.raster_block import LAYERS, BlockRasters, RasterStep
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import TerrainModel
 from ..rasters.geotiff import RasterGrid
 from ..rasters.virtual import write_virtual
 from ..rasters.writing import Band, Rows, replacing_raster, write_geotiff
+from ..survey.area import Area, box_in_words
 from ..survey.ground_classes import GroundClasses, GroundTally
 from ..survey.selection import NOISE
 from .blocks import Block, Blocks, Store
@@ -38,6 +40,11 @@ _MOST_CELLS = 4_000_000_000
 # In a raster of more cells, blocks with points must cover this share. Otherwise it is so large
 # because of a few points with stray coordinates.
 _MANY_CELLS, _LEAST_COVERED = 10_000_000, 0.01
+# Cells up to so many metres from the area are made as well, because the surroundings decide which
+# gaps lie inside the survey.
+AROUND_AREA = 1000.0
+# Points are thinned unless there are so many times as many cells.
+_MOST_THINNED = 10
 # Bytes that a block takes for each point in it and its buffer, and for each cell.
 _BYTES_A_POINT, _BYTES_A_CELL = 130.0, 120.0
 
@@ -91,14 +98,15 @@ class MakeRasters(Step):
     ground : GroundClasses
         Which points are ground.
     covers_ground : bool
-        Whether the rasters cover the extent of the ground. Otherwise they cover all points without
-        noise.
+        Whether the rasters cover the ground. Otherwise they cover all points without noise.
     constraints : Constraints
         Breaklines, water, and areas without ground.
     per_file : bool
         Whether each of many files gets its own rasters.
     fixed : FixedTerrain or None
         The vertices that follow from the constraints; `seeing` finds these.
+    area : Area or None
+        Where the rasters have values, if not everywhere. Points outside still take part.
     """
 
     files: RasterFiles = field(default_factory=RasterFiles)
@@ -109,6 +117,7 @@ class MakeRasters(Step):
     constraints: Constraints = NO_CONSTRAINTS
     per_file: bool = False
     fixed: FixedTerrain | None = None
+    area: Area | None = None
 
     tally = RasterTally
 
@@ -164,11 +173,29 @@ class MakeRasters(Step):
         if self.covers_ground:
             return Marks(ground, ground, nothing)
         shown = ground | (~np.isin(part.classification, NOISE) & ~part.withheld)
+        if not any(LAYERS[each].of_all for each in self.files.layers):
+            # The others only show where the survey is.
+            shown = ground | self._thinned(part, shown)
         top = shown & self.needs_surface
         if self.surface.surface_returns == "first":
             top &= part.return_number <= 1
         tally.top += int(np.count_nonzero(top))
         return Marks(shown, ground, top)
+
+    def _thinned(self, part: PointCloud, shown: np.ndarray) -> np.ndarray:
+        """Return one point of each cell of those that are shown."""
+        which = np.flatnonzero(shown)
+        if len(which):
+            x, y = part.places(which, survey_frame(part.crs))
+            cells = CellWindow.around((x.min(), y.min(), x.max(), y.max()), self.of_block.cell)
+            cells = cells.wider(1)
+            row, column = cells.places(x, y, (0.0, 0.0), self.of_block.cell)
+            if cells.rows * cells.columns > _MOST_THINNED * len(which):
+                return shown
+            which = which[first_of_each(row * cells.columns + column, cells.rows * cells.columns)]
+        kept = np.zeros_like(shown)
+        kept[which] = True
+        return kept
 
     def tell(self, tally: RasterTally, path: Path, progress: Progress) -> None:
         """Refuse a file without points for the rasters."""
@@ -248,14 +275,19 @@ def write_rasters(
         If there are no points, or a raster cannot be written.
     """
     cell, wanted = step.model.dtm_cell_size, step.files.wanted
-    window = _window_of(made, cell)
-    outlines = Outlines(Held(made, window, cell), step.of_block)
-    mosaics = _mosaics_of(made, window, step, outlines, progress.part(0.0, 0.3))
+    window, area = _window_of(made, cell), None
+    whole = window
+    if step.area is not None:
+        area = step.area.scaled(frame.horizontal_unit)
+        whole = _window_in(area.buffered_box(AROUND_AREA), window, cell, step.area)
+        window = _window_in(area.bounds, window, cell, step.area)
+    outlines = Outlines(Held(made, whole, cell), step.of_block)
+    mosaics = _mosaics_of(made, whole, step, outlines, progress.part(0.0, 0.3))
     parts = progress.part(0.3, 1.0).shares(*[1.0] * len(wanted))
     for (name, path), part in zip(wanted.items(), parts):
         raster = RASTERS[name]
         measured = outlines.canopy() if raster.is_measured else None
-        layers = [mosaics[each].limited(measured) for each in raster.layers]
+        layers = [mosaics[each].limited(measured, area) for each in raster.layers]
         write = partial(_write, raster, layers, frame, step, outputs)
         if files is None:
             write(path, window, part)
@@ -289,7 +321,10 @@ def _mosaics_of(
         mosaics[name] = Mosaic(made, name, window, cell, outline)
         loose = [each.loose[name] for each in made if name in each.loose]
         if loose and step.surface.max_edge is None:
-            mosaics[name].fill_gaps(np.concatenate(loose), next(parts))
+            vertices = np.concatenate(loose)
+            row, column = window.places(*vertices[:, :2].T, (0.0, 0.0), cell)
+            vertices = vertices[are_inside(row, column, window.shape)]
+            mosaics[name].fill_gaps(vertices, next(parts))
     return mosaics
 
 
@@ -344,6 +379,22 @@ def _window_of(made: Sequence[BlockRasters], cell: float) -> CellWindow:
             " Choose a larger cell size, or remove points with stray coordinates."
         )
     return window
+
+
+def _window_in(box: Box, whole: CellWindow, cell: float, area: Area) -> CellWindow:
+    """Return the cells that cover a box in metres; `area` is in units of the CRS."""
+    window = CellWindow.around(box, cell).within(whole)
+    if min(window.shape) <= 0:
+        raise no_point_in(area)
+    return window
+
+
+def no_point_in(area: Area) -> BareEarthError:
+    """Return the error for an area, in units of the CRS, without any point."""
+    return BareEarthError(
+        f"No point lies in the area ({box_in_words(area.bounds)}), so that no raster can be made."
+        " Give the area in the CRS of the points."
+    )
 
 
 def _grid_of(window: CellWindow, cell: float, frame: Frame) -> RasterGrid:

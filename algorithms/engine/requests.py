@@ -77,7 +77,7 @@ class ClassifyRequest(Request):
     selection : Selection
         Which points take part, and what their classes become.
     area : Area or None
-        Where points are classified; None for everywhere.
+        Where points are classified and rasters have values; None for everywhere.
     corrections : Corrections
         Polygons in which the class is known.
     output : Output
@@ -125,10 +125,11 @@ class ClassifyRequest(Request):
     @property
     def raster_step(self) -> MakeRasters:
         """The step that makes the rasters from the classified points."""
-        covers_ground = not any(LAYERS[each].of_all for each in self.rasters.layers)
+        needs_all = any(LAYERS[each].of_all for each in self.rasters.layers)
+        covers_ground = self.output.ground_only and not needs_all
         return MakeRasters(
             self.rasters, self.terrain, self.surface, self._ground, covers_ground, self.constraints,
-            self.raster_output.raster_per_file,
+            self.raster_output.raster_per_file, area=self.area,
         )  # fmt: skip
 
     @property
@@ -198,6 +199,8 @@ class TerrainRequest(Request):
         Breaklines, water, and areas without ground.
     raster_output : RasterOutput
         Whether each of many files gets its own rasters.
+    area : Area or None
+        Where the rasters have values; None for everywhere.
     """
 
     rasters: RasterFiles = field(default_factory=RasterFiles)
@@ -206,11 +209,12 @@ class TerrainRequest(Request):
     surface: SurfaceModel = field(default_factory=SurfaceModel)
     constraints: Constraints = NO_CONSTRAINTS
     raster_output: RasterOutput = field(default_factory=RasterOutput)
+    area: Area | None = None
 
     @property
     def raster_step(self) -> MakeRasters:
         """The step that makes the rasters."""
         return MakeRasters(
             self.rasters, self.terrain, self.surface, self.ground, constraints=self.constraints,
-            per_file=self.raster_output.raster_per_file,
+            per_file=self.raster_output.raster_per_file, area=self.area,
         )  # fmt: skip

@@ -66,6 +66,11 @@ class Area:
         west, south, east, north = self.bounds
         return west - distance, south - distance, east + distance, north + distance
 
+    def scaled(self, factor: float) -> Area:
+        """Return the area with all coordinates multiplied by a factor, for other units."""
+        box = None if self.box is None else tuple(each * factor for each in self.box)
+        return Area(box, tuple(tuple(ring * factor for ring in each) for each in self.polygons))
+
     def may_touch(self, box: Box) -> bool:
         """Return whether the bounds touch a box, including borders."""
         west, south, east, north = self.bounds
