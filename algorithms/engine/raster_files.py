@@ -11,7 +11,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.files import check_distinct, check_output
 from ..grids.hillshade import hillshade, multidirectional_hillshade
-from ..products.surface_model import canopy_height
+from ..products.surface_model import PIT_PASSES, canopy_height, without_pits
 from ..products.terrain_model import TerrainModel
 from ..rasters.geotiff import NODATA, RasterGrid
 from ..rasters.writing import check_raster_output
@@ -38,8 +38,9 @@ class Raster(NamedTuple):
         The type of its values.
     nodata : float
         The value of cells without data.
-    is_measured : bool
-        Whether it has values only where surface and terrain were measured nearby.
+    is_canopy : bool
+        Whether it is of the canopy: it has values only where surface and terrain were measured
+        nearby, and `make` takes ``pit_free``.
     """
 
     label: str
@@ -50,7 +51,7 @@ class Raster(NamedTuple):
     margin: int = 0
     kind: str = "float32"
     nodata: float = NODATA
-    is_measured: bool = False
+    is_canopy: bool = False
 
 
 def plain(values: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.ndarray:
@@ -64,9 +65,14 @@ def _heights(heights: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.n
 
 
 def _canopy(
-    surface: np.ndarray, terrain: np.ndarray, grid: RasterGrid, model: TerrainModel
+    surface: np.ndarray,
+    terrain: np.ndarray,
+    grid: RasterGrid,
+    model: TerrainModel,
+    pit_free: bool = False,
 ) -> np.ndarray:
-    return _heights(canopy_height(surface, terrain), grid, model)
+    canopy = canopy_height(surface, terrain)
+    return _heights(without_pits(canopy) if pit_free else canopy, grid, model)
 
 
 def _sure(
@@ -100,11 +106,13 @@ RASTERS = {
     ),
     "chm": Raster(
         "Canopy height (CHM)",
-        "Surface minus terrain: the height of trees, and of buildings too.",
+        "Surface minus terrain: the height of trees, and of buildings too. Empty where no ground"
+        " point lies within 50 m (or 20 cells), and in gaps of the surface.",
         "Height above ground, {unit}",
         ("surface", "terrain"),
         _canopy,
-        is_measured=True,
+        margin=PIT_PASSES,
+        is_canopy=True,
     ),
     "hillshade": Raster(
         "Hillshade",

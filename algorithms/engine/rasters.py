@@ -286,7 +286,7 @@ def write_rasters(
     parts = progress.part(0.3, 1.0).shares(*[1.0] * len(wanted))
     for (name, path), part in zip(wanted.items(), parts):
         raster = RASTERS[name]
-        measured = outlines.canopy() if raster.is_measured else None
+        measured = outlines.canopy() if raster.is_canopy else None
         layers = [mosaics[each].limited(measured, area) for each in raster.layers]
         write = partial(_write, raster, layers, frame, step, outputs)
         if files is None:
@@ -341,6 +341,8 @@ def _write(
     """Write some cells of a raster; return where they lie."""
     grid = _grid_of(window, step.model.dtm_cell_size, frame)
     make = partial(raster.make, grid=grid, model=step.model)
+    if raster.is_canopy:
+        make = partial(make, pit_free=step.surface.pit_free)
     strips = gathered_strips(layers, window, make, raster.margin, progress)
     temporary = outputs.enter_context(replacing_raster(path))
     rows = Rows(window.shape, raster.kind, strips)

@@ -10,7 +10,7 @@ from ..core.parameters import ParameterSet
 from ..filters import DEFAULT_METHOD, METHODS
 from ..grids.model_key_points import ModelKeyPoints
 from ..products.raster_block import LAYERS
-from ..products.surface_model import SurfaceModel
+from ..products.surface_model import Gaps, SurfaceModel
 from ..products.terrain_model import TerrainModel
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
@@ -62,6 +62,8 @@ class Request:
         for each in sets:
             if isinstance(each, TileMethod):
                 each = each.parameters
+            if isinstance(each, Gaps):
+                each = SurfaceModel(max_edge=each.max_edge)
             others[fields.get(type(each), "parameters")] = each
         return cls(**others)
 

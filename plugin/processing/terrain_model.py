@@ -10,6 +10,7 @@ from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.files import is_one_file
 from ...algorithms.survey.ground_classes import GroundClasses
 from ..i18n import mark, tr
+from .area import OF_RASTERS, add_area, area_of, area_options
 from .base import command_line
 from .constraints import add_constraints, constraints_of
 from .inputs import CloudCrs
@@ -38,7 +39,8 @@ class TerrainModelAlgorithm(ProductAlgorithm):
         return GroundClasses, TerrainModel, SurfaceModel, RasterOutput, Resources
 
     def add_outputs(self):
-        """Add the fields of constraints and rasters; all of them are optional."""
+        """Add the fields of area, constraints and rasters; all of them are optional."""
+        add_area(self, ("EXTENT", "BOUNDARY"), OF_RASTERS)
         add_constraints(self)
         add_rasters(self)
 
@@ -51,9 +53,12 @@ class TerrainModelAlgorithm(ProductAlgorithm):
         paths = raster_paths(self, parameters, context)
         if not paths:
             raise BareEarthError(tr("Choose at least one raster to make."))
-        progress.command(command_line("terrain", [str(self.source)], chosen, paths))
-        known = constraints_of(self, parameters, context, CloudCrs(self.source), progress)
-        request = TerrainRequest.of(chosen, rasters=raster_files(paths), constraints=known)
+        crs, files = CloudCrs(self.source), raster_files(paths)
+        area = area_of(self, parameters, context, crs)
+        words = [str(self.source), *area_options(area, progress)]
+        progress.command(command_line("terrain", words, chosen, paths))
+        known = constraints_of(self, parameters, context, crs, progress)
+        request = TerrainRequest.of(chosen, rasters=files, constraints=known, area=area)
         summary = terrain(self.source, request, progress)
         size = summary.columns, summary.rows
         progress.info(tr("The rasters have {:,} x {:,} cells.").format(*size))
