@@ -111,6 +111,11 @@ def _apart(counts: np.ndarray, side: int) -> float:
     return max(side / math.sqrt(usual_count(counts)), 1.0)
 
 
+def _radius(cells: float) -> float:
+    """Return the radius of a disc whose border has no single cells, about as large."""
+    return math.floor(cells) + 0.5
+
+
 class Outlines:
     """The outlines of the rasters of a survey, made when they are needed.
 
@@ -127,9 +132,9 @@ class Outlines:
         self._held, self._shape, self._longest = held, window.shape, step.longest_edge / cell
         self._corner = window.row + window.rows, window.column
         of_all, of_ground = held.spacings()
-        self._near = _SPACINGS * of_all
-        least = min(_LEAST_OF_GROUND / cell, MOST_CELLS)
-        self._near_ground = max(_SPACINGS * of_ground, least)
+        self._near = _radius(_SPACINGS * of_all)
+        least = min(_LEAST_OF_GROUND / cell, MOST_CELLS - 1)
+        self._near_ground = _radius(max(_SPACINGS * of_ground, least))
 
     def survey(self, progress: Progress = SILENT) -> Outline:
         """Return the outline of all points."""
@@ -170,7 +175,7 @@ class Outlines:
         """
         outside = np.pad(~cells, 1, constant_values=True)
         border = cells & within_square(np.maximum, outside, 1)[1:-1, 1:-1]
-        radius = 2.0 * self._near_ground
+        radius = _radius(2.0 * self._near_ground)
         margin = math.ceil(self._near_ground) + 1
         for first in range(0, cells.shape[1], _COLUMNS):
             last = min(first + _COLUMNS, cells.shape[1])
