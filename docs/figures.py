@@ -28,6 +28,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from by_hand_figure import by_hand
 from drawing import FEW_COLOURS, IMAGES, OTHER, draw_errors, save, shade, shrink
 from method_figures import grid_minimum_steps, slope_filter_steps, tin_densification_steps
+from outline_figures import canopy_pits, terrain_outline
 
 from bare_earth.algorithms import ClassifyRequest, RasterFiles, TerrainRequest, classify, terrain
 from bare_earth.algorithms.filters.tin_densification.filter import PRESETS
@@ -77,6 +78,8 @@ def main() -> None:
         "slope-filter-steps": slope_filter_steps,
         "grid-minimum-steps": grid_minimum_steps,
         "by-hand": by_hand,
+        "terrain-outline": terrain_outline,
+        "canopy-pits": canopy_pits,
         "presets": print_presets,
         **{f"which-method-{name}": partial(small_multiples, name) for name in TERRAIN},
     }

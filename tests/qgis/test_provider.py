@@ -18,6 +18,7 @@ from support import ALGORITHM, ROOT
 
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.output import Output
+from bare_earth.algorithms.products.surface_model import Gaps
 from bare_earth.algorithms.products.terrain_model import TerrainModel
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.plugin.processing.classification import ClassificationAlgorithm
@@ -392,7 +393,7 @@ def test_its_page_holds_every_parameter_with_its_default(each, registry):
     page = page_of(each)
     # What all ground classifications share stands on the page of one of them.
     shared = page_of(registry.createAlgorithmById(ALGORITHM))
-    sets = (Selection, TerrainModel, Output, Resources)
+    sets = (Selection, TerrainModel, Gaps, Output, Resources)
     of_all = [parameter for declared in sets for parameter in declared.declarations()]
     for declared in each.parameter_sets():
         for parameter in declared.declarations():
