@@ -29,6 +29,7 @@ from by_hand_figure import by_hand
 from drawing import FEW_COLOURS, IMAGES, OTHER, draw_errors, save, shade, shrink
 from method_figures import grid_minimum_steps, slope_filter_steps, tin_densification_steps
 from noise_figure import noise
+from outline_figures import canopy_pits, terrain_outline
 
 from bare_earth.algorithms import (
     ClassifyRequest,
@@ -89,6 +90,8 @@ def main() -> None:
         "by-hand": by_hand,
         "noise": noise,
         "relief-smoothing": relief_smoothing,
+        "terrain-outline": terrain_outline,
+        "canopy-pits": canopy_pits,
         "presets": print_presets,
         **{f"which-method-{name}": partial(small_multiples, name) for name in TERRAIN},
     }

@@ -6,24 +6,16 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Sequence
 
-from ..core.errors import BareEarthError
 from .command import DONE, Command
-from .options import (
-    KEPT,
-    UsageError,
-    add_crs,
-    add_extent,
-    add_inputs,
-    add_json,
-    add_parameters,
-    chosen,
-)
+from .options import KEPT, add_crs, add_inputs, add_json, add_parameters, chosen
 from .surveys import (
+    add_area,
     add_constraints,
     add_contours,
     add_raster_target,
     add_rasters,
     add_scheduler,
+    area_of,
     constraints_of,
     contours_after,
     finished_files_stay,
@@ -36,7 +28,6 @@ from .terminal import Terminal, tell
 if TYPE_CHECKING:
     from ..engine.requests import ClassifyRequest
     from ..filters.method import Method
-    from ..survey.area import Area
 
 
 def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
@@ -44,9 +35,9 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
     from ..engine.options import RasterOutput, TileInput, TileOutput
     from ..engine.output import Output
     from ..products.contours import Contours
+    from ..products.surface_model import SurfaceModel
     from ..products.terrain_model import TerrainModel
     from ..survey.selection import Selection
-    from ..survey.vector_files import FORMATS
 
     add_inputs(parser)
     add_crs(parser, KEPT)
@@ -58,14 +49,9 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
     add_contours(parser)
     add_raster_target(parser)
     add_constraints(parser, "for the rasters, ")
-    add_extent(
-        parser, "classify only points in this rectangle",
-        "; points outside are written too, with the class that they have, unless --area-only is"
-        " given",
-    )  # fmt: skip
-    parser.add_argument(
-        "--boundary", metavar="FILE", type=Path,
-        help=f"classify only points in these polygons ({FORMATS}); for points outside as --extent",
+    add_area(
+        parser, "classify only points in", "; points outside are written too, with the class that"
+        " they have, unless --area-only is given; rasters end at its border",
     )  # fmt: skip
     parser.add_argument(
         "--corrections", metavar="FILE", type=Path,
@@ -81,12 +67,12 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
     method = _add_method(parser, arguments)
     add_json(parser, "the counts ")
     add_parameters(
-        parser, method.parameters, Selection, TerrainModel, Contours, Output, TileInput,
-        TileOutput, RasterOutput, Resources,
+        parser, method.parameters, Selection, TerrainModel, SurfaceModel, Contours, Output,
+        TileInput, TileOutput, RasterOutput, Resources,
         titles=(
             f"{method.label} parameters", "Which points, which classes", "Terrain model",
-            "Contour lines", "Output", "Files", "Output of many files", "Rasters of many files",
-            "Threads and memory",
+            "Surface model and gaps", "Contour lines", "Output", "Files", "Output of many files",
+            "Rasters of many files", "Threads and memory",
         ),
     )  # fmt: skip
 
@@ -113,7 +99,7 @@ def _classify(options: argparse.Namespace) -> int:
     corrections, sets = NO_CORRECTIONS, chosen(options)
     if options.corrections is not None:
         corrections = read_corrections(options.corrections)
-    area, known = _area_of(options), constraints_of(options)
+    area, known = area_of(options), constraints_of(options)
     with contours_after(options, sets) as (rasters, rest):
         request = ClassifyRequest.of(
             rest, rasters=rasters, area=area, corrections=corrections, constraints=known,
@@ -142,20 +128,6 @@ def _classified(options: argparse.Namespace, request: ClassifyRequest) -> int:
             options.input, options.output, request, progress, workers, options.vpc
         )
     return tell_of_survey(options, done)
-
-
-def _area_of(options: argparse.Namespace) -> Area | None:
-    """Return the area of the options, or None if there is none."""
-    from ..survey.area import Area
-    from ..survey.vector_files import read_boundary
-
-    if options.extent is None and options.boundary is None:
-        return None
-    try:
-        box = None if options.extent is None else Area(tuple(options.extent)).box
-    except BareEarthError as error:
-        raise UsageError(str(error)) from error
-    return Area(box, () if options.boundary is None else read_boundary(options.boundary))
 
 
 _TILES = "classify-tiles"

@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING, Sequence
 from .command import DONE, Command
 from .options import KEPT, add_crs, add_inputs, add_json, add_parameters, chosen
 from .surveys import (
+    add_area,
     add_constraints,
     add_contours,
     add_raster_target,
     add_rasters,
     add_scheduler,
+    area_of,
     constraints_of,
     contours_after,
     finished_files_stay,
@@ -169,6 +171,7 @@ def _add_terrain(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> N
     add_rasters(parser)
     add_contours(parser)
     add_raster_target(parser)
+    add_area(parser, "make the rasters only in", "; points outside still help along its border")
     add_constraints(parser)
     add_scheduler(parser)
     add_json(parser)
@@ -185,7 +188,7 @@ def _terrain(options: argparse.Namespace) -> int:
     known, sets = constraints_of(options), chosen(options)
     with contours_after(options, sets) as (rasters, rest):
         request = TerrainRequest.of(
-            rest, rasters=rasters, constraints=known, crs=options.crs,
+            rest, rasters=rasters, constraints=known, crs=options.crs, area=area_of(options),
             raster_target=raster_target_of(options),
         )  # fmt: skip
         with Terminal(options.verbose) as progress:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Iterator, Sequence
 
 from ..core.errors import BareEarthError, Cancelled
 from .command import DONE, FAILED
-from .options import UsageError
+from .options import UsageError, add_extent
 from .terminal import Terminal, tell
 
 if TYPE_CHECKING:
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from ..engine.raster_files import RasterFiles
     from ..engine.raster_grid import RasterTarget
     from ..engine.workers import Workers
+    from ..survey.area import Area
 
 
 _CONSTRAINTS = {
@@ -112,6 +113,32 @@ def raster_target_of(options: argparse.Namespace) -> RasterTarget:
         return RasterTarget(options.like, extent and tuple(extent))
     except BareEarthError as error:
         raise UsageError(str(error)) from error
+
+
+def add_area(parser: argparse.ArgumentParser, what: str, more: str = "") -> None:
+    """Add the options for a rectangle and for polygons; `what` and `more` are of their help."""
+    from ..survey.vector_files import FORMATS
+
+    add_extent(parser, f"{what} this rectangle", more)
+    parser.add_argument(
+        "--boundary", metavar="FILE", type=Path,
+        help=f"{what} these polygons ({FORMATS}); as --extent otherwise, and with it only what"
+        " lies in both",
+    )  # fmt: skip
+
+
+def area_of(options: argparse.Namespace) -> Area | None:
+    """Return the area of the options, or None if there is none."""
+    from ..survey.area import Area
+    from ..survey.vector_files import read_boundary
+
+    if options.extent is None and options.boundary is None:
+        return None
+    try:
+        box = None if options.extent is None else Area(tuple(options.extent)).box
+    except BareEarthError as error:
+        raise UsageError(str(error)) from error
+    return Area(box, () if options.boundary is None else read_boundary(options.boundary))
 
 
 def add_constraints(parser: argparse.ArgumentParser, note: str = "") -> None:

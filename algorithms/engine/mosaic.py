@@ -11,8 +11,10 @@ from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
 from ..grids.morphology import within_square
+from ..grids.outline import Outline
 from ..grids.surface import CellLattice, Surface
 from ..products.raster_block import BlockRasters
+from ..survey.area import Area
 
 # Cells that are joined at a time.
 _CELLS_A_STRIP = 4_000_000
@@ -33,15 +35,28 @@ class Mosaic:
         All cells.
     cell : float
         Side of a cell in metres.
+    outline : Outline, optional
+        Cells outside have no value.
     """
 
     def __init__(
-        self, made: Sequence[BlockRasters], layer: str, window: CellWindow, cell: float
+        self,
+        made: Sequence[BlockRasters],
+        layer: str,
+        window: CellWindow,
+        cell: float,
+        outline: Outline | None = None,
     ) -> None:
         self._made, self._layer, self.window, self._cell = made, layer, window, cell
-        # Where gaps are filled; `window` may become a part of it, or reach beyond.
+        self._whole, self._outlines = window, [outline] if outline else []
+        self._area: Area | None = None
         self._gaps: Surface | None = None
-        self._filled = window
+
+    def limited(self, outline: Outline | None = None, area: Area | None = None) -> Mosaic:
+        """Return the layer with values only inside an outline, and an area in metres, too."""
+        part = copy.copy(self)
+        part._outlines, part._area = self._outlines + ([outline] if outline else []), area
+        return part
 
     def columns(self, start: int, end: int) -> Mosaic:
         """Return some columns of the layer, from `start` on; those beyond it are NaN."""
@@ -50,27 +65,39 @@ class Mosaic:
         part._made = [each for each in self._made if _overlap(each.window, part.window)]
         return part
 
-    def rows(self, start: int, end: int) -> np.ndarray:
-        """Return rows of the raster, from north to south; rows beyond it are NaN.
+    def rows(self, start: int, end: int, kind: type = np.float32) -> np.ndarray:
+        """Return rows of the raster, from north to south; rows beyond it are NaN, or 0.
 
         Returns
         -------
-        numpy.ndarray of float32, shape (end - start, columns)
+        numpy.ndarray of `kind`, shape (end - start, columns)
         """
         whole = self.window
         strip = CellWindow(whole.row + whole.rows - end, whole.column, end - start, whole.columns)
-        heights = np.full(strip.shape, np.nan, dtype=np.float32)
+        empty = np.nan if issubclass(kind, np.floating) else 0
+        heights = np.full(strip.shape, empty, dtype=kind)
         for each in self._made:
             target, source = _overlap(strip, each.window), _overlap(each.window, strip)
             if target is not None:
                 heights[target] = each.layers[self._layer][source]
-        filled = _overlap(strip, self._filled)
-        if self._gaps is not None and filled is not None:
-            self._fill(heights[filled], strip.within(self._filled), self._gaps)
+        if self._outlines:
+            outside = ~self._inside(start, end)[::-1]
+            if self._gaps is not None:
+                self._fill(heights, strip, self._gaps, outside)
+            heights[outside] = np.nan
+        if self._area is not None:
+            x, y = np.meshgrid(*strip.centres(self._cell))
+            heights[~self._area.contains(x.ravel(), y.ravel()).reshape(x.shape)] = np.nan
         return heights[::-1]
 
+    def _inside(self, start: int, end: int) -> np.ndarray:
+        """Return which cells of some rows lie in all outlines."""
+        first = self.window.column - self._whole.column
+        columns = first, first + self.window.columns
+        return np.logical_and.reduce([each.rows(start, end, *columns) for each in self._outlines])
+
     def fill_gaps(self, points: np.ndarray, progress: Progress = SILENT) -> None:
-        """Fill cells without a height inside the convex hull, from a TIN over the gaps.
+        """Fill cells without a height inside the outline, from a TIN over the gaps.
 
         Parameters
         ----------
@@ -81,22 +108,24 @@ class Mosaic:
         """
         vertices = [points]
         for start, end in _strips(self.window):
-            heights = self.rows(max(start - 1, 0), min(end + 1, self.window.rows))
-            vertices.append(self._along_gaps(heights, max(start - 1, 0)))
+            first, last = max(start - 1, 0), min(end + 1, self.window.rows)
+            heights, inside = self.rows(first, last), self._inside(first, last)
+            vertices.append(self._along_gaps(heights, np.isnan(heights) & inside, first))
             progress(end / self.window.rows)
         self._gaps = Surface(Points(*np.concatenate(vertices).T))
 
-    def _along_gaps(self, heights: np.ndarray, first: int) -> np.ndarray:
-        """Return centres and heights of the cells next to one without a height, shape (n, 3)."""
-        missing = np.isnan(heights)
+    def _along_gaps(self, heights: np.ndarray, missing: np.ndarray, first: int) -> np.ndarray:
+        """Return centres and heights of the cells with a height next to missing ones, (n, 3)."""
         near = within_square(np.maximum, missing, 1)
-        row, column = np.nonzero(near & ~missing)
+        row, column = np.nonzero(near & ~np.isnan(heights))
         x = (self.window.column + column + 0.5) * self._cell
         y = (self.window.row + self.window.rows - first - row - 0.5) * self._cell
         return np.column_stack((x, y, heights[row, column].astype(np.float64)))
 
-    def _fill(self, heights: np.ndarray, strip: CellWindow, gaps: Surface) -> None:
-        row, column = np.nonzero(np.isnan(heights))
+    def _fill(
+        self, heights: np.ndarray, strip: CellWindow, gaps: Surface, outside: np.ndarray
+    ) -> None:
+        row, column = np.nonzero(np.isnan(heights) & ~outside)
         if len(row):
             x, y = ((at + 0.5) * self._cell for at in (strip.column + column, strip.row + row))
             lattice = CellLattice((0.0, 0.0), self._cell)

@@ -13,7 +13,7 @@ from ..core.files import check_distinct, check_output
 from ..grids.hillshade import hillshade, multidirectional_hillshade
 from ..grids.relief_smoothing import smoothing_reach, without_noise
 from ..products.local_relief import local_relief, relief_reach
-from ..products.surface_model import canopy_height
+from ..products.surface_model import PIT_PASSES, canopy_height, without_pits
 from ..products.terrain_model import TerrainModel
 from ..rasters.geotiff import RasterGrid
 from ..rasters.writing import check_raster_output
@@ -46,6 +46,9 @@ class Raster(NamedTuple):
         The type of its values.
     nodata : float or None
         The value of cells without data; None for the one that the user chooses.
+    is_canopy : bool
+        Whether it is of the canopy: it has values only where surface and terrain were measured
+        nearby, and `make` takes ``pit_free``.
     """
 
     label: str
@@ -56,6 +59,7 @@ class Raster(NamedTuple):
     margin: Callable[[RasterGrid, TerrainModel], int] = _none
     kind: str = "float32"
     nodata: float | None = None
+    is_canopy: bool = False
 
     def empty(self, model: TerrainModel) -> float:
         """Return the value of cells without data."""
@@ -73,9 +77,18 @@ def _heights(heights: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.n
 
 
 def _canopy(
-    surface: np.ndarray, terrain: np.ndarray, grid: RasterGrid, model: TerrainModel
+    surface: np.ndarray,
+    terrain: np.ndarray,
+    grid: RasterGrid,
+    model: TerrainModel,
+    pit_free: bool = False,
 ) -> np.ndarray:
-    return _heights(canopy_height(surface, terrain), grid, model)
+    canopy = canopy_height(surface, terrain)
+    return _heights(without_pits(canopy) if pit_free else canopy, grid, model)
+
+
+def _pit_margin(grid: RasterGrid, model: TerrainModel) -> int:
+    return PIT_PASSES
 
 
 def _sure(
@@ -127,10 +140,13 @@ RASTERS = {
     ),
     "chm": Raster(
         "Canopy height (CHM)",
-        "Surface minus terrain: the height of trees, and of buildings too.",
+        "Surface minus terrain: the height of trees, and of buildings too. Empty where no ground"
+        " point lies within 50 m (or 20 cells), and in gaps of the surface.",
         "Height above ground, {unit}",
         ("surface", "terrain"),
         _canopy,
+        margin=_pit_margin,
+        is_canopy=True,
     ),
     "hillshade": Raster(
         "Hillshade",

@@ -23,7 +23,7 @@ from .job_queue import JobQueue
 from .jobs import BlockJob, Share
 from .memory_points import MemoryPoints, SurveyFile
 from .planning import block_jobs
-from .rasters import MakeRasters, RasterSize, write_rasters
+from .rasters import AROUND_AREA, MakeRasters, RasterSize, no_point_in, write_rasters
 from .record import block_file, stamp_of
 from .workers import Workers
 
@@ -163,6 +163,12 @@ def make_rasters(
     seen, progress = progress.part(0.0, 0.05), progress.part(0.05, 1.0)
     step = step.seeing(parts_of(survey.tiles, seen), grid.frame, seen)
     places = sorted({place for tile in survey.tiles for place in places_of(grid, tile)})
+    if step.area is not None:
+        around = step.area.buffered_box(AROUND_AREA / grid.frame.horizontal_unit)
+        columns, rows = grid.places_in(around)
+        places = [each for each in places if each.column in columns and each.row in rows]
+        if not places:
+            raise no_point_in(step.area)
     stamps = {each.path: stamp_of(each.path) for each in survey.tiles}
     sources = {each: sources_of(grid, survey, each) for each in places}
     files = {

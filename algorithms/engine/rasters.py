@@ -12,12 +12,13 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.files import new_folder, replacing
-from ..core.points import Box, Frame
+from ..core.points import Box, Frame, box_in_words
 from ..core.progress import SILENT, Progress
 from ..crs.system import Crs
 from ..grids.cell_window import CellWindow
+from ..grids.cells import are_inside, first_of_each
 from ..grids.dense_surface import VERTICES_A_SIDE
-from ..las.cloud import PointCloud
+from ..las.cloud import PointCloud, survey_frame
 from ..products.height_above_ground import with_roads
 from ..products.raster_block import LAYERS, BlockRasters, RasterStep
 from ..products.surface_model import SurfaceModel
@@ -25,6 +26,7 @@ from ..products.terrain_model import TerrainModel
 from ..rasters.geotiff import RasterGrid
 from ..rasters.virtual import write_virtual
 from ..rasters.writing import Band, Rows, replacing_raster, write_geotiff
+from ..survey.area import Area
 from ..survey.ground_classes import GroundClasses, GroundTally
 from ..survey.kept_classes import NOISE
 from .blocks import Block, Blocks, Store
@@ -32,6 +34,7 @@ from .constraints import NO_CONSTRAINTS, Constraints, FixedTerrain, fixed_terrai
 from .ground import over_blocks
 from .memory import Cost, Resources
 from .mosaic import Mosaic, gathered_strips
+from .outlines import Held, Outlines
 from .raster_files import RASTERS, Raster, RasterFiles, folder_of, virtual_of
 from .raster_grid import (
     ANYWHERE,
@@ -47,6 +50,11 @@ from .steps import Marks, Step
 # In a raster of more cells, blocks with points must cover this share. Otherwise it is so large
 # because of a few points with stray coordinates.
 _MANY_CELLS, _LEAST_COVERED = 10_000_000, 0.01
+# Cells up to so many metres from the area are made as well, because the surroundings decide which
+# gaps lie inside the survey.
+AROUND_AREA = 1000.0
+# Points are thinned unless there are so many times as many cells.
+_MOST_THINNED = 10
 # Bytes that a block takes for each point in it and its buffer, and for each cell.
 _BYTES_A_POINT, _BYTES_A_CELL = 130.0, 120.0
 
@@ -102,8 +110,7 @@ class MakeRasters(Step):
     roads : tuple of int
         Classes whose points are ground as well, where they lie on it.
     covers_ground : bool
-        Whether the rasters cover the extent of the ground. Otherwise they cover all points without
-        noise.
+        Whether the rasters cover the ground. Otherwise they cover all points without noise.
     constraints : Constraints
         Breaklines, water, and areas without ground.
     per_file : bool
@@ -114,6 +121,8 @@ class MakeRasters(Step):
         A grid or an extent that the rasters must have.
     cells : CellGrid or None
         Where the cells lie; `placed` finds this.
+    area : Area or None
+        Where the rasters have values, if not everywhere. Points outside still take part.
     """
 
     files: RasterFiles = field(default_factory=RasterFiles)
@@ -127,6 +136,7 @@ class MakeRasters(Step):
     fixed: FixedTerrain | None = None
     target: RasterTarget = ANYWHERE
     cells: CellGrid | None = None
+    area: Area | None = None
 
     tally = RasterTally
 
@@ -197,6 +207,9 @@ class MakeRasters(Step):
         if self.covers_ground:
             return Marks(ground | roads, ground, nothing, roads)
         shown = ground | (~np.isin(part.classification, NOISE) & self.ground.used(part))
+        if not any(LAYERS[each].of_all for each in self.files.layers):
+            # The others only show where the survey is.
+            shown = ground | roads | self._thinned(part, shown)
         top = shown & self.needs_surface
         if self.surface.surface_classes:
             top &= np.isin(part.classification, self.surface.surface_classes)
@@ -204,6 +217,21 @@ class MakeRasters(Step):
             top &= part.return_number <= 1
         tally.top += int(np.count_nonzero(top))
         return Marks(shown, ground, top, roads)
+
+    def _thinned(self, part: PointCloud, shown: np.ndarray) -> np.ndarray:
+        """Return one point of each cell of those that are shown."""
+        which = np.flatnonzero(shown)
+        if len(which):
+            x, y = part.places(which, survey_frame(part.crs, self.origin))
+            cells = CellWindow.around((x.min(), y.min(), x.max(), y.max()), self.of_block.cell)
+            cells = cells.wider(1)
+            row, column = cells.places(x, y, (0.0, 0.0), self.of_block.cell)
+            if cells.rows * cells.columns > _MOST_THINNED * len(which):
+                return shown
+            which = which[first_of_each(row * cells.columns + column, cells.rows * cells.columns)]
+        kept = np.zeros_like(shown)
+        kept[which] = True
+        return kept
 
     def tell(self, tally: RasterTally, path: Path, progress: Progress) -> None:
         """Refuse a file without points for the rasters."""
@@ -288,18 +316,20 @@ def write_rasters(
         If there are no points, or a raster cannot be written.
     """
     cell, wanted = step.cell, step.files.wanted
-    window = _window_of(made, cell)
-    mosaics = {}
-    for name in step.files.layers:
-        mosaics[name] = Mosaic(made, name, window, cell)
-        loose = [each.loose[name] for each in made if name in each.loose]
-        if loose and step.surface.max_edge is None:
-            mosaics[name].fill_gaps(np.concatenate(loose), progress.part(0.0, 0.3))
+    window, area = _window_of(made, cell), None
+    whole = window
+    if step.area is not None:
+        area = step.area.scaled(frame.horizontal_unit, frame.origin)
+        whole = _window_in(area.buffered_box(AROUND_AREA), window, cell, step.area)
+        window = _window_in(area.bounds, window, cell, step.area)
+    outlines = Outlines(Held(made, whole, cell), step.of_block)
+    mosaics = _mosaics_of(made, whole, step, outlines, progress.part(0.0, 0.3))
     window = _covered(window, step, frame)
     parts = progress.part(0.3, 1.0).shares(*[1.0] * len(wanted))
     for (name, path), part in zip(wanted.items(), parts):
         raster = RASTERS[name]
-        layers = [mosaics[each] for each in raster.layers]
+        measured = outlines.canopy() if raster.is_canopy else None
+        layers = [mosaics[each].limited(measured, area) for each in raster.layers]
         write = partial(_write, raster, layers, frame, step, outputs)
         if files is None:
             write(path, window, part)
@@ -317,6 +347,29 @@ def write_rasters(
     return RasterSize(int(counts[0]), int(counts[1]), window.columns, window.rows)
 
 
+def _mosaics_of(
+    made: Sequence[BlockRasters],
+    window: CellWindow,
+    step: MakeRasters,
+    outlines: Outlines,
+    progress: Progress,
+) -> dict[str, Mosaic]:
+    """Return the layers of all blocks inside their outlines, with the gaps there filled."""
+    names, cell = step.files.layers, step.cell
+    parts = iter(progress.shares(*[1.0] * (2 * len(names) + 1)))
+    survey, mosaics = outlines.survey(next(parts)), {}
+    for name in names:
+        outline = outlines.terrain(survey, next(parts)) if name == "terrain" else survey
+        mosaics[name] = Mosaic(made, name, window, cell, outline)
+        loose = [each.loose[name] for each in made if name in each.loose]
+        if loose and step.surface.max_edge is None:
+            vertices = np.concatenate(loose)
+            row, column = window.places(*vertices[:, :2].T, (0.0, 0.0), cell)
+            vertices = vertices[are_inside(row, column, window.shape)]
+            mosaics[name].fill_gaps(vertices, next(parts))
+    return mosaics
+
+
 def _write(
     raster: Raster,
     layers: Sequence[Mosaic],
@@ -330,6 +383,8 @@ def _write(
     """Write some cells of a raster; return where they lie."""
     grid = _grid_of(window, step, frame)
     make = partial(raster.make, grid=grid, model=step.model)
+    if raster.is_canopy:
+        make = partial(make, pit_free=step.surface.pit_free)
     strips = gathered_strips(layers, window, make, raster.margin(grid, step.model), progress)
     temporary = outputs.enter_context(replacing_raster(path))
     rows = Rows(window.shape, raster.kind, strips)
@@ -378,6 +433,22 @@ def _covered(window: CellWindow, step: MakeRasters, frame: Frame) -> CellWindow:
     if min(wanted.within(window).shape) <= 0:
         raise no_points(*(box_of(_grid_of(each, step, frame)) for each in (wanted, window)))
     return wanted
+
+
+def _window_in(box: Box, whole: CellWindow, cell: float, area: Area) -> CellWindow:
+    """Return the cells that cover a box in metres; `area` is in units of the CRS."""
+    window = CellWindow.around(box, cell).within(whole)
+    if min(window.shape) <= 0:
+        raise no_point_in(area)
+    return window
+
+
+def no_point_in(area: Area) -> BareEarthError:
+    """Return the error for an area, in units of the CRS, without any point."""
+    return BareEarthError(
+        f"No point lies in the area ({box_in_words(area.bounds)}), so that no raster can be made."
+        " Give the area in the CRS of the points."
+    )
 
 
 def _grid_of(window: CellWindow, step: MakeRasters, frame: Frame) -> RasterGrid:

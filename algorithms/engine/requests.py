@@ -11,7 +11,7 @@ from ..crs.stated import stated_wkt
 from ..filters import DEFAULT_METHOD, METHODS
 from ..grids.model_key_points import ModelKeyPoints
 from ..products.raster_block import LAYERS
-from ..products.surface_model import SurfaceModel
+from ..products.surface_model import Gaps, SurfaceModel
 from ..products.terrain_model import TerrainModel
 from ..rasters.sampling import HeightRaster
 from ..survey.area import Area
@@ -80,6 +80,8 @@ class Request:
         for each in sets:
             if isinstance(each, TileMethod):
                 each = each.parameters
+            if isinstance(each, Gaps):
+                each = SurfaceModel(max_edge=each.max_edge)
             others[fields.get(type(each), "parameters")] = each
         return cls(**others)
 
@@ -95,7 +97,7 @@ class ClassifyRequest(Request):
     selection : Selection
         Which points take part, and what their classes become.
     area : Area or None
-        Where points are classified; None for everywhere.
+        Where points are classified and rasters have values; None for everywhere.
     corrections : Corrections
         Polygons in which the class is known.
     output : Output
@@ -148,11 +150,12 @@ class ClassifyRequest(Request):
     @property
     def raster_step(self) -> MakeRasters:
         """The step that makes the rasters from the classified points."""
-        covers_ground = not any(LAYERS[each].of_all for each in self.rasters.layers)
+        needs_all = any(LAYERS[each].of_all for each in self.rasters.layers)
+        covers_ground = self.output.ground_only and not needs_all
         return MakeRasters(
             self.rasters, self.terrain, self.surface, self._ground, self.selection.roads,
             covers_ground, self.constraints, self.raster_output.raster_per_file,
-            target=self.raster_target,
+            target=self.raster_target, area=self.area,
         )  # fmt: skip
 
     @property
@@ -228,6 +231,8 @@ class TerrainRequest(Request):
         Whether each of many files gets its own rasters.
     raster_target : RasterTarget
         A raster whose grid the rasters get, and their extent.
+    area : Area or None
+        Where the rasters have values; None for everywhere.
     """
 
     rasters: RasterFiles = field(default_factory=RasterFiles)
@@ -237,11 +242,12 @@ class TerrainRequest(Request):
     constraints: Constraints = NO_CONSTRAINTS
     raster_output: RasterOutput = field(default_factory=RasterOutput)
     raster_target: RasterTarget = ANYWHERE
+    area: Area | None = None
 
     @property
     def raster_step(self) -> MakeRasters:
         """The step that makes the rasters."""
         return MakeRasters(
             self.rasters, self.terrain, self.surface, self.ground, constraints=self.constraints,
-            per_file=self.raster_output.raster_per_file, target=self.raster_target,
+            per_file=self.raster_output.raster_per_file, target=self.raster_target, area=self.area,
         )  # fmt: skip

@@ -49,6 +49,11 @@ class CellWindow(NamedTuple):
         """Return x and y of the southwestern corner."""
         return self.column * cell, self.row * cell
 
+    def centres(self, cell: float) -> tuple[np.ndarray, np.ndarray]:
+        """Return x of the columns and y of the rows, at the centres of the cells."""
+        x, y = (self.column + np.arange(self.columns), self.row + np.arange(self.rows))
+        return (x + 0.5) * cell, (y + 0.5) * cell
+
     def wider(self, cells: int) -> CellWindow:
         """Return the window with a margin."""
         both = 2 * cells

@@ -74,6 +74,34 @@ def erosion(grid: np.ndarray, radius: float) -> np.ndarray:
     return _extreme(np.minimum, np.pad(grid, _reach(radius), mode="edge"), radius)
 
 
+def dilation(cells: np.ndarray, radius: float) -> np.ndarray:
+    """Return which cells have one that is True within a disc; bool, shape (rows, columns)."""
+    padded = np.pad(cells, _reach(radius)).view(np.uint8)
+    return _extreme(np.maximum, padded, radius).view(bool)
+
+
+def closing(cells: np.ndarray, radius: float, shrink: float | None = None) -> np.ndarray:
+    """Return the closing of cells by a disc: all that no disc covers without one that is True.
+
+    Parameters
+    ----------
+    cells : numpy.ndarray of bool, shape (rows, columns)
+        The cells; those beyond the grid are False.
+    radius : float
+        Radius of the disc in cells.
+    shrink : float, optional
+        Another radius for the second half, the erosion.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (rows, columns)
+    """
+    shrink = radius if shrink is None else shrink
+    reach = _reach(shrink)
+    grown = dilation(np.pad(cells, reach), radius)
+    return _extreme(np.minimum, grown.view(np.uint8), shrink).view(bool)
+
+
 def within_square(which: np.ufunc, grid: np.ndarray, reach: int) -> np.ndarray:
     """Return the extreme of a grid within a square round each cell.
 

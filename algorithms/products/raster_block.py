@@ -24,6 +24,9 @@ from .terrain_edges import follow_edges
 _LONGEST_EDGE, _LONGEST_CELLS = 50.0, 20.0
 # Reach of a triangle in longest edges. Its circumcircle hardly ever reaches farther.
 _EDGES = 2.0
+# The layer that tells what each cell holds: bits for ground points in its four quarters, from
+# southwest to northeast, and a bit for any points.
+HELD, QUARTERS, ANY = "held", 4, 16
 # Least number of points that are processed together.
 _POINTS_A_PART = 1 << 20
 
@@ -37,7 +40,7 @@ class BlockRasters(NamedTuple):
         The cells of the block.
     layers : mapping of str to numpy.ndarray of float32, shape (rows, columns)
         The wanted layers, by their names in `LAYERS`; rows from south to north, NaN where there is
-        no value.
+        no value. Also `HELD`, of uint8.
     loose : mapping of str to numpy.ndarray of float64, shape (n, 3)
         For layers with filled gaps, the points of the block that are needed across wide gaps:
         corners of the convex hull, and points beside cells without a height.
@@ -132,7 +135,7 @@ class RasterStep:
         """
         window = CellWindow.with_centres_in(_within(box, points, corner, self.cell), self.cell)
         seen = Seen(window, points, ground, top, core, corner, edges)
-        made, loose = {}, {}
+        made, loose = {HELD: _held(self, seen)}, {}
         parts = progress.shares(*(LAYERS[name].cost for name in self.layers))
         for name, part in zip(self.layers, parts):
             made[name], points_at_gaps = LAYERS[name].make(self, seen, part)
@@ -145,6 +148,25 @@ class RasterStep:
 
 # The cells of a layer, and the points needed across wide gaps; None if these stay open.
 Made = tuple[np.ndarray, "np.ndarray | None"]
+
+
+def _held(step: RasterStep, seen: Seen) -> np.ndarray:
+    """Return what each cell holds, as `HELD` says."""
+    window = CellWindow(*(2 * each for each in seen.window))
+    holds_any, holds_ground = np.zeros((2, window.rows, window.columns), dtype=bool)
+    for part in parts_of(seen.points.count, _POINTS_A_PART):
+        x, y = seen.points.x[part], seen.points.y[part]
+        row, column = window.places(x, y, seen.corner, step.cell / 2.0)
+        inside = are_inside(row, column, window.shape)
+        holds_any[row[inside], column[inside]] = True
+        inside &= seen.ground[part]
+        holds_ground[row[inside], column[inside]] = True
+    held = np.zeros(seen.window.shape, dtype=np.uint8)
+    for number in range(QUARTERS):
+        quarter = slice(number // 2, None, 2), slice(number % 2, None, 2)
+        held |= holds_ground[quarter].view(np.uint8) << number
+        held |= holds_any[quarter].view(np.uint8) * np.uint8(ANY)
+    return held
 
 
 def _terrain(step: RasterStep, seen: Seen, progress: Progress) -> Made:

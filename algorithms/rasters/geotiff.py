@@ -264,7 +264,7 @@ def frame_of(source: str | Path, content: Content, progress: Progress = SILENT) 
     return Frame((0.0, 0.0), horizontal, vertical, content.wkt or None)
 
 
-def _require_measurable(source: str | Path, content: _Content) -> None:
+def _require_measurable(source: str | Path, content: Content) -> None:
     """Refuse Web Mercator and its kin where lengths are far too long."""
     crs = crs_of_wkt(content.wkt) if content.wkt else None
     west, a, b, north, c, d = content.geotransform

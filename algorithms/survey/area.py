@@ -73,6 +73,19 @@ class Area(Geometry):
         west, south, east, north = self.bounds
         return west - distance, south - distance, east + distance, north + distance
 
+    def scaled(self, factor: float, origin: tuple[float, float] = (0.0, 0.0)) -> Area:
+        """Return the area in other units: coordinates from an origin, multiplied by a factor."""
+        box = None
+        if self.box is not None:
+            box = tuple(((np.array(self.box) - np.tile(origin, 2)) * factor).tolist())
+        return Area(
+            box,
+            tuple(
+                tuple((ring - np.array(origin)) * factor for ring in polygon)
+                for polygon in self.polygons
+            ),
+        )
+
     def may_touch(self, box: Box) -> bool:
         """Return whether the bounds touch a box, including borders."""
         west, south, east, north = self.bounds

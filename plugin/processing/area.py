@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Sequence
+from typing import Any, Mapping, Sequence
 
 from qgis.core import (
     QgsProcessingAlgorithm,
@@ -28,13 +28,14 @@ from .raster_target import add_raster_target, raster_target_of
 _AREA_FIELDS = {
     "EXTENT": (
         "Extent",
-        "Only points in this rectangle are classified. Points outside keep their class, but those"
-        " nearby help to judge. Empty: all points.",
+        "Only points in this rectangle are classified, and rasters end at it. Points outside keep"
+        " their class, but those nearby help to judge. Empty: all points.",
     ),
     "BOUNDARY": (
         "Boundary",
-        "Only points in these polygons are classified; with an extent, only points in both. Points"
-        " outside keep their class, but those nearby help to judge. Empty: all points.",
+        "Only points in these polygons are classified, and rasters end at them; with an extent,"
+        " only what lies in both. Points outside keep their class, but those nearby help to judge."
+        " Empty: all points.",
     ),
 }
 # Their help in algorithms that make nothing outside of the area.
@@ -46,10 +47,19 @@ _MAPPED = {
 }
 
 
+# Their help in algorithms that only make rasters.
+OF_RASTERS = {
+    "EXTENT": "The rasters end at this rectangle. Points outside still help along its border."
+    " Empty: the rasters cover all points.",
+    "BOUNDARY": "The rasters have data only in these polygons; with an extent, only in both. Points"
+    " outside still help along the border. Empty: the rasters cover all points.",
+}
+
+
 def add_area(
     algorithm: QgsProcessingAlgorithm,
     advanced: Sequence[str] = ("BOUNDARY",),
-    is_all: bool = False,
+    helps: Mapping[str, str] = {},
 ) -> None:
     """Add the fields of an area to a dialog.
 
@@ -59,8 +69,8 @@ def add_area(
         Whose dialog it is.
     advanced : sequence of str
         Names of the advanced fields.
-    is_all : bool
-        Whether nothing is made outside of the area.
+    helps : mapping of str to str
+        Help of the fields by their names, if it is not the usual one.
     """
     extent, boundary = (label for label, _ in _AREA_FIELDS.values())
     fields = (
@@ -70,7 +80,7 @@ def add_area(
     for field in fields:
         if field.name() in advanced:
             field.setFlags(field.flags() | compat.ADVANCED)
-        text = (_MAPPED if is_all else {}).get(field.name(), _AREA_FIELDS[field.name()][1])
+        text = helps.get(field.name(), _AREA_FIELDS[field.name()][1])
         algorithm.addParameter(field, text)
 
 
@@ -115,7 +125,7 @@ def check_area_only(parameters: dict[str, Any], chosen: Sequence[ParameterSet]) 
 def area_options(area: Area | None, progress: Progress, is_all: bool = False) -> list[str]:
     """Return the options of the command line for an area; tell the user how to add a boundary.
 
-    `is_all` is as for `add_area`.
+    `is_all` is as for `add_limits`.
     """
     if area is None:
         return []
@@ -145,8 +155,11 @@ def add_limits(
     advanced: Sequence[str] = ("BOUNDARY",),
     is_all: bool = False,
 ) -> None:
-    """Add the fields of an area, of corrections, constraints and rasters to a dialog."""
-    add_area(algorithm, advanced, is_all)
+    """Add the fields of an area, of corrections, constraints and rasters to a dialog.
+
+    `advanced` is as for `add_area`; `is_all` says that nothing is made outside of the area.
+    """
+    add_area(algorithm, advanced, _MAPPED if is_all else {})
     add_corrections(algorithm)
     add_constraints(algorithm)
     add_raster_target(algorithm)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.options import RasterOutput, TileInput, TileMethod, TileOutput
 from ...algorithms.engine.output import Output
+from ...algorithms.products.surface_model import Gaps
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
 from ..i18n import mark
@@ -34,8 +35,8 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
 
     def parameter_sets(self):
         """Return method, points and classes, files, outputs, and resources."""
-        sets = TileMethod, Selection, TileInput, TileOutput, Output, TerrainModel, RasterOutput
-        return (*sets, Resources)
+        sets = TileMethod, Selection, TileInput, TileOutput, Output, TerrainModel, Gaps
+        return (*sets, RasterOutput, Resources)
 
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""

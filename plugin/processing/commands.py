@@ -57,4 +57,5 @@ def terrain_commands(
         # The command has other defaults.
         model = TerrainModel(**vars(of_type[MapTerrain]))
         drawing = [model, *(of_type[each] for each in (SurfaceModel, Contours, Resources))]
-        yield command_line("terrain", [made], drawing, options)
+        limits = [each for each in area if each != "--area-only"]
+        yield command_line("terrain", [made, *limits], drawing, options)

@@ -10,7 +10,7 @@ from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.files import is_one_file
 from ...algorithms.survey.ground_classes import GroundClasses
 from ..i18n import mark, tr
-from .area import given_options
+from .area import OF_RASTERS, add_area, area_of, area_options, given_options
 from .base import command_line
 from .constraints import add_constraints, constraints_of
 from .outputs import add_rasters, raster_files, raster_paths, shown_rasters
@@ -39,7 +39,8 @@ class TerrainModelAlgorithm(ProductAlgorithm):
         return GroundClasses, TerrainModel, SurfaceModel, RasterOutput, Resources
 
     def add_outputs(self):
-        """Add the fields of constraints and rasters; all of them are optional."""
+        """Add the fields of area, constraints and rasters; all of them are optional."""
+        add_area(self, ("EXTENT", "BOUNDARY"), OF_RASTERS)
         add_constraints(self)
         add_raster_target(self)
         add_rasters(self, ("DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE"))
@@ -55,11 +56,13 @@ class TerrainModelAlgorithm(ProductAlgorithm):
             raise BareEarthError(tr("Choose at least one raster to make."))
         crs = self.crs_of(self.source)
         target = raster_target_of(self, parameters, context, crs)
+        area = area_of(self, parameters, context, crs)
         options = {**given_options(self.stated, target), **paths}
-        progress.command(command_line("terrain", [str(self.source)], chosen, options))
+        words = [str(self.source), *area_options(area, progress)]
+        progress.command(command_line("terrain", words, chosen, options))
         wanted = {
             "rasters": raster_files(paths), "crs": self.stated, "raster_target": target,
-            "constraints": constraints_of(self, parameters, context, crs, progress),
+            "constraints": constraints_of(self, parameters, context, crs, progress), "area": area,
         }  # fmt: skip
         request = TerrainRequest.of(chosen, **wanted)
         summary = terrain(self.source, request, progress)

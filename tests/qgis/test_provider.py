@@ -18,6 +18,7 @@ from support import ALGORITHM, ROOT
 
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.output import Output
+from bare_earth.algorithms.products.surface_model import Gaps
 from bare_earth.algorithms.products.terrain_model import TerrainModel
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.plugin.processing.classification import ClassificationAlgorithm
@@ -28,6 +29,7 @@ SHARED_PARAMETERS = [
         "BRIDGES", "BRIDGE_CLASS", "REMEMBER_CLASSES",
     "DTM_CELL_SIZE", "DTM_CELL_UNIT", "RASTER_NODATA",
         "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE", "RELIEF_SMOOTHING",
+        "MAX_EDGE",
     "GROUND_ONLY", "AREA_ONLY", "HEIGHT_ABOVE_GROUND", "THREADS", "MEMORY",
     "EXTENT", "BOUNDARY", "CORRECTIONS", "CORRECTIONS_FIELD",
     "BREAKLINES", "WATER", "RIVERS", "NO_GROUND", "LIKE", "RASTER_EXTENT",
@@ -54,7 +56,7 @@ PARAMETERS = {
         "FROM_CLASSES", "SEED_CLASSES", "TO_CLASS", "RETURNS", "OVERLAP", "OTHERS",
         "LOW_NOISE_CLASS", "LOW_NOISE_DEPTH", "HIGH_NOISE_CLASS", "HIGH_NOISE_HEIGHT",
         "BRIDGES", "BRIDGE_CLASS", "REMEMBER_CLASSES",
-        "SURFACE_RETURNS", "SURFACE_CLASSES", "MAX_EDGE", "THREADS", "MEMORY",
+        "SURFACE_RETURNS", "SURFACE_CLASSES", "MAX_EDGE", "PIT_FREE", "THREADS", "MEMORY",
         "EXTENT", "BOUNDARY", "CORRECTIONS", "CORRECTIONS_FIELD",
         "BREAKLINES", "WATER", "RIVERS", "NO_GROUND", "LIKE", "RASTER_EXTENT",
         "OUTPUT", "DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE", "RELIEF", "CONTOURS",
@@ -80,7 +82,7 @@ PARAMETERS = {
         "RECURSIVE", "FORMAT", "RESUME", "GROUND_ONLY", "AREA_ONLY", "HEIGHT_ABOVE_GROUND",
         "DTM_CELL_SIZE", "DTM_CELL_UNIT", "RASTER_NODATA",
         "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE", "RELIEF_SMOOTHING",
-        "RASTER_PER_FILE",
+        "MAX_EDGE", "RASTER_PER_FILE",
         "THREADS", "MEMORY", "EXTENT", "BOUNDARY", "CORRECTIONS", "CORRECTIONS_FIELD",
         "BREAKLINES", "WATER", "RIVERS", "NO_GROUND", "LIKE", "RASTER_EXTENT",
         "OUTPUT_FOLDER", "OUTPUT_VPC", "DTM", "HILLSHADE",
@@ -99,8 +101,8 @@ PARAMETERS = {
         "INPUT", "CRS", "GROUND_CLASSES", "OVERLAP",
         "DTM_CELL_SIZE", "DTM_CELL_UNIT", "RASTER_NODATA",
         "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE", "RELIEF_SMOOTHING",
-        "SURFACE_RETURNS", "SURFACE_CLASSES", "MAX_EDGE",
-        "RASTER_PER_FILE", "THREADS", "MEMORY",
+        "SURFACE_RETURNS", "SURFACE_CLASSES", "MAX_EDGE", "PIT_FREE",
+        "RASTER_PER_FILE", "THREADS", "MEMORY", "EXTENT", "BOUNDARY",
         "BREAKLINES", "WATER", "RIVERS", "NO_GROUND", "LIKE", "RASTER_EXTENT",
         "DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE",
     ],
@@ -402,7 +404,7 @@ def test_its_page_holds_every_parameter_with_its_default(each, registry):
     page = page_of(each)
     # What all ground classifications share stands on the page of one of them.
     shared = page_of(registry.createAlgorithmById(ALGORITHM))
-    sets = (Selection, TerrainModel, Output, Resources)
+    sets = (Selection, TerrainModel, Gaps, Output, Resources)
     of_all = [parameter for declared in sets for parameter in declared.declarations()]
     for declared in each.parameter_sets():
         for parameter in declared.declarations():

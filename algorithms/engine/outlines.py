@@ -1,0 +1,191 @@
+"""Where rasters end: the outlines of the survey, of the terrain and of the canopy.
+
+The survey is the closing of the cells with points by a disc, with all gaps inside. The terrain is
+the same of the cells with ground points. A place is in a closing if no disc round it is free of
+points. So the triangles there have circumcircles smaller than the disc, and no slivers along the
+hull take part.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Sequence
+
+import numpy as np
+
+from ..core.progress import SILENT, Progress
+from ..grids.cell_window import CellWindow
+from ..grids.cells import usual_count
+from ..grids.morphology import closing, within_square
+from ..grids.outline import MOST_CELLS, Discs, Outline, with_gaps_inside
+from ..products.raster_block import ANY, HELD, QUARTERS, BlockRasters, RasterStep
+from .mosaic import Mosaic
+
+# Radius of the discs in usual distances between points. These are not less than a cell.
+_SPACINGS = 4.0
+# Least radius in metres for ground, but not in more cells than this: ground points are farther
+# apart under trees than elsewhere.
+_LEAST_OF_GROUND = 10.0
+# Side in cells of the squares in which cells with points are counted, most squares of a raster, and
+# fewest such cells of a square for a sound distance.
+_SQUARE, _MOST_SQUARES, _FEWEST = 16, 4_000_000, 16
+# Columns that are refined at a time.
+_COLUMNS = 512
+
+
+class Held:
+    """What the cells of a survey hold, from the layer `HELD` of all blocks.
+
+    Parameters
+    ----------
+    made : sequence of BlockRasters
+        The rasters of the blocks.
+    window : CellWindow
+        All cells.
+    cell : float
+        Side of a cell in metres.
+    """
+
+    def __init__(self, made: Sequence[BlockRasters], window: CellWindow, cell: float) -> None:
+        self._mosaic, self._made = Mosaic(made, HELD, window, cell), made
+        self.window = window
+
+    def points(self, start: int, end: int) -> np.ndarray:
+        """Return which cells hold any point, as `ReadRows`."""
+        return self._mosaic.rows(start, end, np.uint8) >= ANY
+
+    def ground(self, start: int, end: int) -> np.ndarray:
+        """Return which cells hold ground points, as `ReadRows`."""
+        return self._mosaic.rows(start, end, np.uint8) % ANY > 0
+
+    def quarters(self, start: int, end: int, columns: slice) -> np.ndarray:
+        """Return which quarters of cells hold ground points; bool, twice as many each way."""
+        window = self.window
+        first, last = max(columns.start, 0), min(columns.stop, window.columns)
+        held = self._mosaic.columns(first, last).rows(start, end, np.uint8)
+        held = np.pad(held, ((0, 0), (first - columns.start, columns.stop - last)))
+        quarters = np.zeros((2 * held.shape[0], 2 * held.shape[1]), dtype=bool)
+        for number in range(QUARTERS):
+            # Rows go from north to south, so the northern quarters come first.
+            quarters[1 - number // 2 :: 2, number % 2 :: 2] = held & (1 << number)
+        return quarters
+
+    def spacings(self) -> tuple[float, float]:
+        """Return the usual distances, in cells, between cells with points and with ground."""
+        window = self.window
+        side = _SQUARE
+        while (window.rows // side + 2) * (window.columns // side + 2) > _MOST_SQUARES:
+            side *= 2
+        first = window.row // side, window.column // side
+        last = (window.row + window.rows) // side, (window.column + window.columns) // side
+        counts = np.zeros((2, *(b - a + 1 for a, b in zip(first, last))), dtype=np.int64)
+        for each in self._made:
+            shared = each.window.within(window)
+            if min(shared.shape) <= 0:
+                continue
+            rows, columns = (
+                slice(at - start, at - start + count)
+                for at, start, count in zip(shared[:2], each.window[:2], shared.shape)
+            )
+            held = each.layers[HELD][rows, columns]
+            places = [
+                np.unique((start + np.arange(count)) // side, return_index=True)
+                for start, count in zip(shared[:2], shared.shape)
+            ]
+            here = np.ix_(*(number - at for (number, _), at in zip(places, first)))
+            for some, which in zip(counts, (held >= ANY, held % ANY > 0)):
+                along = np.add.reduceat(which, places[0][1], axis=0, dtype=np.int64)
+                some[here] += np.add.reduceat(along, places[1][1], axis=1)
+        return _apart(counts[0], side), _apart(counts[1], side)
+
+
+def _apart(counts: np.ndarray, side: int) -> float:
+    """Return the usual distance of cells, of which squares of some cells hold so many."""
+    if not counts.any():
+        return 1.0
+    while usual_count(counts) < _FEWEST and max(counts.shape) > 1:
+        counts = np.pad(counts, [(0, each % 2) for each in counts.shape])
+        counts = counts[::2] + counts[1::2]
+        counts = counts[:, ::2] + counts[:, 1::2]
+        side *= 2
+    return max(side / math.sqrt(usual_count(counts)), 1.0)
+
+
+def _radius(cells: float) -> float:
+    """Return the radius of a disc whose border has no single cells, about as large."""
+    return math.floor(cells) + 0.5
+
+
+class Outlines:
+    """The outlines of the rasters of a survey, made when they are needed.
+
+    Parameters
+    ----------
+    held : Held
+        What the cells hold.
+    step : RasterStep
+        How the rasters are made.
+    """
+
+    def __init__(self, held: Held, step: RasterStep) -> None:
+        window, cell = held.window, step.cell
+        self._held, self._shape, self._longest = held, window.shape, step.longest_edge / cell
+        self._corner = window.row + window.rows, window.column
+        of_all, of_ground = held.spacings()
+        self._near = _radius(_SPACINGS * of_all)
+        least = min(_LEAST_OF_GROUND / cell, MOST_CELLS - 1)
+        self._near_ground = _radius(max(_SPACINGS * of_ground, least))
+
+    def survey(self, progress: Progress = SILENT) -> Outline:
+        """Return the outline of all points."""
+        return with_gaps_inside(self._closed, self._shape, progress)
+
+    def terrain(self, survey: Outline, progress: Progress = SILENT) -> Outline:
+        """Return where the terrain is known; `survey` is the outline of all points."""
+        ground = Discs(self._held.ground, self._corner, self._near_ground, self._near_ground)
+        wide = with_gaps_inside(ground.rows, self._shape, progress.part(0.0, 0.8))
+        inside = Outline(self._shape)
+        for start, end in inside.strips():
+            cells = wide.rows(start - 1, end + 1)
+            if ground.group == 1:
+                self._refine(cells, start - 1)
+            inside.set(start, cells[1:-1] & survey.rows(start, end))
+            progress(0.8 + 0.2 * end / self._shape[0])
+        return inside
+
+    def canopy(self, progress: Progress = SILENT) -> Outline:
+        """Return where the surface was measured, and the terrain nearby."""
+        measured = Outline(self._shape)
+        ground = Discs(self._held.ground, self._corner, self._longest, 0.0)
+        for start, end in measured.strips():
+            measured.set(start, self._closed(start, end) & ground.rows(start, end))
+            progress(end / self._shape[0])
+        return measured
+
+    def _closed(self, start: int, end: int) -> np.ndarray:
+        points = self._held.points
+        closed = Discs(points, self._corner, self._near, self._near).rows(start, end)
+        return closed | points(start, end)
+
+    def _refine(self, cells: np.ndarray, start: int) -> None:
+        """Take away cells along the border whose centre lies beyond the ground points, in place.
+
+        A cell along the border may hold points on one side only. Its centre is inside if all of its
+        quarters are in the closing of the quarters.
+        """
+        outside = np.pad(~cells, 1, constant_values=True)
+        border = cells & within_square(np.maximum, outside, 1)[1:-1, 1:-1]
+        radius = _radius(2.0 * self._near_ground)
+        margin = math.ceil(self._near_ground) + 1
+        for first in range(0, cells.shape[1], _COLUMNS):
+            last = min(first + _COLUMNS, cells.shape[1])
+            rows = np.flatnonzero(border[:, first:last].any(axis=1))
+            if not len(rows):
+                continue
+            low, high = start + int(rows[0]), start + int(rows[-1]) + 1
+            columns = slice(first - margin, last + margin)
+            quarters = self._held.quarters(low - margin, high + margin, columns)
+            closed = closing(quarters, radius)[2 * margin : -2 * margin, 2 * margin : -2 * margin]
+            all_four = closed[::2, ::2] & closed[1::2, ::2] & closed[::2, 1::2] & closed[1::2, 1::2]
+            part = slice(low - start, high - start), slice(first, last)
+            cells[part] &= all_four | ~border[part]

@@ -1,0 +1,228 @@
+"""The outline of a survey on a raster: which cells lie inside, found strip by strip."""
+
+from __future__ import annotations
+
+import math
+import zlib
+from typing import Callable, Iterator
+
+import numpy as np
+
+from ..core.progress import SILENT, Progress
+from .morphology import closing, dilation
+
+# Cells are kept in parts of so many rows and columns.
+_ROWS, _COLUMNS = 256, 4096
+# Cells that are worked on at a time.
+_CELLS_A_STRIP = 4_000_000
+# Largest radius in cells. With larger ones, cells are put together first.
+MOST_CELLS = 32
+_OUTSIDE = 0
+
+# Returns cells from row `start` to row `end`, both counted from north and possibly beyond the
+# raster, where no cell counts: bool, shape (end - start, columns).
+ReadRows = Callable[[int, int], np.ndarray]
+
+
+class Outline:
+    """Which cells of a raster lie inside; kept in so few bytes that any raster fits into memory.
+
+    Parameters
+    ----------
+    shape : tuple of int
+        Rows, counted from north, and columns of the raster.
+    """
+
+    def __init__(self, shape: tuple[int, int]) -> None:
+        self.shape = shape
+        self._parts: dict[tuple[int, int], bool | bytes] = {}
+
+    def strips(self) -> Iterator[tuple[int, int]]:
+        """Yield the first row, and the row after the last, of strips in which to set cells."""
+        rows, columns = self.shape
+        step = max(_CELLS_A_STRIP // columns // _ROWS, 1) * _ROWS
+        for start in range(0, rows, step):
+            yield start, min(start + step, rows)
+
+    def set(self, start: int, cells: np.ndarray) -> None:
+        """Set the cells of a strip, which begins at row `start`; bool, shape (rows, columns)."""
+        for row in range(0, len(cells), _ROWS):
+            for column in range(0, self.shape[1], _COLUMNS):
+                part = cells[row : row + _ROWS, column : column + _COLUMNS]
+                place = (start + row) // _ROWS, column // _COLUMNS
+                is_plain = part.all() or not part.any()
+                self._parts[place] = (
+                    bool(part.flat[0]) if is_plain else zlib.compress(np.packbits(part), 1)
+                )
+
+    def rows(self, start: int, end: int, first: int = 0, last: int | None = None) -> np.ndarray:
+        """Return cells; those beyond the raster are outside.
+
+        Parameters
+        ----------
+        start, end : int
+            The rows, from north; they may lie beyond the raster.
+        first, last : int
+            The columns; they may lie beyond it too.
+
+        Returns
+        -------
+        numpy.ndarray of bool, shape (end - start, last - first)
+        """
+        rows, columns = self.shape
+        last = columns if last is None else last
+        cells = np.zeros((end - start, last - first), dtype=bool)
+        for i in range(max(start, 0) // _ROWS, -(-min(end, rows) // _ROWS)):
+            low, high = max(i * _ROWS, start), min((i + 1) * _ROWS, end, rows)
+            for k in range(max(first, 0) // _COLUMNS, -(-min(last, columns) // _COLUMNS)):
+                west, east = max(k * _COLUMNS, first), min((k + 1) * _COLUMNS, last, columns)
+                part = self._part(i, k)[low - i * _ROWS : high - i * _ROWS]
+                cells[low - start : high - start, west - first : east - first] = part[
+                    :, west - k * _COLUMNS : east - k * _COLUMNS
+                ]
+        return cells
+
+    def _part(self, i: int, k: int) -> np.ndarray:
+        shape = min(_ROWS, self.shape[0] - i * _ROWS), min(_COLUMNS, self.shape[1] - k * _COLUMNS)
+        kept = self._parts[i, k]
+        if isinstance(kept, bool):
+            return np.broadcast_to(np.bool_(kept), shape)
+        bits = np.frombuffer(zlib.decompress(kept), dtype=np.uint8)
+        return np.unpackbits(bits, count=shape[0] * shape[1]).reshape(shape).astype(bool)
+
+
+class Discs:
+    """Morphology by discs on rows of a raster. Rows are read with the margin that is needed.
+
+    Wide discs are applied to groups of cells, which are fixed in the CRS.
+
+    Parameters
+    ----------
+    read : callable
+        Returns the cells, as `ReadRows`.
+    corner : tuple of int
+        Number of the row above the northernmost one and of the westernmost column, counted from
+        (0, 0) of the CRS.
+    grow : float
+        Radius in cells by which cells are grown.
+    shrink : float
+        Radius by which the result is shrunk: as large for a closing, 0 for none.
+    """
+
+    def __init__(self, read: ReadRows, corner: tuple[int, int], grow: float, shrink: float) -> None:
+        self._read = read
+        self.group = max(1, math.ceil(max(grow, shrink) / MOST_CELLS))
+        self._grow, self._shrink = grow / self.group, shrink / self.group
+        if self.group > 1 and shrink:
+            # Groups reach beyond their points, so that the result would be wider than the points.
+            self._shrink += 1.0
+        self._before = -corner[0] % self.group, corner[1] % self.group
+
+    def rows(self, start: int, end: int) -> np.ndarray:
+        """Return the cells from row `start` to row `end` after growing and shrinking."""
+        group = self.group
+        margin = (math.ceil(self._grow) + math.ceil(self._shrink)) * group
+        north, west = self._before
+        first = start - margin
+        first -= (first + north) % group
+        last = end + margin
+        last += -(last + north) % group
+        cells = self._read(first, last)
+        columns = cells.shape[1]
+        if group > 1:
+            cells = np.pad(cells, ((0, 0), (west, -(west + columns) % group)))
+            cells = cells.reshape(len(cells) // group, group, -1, group).any(axis=(1, 3))
+        if self._shrink:
+            cells = closing(cells, self._grow, self._shrink)
+        else:
+            cells = dilation(cells, self._grow)
+        if group > 1:
+            cells = cells.repeat(group, axis=0).repeat(group, axis=1)[:, west : west + columns]
+        return cells[start - first : end - first]
+
+
+def with_gaps_inside(
+    read: ReadRows, shape: tuple[int, int], progress: Progress = SILENT
+) -> Outline:
+    """Return the outline of cells: they and the gaps that lie inside them.
+
+    A gap lies inside if no way leads from it over cells with a common side to the border of the
+    raster. The gaps of strips are joined where they touch, so the result is that of all rows at
+    once.
+
+    Parameters
+    ----------
+    read : callable
+        Returns the cells, as `ReadRows`.
+    shape : tuple of int
+        Rows and columns.
+    progress : Progress
+        Receives progress.
+    """
+    cells, joined = Outline(shape), _JoinedGaps()
+    for start, end in cells.strips():
+        part = read(start, end)
+        cells.set(start, part)
+        joined.add(part, start == 0, end == shape[0])
+        progress(0.7 * end / shape[0])
+    filled = Outline(shape)
+    for number, (start, end) in enumerate(cells.strips()):
+        filled.set(start, ~joined.outside(number, cells.rows(start, end)))
+        progress(0.7 + 0.3 * end / shape[0])
+    return filled
+
+
+class _JoinedGaps:
+    """The gaps of strips from north to south, joined where they touch."""
+
+    def __init__(self) -> None:
+        # The group of each gap that touches the border of its strip; the first is the outside.
+        self._parents = [_OUTSIDE]
+        self._strips: list[dict[int, int]] = []
+        self._above: np.ndarray | None = None
+
+    def add(self, cells: np.ndarray, is_first: bool, is_last: bool) -> None:
+        """Add the cells of the next strip; its gaps are what is False."""
+        labels, _ = _labelled(cells)
+        sides = np.concatenate((labels[:, 0], labels[:, -1]))
+        edges = np.unique(np.concatenate((labels[0], labels[-1], sides)))
+        start = len(self._parents)
+        numbers = {int(label): start + k for k, label in enumerate(edges[edges > 0])}
+        self._parents.extend(numbers.values())
+        self._strips.append(numbers)
+        open_sides = [sides, *([labels[0]] if is_first else []), *([labels[-1]] if is_last else [])]
+        for label in np.unique(np.concatenate(open_sides)):
+            if label:
+                self._join(_OUTSIDE, numbers[int(label)])
+        table = np.full(int(edges.max()) + 1, -1)
+        table[list(numbers)] = list(numbers.values())
+        if self._above is not None:
+            pairs = np.column_stack((self._above, table[labels[0]]))
+            for above, below in np.unique(pairs[(pairs >= 0).all(axis=1)], axis=0).tolist():
+                self._join(above, below)
+        self._above = table[labels[-1]]
+
+    def outside(self, strip: int, cells: np.ndarray) -> np.ndarray:
+        """Return which cells of a strip lie in gaps that are not inside; bool."""
+        labels, count = _labelled(cells)
+        is_outside = np.zeros(count + 1, dtype=bool)
+        for label, number in self._strips[strip].items():
+            is_outside[label] = self._group(number) == _OUTSIDE
+        return is_outside[labels]
+
+    def _group(self, number: int) -> int:
+        while self._parents[number] != number:
+            self._parents[number] = self._parents[self._parents[number]]
+            number = self._parents[number]
+        return number
+
+    def _join(self, one: int, two: int) -> None:
+        low, high = sorted((self._group(one), self._group(two)))
+        self._parents[high] = low
+
+
+def _labelled(cells: np.ndarray) -> tuple[np.ndarray, int]:
+    """Return the number of the gap of each cell, 0 for none, and the number of gaps."""
+    from scipy import ndimage
+
+    return ndimage.label(~cells)
