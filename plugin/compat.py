@@ -8,6 +8,7 @@ from qgis import core
 from qgis.core import (
     NULL,
     Qgis,
+    QgsLineSymbol,
     QgsProcessing,
     QgsProcessingAlgorithm,
     QgsProcessingContext,
@@ -97,11 +98,13 @@ def point_cloud_output_path(
     return algorithm.parameterAsFileOutput(parameters, name, context)
 
 
-def mark_as_elevation(layer: QgsRasterLayer) -> None:
-    """Tell 3D views and elevation profiles that the raster is a surface."""
+def mark_as_elevation(layer: QgsRasterLayer, colour: str) -> None:
+    """Tell 3D views and elevation profiles that the raster is a surface, with a line of a colour."""
     properties = layer.elevationProperties()
     if properties is None:  # before QGIS 3.26
         return
     properties.setEnabled(True)
+    line = {"line_color": colour, "line_width": "0.6"}
+    properties.setProfileLineSymbol(QgsLineSymbol.createSimple(line))
     if hasattr(properties, "setMode"):  # since QGIS 3.38; before, enabling is enough
         properties.setMode(Qgis.RasterElevationMode.RepresentsElevationSurface)

@@ -48,7 +48,10 @@ class BareEarthPlugin:
         from .provider import BareEarthProvider
 
         self._provider = BareEarthProvider()
-        QgsApplication.processingRegistry().addProvider(self._provider)
+        registry = QgsApplication.processingRegistry()
+        # Models also have steps of other providers, which may come later.
+        registry.providerAdded.connect(self._provider.load_models)
+        registry.addProvider(self._provider)
 
     def initGui(self) -> None:
         """Add provider and menu to the QGIS window."""
@@ -75,7 +78,9 @@ class BareEarthPlugin:
     def unload(self) -> None:
         """Remove provider, menu and dialog."""
         if self._provider is not None:
-            QgsApplication.processingRegistry().removeProvider(self._provider)
+            registry = QgsApplication.processingRegistry()
+            registry.providerAdded.disconnect(self._provider.load_models)
+            registry.removeProvider(self._provider)
             self._provider = None
         if self._action is not None:
             self._iface.removePluginMenu(_MENU, self._action)

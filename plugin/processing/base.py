@@ -25,11 +25,12 @@ from ...algorithms.las.backends import install_hint, missing_packages
 from .. import compat
 from ..i18n import tr
 from ..styles import layers
+from ..styles.stage import Stage
 from .area import check_area_only
 from .feedback import FeedbackProgress, tell_of_unknown
 from .fields import field_of, parameters_of
 from .help_pages import address_of
-from .outputs import NOTHING_STAYS, do_not_load
+from .outputs import NOTHING_STAYS, do_not_load, places_of
 from .presets import presets_of
 from .search_words import words_of
 
@@ -229,12 +230,14 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
     ) -> bool:
         """Run `prepare`."""
         tell_of_unknown(self, parameters, feedback)
-        with _errors_for_qgis():
+        with errors_for_qgis():
             self.prepare(parameters, context, FeedbackProgress(feedback))
         self.class_counts: Mapping[int, int] = {}
         self._looks: dict[str, layers.Look] = {}
         names = [self.subject, tr(self.run_name or self.title)]
-        self._group = layers.free_name(context, ": ".join(filter(None, names)))
+        with errors_for_qgis():
+            group, places = ": ".join(filter(None, names)), places_of(self, parameters, context)
+            self._stage = Stage(context, group, places)
         return True
 
     def processAlgorithm(
@@ -247,7 +250,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         before, progress = set(context.layersToLoadOnCompletion()), FeedbackProgress(feedback)
         results: dict[str, Any] = {}
         try:
-            with _errors_for_qgis():
+            with errors_for_qgis():
                 results = self.compute(parameters, context, progress)
         except Cancelled:
             feedback.pushInfo(tr(self.cancelled))
@@ -255,11 +258,11 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
             if not results:
                 do_not_load(context, set(context.layersToLoadOnCompletion()) - before)
             progress.end(self.class_counts if results else {})
-        self._arrange(results, context)
+            self._arrange(results, context)
         return results
 
     def _arrange(self, results: dict[str, Any], context: QgsProcessingContext) -> None:
-        """Set names, styles and places of the layers."""
+        """Set names, styles and places of the layers, and reload those of an earlier run."""
         looks, labels = {}, {}
         for name in filter(self.parameterDefinition, results):
             labels[results[name]] = self.parameterDefinition(name).description()
@@ -267,7 +270,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
                 looks[results[name]] = layers.RASTERS[name]
         looks.update(self._looks)
         subject = self.subject or tr(self.title)
-        layers.arrange(context, looks, labels, subject, self._group)
+        layers.arrange(context, looks, labels, subject, self._stage)
 
 
 def _plain(text: str) -> str:
@@ -276,7 +279,7 @@ def _plain(text: str) -> str:
 
 
 @contextlib.contextmanager
-def _errors_for_qgis() -> Iterator[None]:
+def errors_for_qgis() -> Iterator[None]:
     """Turn errors into exceptions that QGIS shows without a traceback."""
     try:
         yield

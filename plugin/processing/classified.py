@@ -11,8 +11,10 @@ from ...algorithms.core.errors import BareEarthError, Cancelled
 from .. import compat
 from ..i18n import tr
 from ..styles import clouds, layers
+from ..styles.rasters import is_class_raster
 from .base import BareEarthAlgorithm
 from .feedback import FeedbackProgress
+from .outputs import class_raster_of
 
 if TYPE_CHECKING:
     from ...algorithms.engine.requests import ClassifyRequest
@@ -63,7 +65,7 @@ def show_classified(
     # Imported here, since it needs packages that QGIS may lack when it starts.
     from ...algorithms.products.class_raster import write_class_raster
 
-    path = QgsProcessingUtils.generateTempFilename("classes.tif")
+    path = _place_of_raster(cloud)
     cell_size = request.terrain.dtm_cell_size
     try:
         files = Path(cloud), Path(path)
@@ -78,3 +80,11 @@ def show_classified(
     details = QgsProcessingContext.LayerDetails("classes", context.project(), "classes", hint)
     context.addLayerToLoadOnCompletion(path, details)
     algorithm.show(path, layers.class_raster(found if is_virtual else classes, hides))
+
+
+def _place_of_raster(cloud: str) -> str:
+    """Return the file beside a cloud for its classes; a temporary one if it belongs to the user."""
+    path = class_raster_of(Path(cloud))
+    if path.exists() and not is_class_raster(path):
+        return QgsProcessingUtils.generateTempFilename("classes.tif")
+    return str(path)
