@@ -51,6 +51,15 @@ else:
 # Since QGIS 3.26.
 HAS_POINT_CLOUD_OUTPUTS = hasattr(core, "QgsProcessingParameterPointCloudDestination")
 
+# Since QGIS 3.42, virtual point clouds show their overview at small scales.
+SHOWS_OVERVIEWS = hasattr(core.QgsPointCloudRenderer, "setZoomOutBehavior")
+
+
+def show_overview(renderer: core.QgsPointCloudRenderer) -> None:
+    """Let a virtual point cloud show its overview at small scales, instead of outlines."""
+    if SHOWS_OVERVIEWS:
+        renderer.setZoomOutBehavior(Qgis.PointCloudZoomOutRenderBehavior.RenderOverview)
+
 
 def is_null(value: Any) -> bool:
     """Return whether a Processing value is not set; the null of PyQt depends on the Qt version."""
@@ -65,12 +74,12 @@ def can_load(path: str) -> bool:
     return "pdal" in providers or (path.lower().endswith(".copc.laz") and "copc" in providers)
 
 
-def load_virtual_point_cloud(path: str, name: str, context: QgsProcessingContext) -> None:
-    """Let QGIS load a .vpc file as a layer after the run."""
+def load_point_cloud(path: str, context: QgsProcessingContext) -> None:
+    """Let QGIS load a point cloud as a layer after the run, also a .vpc file."""
     if context.project() is None:
         return
     details = QgsProcessingContext.LayerDetails(
-        name, context.project(), name, QgsProcessingUtils.LayerHint.PointCloud
+        "", context.project(), "", QgsProcessingUtils.LayerHint.PointCloud
     )
     context.addLayerToLoadOnCompletion(path, details)
 
@@ -99,7 +108,7 @@ def point_cloud_output_path(
 
 
 def mark_as_elevation(layer: QgsRasterLayer, colour: str) -> None:
-    """Tell 3D views and elevation profiles that the raster is a surface, with a line of a colour."""
+    """Tell 3D views and elevation profiles that the raster is a surface, and its colour there."""
     properties = layer.elevationProperties()
     if properties is None:  # before QGIS 3.26
         return

@@ -43,6 +43,8 @@ class ClassifiedSummary:
         only points in the area count.
     area_count, by_hand_count : int
         Numbers of points in the area, and of points whose class is known by hand.
+    class_counts : dict of int to int
+        Points of each class in the output.
     """
 
     name: str
@@ -50,6 +52,12 @@ class ClassifiedSummary:
     ground_count: int
     area_count: int = 0
     by_hand_count: int = 0
+    class_counts: dict[int, int] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        # The keys of the JSON record are strings.
+        counts = {int(each): count for each, count in self.class_counts.items()}
+        object.__setattr__(self, "class_counts", counts)
 
     @property
     def text(self) -> str:
@@ -282,4 +290,12 @@ class ClassifiedPoints(PointResult):
         """Return the numbers of points."""
         written = len(self.classification) if self._inside is None else self._area_count
         ground = int(self.class_counts[self._step.selection.to_class])
-        return ClassifiedSummary(name, written, ground, self._area_count, self._by_hand_count)
+        found = np.flatnonzero(self.class_counts).tolist()
+        return ClassifiedSummary(
+            name,
+            written,
+            ground,
+            self._area_count,
+            self._by_hand_count,
+            {value: int(self.class_counts[value]) for value in found},
+        )

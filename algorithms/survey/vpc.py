@@ -32,6 +32,7 @@ from ..las.header import CREATION
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..las.sources import read_text
+from .overview import overview_of, write_overview
 
 SUFFIX = ".vpc"
 _EXTENSIONS = [
@@ -105,11 +106,16 @@ def read_vpc(path: Path) -> list[Path]:
     return files
 
 
-def write_vpc(path: Path, files: Iterable[Path], progress: Progress = SILENT) -> None:
+def write_vpc(
+    path: Path,
+    files: Iterable[Path],
+    progress: Progress = SILENT,
+    overview: bool = False,
+) -> None:
     """Write a virtual point cloud. QGIS shows the points of COPC files, and outlines of others.
 
-    Only the headers of the files are read. Paths are relative to the folder of `path`, so that it
-    can be moved together with the files.
+    Only the headers of the files are read, and a few points for an overview. Paths are relative to
+    the folder of `path`, so that it can be moved together with the files.
 
     Parameters
     ----------
@@ -119,6 +125,9 @@ def write_vpc(path: Path, files: Iterable[Path], progress: Progress = SILENT) ->
         LAS, LAZ or COPC files.
     progress : Progress
         Receives progress, and a warning if the CRS of files is not known.
+    overview : bool
+        Whether to write an overview beside it, as `write_overview` does. Without one, an old
+        overview is removed.
 
     Raises
     ------
@@ -133,12 +142,17 @@ def write_vpc(path: Path, files: Iterable[Path], progress: Progress = SILENT) ->
     if not files:
         raise BareEarthError(f"Cannot write {path}: there are no files to list. Give at least one.")
     check_output(path, tuple(files))
-    features, unplaced = [], 0
-    for number, file in enumerate(files, start=1):
-        feature = _feature(path, open_las(file))
+    layouts, features, unplaced = [open_las(each) for each in files], [], 0
+    made = _overview(path, layouts, progress.part(0.0, 0.9)) if overview else None
+    for number, layout in enumerate(layouts, start=1):
+        feature = _feature(path, layout)
         unplaced += not feature["properties"]["proj:wkt2"]
+        if made is not None:
+            feature["assets"]["overview"] = {
+                "href": _reference(made, path), "roles": ["overview"],
+            }  # fmt: skip
         features.append(feature)
-        progress(number / len(files))
+        progress.part(0.9, 1.0)(number / len(files))
     _make_ids_unique(features)
     if unplaced:
         progress.warning(
@@ -150,6 +164,46 @@ def write_vpc(path: Path, files: Iterable[Path], progress: Progress = SILENT) ->
     )
     with replacing(path) as temporary:
         temporary.write_text(text + "\n", encoding="utf-8")
+    if made is None and overview_of(path) not in files:
+        overview_of(path).unlink(missing_ok=True)
+
+
+def _overview(path: Path, layouts: list[LasFile], progress: Progress) -> Path | None:
+    """Write the overview; return None if it cannot be written, since the list is of use alone."""
+    try:
+        return write_overview(path, layouts, progress)
+    except BareEarthError as error:
+        progress.warning(f"{path.name} has no overview. {error}")
+        return None
+
+
+def name_anew(path: Path, number: int) -> None:
+    """Write the paths in a virtual point cloud of `write_vpc` in another way.
+
+    QGIS keeps points that it has shown by the path of their file, and does not notice that the file
+    was replaced. So it would show the old points.
+
+    Parameters
+    ----------
+    path : Path
+        The virtual point cloud.
+    number : int
+        Each number gives other paths to the same files.
+
+    Raises
+    ------
+    BareEarthError
+        If it cannot be read or written.
+    """
+    content = json.loads(read_text(path))
+    for feature in content["features"]:
+        for asset in feature["assets"].values():
+            name = asset["href"]
+            while name.startswith("./"):
+                name = name[2:]
+                asset["href"] = "./" * (1 + number) + name
+    with replacing(path) as temporary:
+        temporary.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
 
 
 def _not_one(path: Path, why: str) -> BareEarthError:

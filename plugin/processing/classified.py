@@ -8,9 +8,12 @@ from typing import TYPE_CHECKING, Iterable
 from qgis.core import QgsProcessingContext, QgsProcessingUtils
 
 from ...algorithms.core.errors import BareEarthError, Cancelled
+from ...algorithms.survey.overview import overview_of
+from ...algorithms.survey.vpc import name_anew
 from .. import compat
 from ..i18n import tr
 from ..styles import clouds, layers
+from ..styles.loaded import times_replaced
 from ..styles.rasters import is_class_raster
 from .base import BareEarthAlgorithm
 from .feedback import FeedbackProgress
@@ -57,7 +60,7 @@ def show_classified(
     algorithm.show(cloud, layers.classes(classes, hides=hides if is_hiding else 0))
     if compat.can_load(cloud):
         if is_virtual:
-            compat.load_virtual_point_cloud(cloud, "", context)
+            _load_virtual(algorithm, cloud, classes, context)
         return
     progress.info(tr("This QGIS cannot show such a file as a layer. It is at {}.").format(cloud))
     if not context.layersToLoadOnCompletion():
@@ -80,6 +83,19 @@ def show_classified(
     details = QgsProcessingContext.LayerDetails("classes", context.project(), "classes", hint)
     context.addLayerToLoadOnCompletion(path, details)
     algorithm.show(path, layers.class_raster(found if is_virtual else classes, hides))
+
+
+def _load_virtual(
+    algorithm: BareEarthAlgorithm, cloud: str, classes: list[int], context: QgsProcessingContext
+) -> None:
+    """Let QGIS load a virtual point cloud, and its overview if QGIS itself does not show it."""
+    if times_replaced(Path(cloud)):
+        name_anew(Path(cloud), times_replaced(Path(cloud)))
+    compat.load_point_cloud(cloud, context)
+    overview = overview_of(Path(cloud))
+    if not compat.SHOWS_OVERVIEWS and overview.is_file():
+        compat.load_point_cloud(str(overview), context)
+        algorithm.show(str(overview), layers.overview(classes))
 
 
 def _place_of_raster(cloud: str) -> str:

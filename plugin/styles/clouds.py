@@ -22,6 +22,7 @@ from qgis.core import (
 from qgis.PyQt.QtGui import QColor, QPainter
 
 from ...algorithms.las.copc_sample import sample_of
+from .. import compat
 from . import ramps
 
 _GROUND = 2
@@ -148,3 +149,4 @@ def _scale(renderer: QgsPointCloudRenderer) -> None:
     renderer.setPointSize(_METRES)
     renderer.setPointSizeMapUnitScale(size)
     renderer.setMaximumScreenError(_SCREEN_ERROR)
+    compat.show_overview(renderer)

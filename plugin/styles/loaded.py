@@ -13,7 +13,6 @@ from typing import Any, Callable, Iterable, Iterator, Mapping, NamedTuple, Seque
 from qgis.core import (
     QgsLayerTreeGroup,
     QgsMapLayer,
-    QgsPointCloudLayer,
     QgsProject,
     QgsProviderRegistry,
     QgsVectorLayer,

@@ -63,13 +63,18 @@ def wait_for(condition, seconds=20):
 
 def test_the_terrain_model_is_marked_as_elevation(load, parameters):
     for _ in range(3):  # again, as what styles the layers must outlive the first time
-        _, layers = load(parameters)
-        assert layers["QgsRasterLayer"].crs().authid() == "EPSG:25832"
-        properties = layers["QgsRasterLayer"].elevationProperties()
+        load(parameters)
+        (layer,) = QgsProject.instance().mapLayersByName("Terrain model") or (
+            QgsProject.instance().mapLayersByName("scene: Terrain model")
+        )
+        assert layer.crs().authid() == "EPSG:25832"
+        properties = layer.elevationProperties()
         if Qgis.QGIS_VERSION_INT < 32600:
             assert properties is None
             continue
         assert properties.isEnabled()
+        # Not a random colour.
+        assert properties.profileLineSymbol().color().name() == "#6e4824"
         if hasattr(Qgis, "RasterElevationMode"):
             assert properties.mode() == Qgis.RasterElevationMode.RepresentsElevationSurface
 
