@@ -177,35 +177,6 @@ def _overview(path: Path, layouts: list[LasFile], progress: Progress) -> Path | 
         return None
 
 
-def name_anew(path: Path, number: int) -> None:
-    """Write the paths in a virtual point cloud of `write_vpc` in another way.
-
-    QGIS keeps points that it has shown by the path of their file, and does not notice that the file
-    was replaced. So it would show the old points.
-
-    Parameters
-    ----------
-    path : Path
-        The virtual point cloud.
-    number : int
-        Each number gives other paths to the same files.
-
-    Raises
-    ------
-    BareEarthError
-        If it cannot be read or written.
-    """
-    content = json.loads(read_text(path))
-    for feature in content["features"]:
-        for asset in feature["assets"].values():
-            name = asset["href"]
-            while name.startswith("./"):
-                name = name[2:]
-                asset["href"] = "./" * (1 + number) + name
-    with replacing(path) as temporary:
-        temporary.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
-
-
 def _not_one(path: Path, why: str) -> BareEarthError:
     return BareEarthError(
         f"{path} is not a virtual point cloud: {why}. Give one that QGIS or 'pdal_wrench build_vpc'"

@@ -9,11 +9,9 @@ from qgis.core import QgsProcessingContext, QgsProcessingUtils
 
 from ...algorithms.core.errors import BareEarthError, Cancelled
 from ...algorithms.survey.overview import overview_of
-from ...algorithms.survey.vpc import name_anew
 from .. import compat
 from ..i18n import tr
 from ..styles import clouds, layers
-from ..styles.loaded import times_replaced
 from ..styles.rasters import is_class_raster
 from .base import BareEarthAlgorithm
 from .feedback import FeedbackProgress
@@ -89,8 +87,6 @@ def _load_virtual(
     algorithm: BareEarthAlgorithm, cloud: str, classes: list[int], context: QgsProcessingContext
 ) -> None:
     """Let QGIS load a virtual point cloud, and its overview if QGIS itself does not show it."""
-    if times_replaced(Path(cloud)):
-        name_anew(Path(cloud), times_replaced(Path(cloud)))
     compat.load_point_cloud(cloud, context)
     overview = overview_of(Path(cloud))
     if not compat.SHOWS_OVERVIEWS and overview.is_file():

@@ -19,7 +19,7 @@ from ...algorithms.crs.system import unit_symbol
 from ...algorithms.products.contours import Interval
 from ..i18n import mark, tr
 from . import clouds, rasters, vectors
-from .loaded import fresh_path
+from .loaded import fresh_path, show_fresh_points
 from .stage import Stage, remember_height
 
 # QGIS calls post-processors after the algorithm was deleted. It owns only their C++ objects, so
@@ -193,6 +193,7 @@ class _Show(QgsProcessingLayerPostProcessorInterface):
         node = project.layerTreeRoot().findLayer(layer.id()) if project else None
         if node is not None and self._stage is not None:
             node = self._stage.place(node, self.look.height)
+        show_fresh_points(layer)
         _dress(self.look, project, layer)
         if node is not None:
             node.setItemVisibilityChecked(self._is_visible)

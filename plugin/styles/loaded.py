@@ -23,6 +23,8 @@ from qgis.PyQt.QtCore import QCoreApplication, QObject, Qt, QThread, pyqtSignal,
 MUST_RELEASE = sys.platform == "win32"
 # How often each file was replaced since QGIS was started.
 _REPLACED: dict[Path, int] = {}
+# A filter that all points pass, followed by a number.
+_PASSED = "Classification >= -"
 # Files of whose points QGIS keeps a copy.
 _KEPT_BY_QGIS = (".laz", ".vpc")
 
@@ -101,9 +103,9 @@ def times_replaced(file: Path) -> int:
 def fresh_path(path: str) -> str:
     """Return a COPC file under a path that QGIS has not used for its earlier contents.
 
-    QGIS keeps points that it has shown by the path of their file, and does not notice that the file
-    was replaced: also a new layer would show the old points. So "." is put before some names in the
-    path, as a binary number.
+    QGIS keeps points that it has shown, by the path of their file and the filter of the layer. It
+    does not notice that the file was replaced: also a new layer would show the old points. So "."
+    is put before some names in the path, as a binary number.
     """
     if not path.lower().endswith(".copc.laz"):
         return path
@@ -113,6 +115,27 @@ def fresh_path(path: str) -> str:
             parts.insert(place, ".")
         number >>= 1
     return "/".join(parts)
+
+
+def show_fresh_points(layer: QgsMapLayer) -> None:
+    """Give a virtual point cloud that was replaced a new filter, which all points pass.
+
+    Its files have the same paths as before. See `fresh_path`.
+    """
+    if layer.providerType() != "vpc":
+        return
+    number, own = times_replaced(Path(layer.source())), filter_of(layer)
+    if number:
+        fresh = f"{_PASSED}{number}"
+        layer.setSubsetString(f"({own}) AND {fresh}" if own else fresh)
+
+
+def filter_of(layer: Any) -> str:
+    """Return the filter that the user gave to a layer; empty if there is none."""
+    # Point cloud layers have filters since QGIS 3.26.
+    found = layer.subsetString() if hasattr(layer, "subsetString") else ""
+    own, passed, _ = found.rpartition(_PASSED)
+    return own.removesuffix(" AND ").removeprefix("(").removesuffix(")") if passed else found
 
 
 def group_of(project: QgsProject, sources: Sequence[Source]) -> QgsLayerTreeGroup | None:
@@ -173,6 +196,7 @@ def reload(
         _close(layer)
         uri = fresh_path(str(each.path)) if each.provider == "copc" else each.uri
         layer.setDataSource(uri, layer.name(), each.provider)
+        show_fresh_points(layer)
         dress = known.get(_normal(each.path))
         if dress is not None and layer.isValid():
             dress(layer)

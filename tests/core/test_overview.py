@@ -13,7 +13,7 @@ from bare_earth.algorithms.engine.requests import ClassifyRequest
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.survey import overview
 from bare_earth.algorithms.survey.files import find_files
-from bare_earth.algorithms.survey.vpc import name_anew, read_vpc, write_vpc
+from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
 
 SIDE = 60.0
 
@@ -157,14 +157,3 @@ def test_a_failure_leaves_nothing_half_written(tiles, tmp_path, monkeypatch):
     write_vpc(vpc, files, overview=True)
     assert set((tmp_path / "out").iterdir()) == before - {overview.overview_of(vpc)}
     assert read_vpc(vpc) == files
-
-
-def test_paths_can_be_written_in_another_way(tiles, tmp_path):
-    classify(tiles, tmp_path / "out")
-    vpc = tmp_path / "out" / "classified.vpc"
-    files, seen = read_vpc(vpc), {str(assets_of(vpc))}
-    for number in (1, 2, 1):
-        name_anew(vpc, number)
-        seen.add(str(assets_of(vpc)))
-        assert read_vpc(vpc) == files
-    assert len(seen) == 3
