@@ -9,6 +9,7 @@ from qgis.core import (
     NULL,
     Qgis,
     QgsLineSymbol,
+    QgsMapLayerProxyModel,
     QgsProcessing,
     QgsProcessingAlgorithm,
     QgsProcessingContext,
@@ -47,6 +48,12 @@ else:
     LINES = QgsProcessing.SourceType.TypeVectorLine
     FILES = QgsProcessing.SourceType.TypeFile
     FOLDER = QgsProcessingParameterFile.Behavior.Folder
+
+# QGIS 3.34 moved the filters of boxes for layers, too.
+if hasattr(Qgis, "LayerFilter"):
+    POINT_CLOUDS = Qgis.LayerFilter.PointCloudLayer
+else:
+    POINT_CLOUDS = QgsMapLayerProxyModel.Filter.PointCloudLayer
 
 # Since QGIS 3.26.
 HAS_POINT_CLOUD_OUTPUTS = hasattr(core, "QgsProcessingParameterPointCloudDestination")
