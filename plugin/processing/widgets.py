@@ -155,8 +155,8 @@ class _CloudBox(QgsAbstractProcessingParameterWidgetWrapper):
         box = QgsProcessingMapLayerComboBox(self.parameterDefinition(), self.type())
         box.setWidgetContext(self.widgetContext())
         # In QGIS 3.22 it would offer all layers, and choose one of them.
-        for each in box.findChildren(QgsMapLayerComboBox):
-            each.setFilters(compat.POINT_CLOUDS)
+        for each in box.findChildren(QComboBox):  # this class, since PyQt does not know the other
+            sip.cast(each, QgsMapLayerComboBox).setFilters(compat.POINT_CLOUDS)
         self._suggested: str | None = None
         box.valueChanged.connect(lambda: self.widgetValueHasChanged.emit(self))
         return box
