@@ -25,6 +25,7 @@ from ...algorithms.las.backends import install_hint, missing_packages
 from .. import compat
 from ..i18n import tr
 from ..styles import layers
+from ..styles.metadata import Origin, settings_of
 from ..styles.stage import Stage
 from .area import check_area_only
 from .feedback import FeedbackProgress, tell_of_unknown
@@ -232,6 +233,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         tell_of_unknown(self, parameters, feedback)
         with errors_for_qgis():
             self.prepare(parameters, context, FeedbackProgress(feedback))
+        self._settings = settings_of(self, parameters, context)
         self.class_counts: Mapping[int, int] = {}
         self._looks: dict[str, layers.Look] = {}
         names = [self.subject, tr(self.run_name or self.title)]
@@ -258,10 +260,12 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
             if not results:
                 do_not_load(context, set(context.layersToLoadOnCompletion()) - before)
             progress.end(self.class_counts if results else {})
-            self._arrange(results, context)
+            self._arrange(results, context, progress.commands)
         return results
 
-    def _arrange(self, results: dict[str, Any], context: QgsProcessingContext) -> None:
+    def _arrange(
+        self, results: dict[str, Any], context: QgsProcessingContext, commands: tuple[str, ...]
+    ) -> None:
         """Set names, styles and places of the layers, and reload those of an earlier run."""
         looks, labels = {}, {}
         for name in filter(self.parameterDefinition, results):
@@ -270,7 +274,8 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
                 looks[results[name]] = layers.RASTERS[name]
         looks.update(self._looks)
         subject = self.subject or tr(self.title)
-        layers.arrange(context, looks, labels, subject, self._stage)
+        origin = Origin.of(self.displayName(), self._settings, commands)
+        layers.arrange(context, looks, labels, subject, self._stage, origin)
 
 
 def _plain(text: str) -> str:

@@ -21,6 +21,7 @@ from .. import compat
 from ..i18n import tr
 from ..styles import layers, rasters
 from ..styles.loaded import fresh_path
+from ..styles.metadata import Origin, settings_of
 from ..styles.stage import Stage
 from .base import BareEarthAlgorithm, errors_for_qgis
 from .choices import ChoiceParameter, with_labels
@@ -113,6 +114,7 @@ class ShippedModel(QgsProcessingModelAlgorithm):
             f"{self._subject}: {self.displayName()}",
             places_of(self, parameters, context),
         )
+        self._settings = settings_of(self, parameters, context)
         with errors_for_qgis():
             self._stage = Stage(context, group, places)
         return super().prepareAlgorithm(parameters, context, feedback)
@@ -162,7 +164,8 @@ class ShippedModel(QgsProcessingModelAlgorithm):
             if path in looks and titles.count(looks[path].title) > 1:
                 title = self.parameterDefinition(name).description()
                 looks[path] = looks[path]._replace(title=title)
-        layers.arrange(context, looks, labels, self._subject, self._stage)
+        origin = Origin.of(self.displayName(), self._settings)
+        layers.arrange(context, looks, labels, self._subject, self._stage, origin)
 
     def createInstance(self) -> ShippedModel:
         """Return another instance."""

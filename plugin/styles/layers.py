@@ -20,6 +20,7 @@ from ...algorithms.products.contours import Interval
 from ..i18n import mark, tr
 from . import clouds, rasters, vectors
 from .loaded import fresh_path, show_fresh_points
+from .metadata import Origin, describe
 from .stage import Stage, remember_height
 
 # QGIS calls post-processors after the algorithm was deleted. It owns only their C++ objects, so
@@ -47,6 +48,8 @@ class Look(NamedTuple):
         first. 0 for a layer that hides nothing.
     shows : str
         Meaning of the colours, in the user's language; empty for rasters, whose files state it.
+    origin : Origin or None
+        The run that made it; set by `arrange`.
     """
 
     title: str
@@ -54,6 +57,7 @@ class Look(NamedTuple):
     dress: Callable[[Any], None]
     hides: int = 0
     shows: str = ""
+    origin: Origin | None = None
 
     @property
     def is_shade(self) -> bool:
@@ -112,6 +116,7 @@ def arrange(
     labels: Mapping[str, str],
     subject: str,
     stage: Stage,
+    origin: Origin,
 ) -> None:
     """Give styles and names to the layers of a run, and a group if there are several.
 
@@ -130,9 +135,13 @@ def arrange(
         Name of the input.
     stage : Stage
         The place of the run in the project.
+    origin : Origin
+        What made layers that have no origin yet; steps of models set that of their layers.
     """
     project = context.project()
-    stage.reload({path: functools.partial(_dress, look, project) for path, look in looks.items()})
+    looks = {path: look._replace(origin=look.origin or origin) for path, look in looks.items()}
+    dresses = {path: functools.partial(_dress, look, subject) for path, look in looks.items()}
+    stage.reload({path: functools.partial(dress, project) for path, dress in dresses.items()})
     looks = {path: look for path, look in looks.items() if context.willLoadLayerOnCompletion(path)}
     shown = max((look.hides for look in looks.values()), default=0)
     new = _new(context, looks, stage)
@@ -153,7 +162,7 @@ def arrange(
         place = None if is_named or not is_grouped else stage
         if is_native and place:
             details.groupName, details.layerSortKey, place = stage.group, look.height, None
-        processor = _Show(look, place, is_named or look.hides in (0, shown))
+        processor = _Show(look, subject, place, is_named or look.hides in (0, shown))
         _KEPT.append(processor)
         details.setPostProcessor(processor)
 
@@ -180,9 +189,10 @@ def looks_of(context: QgsProcessingContext) -> dict[str, Look]:
 class _Show(QgsProcessingLayerPostProcessorInterface):
     """Gives a new layer its style, and its place unless QGIS itself has put it there."""
 
-    def __init__(self, look: Look, stage: Stage | None, is_visible: bool) -> None:
+    def __init__(self, look: Look, subject: str, stage: Stage | None, is_visible: bool) -> None:
         super().__init__()
-        self.look, self._stage, self._is_visible = look, stage, is_visible
+        self.look, self._subject = look, subject
+        self._stage, self._is_visible = stage, is_visible
 
     def postProcessLayer(
         self, layer: QgsMapLayer, context: QgsProcessingContext, feedback: QgsProcessingFeedback
@@ -194,15 +204,17 @@ class _Show(QgsProcessingLayerPostProcessorInterface):
         if node is not None and self._stage is not None:
             node = self._stage.place(node, self.look.height)
         show_fresh_points(layer)
-        _dress(self.look, project, layer)
+        _dress(self.look, self._subject, project, layer)
         if node is not None:
             node.setItemVisibilityChecked(self._is_visible)
             node.setExpanded(self._is_visible and not self.look.is_shade)
 
 
-def _dress(look: Look, project: QgsProject | None, layer: QgsMapLayer) -> None:
-    """Set the style of a layer, and the text of its legend."""
+def _dress(look: Look, subject: str, project: QgsProject | None, layer: QgsMapLayer) -> None:
+    """Set style and metadata of a layer, and the text of its legend."""
     look.dress(layer)
+    if look.origin is not None:
+        describe(layer, f"{subject}: {tr(look.title)}", look.origin)
     layer.triggerRepaint()
     node = project.layerTreeRoot().findLayer(layer.id()) if project else None
     shown = rasters.shown_by(layer) if isinstance(layer, QgsRasterLayer) else look.shows

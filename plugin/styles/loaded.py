@@ -195,7 +195,9 @@ def reload(
             continue
         _close(layer)
         uri = fresh_path(str(each.path)) if each.provider == "copc" else each.uri
+        metadata = layer.metadata()
         layer.setDataSource(uri, layer.name(), each.provider)
+        layer.setMetadata(metadata)  # newer versions of QGIS forget it
         show_fresh_points(layer)
         dress = known.get(_normal(each.path))
         if dress is not None and layer.isValid():
