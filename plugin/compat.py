@@ -8,6 +8,8 @@ from qgis import core
 from qgis.core import (
     NULL,
     Qgis,
+    QgsLineSymbol,
+    QgsMapLayerProxyModel,
     QgsProcessing,
     QgsProcessingAlgorithm,
     QgsProcessingContext,
@@ -52,9 +54,23 @@ if hasattr(Qgis, "CrsWktVariant"):
     WKT = Qgis.CrsWktVariant.Preferred
 else:
     WKT = core.QgsCoordinateReferenceSystem.WktVariant.WKT_PREFERRED
+# QGIS 3.34 moved the filters of boxes for layers, too.
+if hasattr(Qgis, "LayerFilter"):
+    POINT_CLOUDS = Qgis.LayerFilter.PointCloudLayer
+else:
+    POINT_CLOUDS = QgsMapLayerProxyModel.Filter.PointCloudLayer
 
 # Since QGIS 3.26.
 HAS_POINT_CLOUD_OUTPUTS = hasattr(core, "QgsProcessingParameterPointCloudDestination")
+
+# Since QGIS 3.42, virtual point clouds show their overview at small scales.
+SHOWS_OVERVIEWS = hasattr(core.QgsPointCloudRenderer, "setZoomOutBehavior")
+
+
+def show_overview(renderer: core.QgsPointCloudRenderer) -> None:
+    """Let a virtual point cloud show its overview at small scales, instead of outlines."""
+    if SHOWS_OVERVIEWS:
+        renderer.setZoomOutBehavior(Qgis.PointCloudZoomOutRenderBehavior.RenderOverview)
 
 
 def is_null(value: Any) -> bool:
@@ -70,12 +86,12 @@ def can_load(path: str) -> bool:
     return "pdal" in providers or (path.lower().endswith(".copc.laz") and "copc" in providers)
 
 
-def load_virtual_point_cloud(path: str, name: str, context: QgsProcessingContext) -> None:
-    """Let QGIS load a .vpc file as a layer after the run."""
+def load_point_cloud(path: str, context: QgsProcessingContext) -> None:
+    """Let QGIS load a point cloud as a layer after the run, also a .vpc file."""
     if context.project() is None:
         return
     details = QgsProcessingContext.LayerDetails(
-        name, context.project(), name, QgsProcessingUtils.LayerHint.PointCloud
+        "", context.project(), "", QgsProcessingUtils.LayerHint.PointCloud
     )
     context.addLayerToLoadOnCompletion(path, details)
 
@@ -119,11 +135,13 @@ def place_on_line(settings: core.QgsPalLayerSettings) -> None:
     settings.setLineSettings(lines)
 
 
-def mark_as_elevation(layer: QgsRasterLayer) -> None:
-    """Tell 3D views and elevation profiles that the raster is a surface."""
+def mark_as_elevation(layer: QgsRasterLayer, colour: str) -> None:
+    """Tell 3D views and elevation profiles that the raster is a surface, and its colour there."""
     properties = layer.elevationProperties()
     if properties is None:  # before QGIS 3.26
         return
     properties.setEnabled(True)
+    line = {"line_color": colour, "line_width": "0.6"}
+    properties.setProfileLineSymbol(QgsLineSymbol.createSimple(line))
     if hasattr(properties, "setMode"):  # since QGIS 3.38; before, enabling is enough
         properties.setMode(Qgis.RasterElevationMode.RepresentsElevationSurface)

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import functools
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from qgis.core import Qgis, QgsApplication, QgsMessageLog, QgsSettings
-from qgis.PyQt.QtCore import QCoreApplication
+from qgis.PyQt.QtCore import QCoreApplication, QTimer
 from qgis.PyQt.QtWidgets import QPushButton
 
 from ..algorithms.las.backends import install_hint, missing_packages
 from .compat import QAction
 from .i18n import install, tr
-from .libraries.folders import BUNDLED, add_to_path
+from .libraries.folders import BUNDLED, add_to_path, remove_if_uninstalled
 from .libraries.laz_support import LazSupport
 
 if TYPE_CHECKING:
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 _MENU = "Bare Earth"
 # The setting that stores whether the message on LAZ support was shown.
 _TOLD = "bare_earth/laz_support_told"
+# Milliseconds after which an uninstalled plugin is gone.
+_SOON = 3000
 
 
 class BareEarthPlugin:
@@ -48,7 +51,10 @@ class BareEarthPlugin:
         from .provider import BareEarthProvider
 
         self._provider = BareEarthProvider()
-        QgsApplication.processingRegistry().addProvider(self._provider)
+        registry = QgsApplication.processingRegistry()
+        # Models also have steps of other providers, which may come later.
+        registry.providerAdded.connect(self._provider.load_models)
+        registry.addProvider(self._provider)
 
     def initGui(self) -> None:
         """Add provider and menu to the QGIS window."""
@@ -75,7 +81,9 @@ class BareEarthPlugin:
     def unload(self) -> None:
         """Remove provider, menu and dialog."""
         if self._provider is not None:
-            QgsApplication.processingRegistry().removeProvider(self._provider)
+            registry = QgsApplication.processingRegistry()
+            registry.providerAdded.disconnect(self._provider.load_models)
+            registry.removeProvider(self._provider)
             self._provider = None
         if self._action is not None:
             self._iface.removePluginMenu(_MENU, self._action)
@@ -88,6 +96,9 @@ class BareEarthPlugin:
 
         if self._translator is not None:
             QCoreApplication.removeTranslator(self._translator)
+        # Updates put the folder of the plugin back before this.
+        folders = Path(__file__).parents[1], Path(QgsApplication.qgisSettingsDirPath())
+        QTimer.singleShot(_SOON, functools.partial(remove_if_uninstalled, *folders))
 
     def _tell_of_laz_support(self) -> None:
         """Tell the user once that .laz files need a package, with a button to install it."""

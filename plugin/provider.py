@@ -45,8 +45,14 @@ class BareEarthProvider(QgsProcessingProvider):
 
     def loadAlgorithms(self) -> None:
         """Add an instance of each algorithm, and the models of the plugin."""
-        for algorithm in [*(each() for each in ALGORITHMS), *shipped_models()]:
+        self._models = shipped_models()
+        for algorithm in [*(each() for each in ALGORITHMS), *self._models]:
             self.addAlgorithm(algorithm)
+
+    def load_models(self, _: str = "") -> None:
+        """Read the models again, whose outputs are known only when their steps are registered."""
+        for each in self._models:
+            each.load()
 
     def supportsNonFileBasedOutput(self) -> bool:
         """Return that outputs are always files."""

@@ -46,8 +46,8 @@ class ClassifiedSummary:
         Numbers of points in the area, and of points whose class is known by hand.
     overlap_count : int
         Number of points of overlap.
-    class_counts : dict of int to int
-        Points of each class in the input.
+    input_class_counts, class_counts : dict of int to int
+        Points of each class in the input, and in the output.
     """
 
     name: str
@@ -56,12 +56,14 @@ class ClassifiedSummary:
     area_count: int = 0
     by_hand_count: int = 0
     overlap_count: int = 0
+    input_class_counts: dict[int, int] = field(default_factory=dict)
     class_counts: dict[int, int] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         # The keys of the JSON record are strings.
-        counts = {int(value): count for value, count in self.class_counts.items()}
-        object.__setattr__(self, "class_counts", counts)
+        for name in ("input_class_counts", "class_counts"):
+            counts = {int(value): count for value, count in getattr(self, name).items()}
+            object.__setattr__(self, name, counts)
 
     @property
     def text(self) -> str:
@@ -152,7 +154,7 @@ class LabelGround(PointStep):
         """Tell which classes stay; warn if no point lies in the area or in the corrections."""
         tally = Tally(overlap=sum(each.overlap_count for each in done))
         for summary in done:
-            for value, count in summary.class_counts.items():
+            for value, count in summary.input_class_counts.items():
                 tally.classes[value] += count
         self.selection.tell_of_kept(tally, progress)
         if self.area is not None and not any(each.area_count for each in done):
@@ -310,7 +312,6 @@ class ClassifiedPoints(PointResult):
         """Return the numbers of points."""
         written = len(self.classification) if self._inside is None else self._area_count
         ground = int(self.class_counts[self._step.selection.to_class])
-        counts = {int(n): int(self._counts_before[n]) for n in np.flatnonzero(self._counts_before)}
         return ClassifiedSummary(
             name,
             written,
@@ -318,5 +319,11 @@ class ClassifiedPoints(PointResult):
             self._area_count,
             self._by_hand_count,
             self._overlap_count,
-            counts,
+            _found(self._counts_before),
+            _found(self.class_counts),
         )
+
+
+def _found(counts: np.ndarray) -> dict[int, int]:
+    """Return the counts of the classes that there are."""
+    return {value: int(counts[value]) for value in np.flatnonzero(counts).tolist()}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+from collections import Counter
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Iterable, Sequence
@@ -62,6 +63,14 @@ class SurveySummary:
     failures: dict[str, str]
     vpc: str
     tiles: tuple[Any, ...] = field(default=(), repr=False)
+
+    @property
+    def class_counts(self) -> dict[int, int]:
+        """Points of each class in the finished files; empty if a step does not count them."""
+        counts: Counter[int] = Counter()
+        for each in self.tiles:
+            counts.update(getattr(each, "class_counts", {}))
+        return dict(sorted(counts.items()))
 
     @property
     def text(self) -> str:
@@ -221,7 +230,7 @@ def write_files(
     for each in waiting:
         shutil.rmtree(each, ignore_errors=True)
     made = [folder / each.name for each in run.done]
-    write_vpc(vpc, made, progress.part(0.98, 1.0), request.stated)
+    write_vpc(vpc, made, progress.part(0.98, 1.0), request.tiles.overview, request.stated)
     return SurveySummary(
         tile_count=len(inputs) - empty_count + len(failures.keys() - inputs.keys()),
         done_count=len(run.done),

@@ -95,7 +95,7 @@ class MapSummary(NamedTuple):
     point_count, ground_count : int
         Numbers of points, those of the area if there is one, and of ground points.
     class_counts : dict of int to int
-        Points of each class of a single file; empty for many.
+        Points of each class.
     contour_interval : Interval or None
         Height between contour lines; None where none were wanted.
     """
@@ -167,4 +167,4 @@ def _classified(
     folder = target.with_name(target.name[: -len(kind) - 1])
     how = replace(how, tiles=TileOutput(kind if kind in _FORMATS else "same"))
     many = classify_files(sources, folder, how, progress)
-    return MapSummary(Path(many.vpc), many.point_count, many.ground_count, {})
+    return MapSummary(Path(many.vpc), many.point_count, many.ground_count, many.class_counts)

@@ -26,6 +26,7 @@ from .sources import damage_told, damaged, open_source
 
 if TYPE_CHECKING:
     import laspy
+    import lazrs
 
 # Points decompressed at once.
 _BATCH = 1_000_000
@@ -166,7 +167,9 @@ def read_pages(hierarchy: Hierarchy) -> dict[int, np.ndarray]:
     return pages
 
 
-def read_nodes(hierarchy: Hierarchy, nodes: np.ndarray) -> Iterator[laspy.PackedPointRecord]:
+def read_nodes(
+    hierarchy: Hierarchy, nodes: np.ndarray, is_whole: bool = False
+) -> Iterator[laspy.PackedPointRecord]:
     """Yield the points of nodes, about a million at once.
 
     Parameters
@@ -175,6 +178,8 @@ def read_nodes(hierarchy: Hierarchy, nodes: np.ndarray) -> Iterator[laspy.Packed
         The octree.
     nodes : numpy.ndarray of HIERARCHY_ENTRY
         From `find_nodes`.
+    is_whole : bool
+        Whether to read all values of the points, or only those that a `PointCloud` needs.
 
     Raises
     ------
@@ -183,11 +188,15 @@ def read_nodes(hierarchy: Hierarchy, nodes: np.ndarray) -> Iterator[laspy.Packed
     BareEarthError
         If the points are damaged.
     """
+    import lazrs
+
     layout = hierarchy.layout
+    every = lazrs.DecompressionSelection(lazrs.SELECTIVE_DECOMPRESS_ALL)
+    selection = every if is_whole else selection_of(needed(layout))
     with open_source(layout.path) as file:
         for batch in _batches(nodes):
             with damage_told(layout.path):
-                records = _decompress(layout, file, batch)
+                records = _decompress(layout, file, batch, selection)
                 chunk = named(layout, records)
             _check_places(hierarchy, batch, chunk)
             yield chunk
@@ -249,7 +258,12 @@ def _batches(nodes: np.ndarray) -> Iterator[np.ndarray]:
     return (run for run in np.split(nodes, np.flatnonzero(np.diff(numbers)) + 1) if len(run))
 
 
-def _decompress(layout: LasFile, file: BinaryIO, nodes: np.ndarray) -> np.ndarray:
+def _decompress(
+    layout: LasFile,
+    file: BinaryIO,
+    nodes: np.ndarray,
+    selection: lazrs.DecompressionSelection,
+) -> np.ndarray:
     import lazrs
 
     compressed = bytearray()
@@ -269,7 +283,7 @@ def _decompress(layout: LasFile, file: BinaryIO, nodes: np.ndarray) -> np.ndarra
         layout.laszip,
         records,
         list(zip(counts, sizes)),
-        selection_of(needed(layout)),
+        selection,
     )
     return records
 

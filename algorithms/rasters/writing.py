@@ -16,6 +16,7 @@ from ..core.errors import BareEarthError
 from ..core.files import check_output, replacing
 from ..core.progress import Progress
 from ..core.temporary import shown
+from ..core.version import __version__
 from ..crs.system import unit_symbol
 from .geotiff import Raster, RasterGrid
 from .libraries import GdalErrors, library
@@ -168,6 +169,7 @@ def _write_with_gdal(
                 else:
                     _warn_without_crs(progress)
                 errors.clear()
+            dataset.SetMetadata(_tags(about))
             band, start = dataset.GetRasterBand(1), 0
             band.SetNoDataValue(about.nodata)
             band.SetDescription(about.description)
@@ -186,6 +188,14 @@ def _write_with_gdal(
     finally:
         if waiting:
             waiting.unlink(missing_ok=True)
+
+
+def _tags(about: Band) -> dict[str, str]:
+    """Return what the file says about itself. It has no time, so that equal runs are equal."""
+    return {
+        "TIFFTAG_SOFTWARE": f"Bare Earth {__version__}",
+        "TIFFTAG_IMAGEDESCRIPTION": about.description,
+    }
 
 
 def _words(options: dict[str, str]) -> list[str]:
@@ -219,6 +229,7 @@ def _write_with_rasterio(
                     dataset.write(strip, 1, window=window)
                     start += len(strip)
                 dataset.descriptions = (about.description,)
+                dataset.update_tags(**_tags(about))
                 if grid.unit:
                     dataset.units = (grid.unit,)
             # In memory first, since rasterio raises no error if the disk is full at the close.

@@ -22,6 +22,7 @@ from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..las.sources import read_text
 from .copies import copies_in, tell_of_twins
+from .overview import is_overview
 from .vpc import SUFFIX as VPC_SUFFIX
 from .vpc import no_extent, read_vpc
 
@@ -185,7 +186,9 @@ def _expand(source: Path, recursive: bool, progress: Progress) -> Iterator[Path]
     if source.is_dir():
         for path in source.rglob("*") if recursive else source.iterdir():
             # Hidden files belong to other programs, or are not finished yet.
-            if is_cloud(path) and not path.name.startswith(".") and path.is_file():
+            is_hidden = path.name.startswith(".")
+            # The points of an overview are those of other files.
+            if is_cloud(path) and not is_hidden and path.is_file() and not is_overview(path):
                 yield path
     elif suffix == VPC_SUFFIX:
         paths = read_vpc(source)

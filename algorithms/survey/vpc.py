@@ -32,6 +32,7 @@ from ..las.header import CREATION
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..las.sources import read_text
+from .overview import overview_of, write_overview
 
 SUFFIX = ".vpc"
 _EXTENSIONS = [
@@ -116,12 +117,16 @@ def read_vpc(path: Path) -> list[Path]:
 
 
 def write_vpc(
-    path: Path, files: Iterable[Path], progress: Progress = SILENT, stated: str | None = None
+    path: Path,
+    files: Iterable[Path],
+    progress: Progress = SILENT,
+    overview: bool = False,
+    stated: str | None = None,
 ) -> None:
     """Write a virtual point cloud. QGIS shows the points of COPC files, and outlines of others.
 
-    Only the headers of the files are read. Paths are relative to the folder of `path`, so that it
-    can be moved together with the files.
+    Only the headers of the files are read, and a few points for an overview. Paths are relative to
+    the folder of `path`, so that it can be moved together with the files.
 
     Parameters
     ----------
@@ -131,6 +136,9 @@ def write_vpc(
         LAS, LAZ or COPC files.
     progress : Progress
         Receives progress, and a warning if the CRS of files is not known.
+    overview : bool
+        Whether to write an overview beside it, as `write_overview` does. Without one, an old
+        overview is removed.
     stated : str, optional
         The CRS that the user states in place of their records, as well-known text.
 
@@ -147,12 +155,17 @@ def write_vpc(
     if not files:
         raise BareEarthError(f"Cannot write {path}: there are no files to list. Give at least one.")
     check_output(path, tuple(files))
-    features, unplaced = [], 0
-    for number, file in enumerate(files, start=1):
-        feature = _feature(path, open_las(file, stated))
+    layouts, features, unplaced = [open_las(file, stated) for file in files], [], 0
+    made = _overview(path, layouts, progress.part(0.0, 0.9)) if overview else None
+    for number, layout in enumerate(layouts, start=1):
+        feature = _feature(path, layout)
         unplaced += not feature["properties"]["proj:wkt2"]
+        if made is not None:
+            feature["assets"]["overview"] = {
+                "href": _reference(made, path), "roles": ["overview"],
+            }  # fmt: skip
         features.append(feature)
-        progress(number / len(files))
+        progress.part(0.9, 1.0)(number / len(files))
     _make_ids_unique(features)
     if unplaced:
         progress.warning(
@@ -164,6 +177,17 @@ def write_vpc(
     )
     with replacing(path) as temporary:
         temporary.write_text(text + "\n", encoding="utf-8")
+    if made is None and overview_of(path) not in files:
+        overview_of(path).unlink(missing_ok=True)
+
+
+def _overview(path: Path, layouts: list[LasFile], progress: Progress) -> Path | None:
+    """Write the overview; return None if it cannot be written, since the list is of use alone."""
+    try:
+        return write_overview(path, layouts, progress)
+    except BareEarthError as error:
+        progress.warning(f"{path.name} has no overview. {error}")
+        return None
 
 
 def _not_one(path: Path, why: str) -> BareEarthError:

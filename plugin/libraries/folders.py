@@ -13,11 +13,13 @@ from .build import Build
 BUNDLED = Path(__file__).parents[2] / "packages"
 # Windows cannot delete loaded libraries, so the folder is marked until the next start.
 _REMOVED = "removed.txt"
+# In the profile.
+_HOME = "bare_earth"
 
 
 def profile_folder(profile: Path) -> Path:
     """Return the folder of packages in a profile of QGIS for this Python; it need not exist."""
-    return profile / "bare_earth" / "packages" / Build.here().name
+    return profile / _HOME / "packages" / Build.here().name
 
 
 def add_to_path(folder: Path) -> None:
@@ -68,3 +70,12 @@ def delete(folder: Path) -> bool:
     if folder.exists():
         (folder / _REMOVED).touch()
     return not folder.exists()
+
+
+def remove_if_uninstalled(plugin: Path, profile: Path) -> None:
+    """Remove all that the plugin put into a profile, if the folder of the plugin is gone.
+
+    QGIS does not say whether it unloads a plugin to update or to uninstall it.
+    """
+    if not plugin.exists():
+        shutil.rmtree(profile / _HOME, ignore_errors=True)

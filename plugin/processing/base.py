@@ -25,12 +25,14 @@ from ...algorithms.las.backends import install_hint, missing_packages
 from .. import compat
 from ..i18n import tr
 from ..styles import layers
+from ..styles.metadata import Origin, settings_of
+from ..styles.stage import Stage
 from .area import check_area_only
 from .feedback import FeedbackProgress, tell_of_unknown
 from .fields import field_of, parameters_of
 from .help_pages import address_of
 from .inputs import CloudCrs
-from .outputs import NOTHING_STAYS, do_not_load
+from .outputs import NOTHING_STAYS, do_not_load, places_of
 from .presets import presets_of
 from .search_words import words_of
 from .stated_crs import crs_of_text, stated_crs_of
@@ -243,13 +245,16 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
     ) -> bool:
         """Run `prepare`."""
         tell_of_unknown(self, parameters, feedback)
-        with _errors_for_qgis():
+        with errors_for_qgis():
             self.stated = stated_crs_of(self, parameters, context)
             self.prepare(parameters, context, FeedbackProgress(feedback))
+        self._settings = settings_of(self, parameters, context)
         self.class_counts: Mapping[int, int] = {}
         self._looks: dict[str, layers.Look] = {}
         names = [self.subject, tr(self.run_name or self.title)]
-        self._group = layers.free_name(context, ": ".join(filter(None, names)))
+        with errors_for_qgis():
+            group, places = ": ".join(filter(None, names)), places_of(self, parameters, context)
+            self._stage = Stage(context, group, places)
         return True
 
     def processAlgorithm(
@@ -262,7 +267,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         before, progress = set(context.layersToLoadOnCompletion()), FeedbackProgress(feedback)
         results: dict[str, Any] = {}
         try:
-            with _errors_for_qgis():
+            with errors_for_qgis():
                 results = self.compute(parameters, context, progress)
         except Cancelled:
             feedback.pushInfo(tr(self.cancelled))
@@ -270,11 +275,13 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
             if not results:
                 do_not_load(context, set(context.layersToLoadOnCompletion()) - before)
             progress.end(self.class_counts if results else {})
-        self._arrange(results, context)
+            self._arrange(results, context, progress.commands)
         return results
 
-    def _arrange(self, results: dict[str, Any], context: QgsProcessingContext) -> None:
-        """Set names, styles and places of the layers."""
+    def _arrange(
+        self, results: dict[str, Any], context: QgsProcessingContext, commands: tuple[str, ...]
+    ) -> None:
+        """Set names, styles and places of the layers, and reload those of an earlier run."""
         looks, labels = {}, {}
         for name in filter(self.parameterDefinition, results):
             labels[results[name]] = self.parameterDefinition(name).description()
@@ -285,7 +292,8 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
             crs = crs_of_text(self.stated)
             looks = {path: layers.in_crs(look, crs) for path, look in looks.items()}
         subject = self.subject or tr(self.title)
-        layers.arrange(context, looks, labels, subject, self._group)
+        origin = Origin.of(self.displayName(), self._settings, commands)
+        layers.arrange(context, looks, labels, subject, self._stage, origin)
 
 
 def _plain(text: str) -> str:
@@ -294,7 +302,7 @@ def _plain(text: str) -> str:
 
 
 @contextlib.contextmanager
-def _errors_for_qgis() -> Iterator[None]:
+def errors_for_qgis() -> Iterator[None]:
     """Turn errors into exceptions that QGIS shows without a traceback."""
     try:
         yield

@@ -8,11 +8,14 @@ from typing import TYPE_CHECKING, Iterable
 from qgis.core import QgsProcessingContext, QgsProcessingUtils
 
 from ...algorithms.core.errors import BareEarthError, Cancelled
+from ...algorithms.survey.overview import overview_of
 from .. import compat
 from ..i18n import tr
 from ..styles import clouds, layers
+from ..styles.rasters import is_class_raster
 from .base import BareEarthAlgorithm
 from .feedback import FeedbackProgress
+from .outputs import class_raster_of
 
 if TYPE_CHECKING:
     from ...algorithms.engine.requests import ClassifyRequest
@@ -55,7 +58,7 @@ def show_classified(
     algorithm.show(cloud, layers.classes(classes, hides=hides if is_hiding else 0))
     if compat.can_load(cloud):
         if is_virtual:
-            compat.load_virtual_point_cloud(cloud, "", context)
+            _load_virtual(algorithm, cloud, classes, context)
         return
     progress.info(tr("This QGIS cannot show such a file as a layer. It is at {}.").format(cloud))
     if not context.layersToLoadOnCompletion():
@@ -63,7 +66,7 @@ def show_classified(
     # Imported here, since it needs packages that QGIS may lack when it starts.
     from ...algorithms.products.class_raster import write_class_raster
 
-    path = QgsProcessingUtils.generateTempFilename("classes.tif")
+    path = _place_of_raster(cloud)
     cell_size, in_units = request.terrain.dtm_cell_size, request.terrain.dtm_cell_unit == "crs"
     try:
         files = Path(cloud), Path(path)
@@ -80,3 +83,22 @@ def show_classified(
     details = QgsProcessingContext.LayerDetails("classes", context.project(), "classes", hint)
     context.addLayerToLoadOnCompletion(path, details)
     algorithm.show(path, layers.class_raster(found if is_virtual else classes, hides))
+
+
+def _load_virtual(
+    algorithm: BareEarthAlgorithm, cloud: str, classes: list[int], context: QgsProcessingContext
+) -> None:
+    """Let QGIS load a virtual point cloud, and its overview if QGIS itself does not show it."""
+    compat.load_point_cloud(cloud, context)
+    overview = overview_of(Path(cloud))
+    if not compat.SHOWS_OVERVIEWS and overview.is_file():
+        compat.load_point_cloud(str(overview), context)
+        algorithm.show(str(overview), layers.overview(classes))
+
+
+def _place_of_raster(cloud: str) -> str:
+    """Return the file beside a cloud for its classes; a temporary one if it belongs to the user."""
+    path = class_raster_of(Path(cloud))
+    if path.exists() and not is_class_raster(path):
+        return QgsProcessingUtils.generateTempFilename("classes.tif")
+    return str(path)

@@ -75,6 +75,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         summary = classify_files(sources, folder, request, progress, vpc=vpc or None)
         progress.info(f"{summary.text}.")
         paths = shown_rasters(paths, request.raster_output, context)
-        show_classified(self, summary.vpc, (), request, context, progress)
+        self.class_counts = summary.class_counts
+        show_classified(self, summary.vpc, self.class_counts, request, context, progress)
         results = {name: getattr(summary, name.lower()) for name in _NUMBERS}
         return {"OUTPUT_FOLDER": folder, "OUTPUT_VPC": summary.vpc, **paths, **results}

@@ -65,6 +65,11 @@ class FeedbackProgress(Progress):
         """Store a command that does the same without QGIS, for the end of the log."""
         self._commands.append(text)
 
+    @property
+    def commands(self) -> tuple[str, ...]:
+        """The commands that do the same without QGIS."""
+        return tuple(self._commands)
+
     def end(self, class_counts: Mapping[int, int]) -> None:
         """Write the end of the log: classes, automatic choices, time and commands.
 

@@ -35,6 +35,7 @@ from ...algorithms.survey.area import Polygon
 from ...algorithms.survey.files import find_files, open_survey
 from .. import compat
 from ..i18n import tr
+from ..styles.loaded import filter_of, has_edits
 from .stated_crs import add_crs as add_crs
 from .stated_crs import crs_of_text
 
@@ -220,8 +221,7 @@ def ignored_filter(
     if not isinstance(layer, QgsMapLayer):
         text = algorithm.parameterAsString(parameters, name, context)
         layer = QgsProcessingUtils.mapLayerFromString(text, context, False)
-    # Point cloud layers have filters since QGIS 3.26.
-    return layer.subsetString() if hasattr(layer, "subsetString") else ""
+    return filter_of(layer)
 
 
 def is_empty(value: Any) -> bool:
@@ -309,6 +309,9 @@ def _path_of(layer: QgsMapLayer) -> Path:
                 "{} is not a point cloud. Choose a point cloud layer, or a .las or .laz file."
             ).format(layer.name())
         )
+    if has_edits(layer):
+        text = tr('The layer "{}" has edits that are not saved. Save or discard them first.')
+        raise BareEarthError(text.format(layer.name()))
     provider = layer.dataProvider().name() if layer.dataProvider() else ""
     parts = QgsProviderRegistry.instance().decodeUri(provider, layer.source())
     path = parts.get("path") or layer.source()

@@ -6,23 +6,29 @@ from pathlib import Path
 from typing import Any
 
 from qgis.core import (
+    QgsProcessing,
     QgsProcessingContext,
     QgsProcessingFeedback,
     QgsProcessingModelAlgorithm,
+    QgsProcessingParameterDefinition,
     QgsProcessingParameterEnum,
 )
 
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.engine.options import TileMethod
 from ...algorithms.products.contours import Interval
+from .. import compat
 from ..i18n import tr
 from ..styles import layers, rasters
-from .base import BareEarthAlgorithm
+from ..styles.loaded import fresh_path
+from ..styles.metadata import Origin, settings_of
+from ..styles.stage import Stage
+from .base import BareEarthAlgorithm, errors_for_qgis
 from .choices import ChoiceParameter, with_labels
 from .feedback import tell_of_unknown
 from .fields import help_of
-from .inputs import name_of
-from .outputs import do_not_load
+from .inputs import is_empty, name_of
+from .outputs import do_not_load, places_of
 from .search_words import words_of
 
 _CHOICES = {each.name.upper(): each for each in TileMethod.declarations()}
@@ -48,18 +54,29 @@ class ShippedModel(QgsProcessingModelAlgorithm):
     def __init__(self, file: Path) -> None:
         super().__init__()
         self._file = file
-        # Its steps are found only when all providers are loaded; QGIS makes a new instance to run.
-        self.fromFile(str(file))
+        self.load()
+
+    def load(self) -> None:
+        """Read the file. Steps and outputs are found only when their providers are loaded."""
+        self.fromFile(str(self._file))
         self.about = self.helpContent().get("ALG_DESC", "")
+        needed = set()
         # All parameters are added again, to keep their order. Choices show labels, as elsewhere.
         for each in [each.clone() for each in self.parameterDefinitions()]:
             self.removeParameter(each.name())
             # The help of the step, or else of the model.
             each.setHelp(tr(each.help() or self.helpContent().get(each.name(), "")))
             each.setDescription(tr(each.description()))
+            if each.isDestination():
+                if not each.flags() & compat.OPTIONAL:
+                    needed.add(each.name())
+                each.setFlags(each.flags() | compat.OPTIONAL)
+                each.setCreateByDefault(True)
             self.addParameter(_choice(each) if each.name() in _CHOICES else each)
         for each in self.outputDefinitions():
             each.setDescription(tr(each.description()))
+        # Outputs that steps cannot do without, although nobody needs to keep them.
+        self._needed = needed
 
     def name(self) -> str:
         """Return the second half of the id; QGIS would use the title."""
@@ -93,8 +110,13 @@ class ShippedModel(QgsProcessingModelAlgorithm):
     ) -> bool:
         """Name the layers and their group after the input."""
         self._subject = name_of(Path(self.parameterAsFile(parameters, "INPUT", context)))
-        title = self.displayName().partition(": ")[2]
-        self._group = layers.free_name(context, f"{self._subject}: {title}")
+        group, places = (
+            f"{self._subject}: {self.displayName()}",
+            places_of(self, parameters, context),
+        )
+        self._settings = settings_of(self, parameters, context)
+        with errors_for_qgis():
+            self._stage = Stage(context, group, places)
         return super().prepareAlgorithm(parameters, context, feedback)
 
     def processAlgorithm(
@@ -104,17 +126,23 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         feedback: QgsProcessingFeedback,
     ) -> dict[str, Any]:
         """Run the model, with defaults for missing inputs, which QGIS would leave empty."""
-        defaults = {each.name(): each.defaultValue() for each in self.parameterDefinitions()}
+        defaults = {each.name(): _default(each) for each in self.parameterDefinitions()}
         tell_of_unknown(self, parameters, feedback)
         given = {**defaults, **parameters}
-        results = super().processAlgorithm(given, context, feedback)
-        self._arrange(given, results, context)
+        for each in self._needed:
+            given[each] = defaults[each] if is_empty(given[each]) else given[each]
+        results: dict[str, Any] = {}
+        try:
+            results = super().processAlgorithm(given, context, feedback)
+        finally:
+            self._arrange(given, results, context)
         return results
 
     def _arrange(
         self, given: dict[str, Any], results: dict[str, Any], context: QgsProcessingContext
     ) -> None:
         """Set names, styles and places of the layers; QGIS names them OUTPUT, DTM and so on."""
+        results = {name: _shown(value) for name, value in results.items()}
         looks = layers.looks_of(context)
         # Rasters of classes, for clouds that QGIS cannot show. Those of inner steps are not wanted.
         extra = [path for path, look in looks.items() if look.title == layers.CLASSES]
@@ -136,11 +164,22 @@ class ShippedModel(QgsProcessingModelAlgorithm):
             if path in looks and titles.count(looks[path].title) > 1:
                 title = self.parameterDefinition(name).description()
                 looks[path] = looks[path]._replace(title=title)
-        layers.arrange(context, looks, labels, self._subject, self._group)
+        origin = Origin.of(self.displayName(), self._settings)
+        layers.arrange(context, looks, labels, self._subject, self._stage, origin)
 
     def createInstance(self) -> ShippedModel:
         """Return another instance."""
         return ShippedModel(self._file)
+
+
+def _default(field: QgsProcessingParameterDefinition) -> Any:
+    """Return the value of a field that is not given; outputs are temporary files."""
+    return QgsProcessing.TEMPORARY_OUTPUT if field.isDestination() else field.defaultValue()
+
+
+def _shown(value: Any) -> Any:
+    """Return the path by which QGIS loads an output."""
+    return fresh_path(value) if isinstance(value, str) else value
 
 
 def _choice(drawn: QgsProcessingParameterEnum) -> ChoiceParameter:

@@ -6,15 +6,19 @@ from pathlib import Path
 from typing import Any, Iterable, Sequence
 
 from qgis.core import (
+    QgsProcessing,
     QgsProcessingAlgorithm,
     QgsProcessingContext,
+    QgsProcessingOutputLayerDefinition,
     QgsProcessingParameterDefinition,
     QgsProcessingParameterFileDestination,
     QgsProcessingParameterFolderDestination,
     QgsProcessingParameterRasterDestination,
     QgsProcessingParameterVectorDestination,
+    QgsProperty,
 )
 
+from ...algorithms.core.files import split_name
 from ...algorithms.engine.options import RasterOutput
 from ...algorithms.engine.raster_files import RASTERS as MODELS
 from ...algorithms.engine.raster_files import RasterFiles, virtual_of
@@ -101,6 +105,32 @@ def raster_paths(
             if path:
                 paths[name] = path
     return paths
+
+
+def places_of(
+    algorithm: QgsProcessingAlgorithm,
+    parameters: dict[str, Any],
+    context: QgsProcessingContext,
+) -> list[Path]:
+    """Return the files and folders that the user chose for outputs, and what is made of them."""
+    places = []
+    for each in algorithm.destinationParameterDefinitions():
+        value = parameters.get(each.name())
+        if isinstance(value, QgsProcessingOutputLayerDefinition):
+            value = value.sink
+        if isinstance(value, QgsProperty):
+            value = value.valueAsString(context.expressionContext(), "")[0]
+        if value and str(value) != QgsProcessing.TEMPORARY_OUTPUT:
+            path = Path(str(value))
+            # Many files become a folder, and a virtual raster.
+            places += [path, virtual_of(path), path.with_name(split_name(path)[0])]
+            places.append(class_raster_of(path))
+    return places
+
+
+def class_raster_of(cloud: Path) -> Path:
+    """Return the raster that shows the classes of a cloud that QGIS cannot show."""
+    return cloud.with_name(f"{split_name(cloud)[0]}_classes.tif")
 
 
 def shown_rasters(

@@ -9,21 +9,28 @@ from __future__ import annotations
 from typing import Any
 
 from qgis.core import (
+    QgsPointCloudLayer,
     QgsProcessingContext,
     QgsProcessingParameterDefinition,
     QgsProcessingParameterFile,
+    QgsProject,
 )
 from qgis.gui import (
     QgsAbstractProcessingParameterWidgetWrapper,
     QgsCheckableComboBox,
     QgsGui,
+    QgsMapLayerComboBox,
     QgsProcessingGui,
+    QgsProcessingMapLayerComboBox,
     QgsProcessingModelerParameterWidget,
+    QgsProcessingParameterWidgetContext,
 )
+from qgis.PyQt import sip
 from qgis.PyQt.QtCore import Qt
 from qgis.PyQt.QtWidgets import QComboBox, QWidget
 
 from .. import compat
+from ..styles.loaded import file_of
 from .choices import LABELS, ChoiceParameter, value_of, values_of
 
 _STATE = Qt.ItemDataRole.CheckStateRole
@@ -43,14 +50,16 @@ class ChoiceWidget:
 
 
 class PointCloudWidget:
-    """Makes the widget of QGIS for a point cloud, which accepts files in the model designer, too.
+    """Makes the widget of a point cloud, which accepts files in the model designer, too.
 
     QGIS itself only offers inputs that are layers there. Without its `pdal` provider, these cannot
-    be .las and .laz files.
+    be .las and .laz files. In a dialog for one run, a cloud of the project is chosen at first.
     """
 
     def __new__(cls, parameter: QgsProcessingParameterDefinition, dialog: QWidget, *_: Any) -> Any:
         """Return a widget, not an instance of this class."""
+        if _kind(dialog) == QgsProcessingGui.WidgetType.Standard and not _is_designer(dialog):
+            return _CloudBox(parameter, _kind(dialog), dialog)
         if not _is_designer(dialog):
             widget = QgsGui.processingGuiRegistry().createParameterWidgetWrapper(
                 parameter, _kind(dialog)
@@ -136,6 +145,69 @@ class _ChoicesBox(QgsAbstractProcessingParameterWidgetWrapper):
         states = [Qt.CheckState(box.itemData(place, _STATE)) for place in range(box.count())]
         chosen = [place for place, state in enumerate(states) if state == Qt.CheckState.Checked]
         return [box.itemData(place) for place in chosen]
+
+
+class _CloudBox(QgsAbstractProcessingParameterWidgetWrapper):
+    """The box of QGIS for a layer or file. At first, a point cloud of the project is chosen."""
+
+    def createWidget(self) -> QWidget:
+        """Return the box, which offers point clouds only."""
+        box = QgsProcessingMapLayerComboBox(self.parameterDefinition(), self.type())
+        box.setWidgetContext(self.widgetContext())
+        # In QGIS 3.22 it would offer all layers, and choose one of them.
+        for each in box.findChildren(QComboBox):  # this class, since PyQt does not know the other
+            sip.cast(each, QgsMapLayerComboBox).setFilters(compat.POINT_CLOUDS)
+        self._suggested: str | None = None
+        box.valueChanged.connect(lambda: self.widgetValueHasChanged.emit(self))
+        return box
+
+    @property
+    def _box(self) -> QgsProcessingMapLayerComboBox:
+        # Fetched each time, as in `_ChoiceBox`; QGIS returns it as a QWidget, which has no value.
+        return sip.cast(self.wrappedWidget(), QgsProcessingMapLayerComboBox)
+
+    def setWidgetContext(self, context: QgsProcessingParameterWidgetContext) -> None:
+        """Store project and window."""
+        super().setWidgetContext(context)
+        if self.wrappedWidget() is not None:
+            self._box.setWidgetContext(context)
+
+    def setWidgetValue(self, value: Any, context: QgsProcessingContext) -> None:
+        """Choose a value. The first one is the default of the dialog, which is empty."""
+        if self.wrappedWidget() is None:
+            return
+        if self._suggested is None and compat.is_null(value):
+            layer = _cloud_of(self.widgetContext().project())
+            value = self._suggested = layer.id() if layer else ""
+        self._suggested = self._suggested or ""
+        self._box.setValue(value or None, context)
+
+    def widgetValue(self) -> Any:
+        """Return the layer or file."""
+        return self._box.value()
+
+    def postInitialize(self, wrappers: list[QgsAbstractProcessingParameterWidgetWrapper]) -> None:
+        """Take the suggestion back if the user chooses a folder, which would be used beside it."""
+        super().postInitialize(wrappers)
+        for each in wrappers:
+            if each.parameterDefinition().name() == "INPUT_FOLDER":
+                each.widgetValueHasChanged.connect(self._take_back)
+
+    def _take_back(self, folder: QgsAbstractProcessingParameterWidgetWrapper) -> None:
+        is_suggestion = bool(self._suggested) and self._box.value() == self._suggested
+        if is_suggestion and folder.parameterValue():
+            self._box.setLayer(None)
+
+
+def _cloud_of(project: QgsProject | None) -> QgsPointCloudLayer | None:
+    """Return the active layer if it is a point cloud on this computer, else the uppermost one."""
+    from qgis.utils import iface
+
+    project = project or QgsProject.instance()
+    active = [iface.activeLayer()] if iface is not None else []
+    layers = [*active, *project.layerTreeRoot().layerOrder()]
+    clouds = (each for each in layers if isinstance(each, QgsPointCloudLayer) and file_of(each))
+    return next(clouds, None)
 
 
 def _check(box: QComboBox, values: list[str]) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 from qgis.core import (
     Qgis,
     QgsColorRampShader,
+    QgsMapLayer,
     QgsMapUnitScale,
     QgsPointCloudAttributeByRampRenderer,
     QgsPointCloudCategory,
@@ -21,14 +22,16 @@ from qgis.core import (
 from qgis.PyQt.QtGui import QColor, QPainter
 
 from ...algorithms.las.copc_sample import sample_of
+from .. import compat
 from . import ramps
 
 _GROUND = 2
-# The brown of ground is light enough for a hillshade below, unlike that of QGIS. Classes that only
-# mean "not ground" are faint.
+# The brown of ground is lighter than that of QGIS, so that shades show. Classes that only mean "not
+# ground" are faint, but opaque: the map has the colours of the legend whatever lies below.
 _COLOURS = {
-    0: "#8c9aa5b1", 1: "#8c9aa5b1", _GROUND: "#d2a368", 6: "#d9736a", 8: "#8f5a1e", 9: "#5fb4e5",
+    0: "#c8ced4", 1: "#c8ced4", _GROUND: "#d2a368", 6: "#d9736a", 8: "#8f5a1e", 9: "#5fb4e5",
 }  # fmt: skip
+_OPACITY = 0.8
 _METRES, _LEAST_MM, _MOST_MM = 0.6, 0.8, 2.0
 # QGIS draws no further points at this distance in millimetres. Its default of 0.3 leaves holes.
 _SCREEN_ERROR = 0.15
@@ -80,10 +83,15 @@ def by_class(classes: Iterable[int]) -> Callable[[QgsPointCloudLayer], None]:
             # The lowest points are drawn last, so that trees do not hide the ground.
             renderer.setDrawOrder2d(Qgis.PointCloudDrawOrder.TopToBottom)
         layer.setRenderer(renderer)
-        # So that a hillshade below is visible.
-        layer.setBlendMode(QPainter.CompositionMode.CompositionMode_Multiply)
+        show_through(layer)
 
     return dress
+
+
+def show_through(layer: QgsMapLayer) -> None:
+    """Let a hillshade below be just visible. More, or a blend mode, would change the colours."""
+    layer.setBlendMode(QPainter.CompositionMode.CompositionMode_SourceOver)
+    layer.setOpacity(_OPACITY)
 
 
 def by_height(
@@ -141,3 +149,4 @@ def _scale(renderer: QgsPointCloudRenderer) -> None:
     renderer.setPointSize(_METRES)
     renderer.setPointSizeMapUnitScale(size)
     renderer.setMaximumScreenError(_SCREEN_ERROR)
+    compat.show_overview(renderer)

@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
+import functools
 from typing import Any, Callable, Iterable, Mapping, NamedTuple
 
 from qgis.core import (
     QgsCoordinateReferenceSystem,
-    QgsLayerTreeGroup,
     QgsMapLayer,
     QgsMapLayerLegendUtils,
     QgsPointCloudLayer,
     QgsProcessingContext,
     QgsProcessingFeedback,
     QgsProcessingLayerPostProcessorInterface,
+    QgsProject,
     QgsRasterLayer,
-    QgsSettings,
 )
 
 from ...algorithms.crs.system import unit_symbol
 from ...algorithms.products.contours import Interval
 from ..i18n import mark, tr
 from . import clouds, rasters, vectors
+from .loaded import fresh_path, show_fresh_points
+from .metadata import Origin, describe
+from .stage import Stage, remember_height
 
 # QGIS calls post-processors after the algorithm was deleted. It owns only their C++ objects, so
 # their Python objects are kept here.
@@ -37,7 +40,7 @@ class Look(NamedTuple):
     Attributes
     ----------
     title : str
-        Its name, after the name of the input.
+        Its name in the group of the run, which has the name of the input.
     height : int
         Its place in the group; the greatest is on top.
     dress : callable
@@ -47,6 +50,8 @@ class Look(NamedTuple):
         first. 0 for a layer that hides nothing.
     shows : str
         Meaning of the colours, in the user's language; empty for rasters, whose files state it.
+    origin : Origin or None
+        The run that made it; set by `arrange`.
     """
 
     title: str
@@ -54,17 +59,23 @@ class Look(NamedTuple):
     dress: Callable[[Any], None]
     hides: int = 0
     shows: str = ""
+    origin: Origin | None = None
+
+    @property
+    def is_shade(self) -> bool:
+        """Whether the layer is a hillshade."""
+        return self.dress is rasters.hillshade
 
 
-HILLSHADE = Look(mark("hillshade"), 0, rasters.hillshade)
-TERRAIN = Look(mark("terrain model"), 1, rasters.terrain, 5)
+HILLSHADE = Look(mark("Hillshade"), 0, rasters.hillshade)
+TERRAIN = Look(mark("Terrain model"), 1, rasters.terrain, 5)
 # The only layer of its run, shown on top of other layers.
-BARE = Look(mark("without objects"), 1, rasters.surface)
-SURFACE = Look(mark("surface model"), 2, rasters.surface, 1)
-CANOPY = Look(mark("canopy height"), 3, rasters.canopy, 3)
-RELIEF = Look(mark("local relief"), 4, rasters.local_relief, 2)
-CONFIDENCE = Look(mark("confidence"), 5, rasters.confidence, 1)
-ERRORS = Look(mark("errors"), 6, rasters.errors, 1)
+BARE = Look(mark("Without objects"), 1, rasters.surface)
+SURFACE = Look(mark("Surface model"), 2, rasters.surface, 1)
+CANOPY = Look(mark("Canopy height"), 3, rasters.canopy, 3)
+RELIEF = Look(mark("Local relief"), 4, rasters.local_relief, 2)
+CONFIDENCE = Look(mark("Confidence"), 5, rasters.confidence, 1)
+ERRORS = Look(mark("Errors"), 6, rasters.errors, 1)
 RASTERS = {
     "DTM": TERRAIN, "DSM": SURFACE, "CHM": CANOPY, "HILLSHADE": HILLSHADE,
     "CONFIDENCE": CONFIDENCE, "RELIEF": RELIEF, "ERROR_MAP": ERRORS,
@@ -82,12 +93,17 @@ def in_crs(look: Look, crs: QgsCoordinateReferenceSystem) -> Look:
     return look._replace(dress=dress)
 
 
-CLASSES = mark("classes")
+CLASSES = mark("Classes")
 
 
 def classes(values: Iterable[int], title: str = CLASSES, hides: int = CLOUD) -> Look:
     """Return the look of a classified cloud."""
     return Look(title, 7, clouds.by_class(values), hides)
+
+
+def overview(values: Iterable[int]) -> Look:
+    """Return the look of the overview of a virtual point cloud, just below that."""
+    return Look(mark("Overview of the classes"), 6, clouds.by_class(values), CLOUD)
 
 
 def class_raster(values: Iterable[int], hides: int = CLOUD) -> Look:
@@ -99,12 +115,12 @@ def heights(attribute: str, highest: float, unit_size: float) -> Look:
     """Return the look of a cloud with heights above ground; see `clouds.by_height`."""
     dress = clouds.by_height(attribute, highest, unit_size)
     shows = f"{tr('Height above ground')}, {unit_symbol(unit_size)}"
-    return Look(mark("height above ground"), 7, dress, CLOUD, shows)
+    return Look(mark("Height above ground"), 7, dress, CLOUD, shows)
 
 
 def contours(interval: Interval) -> Look:
     """Return the look of contour lines."""
-    return Look(mark("contour lines"), 8, vectors.contours(interval))
+    return Look(mark("Contour lines"), 8, vectors.contours(interval))
 
 
 def arrange(
@@ -112,9 +128,12 @@ def arrange(
     looks: Mapping[str, Look],
     labels: Mapping[str, str],
     subject: str,
-    group: str,
+    stage: Stage,
+    origin: Origin,
 ) -> None:
     """Give styles and names to the layers of a run, and a group if there are several.
+
+    Layers that show the same files already are reloaded. They keep their names and places.
 
     Parameters
     ----------
@@ -127,28 +146,50 @@ def arrange(
         model. It keeps this name, and is not put into the group.
     subject : str
         Name of the input.
-    group : str
-        Name of the group.
+    stage : Stage
+        The place of the run in the project.
+    origin : Origin
+        What made layers that have no origin yet; steps of models set that of their layers.
     """
+    project = context.project()
+    looks = {path: look._replace(origin=look.origin or origin) for path, look in looks.items()}
+    dresses = {path: functools.partial(_dress, look, subject) for path, look in looks.items()}
+    stage.reload({path: functools.partial(dress, project) for path, dress in dresses.items()})
     looks = {path: look for path, look in looks.items() if context.willLoadLayerOnCompletion(path)}
     shown = max((look.hides for look in looks.values()), default=0)
+    new = _new(context, looks, stage)
     named = {
         path
-        for path in set(looks) & set(labels)
+        for path in set(new) & set(labels)
         if context.layerToLoadOnCompletionDetails(path).name not in ("", labels[path])
     }
-    for path, look in looks.items():
+    is_grouped = stage.is_old or len(new) - len(named) > 1
+    for path, look in new.items():
         details = context.layerToLoadOnCompletionDetails(path)
         is_named = path in named
-        place = "" if is_named or len(looks) - len(named) < 2 else group
         if not is_named:
-            details.name, details.forceName = f"{subject}: {tr(look.title)}", True
-        is_native = hasattr(details, "groupName")  # 3.32
+            title = tr(look.title)
+            details.name = title if is_grouped else f"{subject}: {title}"
+            details.forceName = True
+        is_native = hasattr(details, "groupName") and not stage.is_old  # 3.32
+        place = None if is_named or not is_grouped else stage
         if is_native and place:
-            details.groupName, details.layerSortKey = place, look.height
-        processor = _Show(look, "" if is_native else place, is_named or look.hides in (0, shown))
+            details.groupName, details.layerSortKey, place = stage.group, look.height, None
+        processor = _Show(look, subject, place, is_named or look.hides in (0, shown))
         _KEPT.append(processor)
         details.setPostProcessor(processor)
+
+
+def _new(context: QgsProcessingContext, looks: Mapping[str, Look], stage: Stage) -> dict[str, Look]:
+    """Return the layers that the project does not have yet; QGIS will load only these."""
+    layers, new = context.layersToLoadOnCompletion(), {}
+    for path, look in looks.items():
+        details = layers.pop(path)
+        if not stage.shows(path):
+            new[fresh_path(path)] = look
+            layers[fresh_path(path)] = details
+    context.setLayersToLoadOnCompletion(layers)
+    return new
 
 
 def looks_of(context: QgsProcessingContext) -> dict[str, Look]:
@@ -158,74 +199,43 @@ def looks_of(context: QgsProcessingContext) -> dict[str, Look]:
     return {path: each.look for path, each in shows.items() if isinstance(each, _Show)}
 
 
-def free_name(context: QgsProcessingContext, name: str) -> str:
-    """Return a name that no group of the project has yet; only in the main thread."""
-    if context.project() is None:
-        return name
-    root = context.project().layerTreeRoot()
-    names = (name, *(f"{name} ({number})" for number in range(2, 10_000)))
-    return next((each for each in names if root.findGroup(each) is None), name)
-
-
 class _Show(QgsProcessingLayerPostProcessorInterface):
-    """Gives a loaded layer its style, and its place in the group before QGIS 3.32."""
+    """Gives a new layer its style, and its place unless QGIS itself has put it there."""
 
-    def __init__(self, look: Look, group: str, is_visible: bool) -> None:
+    def __init__(self, look: Look, subject: str, stage: Stage | None, is_visible: bool) -> None:
         super().__init__()
-        self.look, self._group, self._is_visible = look, group, is_visible
+        self.look, self._subject = look, subject
+        self._stage, self._is_visible = stage, is_visible
 
     def postProcessLayer(
         self, layer: QgsMapLayer, context: QgsProcessingContext, feedback: QgsProcessingFeedback
     ) -> None:
         """Set style and place; QGIS calls this in the main thread."""
-        self.look.dress(layer)
-        layer.triggerRepaint()
         project = context.project() or layer.project()
+        remember_height(layer, self.look.height)
         node = project.layerTreeRoot().findLayer(layer.id()) if project else None
-        if node is None:
-            return
-        if self._group:
-            layer.setCustomProperty(_HEIGHT, self.look.height)
-            node = _moved(node, self._group, self.look.height)
-        shown = self.look.shows
-        if isinstance(layer, QgsRasterLayer):
-            shown = rasters.shown_by(layer)
-        if shown:
-            # Instead of "Band 1 (Gray)", or the name of the attribute.
-            QgsMapLayerLegendUtils.setLegendNodeUserLabel(node, 0, shown)
-            layer.legendChanged.emit()
-        node.setItemVisibilityChecked(self._is_visible)
-        node.setExpanded(self._is_visible and self.look is not HILLSHADE)
+        if node is not None and self._stage is not None:
+            node = self._stage.place(node, self.look.height)
+        show_fresh_points(layer)
+        _dress(self.look, self._subject, project, layer)
+        if node is not None:
+            node.setItemVisibilityChecked(self._is_visible)
+            node.setExpanded(self._is_visible and not self.look.is_shade)
 
 
-_HEIGHT = "bare_earth/height"
-
-
-def _moved(node: Any, name: str, height: int) -> Any:
-    """Move a layer to its place in a group, which is made if needed; return its new node."""
-    group = _group_of(node, name)
-    copy = node.clone()
-    group.insertChildNode(_place_in(group, node, height), copy)
-    node.parent().removeChildNode(node)
-    return copy
-
-
-def _group_of(node: Any, name: str) -> QgsLayerTreeGroup:
-    """Return the group with this name; make it on top of the tree, or in the user's group."""
-    home = node
-    while home.parent() is not None:
-        home = home.parent()
-    chosen = QgsSettings().value("Processing/Configuration/RESULTS_GROUP_NAME", "")
-    home = home.findGroup(chosen) if chosen and home.findGroup(chosen) else home
-    return home.findGroup(name) or home.insertGroup(0, name)
-
-
-def _place_in(group: QgsLayerTreeGroup, node: Any, height: int) -> int:
-    """Return the index of the first layer that must be below, or -1 for the end.
-
-    The node itself is skipped: QGIS may have put it into the group already, in another place.
-    """
-    for place, child in enumerate(group.children()):
-        if child != node and int(child.layer().customProperty(_HEIGHT, 0)) < height:
-            return place
-    return -1
+def _dress(look: Look, subject: str, project: QgsProject | None, layer: QgsMapLayer) -> None:
+    """Set style and metadata of a layer, and the text of its legend."""
+    look.dress(layer)
+    if look.origin is not None:
+        describe(layer, f"{subject}: {tr(look.title)}", look.origin)
+    layer.triggerRepaint()
+    node = project.layerTreeRoot().findLayer(layer.id()) if project else None
+    shown = rasters.shown_by(layer) if isinstance(layer, QgsRasterLayer) else look.shows
+    if node is not None and look.is_shade:
+        # Its grey values mean nothing by themselves.
+        QgsMapLayerLegendUtils.setLegendNodeOrder(node, [])
+        layer.legendChanged.emit()
+    elif node is not None and shown:
+        # Instead of "Band 1 (Gray)", or the name of the attribute.
+        QgsMapLayerLegendUtils.setLegendNodeUserLabel(node, 0, shown)
+        layer.legendChanged.emit()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import Callable, Mapping
 
 import numpy as np
@@ -21,7 +22,7 @@ from qgis.PyQt.QtGui import QColor, QPainter
 
 from .. import compat
 from ..i18n import mark, tr
-from . import ramps
+from . import clouds, ramps
 
 _MULTIPLY = QPainter.CompositionMode.CompositionMode_Multiply
 # Colours spread between these quantiles of a sample with at most so many rows and columns.
@@ -30,6 +31,8 @@ _LOW, _HIGH, _SAMPLE = 0.02, 0.98, 600
 # it look as in the legend.
 _DARK, _BRIGHT = 20.0, 210.0
 _LEAST_RANGE = 0.5
+# Colours of lines in profiles, which QGIS would choose at random.
+_TERRAIN_LINE, _SURFACE_LINE = "#6e4824", "#2a9d8f"
 # Parts of the descriptions of bands, except units.
 SHOWN = (
     mark("Height"), mark("Height above ground"), mark("Local relief"),
@@ -45,6 +48,12 @@ def shown_by(layer: QgsRasterLayer) -> str:
     return ", ".join(tr(each) if each in SHOWN else each for each in said.split(", "))
 
 
+def is_class_raster(path: Path) -> bool:
+    """Return whether a file is a raster of classes that this plugin made."""
+    raster = gdal.Open(str(path)) if path.suffix == ".tif" else None
+    return raster is not None and raster.GetRasterBand(1).GetDescription() == "Class"
+
+
 def unit_of(path: str) -> str:
     """Return the symbol of the unit of heights, from the description of a band."""
     raster = gdal.Open(path)
@@ -55,13 +64,13 @@ def terrain(layer: QgsRasterLayer) -> None:
     """Colour heights from low to high; the hillshade below stays visible."""
     _spread(layer, ramps.TERRAIN, *_cut(layer))
     layer.setBlendMode(_MULTIPLY)
-    compat.mark_as_elevation(layer)
+    compat.mark_as_elevation(layer, _TERRAIN_LINE)
 
 
 def surface(layer: QgsRasterLayer) -> None:
     """Colour heights of a surface."""
     _spread(layer, ramps.SURFACE, *_cut(layer))
-    compat.mark_as_elevation(layer)
+    compat.mark_as_elevation(layer, _SURFACE_LINE)
 
 
 def canopy(layer: QgsRasterLayer) -> None:
@@ -106,7 +115,7 @@ def classes(categories: Mapping[int, tuple[str, QColor]]) -> Callable[[QgsRaster
             for value, (label, colour) in categories.items()
         ]
         layer.setRenderer(QgsPalettedRasterRenderer(layer.dataProvider(), 1, entries))
-        layer.setBlendMode(_MULTIPLY)
+        clouds.show_through(layer)
 
     return dress
 

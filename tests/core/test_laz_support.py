@@ -383,3 +383,17 @@ def test_requirements_that_ship_are_those_of_pip():
     lines = laz_support.REQUIREMENTS.read_text(encoding="utf-8").splitlines()
     asked = [line for line in lines if line and line[0] != "#"]
     assert len(asked) == 1 and asked[0].startswith(f"{laz_support.PACKAGE}>=")
+
+
+@pytest.mark.parametrize("is_there", [True, False])
+def test_uninstalling_leaves_nothing_in_the_profile(is_there, tmp_path):
+    plugin, profile = tmp_path / "plugins" / "bare_earth", tmp_path / "profile"
+    packages = folders.profile_folder(profile)
+    packages.mkdir(parents=True)
+    (packages / "lazrs.py").touch()
+    (profile / "QGIS3.ini").touch()
+    if is_there:  # as after an update
+        plugin.mkdir(parents=True)
+    folders.remove_if_uninstalled(plugin, profile)
+    assert packages.exists() == is_there
+    assert (profile / "bare_earth").exists() == is_there and (profile / "QGIS3.ini").exists()

@@ -63,13 +63,18 @@ def wait_for(condition, seconds=20):
 
 def test_the_terrain_model_is_marked_as_elevation(load, parameters):
     for _ in range(3):  # again, as what styles the layers must outlive the first time
-        _, layers = load(parameters)
-        assert layers["QgsRasterLayer"].crs().authid() == "EPSG:25832"
-        properties = layers["QgsRasterLayer"].elevationProperties()
+        load(parameters)
+        (layer,) = QgsProject.instance().mapLayersByName("Terrain model") or (
+            QgsProject.instance().mapLayersByName("scene: Terrain model")
+        )
+        assert layer.crs().authid() == "EPSG:25832"
+        properties = layer.elevationProperties()
         if Qgis.QGIS_VERSION_INT < 32600:
             assert properties is None
             continue
         assert properties.isEnabled()
+        # Not a random colour.
+        assert properties.profileLineSymbol().color().name() == "#6e4824"
         if hasattr(Qgis, "RasterElevationMode"):
             assert properties.mode() == Qgis.RasterElevationMode.RepresentsElevationSurface
 
@@ -148,7 +153,7 @@ def test_in_a_thread_of_its_own(algorithm, parameters, scene, log):
     details = context.layersToLoadOnCompletion()
     # Where it shows no .laz, a raster of the classes comes along.
     others = {path for path in details if path != results["DTM"]}
-    assert all(path.endswith((".laz", "classes.tif")) for path in others) and len(others) <= 1
+    assert all(path.endswith((".laz", "_classes.tif")) for path in others) and len(others) <= 1
     assert details[results["DTM"]].postProcessor() is not None
 
 
@@ -203,9 +208,9 @@ def test_the_classes_of_many_files_are_shown_as_one_raster(name, output, tmp_pat
         del outputs["OUTPUT"]
     values = {"INPUT_FOLDER": str(tmp_path / "tiles"), **outputs}
     processing.runAndLoadResults(f"bareearth:{name}", values)
-    layers = {each.name().partition(": ")[2]: each for each in project.mapLayers().values()}
-    assert set(layers) == {"classes", "terrain model"}
-    classes = layers["classes"]
+    layers = {each.name(): each for each in project.mapLayers().values()}
+    assert set(layers) == {"Classes", "Terrain model"}
+    classes = layers["Classes"]
     assert [each.label for each in classes.renderer().classes()] == ["Ground", "Unclassified"]
     # Ground in both files, a roof in each, and nothing between them.
     west, south = 500_000.0, 5_700_000.0

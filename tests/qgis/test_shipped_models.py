@@ -131,7 +131,7 @@ def test_they_are_there_by_themselves(registry):
     for name in OUTPUTS:
         model = registry.createAlgorithmById(f"bareearth:{name}")
         assert model.canExecute() == (True, "")
-        assert model.displayName().startswith("Model: ") and model.group() == "Models"
+        assert "Model" not in model.displayName() and model.group() == "Models"
         assert model.shortDescription() and model.tags() and not model.icon().isNull()
         page = model.helpUrl().rpartition("/docs/")[2]
         assert (ROOT / "docs" / page).is_file()
@@ -144,14 +144,14 @@ def test_they_are_there_by_themselves(registry):
     ("name", "group", "titles", "shown"),
     [
         (
-            "terraincontours", "terrain, hillshade and contours",
-            ["contour lines", "classes", "terrain model", "hillshade"],
-            ["contour lines", "terrain model", "hillshade"],
+            "terraincontours", "Terrain, hillshade and contours",
+            ["Contour lines", "Classes", "Terrain model", "Hillshade"],
+            ["Contour lines", "Terrain model", "Hillshade"],
         ),
         (
-            "twomethods", "two methods compared",
-            ["errors", "Hillshade, TIN densification", "Hillshade, slope filter"],
-            ["errors", "Hillshade, TIN densification", "Hillshade, slope filter"],
+            "twomethods", "Two methods compared",
+            ["Errors", "Hillshade, TIN densification", "Hillshade, slope filter"],
+            ["Errors", "Hillshade, TIN densification", "Hillshade, slope filter"],
         ),
     ],
 )  # fmt: skip
@@ -175,15 +175,46 @@ def test_their_layers_are_a_group_with_names_and_colours(
     processing.runAndLoadResults(f"bareearth:{name}", {"INPUT": str(scene.path), **outputs})
     (tree,) = project.layerTreeRoot().children()
     assert tree.name() == f"scene: {group}"
-    layers = {each.name().partition(": ")[2]: each for each in tree.children()}
+    layers = {each.name(): each for each in tree.children()}
     assert sorted(layers) == sorted(titles)
-    assert [each for each in layers if not each.startswith("Hill")] == [
-        each for each in titles if not each.startswith("Hill")
+    assert [each for each in layers if not each.startswith("Hillshade, ")] == [
+        each for each in titles if not each.startswith("Hillshade, ")
     ]
     assert {title for title, each in layers.items() if each.isVisible()} == set(shown)
     if name == "terraincontours":
-        rules = layers["contour lines"].layer().renderer().rootRule().children()
+        rules = layers["Contour lines"].layer().renderer().rootRule().children()
         assert [each.label() for each in rules] == ["Every 2.5 m", "Every 0.5 m"]
+
+
+@pytest.mark.parametrize("name", OUTPUTS)
+def test_their_outputs_are_known_before_a_run(name, registry, qgis_process):
+    """As `processing.algorithmHelp`, `qgis_process help` and the toolbox see them."""
+    registered = registry.algorithmById(f"bareearth:{name}")
+    listed = {each.name() for each in registered.outputDefinitions()}
+    assert set(OUTPUTS[name]) <= listed
+    assert {each.name() for each in registered.destinationParameterDefinitions()} == set(
+        OUTPUTS[name]
+    )
+    done = qgis_process("help", f"bareearth:{name}")
+    arguments, _, outputs = done.stdout.partition("Outputs")
+    for each in OUTPUTS[name]:
+        assert each in arguments and each in outputs
+
+
+@pytest.mark.parametrize("name", OUTPUTS)
+def test_without_outputs_they_make_all_of_them_in_temporary_files(name, scene, context, log):
+    import processing
+
+    results = processing.run(f"bareearth:{name}", {"INPUT": str(scene.path)}, context=context)
+    for each in OUTPUTS[name]:
+        assert Path(results[each]).is_file()
+
+
+def test_their_dialogs_make_every_output(registry):
+    for name in OUTPUTS:
+        model = registry.createAlgorithmById(f"bareearth:{name}")
+        for each in model.destinationParameterDefinitions():
+            assert each.createByDefault(), each.name()
 
 
 def test_their_presets_have_labels_and_numbers(run, registry):

@@ -73,12 +73,14 @@ def test_classes_without_a_usual_colour_are_shown_too():
     assert len({each.color().name() for each in categories}) == 3
 
 
-def test_ground_is_drawn_in_front_and_what_is_not_classified_is_faint():
+def test_ground_is_drawn_in_front_and_what_is_not_classified_is_faint_but_opaque():
     layer = QgsPointCloudLayer()
     clouds.by_class([1, 2])(layer)
     renderer = layer.renderer()
     colours = {each.value(): each.color() for each in renderer.categories()}
-    assert colours[1].alpha() < colours[2].alpha() == 255
+    assert colours[1].alpha() == colours[2].alpha() == 255
+    assert colours[1].lightness() > colours[2].lightness() + 20
+    assert colours[1].hslSaturation() < colours[2].hslSaturation() / 2
     assert renderer.pointSizeMapUnitScale().minSizeMMEnabled
     if Qgis.QGIS_VERSION_INT >= 32600:
         assert renderer.drawOrder2d() == Qgis.PointCloudDrawOrder.TopToBottom
@@ -155,7 +157,7 @@ def test_a_run_is_a_group_in_a_sensible_order_and_shows_one_theme(run, scene, tm
     run(ALGORITHM, {"INPUT": str(scene.path)}, outputs)
     # Where clouds cannot be seen, a raster of their classes can.
     expected = [
-        ("scene: classes", True), ("scene: terrain model", False), ("scene: hillshade", True),
+        ("Classes", True), ("Terrain model", False), ("Hillshade", True),
     ]  # fmt: skip
     assert tree() == {"scene: TIN densification": expected}
     assert {each.name() for each in QgsProject.instance().mapLayers().values()} == {
@@ -181,13 +183,11 @@ def test_no_raster_is_bare_and_grey(run, scene, tmp_path):
     outputs = {each: tmp_path / f"{each}.tif" for each in names}
     run("bareearth:terrainmodel", {"INPUT": ground}, outputs)
     layers = {each.name(): each for each in QgsProject.instance().mapLayers().values()}
-    kinds = {name.partition(": ")[2]: each.renderer().type() for name, each in layers.items()}
-    assert kinds.pop("hillshade") == "singlebandgray"
+    kinds = {name: each.renderer().type() for name, each in layers.items()}
+    assert kinds.pop("Hillshade") == "singlebandgray"
     assert len(kinds) == 4 and set(kinds.values()) == {"singlebandpseudocolor"}
     (group,) = tree().values()
-    assert [name.partition(": ")[2] for name, visible in group if visible] == [
-        "terrain model", "hillshade",
-    ]  # fmt: skip
+    assert [name for name, visible in group if visible] == ["Terrain model", "Hillshade"]
 
 
 def test_a_layer_that_a_model_has_named_keeps_its_name_and_place(run, scene, tmp_path):
@@ -199,7 +199,7 @@ def test_a_layer_that_a_model_has_named_keeps_its_name_and_place(run, scene, tmp
     run("bareearth:terrainmodel", {"INPUT": ground}, outputs, "Mine")
     assert not tree()
     layers = QgsProject.instance().mapLayers().values()
-    assert not any(each.name().startswith("ground: ") for each in layers)
+    assert {each.name() for each in layers} == {"Mine"}
     assert {each.renderer().type() for each in layers} == {
         "singlebandgray", "singlebandpseudocolor",
     }  # fmt: skip
@@ -221,12 +221,14 @@ def test_legends_say_what_is_shown_and_its_unit(run, scene, tmp_path, monkeypatc
     for layer in project.mapLayers().values():
         node = project.layerTreeRoot().findLayer(layer.id())
         texts = [each.data(Qt.ItemDataRole.DisplayRole) for each in model.layerLegendNodes(node)]
-        told[layer.name().partition(": ")[2]] = texts
-    assert "Ground" in told.pop("classes")
+        told[layer.name()] = texts
+    assert "Ground" in told.pop("Classes")
+    # Grey values of a hillshade mean nothing.
+    assert told.pop("Hillshade") == []
     assert {name: texts[0] for name, texts in told.items()} == {
-        "terrain model": "Height, m", "surface model": "Height, m",
-        "canopy height": "Height above ground, m", "hillshade": "Brightness, 1 to 255",
-        "confidence": "Confidence, 0 to 1", "local relief": "Local relief, m",
+        "Terrain model": "Height, m", "Surface model": "Height, m",
+        "Canopy height": "Height above ground, m", "Confidence": "Confidence, 0 to 1",
+        "Local relief": "Local relief, m",
     }  # fmt: skip
     monkeypatch.setattr(rasters, "tr", {"Height": "Höhe"}.get)
     layer = QgsRasterLayer(str(outputs["DTM"]))
@@ -248,7 +250,7 @@ def test_the_legend_of_contour_lines_says_the_unit(run, tmp_path):
     outputs = {name.partition(".")[0]: path for name, path in outputs.items()}
     values = {"INPUT": str(tmp_path / "feet.las"), "CONTOUR_INTERVAL": 2.5}
     run("bareearth:pointcloudtoterrain", values, outputs)
-    assert legend_of("contour lines") == ["Every 12.5 US survey ft", "Every 2.5 US survey ft"]
+    assert legend_of("Contour lines") == ["Every 12.5 US survey ft", "Every 2.5 US survey ft"]
 
 
 @pytest.mark.skipif(Qgis.QGIS_VERSION_INT < 32600, reason="shows no point clouds")
@@ -261,7 +263,7 @@ def test_the_legend_of_heights_says_the_unit(run, tmp_path, epsg, unit):
     processing.run(ALGORITHM, {"INPUT": str(tmp_path / "scene.las"), "OUTPUT": ground})
     outputs = {"OUTPUT": tmp_path / "heights.copc.laz"}
     run("bareearth:heightaboveground", {"INPUT": ground}, outputs)
-    assert legend_of("height above ground")[0] == f"Height above ground, {unit}"
+    assert legend_of("Height above ground")[0] == f"Height above ground, {unit}"
 
 
 def test_all_that_bands_say_is_translated():

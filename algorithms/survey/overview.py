@@ -1,0 +1,123 @@
+"""Overviews of virtual point clouds: one COPC file with a few points of all files.
+
+Viewers show it at small scales, where they would have to open many files. It has the name that
+`pdal_wrench build_vpc --overview` gives it.
+
+References
+----------
+https://github.com/PDAL/wrench/blob/main/vpc-spec.md
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Sequence
+
+import numpy as np
+
+from ..core.files import replacing
+from ..core.progress import SILENT, Progress
+from ..las.copc import write_copc
+from ..las.copc_nodes import find_nodes, read_hierarchy, read_nodes
+from ..las.edits import EditedFile, Edits
+from ..las.extrabytes import extra_dimensions
+from ..las.header_edits import with_count
+from ..las.lasfile import LasFile
+from ..las.records import as_points, column, named, runs_of_bytes
+
+_ENDING = "-overview.copc.laz"
+# An overview has at most so many points, and at most one of so many.
+_MOST_POINTS, _STEP = 1_000_000, 10
+_LIMITS = -(2**31), 2**31 - 1
+
+
+def overview_of(vpc: Path) -> Path:
+    """Return the overview of a virtual point cloud; it need not exist."""
+    return vpc.with_name(vpc.stem + _ENDING)
+
+
+def is_overview(path: Path) -> bool:
+    """Return whether a file is the overview of a virtual point cloud beside it."""
+    stem = path.name[: -len(_ENDING)]
+    return path.name.endswith(_ENDING) and path.with_name(f"{stem}.vpc").is_file()
+
+
+def write_overview(vpc: Path, files: Sequence[LasFile], progress: Progress = SILENT) -> Path | None:
+    """Write the overview of a virtual point cloud, from the uppermost nodes of its COPC files.
+
+    Parameters
+    ----------
+    vpc : Path
+        The virtual point cloud, which need not exist yet.
+    files : sequence of LasFile
+        Its files.
+    progress : Progress
+        Receives progress.
+
+    Returns
+    -------
+    Path or None
+        The overview. None without one: if a file is not COPC, viewers do not show its points at any
+        scale, and other files must not be overwritten.
+
+    Raises
+    ------
+    BareEarthError
+        If a file cannot be read, or the output cannot be written.
+    Cancelled
+        If the user asked to stop.
+    """
+    target, filled = overview_of(vpc), [each for each in files if each.count]
+    is_one_of_them = any(each.path.resolve() == target.resolve() for each in files)
+    if not filled or is_one_of_them or not all(each.is_copc for each in files):
+        return None
+    total = sum(each.count for each in filled)
+    most = min(_MOST_POINTS, -(-total // _STEP))
+    like, samples = filled[0], []
+    for number, each in enumerate(filled, start=1):
+        samples.append(_sample(each, like, max(most * each.count // total, 1)))
+        progress(0.8 * number / len(filled))
+    records = np.concatenate(samples)
+    layout = with_count(like, len(records))
+    with replacing(target) as temporary:
+        edited = EditedFile(layout, Edits(), records)
+        write_copc(edited, temporary, progress.part(0.8, 1.0))
+    return target
+
+
+def _sample(layout: LasFile, like: LasFile, count: int) -> np.ndarray:
+    """Return about `count` points from everywhere in a file, as records of another file."""
+    hierarchy = read_hierarchy(layout)
+    nodes = find_nodes(hierarchy, layout.outer_box)
+    nodes = nodes[np.argsort(nodes["key"][:, 0], kind="stable")]
+    before = np.cumsum(nodes["count"], dtype=np.int64) - nodes["count"]
+    nodes = nodes[before < count]
+    nodes = nodes[np.argsort(nodes["start"], kind="stable")]
+    step = max(int(nodes["count"].sum(dtype=np.int64)) // count, 1)
+    parts = []
+    for points in read_nodes(hierarchy, nodes, is_whole=True):
+        records = points.array.view(np.uint8).reshape(len(points), -1)
+        parts.append(_as_records(layout, like, records[::step].copy()))
+    return np.concatenate(parts)
+
+
+def _as_records(layout: LasFile, like: LasFile, records: np.ndarray) -> np.ndarray:
+    """Return points as records of another file, with its scale and offset."""
+    old = named(layout, records)
+    if layout.point_format == like.point_format and _extra(layout) == _extra(like):
+        new = records.copy()
+    else:
+        new = np.zeros((len(records), like.record_length), dtype=np.uint8)
+        as_points(like.point_format, runs_of_bytes(like), new).copy_fields_from(old)
+    fits = np.ones(len(records), dtype=bool)
+    for axis, name in enumerate("XYZ"):
+        values = np.asarray(old[name]) * layout.scale[axis] + layout.offset[axis]
+        integers = np.rint((values - like.offset[axis]) / like.scale[axis])
+        fits &= (integers >= _LIMITS[0]) & (integers <= _LIMITS[1])
+        column(new, 4 * axis, "<i4")[:] = np.clip(integers, *_LIMITS)
+    # Points too far away for the scale of the first file.
+    return new[fits]
+
+
+def _extra(layout: LasFile) -> list[tuple[str, str, int]]:
+    return extra_dimensions(layout)

@@ -1,0 +1,250 @@
+"""Layers of the project that show files of a run: they are reloaded, and keep their place.
+
+Functions that take a project belong to the main thread.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import Any, Callable, Iterable, Iterator, Mapping, NamedTuple, Sequence
+
+from qgis.core import (
+    QgsLayerTreeGroup,
+    QgsMapLayer,
+    QgsProject,
+    QgsProviderRegistry,
+    QgsVectorLayer,
+)
+from qgis.PyQt.QtCore import QCoreApplication, QObject, Qt, QThread, pyqtSignal, pyqtSlot
+
+# Windows does not replace a file that a layer has open.
+MUST_RELEASE = sys.platform == "win32"
+# How often each file was replaced since QGIS was started.
+_REPLACED: dict[Path, int] = {}
+# A filter that all points pass, followed by a number.
+_PASSED = "Classification >= -"
+# Files of whose points QGIS keeps a copy.
+_KEPT_BY_QGIS = (".laz", ".vpc")
+
+
+class Source(NamedTuple):
+    """Where a layer gets its data: its id, source, provider, and the file."""
+
+    layer: str
+    uri: str
+    provider: str
+    path: Path
+
+
+def file_of(layer: QgsMapLayer) -> Path | None:
+    """Return the file that a layer shows; None if it shows none."""
+    provider = layer.providerType() if hasattr(layer, "providerType") else ""
+    path = QgsProviderRegistry.instance().decodeUri(provider, layer.source()).get("path")
+    return Path(path) if path and "://" not in path else None
+
+
+def sources_of(project: QgsProject | None, files: Iterable[Path]) -> list[Source]:
+    """Return the layers that show some files, or files in some folders, from the top of the tree.
+
+    Parameters
+    ----------
+    project : QgsProject or None
+        The project; None in qgis_process.
+    files : iterable of Path
+        Files and folders, which need not exist.
+    """
+    wanted = {_normal(each) for each in files}
+    found = []
+    for layer in _layers(project):
+        path = file_of(layer)
+        if path is None:
+            continue
+        normal = _normal(path)
+        if normal in wanted or not wanted.isdisjoint(normal.parents):
+            found.append(Source(layer.id(), layer.source(), layer.providerType(), path))
+    return found
+
+
+def _layers(project: QgsProject | None) -> Iterator[QgsMapLayer]:
+    """Yield the layers of a project, those of the layer tree first and in its order."""
+    if project is None:
+        return
+    ids = project.layerTreeRoot().findLayerIds()
+    layers = project.mapLayers()
+    for each in dict.fromkeys((*ids, *layers)):
+        if each in layers:
+            yield layers[each]
+
+
+def is_same(one: Path, other: Path) -> bool:
+    """Return whether two paths name the same file, which need not exist."""
+    return _normal(one) == _normal(other)
+
+
+def _normal(path: Path) -> Path:
+    return Path(os.path.normcase(os.path.realpath(path)))
+
+
+def count_replaced(places: Iterable[Path]) -> None:
+    """Count that a run may replace some point clouds, or those in some folders."""
+    places = [path for each in places for path in ([*each.iterdir()] if each.is_dir() else [each])]
+    for each in {_normal(path) for path in places if path.suffix.lower() in _KEPT_BY_QGIS}:
+        if each.is_file():
+            _REPLACED[each] = _REPLACED.get(each, 0) + 1
+
+
+def times_replaced(file: Path) -> int:
+    """Return how often a file was replaced since QGIS was started."""
+    return _REPLACED.get(_normal(file), 0)
+
+
+def fresh_path(path: str) -> str:
+    """Return a COPC file under a path that QGIS has not used for its earlier contents.
+
+    QGIS keeps points that it has shown, by the path of their file and the filter of the layer. It
+    does not notice that the file was replaced: also a new layer would show the old points. So "."
+    is put before some names in the path, as a binary number.
+    """
+    if not path.lower().endswith(".copc.laz"):
+        return path
+    parts, number = Path(path).as_posix().split("/"), times_replaced(Path(path))
+    for place in range(len(parts) - 1, 0, -1):
+        if number & 1:
+            parts.insert(place, ".")
+        number >>= 1
+    return "/".join(parts)
+
+
+def show_fresh_points(layer: QgsMapLayer) -> None:
+    """Give a virtual point cloud that was replaced a new filter, which all points pass.
+
+    Its files have the same paths as before. See `fresh_path`.
+    """
+    if layer.providerType() != "vpc":
+        return
+    number, own = times_replaced(Path(layer.source())), filter_of(layer)
+    if number:
+        fresh = f"{_PASSED}{number}"
+        layer.setSubsetString(f"({own}) AND {fresh}" if own else fresh)
+
+
+def filter_of(layer: Any) -> str:
+    """Return the filter that the user gave to a layer; empty if there is none."""
+    # Point cloud layers have filters since QGIS 3.26.
+    found = layer.subsetString() if hasattr(layer, "subsetString") else ""
+    own, passed, _ = found.rpartition(_PASSED)
+    return own.removesuffix(" AND ").removeprefix("(").removesuffix(")") if passed else found
+
+
+def group_of(project: QgsProject, sources: Sequence[Source]) -> QgsLayerTreeGroup | None:
+    """Return the group of the first of these layers that is in one."""
+    root = project.layerTreeRoot()
+    for each in sources:
+        node = root.findLayer(each.layer)
+        if node is not None and node.parent() not in (None, root):
+            return node.parent()
+    return None
+
+
+def edited(project: QgsProject | None, sources: Iterable[Source]) -> str:
+    """Return the name of a layer with edits that are not saved; empty if there is none."""
+    for each in sources:
+        layer = project.mapLayer(each.layer) if project else None
+        if has_edits(layer):
+            return layer.name()
+    return ""
+
+
+def has_edits(layer: Any) -> bool:
+    """Return whether a layer has edits that are not saved."""
+    # Point clouds can be edited since QGIS 3.42.
+    return hasattr(layer, "isModified") and layer.isEditable() and layer.isModified()
+
+
+def release(project: QgsProject, sources: Iterable[Source]) -> None:
+    """Let layers close their files, so that they can be replaced; `reload` opens them again."""
+    for each in sources:
+        layer = project.mapLayer(each.layer)
+        if layer is not None:
+            _close(layer)
+            layer.setDataSource("", layer.name(), each.provider)
+
+
+def reload(
+    project: QgsProject,
+    sources: Iterable[Source],
+    dresses: Mapping[Path, Callable[[QgsMapLayer], None]],
+) -> None:
+    """Open the files of layers again, with the extent, statistics and styles of the new contents.
+
+    Parameters
+    ----------
+    project : QgsProject
+        The project.
+    sources : iterable of Source
+        The layers.
+    dresses : mapping of Path to callable
+        What gives the layer of a file its style. Others keep their style.
+    """
+    known = {_normal(path): dress for path, dress in dresses.items()}
+    for each in sources:
+        layer = project.mapLayer(each.layer)
+        if layer is None or has_edits(layer):
+            continue
+        _close(layer)
+        uri = fresh_path(str(each.path)) if each.provider == "copc" else each.uri
+        metadata = layer.metadata()
+        layer.setDataSource(uri, layer.name(), each.provider)
+        layer.setMetadata(metadata)  # newer versions of QGIS forget it
+        show_fresh_points(layer)
+        dress = known.get(_normal(each.path))
+        if dress is not None and layer.isValid():
+            dress(layer)
+        layer.triggerRepaint()
+
+
+def _close(layer: QgsMapLayer) -> None:
+    """Close what the provider of a layer keeps open for later, such as connections."""
+    provider = layer.dataProvider()
+    if provider is not None and isinstance(layer, QgsVectorLayer):
+        provider.reloadData()
+
+
+def in_main_thread() -> bool:
+    """Return whether this is the thread of the window; models run their steps in others."""
+    application = QCoreApplication.instance()
+    return application is None or QThread.currentThread() == application.thread()
+
+
+def later(work: Callable[[], None]) -> None:
+    """Call a function in the main thread: at once if this is it, or when it is free."""
+    if in_main_thread():
+        work()
+        return
+    caller = _Caller(work)
+    _WAITING.append(caller)
+    caller.moveToThread(QCoreApplication.instance().thread())
+    caller.asked.emit()
+
+
+class _Caller(QObject):
+    """Calls a function in the thread that this object was moved to."""
+
+    asked = pyqtSignal()
+
+    def __init__(self, work: Callable[[], None]) -> None:
+        super().__init__()
+        self._work = work
+        self.asked.connect(self._call, Qt.ConnectionType.QueuedConnection)
+
+    # As a slot: otherwise PyQt would call it in the thread of the connection.
+    @pyqtSlot()
+    def _call(self) -> None:
+        _WAITING.remove(self)
+        self._work()
+
+
+# Python would delete them before they are called.
+_WAITING: list[_Caller] = []

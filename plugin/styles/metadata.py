@@ -1,0 +1,83 @@
+"""Metadata of layers: what they are, and the runs that made them."""
+
+from __future__ import annotations
+
+import datetime
+from typing import Any, Mapping, NamedTuple
+
+from qgis.core import (
+    QgsMapLayer,
+    QgsProcessingAlgorithm,
+    QgsProcessingContext,
+    QgsProcessingUtils,
+)
+
+from ... import __version__
+from .. import compat
+from ..i18n import tr
+
+# Older runs of a layer are forgotten.
+_MOST_ENTRIES = 20
+
+
+class Origin(NamedTuple):
+    """The run that made a layer.
+
+    Attributes
+    ----------
+    entry : str
+        Time, algorithm and version, for the history of the layer.
+    settings : tuple of str
+        The parameters with their values.
+    commands : tuple of str
+        Commands that do the same without QGIS.
+    """
+
+    entry: str
+    settings: tuple[str, ...]
+    commands: tuple[str, ...] = ()
+
+    @classmethod
+    def of(cls, title: str, settings: tuple[str, ...], commands: tuple[str, ...] = ()) -> Origin:
+        """Return the origin of layers of a run that ends now."""
+        now = datetime.datetime.now().astimezone().isoformat(" ", "seconds")
+        return cls(f"{now}: {title}, Bare Earth {__version__}", settings, commands)
+
+
+def settings_of(
+    algorithm: QgsProcessingAlgorithm,
+    parameters: Mapping[str, Any],
+    context: QgsProcessingContext,
+) -> tuple[str, ...]:
+    """Return the inputs and parameters of a run in words, except those that are empty."""
+    found = []
+    for each in algorithm.parameterDefinitions():
+        value = parameters.get(each.name(), each.defaultValue())
+        if not each.isDestination() and not compat.is_null(value) and value not in ("", []):
+            found.append(f"{each.description()}: {_text(value, context)}")
+    return tuple(found)
+
+
+def _text(value: Any, context: QgsProcessingContext) -> str:
+    if isinstance(value, (list, tuple)):
+        return ", ".join(_text(each, context) for each in value)
+    layer = value
+    if isinstance(value, str):
+        layer = QgsProcessingUtils.mapLayerFromString(value, context, False)
+    if isinstance(layer, QgsMapLayer):
+        return f"{layer.name()} ({layer.publicSource()})"
+    return str(value)
+
+
+def describe(layer: QgsMapLayer, title: str, origin: Origin) -> None:
+    """Set title, settings and history of a layer. The history of earlier runs stays."""
+    metadata = layer.metadata()
+    metadata.setTitle(title)
+    metadata.setType("dataset")
+    metadata.setCrs(layer.crs())
+    lines = [tr("Made by Bare Earth with these settings:"), *origin.settings]
+    if origin.commands:
+        lines += ["", tr("The same without QGIS:"), *origin.commands]
+    metadata.setAbstract("\n".join(lines))
+    metadata.setHistory([*metadata.history(), origin.entry][-_MOST_ENTRIES:])
+    layer.setMetadata(metadata)

@@ -1,0 +1,132 @@
+"""Where the layers of a run belong: the group, and the layers that show the same files already."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Callable, Iterable, Mapping
+
+from qgis.core import QgsLayerTreeGroup, QgsMapLayer, QgsProcessingContext, QgsProject, QgsSettings
+
+from ...algorithms.core.errors import BareEarthError
+from ..i18n import tr
+from . import loaded
+
+_HEIGHT = "bare_earth/height"
+
+
+class Stage:
+    """The place of a run in the project, found before the run.
+
+    Parameters
+    ----------
+    context : QgsProcessingContext
+        Holds the project.
+    name : str
+        Name of a new group. A number is added if there is such a group.
+    places : iterable of Path
+        Files and folders that the run may write.
+
+    Attributes
+    ----------
+    group : str
+        Name of the group for new layers, unless layers of an earlier run are in one.
+    is_old : bool
+        Whether layers of an earlier run are in a group, to which new layers are added.
+
+    Raises
+    ------
+    BareEarthError
+        If a layer of these files has edits that are not saved.
+    """
+
+    def __init__(self, context: QgsProcessingContext, name: str, places: Iterable[Path]) -> None:
+        self._project, self._places = context.project(), list(places)
+        loaded.count_replaced(self._places)
+        # Steps of models run in other threads, where the project cannot be read.
+        is_main = loaded.in_main_thread()
+        self._sources = loaded.sources_of(self._project, self._places) if is_main else []
+        title = loaded.edited(self._project, self._sources)
+        if title:
+            text = tr('The layer "{}" has edits that are not saved. Save or discard them first.')
+            raise BareEarthError(text.format(title))
+        self.is_old = bool(self._sources) and self._old_group() is not None
+        self.group = name if self.is_old or not is_main else free_name(self._project, name)
+        self._is_released = loaded.MUST_RELEASE and bool(self._sources)
+        if self._is_released:
+            loaded.release(self._project, self._sources)
+
+    def shows(self, path: str) -> bool:
+        """Return whether a layer of the project shows a file already."""
+        return any(loaded.is_same(Path(path), each.path) for each in self._sources)
+
+    def reload(self, dresses: Mapping[str, Callable[[QgsMapLayer], None]]) -> None:
+        """Reload the layers that show the files of the run; may be called in any thread.
+
+        Parameters
+        ----------
+        dresses : mapping of str to callable
+            What gives the layer of a file its style.
+        """
+        project, places, released = self._project, self._places, self._sources
+        styles = {Path(path): dress for path, dress in dresses.items()}
+        if project is None:
+            return
+
+        def reload() -> None:
+            # Layers that were released have no file now; others may have come since.
+            sources = {each.layer: each for each in loaded.sources_of(project, places)}
+            sources.update({each.layer: each for each in released})
+            loaded.reload(project, sources.values(), styles)
+
+        loaded.later(reload)
+
+    def place(self, node: Any, height: int) -> Any:
+        """Move a layer to its place in the group, which is made if needed; return its new node."""
+        group = self._old_group() if self.is_old else None
+        return _moved(node, group or _group_of(node, self.group), height)
+
+    def _old_group(self) -> QgsLayerTreeGroup | None:
+        return loaded.group_of(self._project, self._sources)
+
+
+def remember_height(layer: QgsMapLayer, height: int) -> None:
+    """Store the place of a layer among those of its run."""
+    layer.setCustomProperty(_HEIGHT, height)
+
+
+def free_name(project: QgsProject | None, name: str) -> str:
+    """Return a name that no group of the project has yet; only in the main thread."""
+    if project is None:
+        return name
+    root = project.layerTreeRoot()
+    names = (name, *(f"{name} ({number})" for number in range(2, 10_000)))
+    return next((each for each in names if root.findGroup(each) is None), name)
+
+
+def _moved(node: Any, group: QgsLayerTreeGroup, height: int) -> Any:
+    copy = node.clone()
+    group.insertChildNode(_place_in(group, node, height), copy)
+    node.parent().removeChildNode(node)
+    return copy
+
+
+def _group_of(node: Any, name: str) -> QgsLayerTreeGroup:
+    """Return the group with this name; make it on top of the tree, or in the user's group."""
+    home = node
+    while home.parent() is not None:
+        home = home.parent()
+    chosen = QgsSettings().value("Processing/Configuration/RESULTS_GROUP_NAME", "")
+    home = home.findGroup(chosen) if chosen and home.findGroup(chosen) else home
+    return home.findGroup(name) or home.insertGroup(0, name)
+
+
+def _place_in(group: QgsLayerTreeGroup, node: Any, height: int) -> int:
+    """Return the index of the first layer that must be below, or -1 for the end.
+
+    The node itself is skipped: QGIS may have put it into the group already, in another place.
+    """
+    for place, child in enumerate(group.children()):
+        layer = child.layer() if hasattr(child, "layer") else None
+        if child != node and layer and int(layer.customProperty(_HEIGHT, 0)) < height:
+            return place
+    return -1

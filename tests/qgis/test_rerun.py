@@ -1,0 +1,341 @@
+"""A run that writes the files of an earlier one: their layers in the project are reloaded."""
+
+import os
+import time
+
+import laspy
+import numpy as np
+import pytest
+from qgis.core import (
+    QgsApplication,
+    QgsField,
+    QgsLayerTreeGroup,
+    QgsMapRendererParallelJob,
+    QgsMapSettings,
+    QgsPointXY,
+    QgsProcessingAlgRunnerTask,
+    QgsProcessingContext,
+    QgsProcessingOutputLayerDefinition,
+    QgsProject,
+    QgsProviderRegistry,
+    QgsRectangle,
+    QgsVectorLayer,
+)
+from qgis.PyQt.QtCore import QSize, QVariant
+from support import ALGORITHM, Log, layer_of, write_scene
+
+from bare_earth.plugin.styles import loaded
+
+COPC = "copc" in QgsProviderRegistry.instance().providerList()
+needs_copc = pytest.mark.skipif(not COPC, reason="this QGIS shows no point clouds")
+ONE_STEP = "bareearth:pointcloudtoterrain"
+# In the scene, here the ground is 100.5 m high.
+WEST, SOUTH = 500_000.0, 5_700_000.0
+PLACE = QgsPointXY(WEST + 10.5, SOUTH + 10.5)
+
+
+@pytest.fixture
+def run(context):
+    """Run an algorithm as the toolbox does, and return the layers of the project by name."""
+    import processing
+
+    def run(algorithm, parameters, outputs):
+        project = QgsProject.instance()
+        loading = {
+            each: QgsProcessingOutputLayerDefinition(str(path), project)
+            for each, path in outputs.items()
+        }
+        processing.runAndLoadResults(algorithm, {**parameters, **loading})
+        return by_name()
+
+    yield run
+    QgsProject.instance().clear()
+
+
+def by_name():
+    layers = QgsProject.instance().mapLayers().values()
+    assert len({each.name() for each in layers}) == len(layers)
+    return {each.name(): each for each in layers}
+
+
+def groups():
+    """Return the names of the groups, each with the names of its layers from the top."""
+    children = QgsProject.instance().layerTreeRoot().children()
+    return {
+        each.name(): [child.name() for child in each.children()]
+        for each in children
+        if isinstance(each, QgsLayerTreeGroup)
+    }
+
+
+def lift(path, metres):
+    las = laspy.read(path)
+    las.z = np.asarray(las.z) + metres
+    las.write(path)
+
+
+def value_of(layer):
+    return layer.dataProvider().sample(PLACE, 1)[0]
+
+
+def colour_of(layer):
+    """Return the colour of the map at `PLACE`, with this layer alone."""
+    settings = QgsMapSettings()
+    settings.setLayers([layer])
+    settings.setDestinationCrs(layer.crs())
+    settings.setOutputSize(QSize(101, 101))
+    settings.setExtent(QgsRectangle.fromCenterAndSize(PLACE, 10.1, 10.1))
+    job = QgsMapRendererParallelJob(settings)
+    job.start()
+    job.waitForFinished()
+    return job.renderedImage().pixelColor(50, 50).name()
+
+
+def test_the_map_shows_the_new_terrain_in_the_old_group(run, scene, tmp_path):
+    names = ("DTM", "HILLSHADE", "RELIEF")
+    outputs = {each: tmp_path / f"{each}.tif" for each in names}
+    outputs["CONTOURS"] = tmp_path / "lines.gpkg"
+    values = {"INPUT": str(scene.path), "CONTOUR_INTERVAL": 0.5}
+    before = run(ONE_STEP, values, outputs)
+    tree, ids = groups(), {name: each.id() for name, each in before.items()}
+    terrain = before["Terrain model"]
+    assert value_of(terrain) == pytest.approx(100.7, abs=0.1)
+    assert {each["ELEV"] for each in before["Contour lines"].getFeatures()} == set(
+        np.arange(100.5, 106, 0.5)
+    )
+    # What the user has changed in the tree stays.
+    root = QgsProject.instance().layerTreeRoot()
+    root.findLayer(terrain.id()).setItemVisibilityChecked(False)
+    terrain.setName("My terrain")
+    lift(scene.path, 50.0)
+    after = run(ONE_STEP, values, outputs)
+    assert {name: each.id() for name, each in after.items()} == {
+        "My terrain" if name == "Terrain model" else name: each for name, each in ids.items()
+    }
+    ((name, layers),) = groups().items()
+    assert {
+        name: [each.replace("My t", "T") + " model" * (each == "My terrain") for each in layers]
+    } == tree
+    terrain = after["My terrain"]
+    assert value_of(terrain) == pytest.approx(150.7, abs=0.1)
+    assert not root.findLayer(terrain.id()).itemVisibilityChecked()
+    renderer = terrain.renderer()
+    assert 149 < renderer.classificationMin() < renderer.classificationMax() < 157
+    lines = after["Contour lines"]
+    assert {each["ELEV"] for each in lines.getFeatures()} == set(np.arange(150.5, 156, 0.5))
+
+
+def test_the_extent_of_a_layer_follows_its_file(run, scene, tmp_path):
+    outputs = {"DTM": tmp_path / "dtm.tif"}
+    (before,) = run(ONE_STEP, {"INPUT": str(scene.path)}, outputs).values()
+    assert before.width() == before.height() == 80
+    write_scene(scene.path, origin=(WEST + 500, SOUTH))
+    (after,) = run(ONE_STEP, {"INPUT": str(scene.path), "DTM_CELL_SIZE": 2}, outputs).values()
+    assert after.width() == after.height() == 40
+    assert after.extent().xMinimum() == WEST + 500
+
+
+def test_layers_are_reloaded_that_the_run_does_not_load(run, scene, tmp_path):
+    import processing
+
+    outputs = {"DTM": tmp_path / "dtm.tif"}
+    (layer,) = run(ONE_STEP, {"INPUT": str(scene.path)}, outputs).values()
+    lift(scene.path, 50.0)
+    processing.run(ONE_STEP, {"INPUT": str(scene.path), "DTM": str(outputs["DTM"])})
+    assert value_of(layer) == pytest.approx(150.7, abs=0.1)
+    assert layer.renderer().classificationMin() > 149
+
+
+def test_a_new_output_joins_the_old_group_in_its_order(run, scene, tmp_path):
+    outputs = {each: tmp_path / f"{each}.tif" for each in ("DTM", "HILLSHADE")}
+    run(ONE_STEP, {"INPUT": str(scene.path)}, outputs)
+    (group,) = QgsProject.instance().layerTreeRoot().children()
+    group.setName("My group")
+    outputs["RELIEF"] = tmp_path / "relief.tif"
+    outputs["DSM"] = tmp_path / "dsm.tif"
+    run(ONE_STEP, {"INPUT": str(scene.path)}, outputs)
+    order = ["Local relief", "Surface model", "Terrain model", "Hillshade"]
+    assert groups() == {"My group": order}
+
+
+def test_in_a_thread_of_its_own(run, scene, tmp_path, registry):
+    outputs = {"DTM": tmp_path / "dtm.tif"}
+    (layer,) = run(ONE_STEP, {"INPUT": str(scene.path)}, outputs).values()
+    lift(scene.path, 50.0)
+    context, log, done = QgsProcessingContext(), Log(), []
+    context.setProject(QgsProject.instance())
+    task = QgsProcessingAlgRunnerTask(
+        registry.createAlgorithmById(ONE_STEP),
+        {"INPUT": str(scene.path), "DTM": str(outputs["DTM"])}, context, log,
+    )  # fmt: skip
+    task.executed.connect(lambda *result: done.append(result))
+    QgsApplication.taskManager().addTask(task)
+    wait_for(lambda: done and value_of(layer) > 150)
+    assert done[0][0] and value_of(layer) == pytest.approx(150.7, abs=0.1)
+
+
+def wait_for(condition, seconds=20):
+    end = time.monotonic() + seconds
+    while not condition() and time.monotonic() < end:
+        QgsApplication.processEvents()
+        time.sleep(0.01)
+
+
+@pytest.mark.parametrize("name", ["classifytiles", "terrainmodel"])
+def test_virtual_rasters_are_reloaded(name, run, tmp_path):
+    (tmp_path / "in").mkdir()
+    for number in range(2):
+        origin = WEST + 80 * number, SOUTH
+        write_scene(tmp_path / "in" / f"{number}.laz", origin=origin)
+        lift(tmp_path / "in" / f"{number}.laz", 0.0)
+    if name == "terrainmodel":
+        for each in sorted((tmp_path / "in").iterdir()):
+            las = laspy.read(each)
+            las.classification[:] = np.where(np.asarray(las.z) < 110, 2, 1)
+            las.write(each)
+    values = {"RASTER_PER_FILE": True}
+    if name == "terrainmodel":
+        values["INPUT"] = str(tmp_path / "in")
+    else:
+        values |= {"INPUT_FOLDER": str(tmp_path / "in"), "OUTPUT_FOLDER": str(tmp_path / "out")}
+    outputs = {"DTM": tmp_path / "dtm.tif"}
+    before = run(f"bareearth:{name}", values, outputs)
+    (terrain,) = (each for each in before.values() if each.source().endswith("dtm.vrt"))
+    assert value_of(terrain) == pytest.approx(100.7, abs=0.1)
+    for each in sorted((tmp_path / "in").iterdir()):
+        lift(each, 5.0)
+    run(f"bareearth:{name}", values, outputs)
+    assert value_of(terrain) == pytest.approx(105.7, abs=0.1)
+    assert len(groups()) <= 1
+
+
+@needs_copc
+@pytest.mark.parametrize("times", [1, 3])
+def test_points_and_their_classes_are_the_new_ones(times, run, scene, tmp_path):
+    outputs = {"OUTPUT": tmp_path / "o.copc.laz", "DTM": tmp_path / "dtm.tif"}
+    before = run(ALGORITHM, {"INPUT": str(scene.path), "TO_CLASS": 2}, outputs)["Classes"]
+    colours = {colour_of(before)}
+    for number in range(times):
+        values = {"INPUT": str(scene.path), "TO_CLASS": 9 + number}
+        after = run(ALGORITHM, values, outputs)["Classes"]
+        assert after.id() == before.id()
+        assert 9 + number in {each.value() for each in after.renderer().categories()}
+        colours.add(colour_of(after))
+    assert len(colours) == 1 + times and "#ffffff" not in colours
+    assert os.path.samefile(after.source(), outputs["OUTPUT"])
+    assert len(groups()) == 1
+
+
+@needs_copc
+def test_a_layer_that_was_removed_comes_back_with_the_new_points(run, scene, tmp_path):
+    outputs, colours = {"OUTPUT": tmp_path / "o.copc.laz"}, set()
+    for value in (2, 9, 6):
+        (layer,) = run(ALGORITHM, {"INPUT": str(scene.path), "TO_CLASS": value}, outputs).values()
+        colours.add(colour_of(layer))
+        QgsProject.instance().clear()
+    assert len(colours) == 3
+
+
+@needs_copc
+def test_the_points_of_many_files_are_the_new_ones(run, tmp_path):
+    (tmp_path / "in").mkdir()
+    for number in range(2):
+        origin = WEST + 80 * number, SOUTH
+        write_scene(tmp_path / "in" / f"{number}.laz", origin=origin)
+    values = {"INPUT_FOLDER": str(tmp_path / "in"), "OUTPUT_FOLDER": str(tmp_path / "out")}
+    colours, ids = set(), set()
+    for value in (2, 9, 6):
+        given = {**values, "TO_CLASS": value, "FORMAT": "copc.laz"}
+        layer = run("bareearth:classifytiles", given, {"DTM": tmp_path / "dtm.tif"})["Classes"]
+        ids.add(layer.id())
+        assert {each.value() for each in layer.renderer().categories()} == {1, value}
+        colours.add(colour_of(layer))
+    assert len(colours) == 3 and len(ids) == 1 and "#ffffff" not in colours
+
+
+def test_a_layer_with_edits_that_are_not_saved_is_not_overwritten(run, scene, tmp_path, registry):
+    outputs = {"CONTOURS": tmp_path / "lines.gpkg"}
+    values = {"INPUT": str(scene.path), "CONTOUR_INTERVAL": 0.5}
+    (lines,) = run(ONE_STEP, values, outputs).values()
+    lift(scene.path, 50.0)
+    assert lines.startEditing()
+    assert lines.deleteFeature(next(lines.getFeatures()).id())
+    context, log = QgsProcessingContext(), Log()
+    context.setProject(QgsProject.instance())
+    algorithm = registry.createAlgorithmById(ONE_STEP)
+    given = {**values, "CONTOURS": str(outputs["CONTOURS"])}
+    _, done = algorithm.run(given, context, log)
+    assert not done and "edits that are not saved" in log.text
+    written = QgsVectorLayer(str(outputs["CONTOURS"]))
+    assert lines.isModified() and max(each["ELEV"] for each in written.getFeatures()) < 110
+    lines.rollBack()
+
+
+@pytest.mark.parametrize("ends", ["well", "cancelled", "failed"])
+def test_files_are_released_where_open_files_cannot_be_replaced(
+    ends, run, scene, tmp_path, registry, monkeypatch
+):
+    """As on Windows: no layer holds its file open during the run, and all are back afterwards."""
+    outputs = {"DTM": tmp_path / "dtm.tif", "CONTOURS": tmp_path / "lines.gpkg"}
+    values = {"INPUT": str(scene.path), "CONTOUR_INTERVAL": 0.5}
+    layers = run(ONE_STEP, values, outputs)
+    assert open_files(outputs.values())
+    colours = layers["Terrain model"].renderer().classificationMax()
+    monkeypatch.setattr(loaded, "MUST_RELEASE", True)
+    lift(scene.path, 50.0)
+    if ends == "failed":
+        scene.path.write_bytes(scene.path.read_bytes()[:3000])
+    held = []
+
+    class Watching(Log):
+        def setProgress(self, progress):
+            held.extend(open_files(outputs.values()))
+            super().setProgress(progress)
+
+    log, context = Watching(50 if ends == "cancelled" else None), QgsProcessingContext()
+    context.setProject(QgsProject.instance())
+    given = {**values, **{name: str(path) for name, path in outputs.items()}}
+    registry.createAlgorithmById(ONE_STEP).run(given, context, log)
+    assert not held
+    assert by_name() == layers and all(each.isValid() for each in layers.values())
+    raised = 50.0 if ends == "well" else 0.0
+    terrain = layers["Terrain model"]
+    assert value_of(terrain) == pytest.approx(100.7 + raised, abs=0.1)
+    assert terrain.renderer().classificationMax() == pytest.approx(colours + raised, abs=0.5)
+    lines = {each["ELEV"] for each in layers["Contour lines"].getFeatures()}
+    assert lines == set(np.arange(100.5 + raised, 106 + raised, 0.5))
+    assert layers["Contour lines"].renderer().type() == "RuleRenderer"
+
+
+def open_files(paths):
+    names = {str(each) for each in paths}
+    found = []
+    for each in os.listdir("/proc/self/fd"):
+        try:
+            found.append(os.readlink(f"/proc/self/fd/{each}"))
+        except OSError:
+            continue
+    return names & set(found)
+
+
+def test_the_loop_of_corrections_by_polygons(run, scene, tmp_path):
+    outputs = {each: tmp_path / f"{each}.tif" for each in ("DTM", "HILLSHADE")}
+    values = {"INPUT": str(scene.path), "OUTPUT": str(tmp_path / "o.las")}
+    layers = run(ALGORITHM, values, outputs)
+    terrain, ids = layers["Terrain model"], {each.id() for each in layers.values()}
+    on_roof = QgsPointXY(WEST + 39.5, SOUTH + 33.5)
+    below = terrain.dataProvider().sample(on_roof, 1)[0]
+    assert below < 104
+    # The roof is a rock: its points are ground.
+    rock = layer_of(
+        "Polygon", QgsRectangle(WEST + 31, SOUTH + 21, WEST + 47, SOUTH + 45).asWktPolygon()
+    )
+    field = QgsField("class", QVariant.Int)
+    rock.dataProvider().addAttributes([field])
+    rock.updateFields()
+    rock.dataProvider().changeAttributeValues({next(rock.getFeatures()).id(): {0: 2}})
+    layers = run(ALGORITHM, {**values, "CORRECTIONS": rock}, outputs)
+    assert {each.id() for each in layers.values()} == ids
+    assert terrain.dataProvider().sample(on_roof, 1)[0] == pytest.approx(112.0, abs=0.01)
+    assert terrain.renderer().classificationMax() > 110
+    assert len(groups()) == 1
