@@ -111,5 +111,5 @@ def _missing_science() -> str:
     missing = missing_packages(["numpy", "scipy"])
     if not missing:
         return ""
-    text = tr("This QGIS has no {}.").format(", ".join(missing))
-    return f"{text} {install_hint(missing)}"
+    # In English as the hint is: a message in two languages is hard to read.
+    return f"This QGIS has no {', '.join(missing)}. {install_hint(missing)}"

@@ -11,15 +11,15 @@ from qgis.core import (
     QgsProcessingParameterFeatureSource,
 )
 
-from ...algorithms.core.errors import BareEarthError
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.core.progress import Progress
 from ...algorithms.engine.output import Output
 from ...algorithms.survey.area import Area, Polygon
 from .. import compat
-from ..i18n import tr
+from ..i18n import mark
 from .constraints import add_constraints, constraints_of
 from .corrections import add_corrections, corrections_of
+from .feedback import Refusal
 from .inputs import CloudCrs, features_of, is_empty, polygons_of
 
 # Name, label and help of the fields of an area.
@@ -98,7 +98,7 @@ def area_of(
         features = features_of(source, _AREA_FIELDS["BOUNDARY"][0], crs.value, context)
         polygons = tuple(each for one in features for each in polygons_of(one.geometry()))
         if not polygons:
-            raise BareEarthError(tr("The boundary holds no polygon. Choose one that does."))
+            raise Refusal(mark("The boundary holds no polygon. Choose one that does."))
     return Area(box, polygons)
 
 
@@ -120,10 +120,8 @@ def area_options(area: Area | None, progress: Progress, is_all: bool = False) ->
     options = ["--area-only"] if is_all else []
     if area.polygons:
         progress.info(
-            tr(
-                "In the command line the boundary is missing: save it in the CRS of the points"
-                " as boundary.geojson, and add --boundary boundary.geojson."
-            )
+            "In the command line the boundary is missing: save it in the CRS of the points"
+            " as boundary.geojson, and add --boundary boundary.geojson."
         )
     return [*options, *(["--extent", *map(repr, area.box)] if area.box else [])]
 

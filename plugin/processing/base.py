@@ -26,7 +26,7 @@ from .. import compat
 from ..i18n import tr
 from ..styles import layers
 from .area import check_area_only
-from .feedback import FeedbackProgress, tell_of_unknown
+from .feedback import FeedbackProgress, Refusal, tell_error_once, tell_of_unknown
 from .fields import field_of, parameters_of
 from .help_pages import address_of
 from .outputs import NOTHING_STAYS, do_not_load
@@ -207,8 +207,8 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         # lazrs is needed only for .laz, and these give a message of their own.
         if missing:
             missing = missing_packages(["laspy", "lazrs"])
-            needed = tr("{} must be installed first.").format(", ".join(missing))
-            return False, f"{needed} {install_hint(missing)}"
+            # In English as the hint is: a message in two languages is hard to read.
+            return False, f"{', '.join(missing)} must be installed first. {install_hint(missing)}"
         return True, ""
 
     def checkParameterValues(
@@ -217,6 +217,8 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         """Check values with the messages of the declarations first, then as QGIS does."""
         try:
             self.check(parameters, context)
+        except Refusal as refusal:
+            return False, refusal.translated
         except BareEarthError as error:
             return False, str(error)
         return super().checkParameterValues(parameters, context)
@@ -228,6 +230,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         feedback: QgsProcessingFeedback,
     ) -> bool:
         """Run `prepare`."""
+        tell_error_once(False)
         tell_of_unknown(self, parameters, feedback)
         with _errors_for_qgis():
             self.prepare(parameters, context, FeedbackProgress(feedback))
@@ -250,7 +253,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
             with _errors_for_qgis():
                 results = self.compute(parameters, context, progress)
         except Cancelled:
-            feedback.pushInfo(tr(self.cancelled))
+            feedback.pushInfo(self.cancelled)
         finally:
             if not results:
                 do_not_load(context, set(context.layersToLoadOnCompletion()) - before)
@@ -277,13 +280,15 @@ def _plain(text: str) -> str:
 
 @contextlib.contextmanager
 def _errors_for_qgis() -> Iterator[None]:
-    """Turn errors into exceptions that QGIS shows without a traceback."""
+    """Turn errors into exceptions that QGIS shows without a traceback, and only once."""
     try:
         yield
-    except BareEarthError as error:
-        raise QgsProcessingException(str(error)) from error
-    except MemoryError as error:
-        raise QgsProcessingException(tr("There is not enough memory for this file.")) from error
+    except (BareEarthError, MemoryError) as error:
+        text = "There is not enough memory for this file."
+        tell_error_once(True)
+        raise QgsProcessingException(
+            text if isinstance(error, MemoryError) else str(error)
+        ) from error
 
 
 def command_line(

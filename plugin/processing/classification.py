@@ -13,7 +13,6 @@ from ...algorithms.engine.output import Output
 from ...algorithms.filters import METHODS
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
-from ..i18n import tr
 from .area import add_limits, area_options, limits_of
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified
@@ -86,7 +85,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         """Find the input, and read area, corrections and constraints."""
         super().prepare(parameters, context, progress)
         if ignored_filter(self, parameters, "INPUT", context):
-            progress.warning(tr("The layer's filter is not applied: all points are read."))
+            progress.warning("The layer's filter is not applied: all points are read.")
         self._limits = limits_of(self, parameters, context, CloudCrs(self._source), progress)
 
     def compute(

@@ -9,7 +9,6 @@ from qgis.core import QgsProcessingContext, QgsProcessingUtils
 
 from ...algorithms.core.errors import BareEarthError, Cancelled
 from .. import compat
-from ..i18n import tr
 from ..styles import clouds, layers
 from .base import BareEarthAlgorithm
 from .feedback import FeedbackProgress
@@ -57,7 +56,7 @@ def show_classified(
         if is_virtual:
             compat.load_virtual_point_cloud(cloud, "", context)
         return
-    progress.info(tr("This QGIS cannot show such a file as a layer. It is at {}.").format(cloud))
+    progress.info(f"This QGIS cannot show such a file as a layer. It is at {cloud}.")
     if not context.layersToLoadOnCompletion():
         return
     # Imported here, since it needs packages that QGIS may lack when it starts.

@@ -14,11 +14,11 @@ from qgis.core import (
     QgsProcessingParameterString,
 )
 
-from ...algorithms.core.errors import BareEarthError
 from ...algorithms.core.parameters import Declaration, ParameterSet
 from .. import compat
-from ..i18n import tr
+from ..i18n import mark, tr
 from .choices import ChoiceParameter, value_of, values_of, with_labels
+from .feedback import Refusal
 
 _SYMBOLS = {"deg": "°"}
 _LISTS = ("numbers", "integers")
@@ -164,11 +164,8 @@ def _value(
         return declaration.default
     if isinstance(given, str) and not _is_number(given):
         # parameterAsDouble would silently return the default.
-        raise BareEarthError(
-            tr("{label} must be a number, not {value}.").format(
-                label=tr(declaration.label), value=repr(given)
-            )
-        )
+        text = mark("{label} must be a number, not {value}.")
+        raise Refusal(text, label=declaration.label, value=repr(given))
     # Also for integers as a double, so that 2.5 is refused and does not become 2.
     return algorithm.parameterAsDouble(parameters, name, context)
 

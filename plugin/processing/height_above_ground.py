@@ -8,7 +8,6 @@ from ...algorithms.engine.heights import HeightOutput
 from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.output import HEIGHT_DIMENSION
 from ...algorithms.survey.ground_classes import GroundClasses
-from ..i18n import tr
 from ..styles import layers
 from .base import command_line
 from .products import ProductAlgorithm
@@ -51,9 +50,8 @@ class HeightAboveGroundAlgorithm(ProductAlgorithm):
         request = HeightRequest.of(chosen)
         summary = heights(self.source, Path(output), request, progress)
         progress.info(
-            tr("Heights above ground are {low:.2f} to {high:.2f} {unit}.").format(
-                low=summary.minimum, high=summary.maximum, unit=summary.unit
-            )
+            f"Heights above ground are {summary.minimum:.2f} to {summary.maximum:.2f}"
+            f" {summary.unit}."
         )
         attribute = "Z" if request.output.output_as == "z" else HEIGHT_DIMENSION
         self.show(output, layers.heights(attribute, summary.maximum, summary.unit_size))

@@ -7,7 +7,6 @@ from typing import Any
 from qgis.core import QgsProcessingContext, QgsProcessingOutputNumber
 
 from .. import compat
-from ..i18n import tr
 from .base import BareEarthAlgorithm
 from .feedback import FeedbackProgress
 from .inputs import ANY_CLOUD_HELP, PointCloudInput, ignored_filter, name_of, source_path
@@ -56,7 +55,7 @@ class ProductAlgorithm(BareEarthAlgorithm):
         """Find the input, and warn of a filter that is ignored."""
         super().prepare(parameters, context, progress)
         if ignored_filter(self, parameters, "INPUT", context):
-            progress.warning(tr("The layer's filter is not applied: all points are read."))
+            progress.warning("The layer's filter is not applied: all points are read.")
 
     def cloud_output(
         self,
@@ -67,8 +66,7 @@ class ProductAlgorithm(BareEarthAlgorithm):
         """Return the path of the output point cloud; tell the user if QGIS cannot show it."""
         output = self.point_cloud_destination(parameters, "OUTPUT", context)
         if not compat.can_load(output):
-            text = tr("This QGIS cannot show such a file as a layer. It will be at {}.")
-            progress.info(text.format(output))
+            progress.info(f"This QGIS cannot show such a file as a layer. It will be at {output}.")
         return output
 
     def numbers_of(self, summary: Any) -> dict[str, Any]:

@@ -441,3 +441,11 @@ def test_qgis_process_tells_of_unknown_parameters(qgis_process, scene, tmp_path)
     assert "There is no parameter OUPUT: it is ignored. Did you mean OUTPUT?" in (
         done.stdout + done.stderr
     )
+
+
+def test_qgis_process_prints_an_error_once(qgis_process, scene, tmp_path):
+    # No point of the scene is ground, as the run finds out.
+    words = f"INPUT={scene.path}", f"DTM={tmp_path / 'dtm.tif'}"
+    done = qgis_process("run", "bareearth:terrainmodel", "--", *words)
+    assert done.returncode != 0
+    assert (done.stdout + done.stderr).count("has no ground points") == 1, done.stderr
