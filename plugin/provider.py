@@ -8,6 +8,7 @@ from qgis.core import QgsProcessingProvider
 from qgis.PyQt.QtGui import QIcon
 
 from .. import __version__
+from ..algorithms.products.contours import CONTOUR_FORMATS
 from .processing import ALGORITHMS
 from .processing.models import shipped_models
 from .processing.outputs import point_cloud_formats
@@ -58,6 +59,14 @@ class BareEarthProvider(QgsProcessingProvider):
     def defaultRasterFileExtension(self) -> str:
         """Return the format of rasters without a name, whatever the user's settings are."""
         return "tif"
+
+    def supportedOutputVectorLayerExtensions(self) -> list[str]:
+        """Return the formats of contour lines."""
+        return [each[1:] for each in CONTOUR_FORMATS]
+
+    def defaultVectorFileExtension(self, hasGeometry: bool = True) -> str:
+        """Return the format of contour lines without a name."""
+        return self.supportedOutputVectorLayerExtensions()[0]
 
     def supportedOutputPointCloudLayerExtensions(self) -> list[str]:
         """Return the point cloud formats that can be written."""

@@ -65,7 +65,7 @@ def _add_compare_settings(parser: argparse.ArgumentParser, arguments: Sequence[s
 
     add_inputs(parser)
     parser.add_argument("page", metavar="PAGE", type=Path, help="the page to write (.html)")
-    add_extent(parser, "the window", required=True)
+    add_extent(parser, "the window", "; without it, 250 x 250 m in the middle of the points")
     add_json(parser, "the figures ")
     add_parameters(
         parser, TrialOptions, Resources, titles=("What is compared", "Threads and memory")

@@ -8,15 +8,15 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import NamedTuple, Sequence
 
-from ..core.files import check_output, replacing, temporary_folder
+from ..core.files import replacing, temporary_folder
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
 from ..filters import DEFAULT_METHOD, METHODS
-from ..products.contours import Contours, Interval, write_contours
+from ..products.contours import Contours, Interval, check_contour_output, write_contours
 from ..products.local_relief import LocalRelief, write_local_relief
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import MapTerrain
-from ..rasters.writing import replacing_raster
+from ..rasters.writing import check_raster_output, replacing_raster
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.files import is_one_file
@@ -138,8 +138,10 @@ def make_maps(
     with temporary_folder(beside) as waiting, contextlib.ExitStack() as outputs:
         cloud = files.cloud or waiting / "cloud.las"
         files.rasters.check((*sources, cloud))
-        for each in filter(None, (files.relief, files.contours)):
-            check_output(each, tuple(sources))
+        if files.relief:
+            check_raster_output(files.relief, tuple(sources))
+        if files.contours:
+            check_contour_output(files.contours, tuple(sources))
         if files.cloud and is_one:
             check_cloud(sources[0], cloud)
             cloud = outputs.enter_context(replacing(cloud))

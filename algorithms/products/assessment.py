@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import check_output, replacing
+from ..core.files import replacing
 from ..core.points import Frame, Points
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
@@ -16,6 +16,7 @@ from ..las.reading import read_cloud
 from ..rasters.geotiff import NODATA, RasterGrid
 from ..rasters.writing import check_raster_output, write_geotiff
 from .comparison import GROUND, Assessment, AssessmentOptions, Comparison, compare
+from .page import Units, check_page
 from .report import write_report
 
 
@@ -51,9 +52,7 @@ def assess_files(
         If the user asked to stop.
     """
     if report is not None:
-        check_output(report, (classified, reference))
-        if report.suffix.lower() not in (".html", ".htm"):
-            raise BareEarthError(f"Cannot write {report}: the report is HTML, name it .html.")
+        check_page(report, (classified, reference))
     if error_map is not None:
         check_raster_output(error_map, (classified, reference))
     result = read_cloud(classified, progress.part(0.0, 0.3))
@@ -82,7 +81,8 @@ def assess_files(
             if report is not None:
                 files = (classified, reference)
                 part = progress.part(0.85, 1.0)
-                write_report(report, assessment, comparison, points, options, files, part)
+                units = Units(result.crs.horizontal_unit, result.crs.vertical_unit)
+                write_report(report, assessment, comparison, points, options, files, part, units)
             progress(1.0)
     return assessment
 

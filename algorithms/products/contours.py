@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..core.errors import BareEarthError
-from ..core.files import replace_with_files_of, temporary_folder
+from ..core.files import check_output, replace_with_files_of, temporary_folder
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..rasters.libraries import GdalErrors
@@ -22,6 +22,7 @@ _LEAST = 0.25
 INDEX = 5
 # The formats that QGIS offers first, and their names in GDAL.
 _DRIVERS = {".gpkg": "GPKG", ".shp": "ESRI Shapefile", ".geojson": "GeoJSON", ".fgb": "FlatGeobuf"}
+CONTOUR_FORMATS = tuple(_DRIVERS)
 # Further files of these formats. Old indices and journals would do harm to new lines.
 _BESIDE = {
     ".shp": (".dbf", ".shx", ".prj", ".cpg", ".qpj", ".qix", ".sbn", ".sbx"),
@@ -37,6 +38,7 @@ class Contours(ParameterSet):
         None,
         kind="number",
         label="Contour interval",
+        unit="height units",
         minimum=0.001,
         maximum=10_000.0,
         advanced=True,
@@ -83,6 +85,20 @@ class Interval(NamedTuple):
         return f"{lines * self.height:g} {self.unit}".rstrip()
 
 
+def check_contour_output(target: Path, sources: tuple[Path, ...] = ()) -> None:
+    """Refuse, before any work is done, contour lines that could not be written at the end.
+
+    Raises
+    ------
+    BareEarthError
+        If the format is unknown, or as for `check_output`.
+    """
+    if target.suffix.lower() not in _DRIVERS:
+        formats = ", ".join(_DRIVERS)
+        raise BareEarthError(f"Cannot write {target}: name it with one of the endings {formats}.")
+    check_output(target, sources)
+
+
 def write_contours(
     source: Path, target: Path, contours: Contours = Contours(), progress: Progress = SILENT
 ) -> Interval:
@@ -114,8 +130,7 @@ def write_contours(
     except ImportError:
         raise BareEarthError("Contour lines need GDAL with Python, which QGIS has.") from None
     target = Path(target)
-    if target.suffix.lower() not in _DRIVERS:
-        raise BareEarthError(f"{target} is not one of {', '.join(_DRIVERS)}. Name it so.")
+    check_contour_output(target)
     raster = gdal.Open(str(source))
     band = raster.GetRasterBand(1)
     # The description that `write_geotiff` gives to bands of terrain models.

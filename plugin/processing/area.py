@@ -126,13 +126,8 @@ def area_options(area: Area | None, progress: Progress, is_all: bool = False) ->
     return [*options, *(["--extent", *map(repr, area.box)] if area.box else [])]
 
 
-def add_limits(
-    algorithm: QgsProcessingAlgorithm,
-    advanced: Sequence[str] = ("BOUNDARY",),
-    is_all: bool = False,
-) -> None:
-    """Add the fields of an area, of corrections and of constraints to a dialog."""
-    add_area(algorithm, advanced, is_all)
+def add_limits(algorithm: QgsProcessingAlgorithm) -> None:
+    """Add the fields of corrections and of constraints to a dialog."""
     add_corrections(algorithm)
     add_constraints(algorithm)
 

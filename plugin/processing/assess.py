@@ -60,7 +60,7 @@ class AssessAlgorithm(BareEarthAlgorithm):
     def find_inputs(self, parameters, context):
         """Find the input files."""
         self._files = [source_path(self, parameters, name, context) for name in _INPUTS]
-        self.subject = name_of(self._files[0])
+        self.inputs, self.subject = self._files, name_of(self._files[0])
 
     def compute(self, parameters, context, progress):
         """Compare them."""

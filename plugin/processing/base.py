@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 from html import escape
 from pathlib import Path
-from typing import Any, Iterator, Mapping
+from typing import Any, Iterator, Mapping, Sequence
 
 from qgis.core import (
     QgsProcessingAlgorithm,
@@ -29,6 +29,7 @@ from .area import check_area_only
 from .feedback import FeedbackProgress, Refusal, tell_error_once, tell_of_unknown
 from .fields import field_of, parameters_of
 from .help_pages import address_of
+from .output_checks import check_outputs
 from .outputs import NOTHING_STAYS, do_not_load
 from .presets import presets_of
 from .search_words import words_of
@@ -55,6 +56,8 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         Name of the group of layers, after the name of the input; the title if empty.
     shown : tuple of str or None
         The declared parameters that are not advanced. None: as they are declared.
+    inputs : sequence of Path
+        The input files and folders; set by `find_inputs`.
     subject : str
         Name of the input; set by `find_inputs`.
     class_counts : mapping of int to int
@@ -64,6 +67,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
     identifier = title = section = summary = about = page = run_name = subject = ""
     cancelled = NOTHING_STAYS
     shown: tuple[str, ...] | None = None
+    inputs: Sequence[Path] = ()
 
     def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
         """Return the declared parameters, in the order of the dialog."""
@@ -79,7 +83,13 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         raise NotImplementedError
 
     def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
-        """Find the input files, and set `subject`; raise BareEarthError if they do not exist."""
+        """Find the input files, and set `inputs` and `subject`.
+
+        Raises
+        ------
+        BareEarthError
+            If a file does not exist.
+        """
 
     def prepare(
         self,
@@ -94,6 +104,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         """Check the values before a run; raise BareEarthError to refuse them."""
         check_area_only(parameters, self.chosen(parameters, context))
         self.find_inputs(parameters, context)
+        check_outputs(self, parameters, context, self.inputs)
 
     def chosen(
         self, parameters: dict[str, Any], context: QgsProcessingContext
@@ -119,8 +130,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         return super().addOutput(output)
 
     def _is_shown(self, declaration: Declaration) -> bool:
-        is_among = self.shown is None or declaration.name in self.shown
-        return is_among and not declaration.advanced
+        return not declaration.advanced if self.shown is None else declaration.name in self.shown
 
     def add_numbers(self, numbers: Mapping[str, str]) -> None:
         """Add outputs that are numbers, given their names and labels."""

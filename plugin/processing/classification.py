@@ -13,7 +13,7 @@ from ...algorithms.engine.output import Output
 from ...algorithms.filters import METHODS
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
-from .area import add_limits, area_options, limits_of
+from .area import add_area, add_limits, area_options, limits_of
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified
 from .feedback import FeedbackProgress
@@ -62,6 +62,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
     def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
         """Declare the fields of the dialog and the results."""
         self.addParameter(PointCloudInput("INPUT", "Point cloud"), CLOUD_HELP)
+        add_area(self)
         self.add_declared()
         add_limits(self)
         add_cloud(self)
@@ -74,7 +75,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
     def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
         """Find the input file."""
         self._source = source_path(self, parameters, "INPUT", context)
-        self.subject = name_of(self._source)
+        self.inputs, self.subject = [self._source], name_of(self._source)
 
     def prepare(
         self,

@@ -14,7 +14,7 @@ from ...algorithms.survey.selection import Selection
 from ..i18n import mark
 from ..styles.layers import BELOW_TERRAIN, contours
 from . import outputs
-from .area import add_limits, area_options, limits_of
+from .area import add_area, add_limits, area_options, limits_of
 from .base import BareEarthAlgorithm
 from .classified import show_classified
 from .commands import terrain_commands
@@ -31,17 +31,18 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         "Finds the ground of a raw lidar point cloud and makes maps of it. Each output is"
         " optional. Local relief shows small features. Lengths are metres."
     )
-    shown = "method", "preset", "dtm_cell_size"
+    shown = "method", "preset", "dtm_cell_size", "contour_interval"
 
     def parameter_sets(self):
-        """Return method and cell size, then parameters that rarely need a change."""
-        return TileMethod, MapTerrain, Selection, SurfaceModel, Contours, LocalRelief, Resources
+        """Return method, cell size and contours, then parameters that rarely need a change."""
+        return TileMethod, MapTerrain, Contours, Selection, SurfaceModel, LocalRelief, Resources
 
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""
         add_survey(self)
+        add_area(self, is_all=True)
         self.add_declared()
-        add_limits(self, ("EXTENT", "BOUNDARY"), is_all=True)
+        add_limits(self)
         outputs.add_cloud(self, optional=True)
         outputs.add_rasters(self, outputs.RASTERS, ("DTM", "HILLSHADE", "DSM", "CHM"))
         outputs.add_contours(self)
@@ -49,18 +50,17 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
 
     def find_inputs(self, parameters, context):
         """Find the input files."""
-        self._sources = survey_of(self, parameters, context)
+        self.inputs = self._sources = survey_of(self, parameters, context)
         self.subject, self.cancelled = names_of(self._sources), outputs.after_cancel(self._sources)
 
     def compute(self, parameters, context, progress):
         """Make the wanted outputs."""
         from ...algorithms.engine.terrain_maps import MapFiles, MapRequest, make_maps
 
-        limits = limits_of(self, parameters, context, CloudCrs(*self._sources), progress)
-        chosen = self.chosen(parameters, context)
-        request = MapRequest.of(chosen, **limits)
+        given, chosen = (self, parameters, context), self.chosen(parameters, context)
+        request = MapRequest.of(chosen, **limits_of(*given, CloudCrs(*self._sources), progress))
         cloud = self.point_cloud_destination(parameters, "OUTPUT", context)
-        results = outputs.raster_paths(self, parameters, context)
+        results = outputs.raster_paths(*given)
         paths = [path and Path(path) for path in map(results.get, ("RELIEF", "CONTOURS"))]
         files = MapFiles(cloud and Path(cloud), outputs.raster_files(results), *paths)
         summary = make_maps(self._sources, files, request, progress)

@@ -9,7 +9,7 @@ from qgis.core import QgsProcessingContext, QgsProcessingOutputNumber
 from .. import compat
 from .base import BareEarthAlgorithm
 from .feedback import FeedbackProgress
-from .inputs import ANY_CLOUD_HELP, PointCloudInput, ignored_filter, name_of, source_path
+from .inputs import ANY_CLOUD_HELP, SurveyInput, ignored_filter, name_of, source_path
 from .outputs import add_cloud
 
 
@@ -35,7 +35,7 @@ class ProductAlgorithm(BareEarthAlgorithm):
 
     def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
         """Declare the fields of the dialog and the results."""
-        self.addParameter(PointCloudInput("INPUT", "Classified point cloud"), ANY_CLOUD_HELP)
+        self.addParameter(SurveyInput("INPUT", "Classified point cloud"), ANY_CLOUD_HELP)
         self.add_declared()
         self.add_outputs()
         for name, label in self.numbers:
@@ -44,7 +44,7 @@ class ProductAlgorithm(BareEarthAlgorithm):
     def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
         """Find the input file."""
         self.source = source_path(self, parameters, "INPUT", context)
-        self.subject = name_of(self.source)
+        self.inputs, self.subject = [self.source], name_of(self.source)
 
     def prepare(
         self,

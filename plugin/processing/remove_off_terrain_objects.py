@@ -57,6 +57,7 @@ class RemoveOffTerrainObjectsAlgorithm(BareEarthAlgorithm):
         if layer is None or layer.providerType() != "gdal":
             raise Refusal(mark("The elevation raster is not a file. Export it as GeoTIFF first."))
         self._source, self.subject = layer.source(), layer.name()
+        self.inputs = [Path(self._source)]
 
     def compute(self, parameters, context, progress):
         """Remove the objects."""

@@ -27,7 +27,7 @@ SHARED_PARAMETERS = [
     "LOW_NOISE_CLASS", "LOW_NOISE_DEPTH", "BRIDGES", "BRIDGE_CLASS", "REMEMBER_CLASSES",
     "DTM_CELL_SIZE", "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
     "GROUND_ONLY", "AREA_ONLY", "HEIGHT_ABOVE_GROUND", "THREADS", "MEMORY",
-    "EXTENT", "BOUNDARY", "CORRECTIONS", "CORRECTIONS_FIELD",
+    "CORRECTIONS", "CORRECTIONS_FIELD",
     "BREAKLINES", "WATER", "RIVERS", "NO_GROUND",
     "OUTPUT", "DTM", "HILLSHADE",
 ]  # fmt: skip
@@ -36,7 +36,7 @@ SHARED_OUTPUTS = [
 ]  # fmt: skip
 PARAMETERS = {
     "bareearth:tindensification": [
-        "INPUT",
+        "INPUT", "EXTENT", "BOUNDARY",
         "PRESET", "MAX_BUILDING_SIZE", "MAX_TERRAIN_ANGLE", "ITERATION_ANGLE",
         "ITERATION_DISTANCE", "REDUCE_ANGLE_EDGE", "STOP_EDGE", "NOISE_DISTANCE",
         "GROUND_TOLERANCE", "GROUND_TOLERANCE_BELOW", "SLOPE_TOLERANCE", "ONLY_KEY_POINTS",
@@ -44,37 +44,38 @@ PARAMETERS = {
         *SHARED_PARAMETERS,
     ],
     "bareearth:pointcloudtoterrain": [
-        "INPUT", "INPUT_FOLDER",
+        "INPUT", "INPUT_FOLDER", "EXTENT", "BOUNDARY",
         "METHOD", "PRESET",
         "DTM_CELL_SIZE", "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
+        "CONTOUR_INTERVAL",
         "FROM_CLASSES", "SEED_CLASSES", "TO_CLASS", "RETURNS", "OTHERS",
         "LOW_NOISE_CLASS", "LOW_NOISE_DEPTH", "BRIDGES", "BRIDGE_CLASS", "REMEMBER_CLASSES",
-        "SURFACE_RETURNS", "MAX_EDGE", "CONTOUR_INTERVAL", "RELIEF_RADIUS", "THREADS", "MEMORY",
-        "EXTENT", "BOUNDARY", "CORRECTIONS", "CORRECTIONS_FIELD",
+        "SURFACE_RETURNS", "MAX_EDGE", "RELIEF_RADIUS", "THREADS", "MEMORY",
+        "CORRECTIONS", "CORRECTIONS_FIELD",
         "BREAKLINES", "WATER", "RIVERS", "NO_GROUND",
         "OUTPUT", "DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE", "RELIEF", "CONTOURS",
     ],
     "bareearth:gridminimum": [
-        "INPUT",
+        "INPUT", "EXTENT", "BOUNDARY",
         "PRESET", "CELL_SIZE", "HEIGHT_THRESHOLDS", "FINAL_HEIGHT", "MAX_OBJECT_SIZE",
         "GROUND_TOLERANCE", "SLOPE_TOLERANCE",
         *SHARED_PARAMETERS,
     ],
     "bareearth:slopefilter": [
-        "INPUT",
+        "INPUT", "EXTENT", "BOUNDARY",
         "PRESET", "SEARCH_RADIUS", "MIN_NEIGHBOURS", "SLOPE_THRESHOLD", "HEIGHT_THRESHOLD",
         "SLOPE_NORM", "CELL_SIZE", "MAX_BUILDING_SIZE", "GROUND_TOLERANCE", "SLOPE_TOLERANCE",
         *SHARED_PARAMETERS,
     ],
     "bareearth:classifytiles": [
-        "INPUT", "INPUT_FOLDER",
+        "INPUT", "INPUT_FOLDER", "EXTENT", "BOUNDARY",
         "METHOD", "PRESET",
         "FROM_CLASSES", "SEED_CLASSES", "TO_CLASS", "RETURNS", "OTHERS",
         "LOW_NOISE_CLASS", "LOW_NOISE_DEPTH", "BRIDGES", "BRIDGE_CLASS", "REMEMBER_CLASSES",
         "RECURSIVE", "FORMAT", "RESUME", "GROUND_ONLY", "AREA_ONLY", "HEIGHT_ABOVE_GROUND",
         "DTM_CELL_SIZE", "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
         "RASTER_PER_FILE",
-        "THREADS", "MEMORY", "EXTENT", "BOUNDARY", "CORRECTIONS", "CORRECTIONS_FIELD",
+        "THREADS", "MEMORY", "CORRECTIONS", "CORRECTIONS_FIELD",
         "BREAKLINES", "WATER", "RIVERS", "NO_GROUND",
         "OUTPUT_FOLDER", "OUTPUT_VPC", "DTM", "HILLSHADE",
     ],
@@ -287,6 +288,24 @@ def test_a_dialog_shows_eight_fields_at_most(each):
         # It is there to make them all, and QGIS cannot fold outputs away.
         fields = [p for p in fields if not p.isDestination()]
     assert len(fields) <= 8, [p.name() for p in fields]
+
+
+def test_what_users_look_for_is_in_front(registry):
+    advanced = QgsProcessingParameterDefinition.Flag.FlagAdvanced
+
+    def seen(name):
+        algorithm = registry.createAlgorithmById(f"bareearth:{name}")
+        fields = [p for p in algorithm.parameterDefinitions() if not p.isDestination()]
+        return [p.name() for p in fields if not p.flags() & advanced]
+
+    for name in ("tindensification", "gridminimum", "slopefilter"):
+        assert seen(name)[:2] == ["INPUT", "EXTENT"]
+    assert seen("pointcloudtoterrain") == [
+        "INPUT", "INPUT_FOLDER", "EXTENT", "METHOD", "PRESET", "DTM_CELL_SIZE", "CONTOUR_INTERVAL",
+    ]  # fmt: skip
+    whole = registry.createAlgorithmById("bareearth:pointcloudtoterrain")
+    interval = whole.parameterDefinition("CONTOUR_INTERVAL").description()
+    assert interval == "Contour interval [height units]"
 
 
 def test_the_help_has_the_order_of_the_dialog(each):
