@@ -35,7 +35,7 @@ def _add_assess(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> No
         "reference",
         metavar="REFERENCE",
         type=Path,
-        help="a file with the same points and their true classes",
+        help="a file with the same points and their true classes; one can be a part of the other",
     )
     add_json(parser, "")
     parser.add_argument("--report", metavar="FILE", type=Path, help="write a report (.html)")
@@ -93,8 +93,8 @@ COMMANDS = (
         "assess",
         "compare a classified file with a reference",
         "Compares the ground (class 2) of a classified file with a reference that holds"
-        " the same points: type I error (ground rejected), type II error (other accepted), total"
-        " error and kappa, in percent.",
+        " the same points, or a part of them: type I error (ground rejected), type II error"
+        " (other accepted), total error and kappa, in percent.",
         _add_assess,
         _assess,
     ),

@@ -54,6 +54,8 @@ class PointCloud:
         Scanner channel of each point, if the point format has it (6 to 10) and it was read.
     remembered : numpy.ndarray of uint8, shape (n,), optional
         The class that an earlier run gave each point, if the file has the dimension `REMEMBERED`.
+    gps_time : numpy.ndarray of float64, shape (n,), optional
+        GPS time of each point, if it was read.
     records : numpy.ndarray of uint8, shape (n, record length), optional
         The records of the file, if they were kept for writing.
     file : LasFile, optional
@@ -74,6 +76,7 @@ class PointCloud:
     crs: Crs
     scanner_channel: np.ndarray | None = None
     remembered: np.ndarray | None = None
+    gps_time: np.ndarray | None = None
     records: np.ndarray | None = None
     file: LasFile | None = None
 

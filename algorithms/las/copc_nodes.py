@@ -166,7 +166,9 @@ def read_pages(hierarchy: Hierarchy) -> dict[int, np.ndarray]:
     return pages
 
 
-def read_nodes(hierarchy: Hierarchy, nodes: np.ndarray) -> Iterator[laspy.PackedPointRecord]:
+def read_nodes(
+    hierarchy: Hierarchy, nodes: np.ndarray, times: bool = False
+) -> Iterator[laspy.PackedPointRecord]:
     """Yield the points of nodes, about a million at once.
 
     Parameters
@@ -175,6 +177,8 @@ def read_nodes(hierarchy: Hierarchy, nodes: np.ndarray) -> Iterator[laspy.Packed
         The octree.
     nodes : numpy.ndarray of HIERARCHY_ENTRY
         From `find_nodes`.
+    times : bool
+        Whether to read the GPS times, which are undefined otherwise.
 
     Raises
     ------
@@ -187,7 +191,7 @@ def read_nodes(hierarchy: Hierarchy, nodes: np.ndarray) -> Iterator[laspy.Packed
     with open_source(layout.path) as file:
         for batch in _batches(nodes):
             with damage_told(layout.path):
-                records = _decompress(layout, file, batch)
+                records = _decompress(layout, file, batch, times)
                 chunk = named(layout, records)
             _check_places(hierarchy, batch, chunk)
             yield chunk
@@ -249,7 +253,7 @@ def _batches(nodes: np.ndarray) -> Iterator[np.ndarray]:
     return (run for run in np.split(nodes, np.flatnonzero(np.diff(numbers)) + 1) if len(run))
 
 
-def _decompress(layout: LasFile, file: BinaryIO, nodes: np.ndarray) -> np.ndarray:
+def _decompress(layout: LasFile, file: BinaryIO, nodes: np.ndarray, times: bool) -> np.ndarray:
     import lazrs
 
     compressed = bytearray()
@@ -269,7 +273,7 @@ def _decompress(layout: LasFile, file: BinaryIO, nodes: np.ndarray) -> np.ndarra
         layout.laszip,
         records,
         list(zip(counts, sizes)),
-        selection_of(needed(layout)),
+        selection_of(needed(layout, times)),
     )
     return records
 

@@ -89,7 +89,7 @@ def report_html(
 <p>Type I error: the share of the reference's ground that was rejected. Type II error: the share of
 all other points that was accepted as ground. Kappa: the agreement beyond what chance alone gives.
 Ground of the reference: {_list(options.ground_classes)}.
-Left out: {_list(options.ignored_classes or ())}.</p>
+Left out: {_list(options.ignored_classes or ())}.{_alone(assessment)}</p>
 <h2>Where the errors are</h2>
 {_map(picture, units)}
 <h2>Confusion</h2>
@@ -108,6 +108,17 @@ def _figures(assessment: Assessment) -> str:
         "Points": f"{assessment.point_count:,}",
     }
     return "".join(f"<div><dt>{name}</dt><dd>{value}</dd></div>" for name, value in figures.items())
+
+
+def _alone(assessment: Assessment) -> str:
+    """Return a sentence on points that only one of the files has, if there are any."""
+    classified, reference = assessment.classified_only, assessment.reference_only
+    if not classified and not reference:
+        return ""
+    return (
+        f" Only points that both files have are compared: {classified:,} points of the classified"
+        f" file and {reference:,} of the reference have no partner."
+    )
 
 
 def _map(picture: Picture, units: Units) -> str:

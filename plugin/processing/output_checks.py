@@ -24,7 +24,7 @@ from ...algorithms.survey.files import is_one_file
 from ...algorithms.survey.vpc import SUFFIX, check_vpc
 from .inputs import is_empty
 
-Check = Callable[[Path, Sequence[Path]], None]
+Check = Callable[[Path, "tuple[Path, ...]"], None]
 
 
 def check_outputs(
@@ -75,11 +75,15 @@ def _check_of(output: QgsProcessingParameterDefinition) -> Check:
     ending = f".{output.defaultFileExtension()}"
     if ending in CONTOUR_FORMATS:
         return check_contour_output
-    checks = {".html": check_page, ".tif": check_raster_output, SUFFIX: _check_list}
+    checks: dict[str, Check] = {
+        ".html": check_page,
+        ".tif": check_raster_output,
+        SUFFIX: _check_list,
+    }
     return checks.get(ending, _check_points)
 
 
-def _check_points(path: Path, sources: Sequence[Path]) -> None:
+def _check_points(path: Path, sources: tuple[Path, ...]) -> None:
     """Check a point cloud; for many files, it is a folder, or gets another name."""
     if is_one_file(sources):
         check_cloud(sources[0], path)
@@ -87,15 +91,15 @@ def _check_points(path: Path, sources: Sequence[Path]) -> None:
         _check_folder(path, sources)
 
 
-def _check_folder(path: Path, sources: Sequence[Path]) -> None:
+def _check_folder(path: Path, sources: tuple[Path, ...]) -> None:
     """Check a folder, which is made if its own folder exists."""
     if not path.exists():
         check_output(path)
 
 
-def _check_list(path: Path, sources: Sequence[Path]) -> None:
+def _check_list(path: Path, sources: tuple[Path, ...]) -> None:
     """Check a virtual point cloud, which may be in the folder that the run makes."""
     check_vpc(path)
     if path.parent.parent.is_dir() and not path.parent.exists():
         return
-    check_output(path, tuple(sources))
+    check_output(path, sources)

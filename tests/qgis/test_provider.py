@@ -160,6 +160,8 @@ OUTPUTS = {
         "KAPPA",
         "TYPE_2_ERROR",
         "TOTAL_ERROR",
+        "CLASSIFIED_ONLY",
+        "REFERENCE_ONLY",
     ],
     "bareearth:removeoffterrainobjects": ["OUTPUT", "CELL_COUNT", "REMOVED_COUNT"],
 }
