@@ -23,12 +23,12 @@ from ...algorithms.core.errors import BareEarthError, Cancelled
 from ...algorithms.core.parameters import Declaration, ParameterSet, shown_value
 from ...algorithms.las.backends import install_hint, missing_packages
 from .. import compat
+from ..help_pages import address_of
 from ..i18n import tr
 from ..styles import layers
 from .area import check_area_only
 from .feedback import FeedbackProgress, Refusal, tell_error_once, tell_of_unknown
 from .fields import field_of, parameters_of
-from .help_pages import address_of
 from .output_checks import check_outputs
 from .outputs import NOTHING_STAYS, do_not_load
 from .presets import presets_of
