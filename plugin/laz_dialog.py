@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Callable, Mapping, Sequence
 
 from qgis.core import QgsApplication, QgsNetworkAccessManager, QgsTask
-from qgis.PyQt.QtCore import QProcess, QProcessEnvironment, Qt, QUrl
+from qgis.PyQt.QtCore import QProcess, QProcessEnvironment, Qt, QUrl, pyqtSignal
 from qgis.PyQt.QtNetwork import QNetworkProxy
 from qgis.PyQt.QtWidgets import (
     QDialog,
@@ -45,6 +45,9 @@ class LazDialog(QDialog):
     parent : QWidget or None
         The window of QGIS.
     """
+
+    # Emitted when lazrs was installed.
+    installed = pyqtSignal()
 
     def __init__(self, support: LazSupport, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -124,6 +127,8 @@ class LazDialog(QDialog):
             self.result.setText(self._task.error or tr("Done; no restart is needed."))
         self._task = None
         self._show_state()
+        if self._support.is_there:
+            self.installed.emit()
 
     def _show_state(self) -> None:
         working = self._task is not None

@@ -7,11 +7,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from qgis.core import Qgis, QgsApplication, QgsMessageLog, QgsSettings
-from qgis.PyQt.QtCore import QCoreApplication, QTimer
+from qgis.PyQt.QtCore import QCoreApplication, QTimer, QUrl
+from qgis.PyQt.QtGui import QDesktopServices
 from qgis.PyQt.QtWidgets import QPushButton
 
 from ..algorithms.las.backends import install_hint, missing_packages
 from .compat import QAction
+from .help_pages import address_of
 from .i18n import install, tr
 from .libraries.folders import BUNDLED, add_to_path, remove_if_uninstalled
 from .libraries.laz_support import LazSupport
@@ -34,7 +36,8 @@ class BareEarthPlugin:
         # None in qgis_process.
         self._iface = iface
         self._provider: BareEarthProvider | None = None
-        self._action: QAction | None = None
+        self._actions: list[QAction] = []
+        self._message: Any = None
         self._dialog: LazDialog | None = None
         # First, because the algorithms are listed in the user's language.
         self._translator = install()
@@ -59,9 +62,12 @@ class BareEarthPlugin:
     def initGui(self) -> None:
         """Add provider and menu to the QGIS window."""
         self.initProcessing()
-        self._action = QAction(tr("LAZ support…"), self._iface.mainWindow())
-        self._action.triggered.connect(self.show_laz_support)
-        self._iface.addPluginToMenu(_MENU, self._action)
+        entries = {tr("LAZ support…"): self.show_laz_support, tr("Documentation"): self.show_help}
+        for text, show in entries.items():
+            action = QAction(text, self._iface.mainWindow())
+            action.triggered.connect(show)
+            self._iface.addPluginToMenu(_MENU, action)
+            self._actions.append(action)
         if _missing_science():
             self._iface.messageBar().pushMessage(
                 _MENU, _missing_science(), Qgis.MessageLevel.Warning, 0
@@ -75,19 +81,25 @@ class BareEarthPlugin:
 
         if self._dialog is None:
             self._dialog = LazDialog(self._support, self._iface.mainWindow())
+            self._dialog.installed.connect(self._remove_message)
         self._dialog.show()
         self._dialog.raise_()
 
+    def show_help(self) -> None:
+        """Open the documentation that comes with the plugin."""
+        QDesktopServices.openUrl(QUrl(address_of("index")))
+
     def unload(self) -> None:
-        """Remove provider, menu and dialog."""
+        """Remove provider, menu, message and dialog."""
         if self._provider is not None:
             registry = QgsApplication.processingRegistry()
             registry.providerAdded.disconnect(self._provider.load_models)
             registry.removeProvider(self._provider)
             self._provider = None
-        if self._action is not None:
-            self._iface.removePluginMenu(_MENU, self._action)
-            self._action = None
+        for action in self._actions:
+            self._iface.removePluginMenu(_MENU, action)
+        self._actions = []
+        self._remove_message()
         if self._dialog is not None:
             self._dialog.stop()
             self._dialog.close()
@@ -113,8 +125,14 @@ class BareEarthPlugin:
         button = QPushButton(tr("LAZ support…"))
         button.clicked.connect(self.show_laz_support)
         message.layout().addWidget(button)
-        bar.pushWidget(message, Qgis.MessageLevel.Info, 0)
+        self._message = bar.pushWidget(message, Qgis.MessageLevel.Info, 0)
         QgsSettings().setValue(_TOLD, True)
+
+    def _remove_message(self) -> None:
+        """Remove the message on .laz files, unless the user did."""
+        if self._message is not None and self._message in self._iface.messageBar().items():
+            self._iface.messageBar().popWidget(self._message)
+        self._message = None
 
 
 def _missing_science() -> str:
@@ -122,5 +140,5 @@ def _missing_science() -> str:
     missing = missing_packages(["numpy", "scipy"])
     if not missing:
         return ""
-    text = tr("This QGIS has no {}.").format(", ".join(missing))
-    return f"{text} {install_hint(missing)}"
+    # In English as the hint is: a message in two languages is hard to read.
+    return f"This QGIS has no {', '.join(missing)}. {install_hint(missing)}"

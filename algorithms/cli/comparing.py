@@ -38,7 +38,7 @@ def _add_assess(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> No
         "reference",
         metavar="REFERENCE",
         type=Path,
-        help="a file with the same points and their true classes",
+        help="a file with the same points and their true classes; one can be a part of the other",
     )
     add_crs(parser)
     add_json(parser, "")
@@ -71,7 +71,7 @@ def _add_compare_settings(parser: argparse.ArgumentParser, arguments: Sequence[s
     add_inputs(parser)
     add_crs(parser)
     parser.add_argument("page", metavar="PAGE", type=Path, help="the page to write (.html)")
-    add_extent(parser, "the window", required=True)
+    add_extent(parser, "the window", "; without it, 250 x 250 m in the middle of the points")
     add_json(parser, "the figures ")
     add_parameters(
         parser, TrialOptions, Resources, titles=("What is compared", "Threads and memory")
@@ -99,8 +99,8 @@ COMMANDS = (
         "assess",
         "compare a classified file with a reference",
         "Compares the ground (class 2) of a classified file with a reference that holds"
-        " the same points: type I error (ground rejected), type II error (other accepted), total"
-        " error and kappa, in percent.",
+        " the same points, or a part of them: type I error (ground rejected), type II error"
+        " (other accepted), total error and kappa, in percent.",
         _add_assess,
         _assess,
     ),

@@ -37,13 +37,11 @@ def add_crs(parser: argparse.ArgumentParser, note: str = "") -> None:
     )  # fmt: skip
 
 
-def add_extent(
-    parser: argparse.ArgumentParser, what: str, more: str = "", required: bool = False
-) -> None:
+def add_extent(parser: argparse.ArgumentParser, what: str, more: str = "") -> None:
     """Add the option for a rectangle; `what` and `more` start and end its help."""
     parser.add_argument(
         "--extent", nargs=4, type=float, metavar=("XMIN", "YMIN", "XMAX", "YMAX"),
-        required=required, help=f"{what}, in the CRS of the points{more}",
+        help=f"{what}, in the CRS of the points{more}",
     )  # fmt: skip
 
 

@@ -6,7 +6,7 @@ import collections
 import re
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, wait
 from pathlib import Path
-from typing import Any
+from typing import Any, Sequence
 
 from ..core.errors import BareEarthError
 from ..core.progress import Progress
@@ -16,6 +16,8 @@ from .workers import SCHEDULER_GONE, Job, Running, Workers
 _POLL = 0.1
 # A point takes so many times as long in a block as for reading and writing.
 _BLOCK_WEIGHT = 2.0
+# A message names at most so many files.
+_MOST_NAMES = 3
 _DIED = (
     "The process that worked on it ended unexpectedly, perhaps because memory was short. Allow"
     " fewer threads, or less memory."
@@ -65,7 +67,9 @@ class JobQueue:
         self._waiting = list(tiles)
         self._uses = collections.Counter(file for job in tiles for file in job.files)
         self._running: dict[Running, Job] = {}
-        self._heard: dict[tuple[str, str], list[str]] = {}
+        # Messages with their files ("" for blocks), by kind, text without numbers, and whether they
+        # are about files.
+        self._heard: dict[tuple[str, str, bool], dict[str, str]] = {}
         self._total = max(sum(map(_weight, (*blocks, *tiles))), 1e-9)
         self._finished = 0.0
 
@@ -185,18 +189,32 @@ class JobQueue:
 
     def _hear(self, job: Job, outcome: JobResult) -> None:
         """Collect the messages of a job; without those that only give counts of a tile."""
-        is_tile = isinstance(job, TileJob)
+        name = job.tile.path.name if isinstance(job, TileJob) else ""
         for kind, text in outcome.messages:
-            if is_tile and kind == "warning":
-                text = f"{job.tile.path.name}: {text}"
-            if not is_tile or kind == "warning":
-                self._heard.setdefault((kind, _without_numbers(text)), []).append(text)
+            if not name or kind == "warning":
+                heard = self._heard.setdefault((kind, _without_numbers(text), bool(name)), {})
+                heard.setdefault(f"{name}: {text}" if name else text, name)
 
     def _tell(self) -> None:
-        """Report each message once, and count those that differ only in names and numbers."""
-        for (kind, _), texts in self._heard.items():
-            more = f" (And {len(texts) - 1:,} more like this.)" if len(texts) > 1 else ""
-            getattr(self._progress, kind)(texts[0] + more)
+        """Report each message once, with the files whose messages differ only in numbers."""
+        for (kind, _, of_files), heard in self._heard.items():
+            first, *others = heard
+            more = ""
+            if others and of_files:
+                more = (
+                    f" The same, with other numbers: {_listed([heard[each] for each in others])}."
+                )
+            elif others:
+                parts = "another part" if len(others) == 1 else f"{len(others):,} other parts"
+                more = f" The same, with other numbers, in {parts} of the survey."
+            getattr(self._progress, kind)(first + more)
+
+
+def _listed(names: Sequence[str]) -> str:
+    """Return the first names of files, and how many there are beyond."""
+    shown = ", ".join(sorted(names)[:_MOST_NAMES])
+    beyond = len(names) - _MOST_NAMES
+    return f"{shown} and {beyond:,} more" if beyond > 0 else shown
 
 
 def _without_numbers(text: str) -> str:

@@ -16,8 +16,7 @@ from ..crs.measurable import require_measurable
 from ..las.writing import check_writable
 from ..survey.files import Survey, open_survey
 from ..survey.shapes import Place
-from ..survey.vpc import SUFFIX as VPC_SUFFIX
-from ..survey.vpc import write_vpc
+from ..survey.vpc import check_vpc, write_vpc
 from .blocks import Blocks
 from .output import Output
 from .raster_files import RasterFiles
@@ -309,8 +308,7 @@ def _check_survey(survey: Survey, folder: Path, vpc: Path, searched: Sequence[Pa
                 f"The output {folder} is in the folder {each}, which is searched for inputs with"
                 " all its subfolders. Choose another output."
             )
-    if vpc.suffix.lower() != VPC_SUFFIX:
-        raise BareEarthError(f"Cannot write {vpc}: name it {VPC_SUFFIX}.")
+    check_vpc(vpc)
     if vpc.parent.resolve() != here:
         check_output(vpc)
 

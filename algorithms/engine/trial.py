@@ -7,10 +7,11 @@ from pathlib import Path
 from typing import Any, Iterable, Sequence
 
 from ..core.errors import BareEarthError
-from ..core.files import check_output, replacing
+from ..core.files import replacing
 from ..core.points import Box, box_in_words
 from ..core.progress import SILENT, Progress
 from ..core.threads import may_use
+from ..products.page import Units, check_page
 from ..products.profile import Profile, can_be_shown
 from ..products.trial_page import TrialPage
 from ..products.window_trial import Outcome, figures_of, line_across
@@ -31,6 +32,8 @@ class TrialSummary:
         The page that was written.
     read_count, point_count : int
         Numbers of points that were read, and of points in the window.
+    window : tuple of float
+        The window: smallest x and y, largest x and y in units of the CRS.
     context : float
         Metres that were read round the window.
     settings : list of dict
@@ -40,6 +43,7 @@ class TrialSummary:
     page: str
     read_count: int
     point_count: int
+    window: Box
     context: float
     settings: list[dict[str, Any]]
 
@@ -57,7 +61,7 @@ class TrialSummary:
 def compare_settings(
     sources: Iterable[Path],
     page: Path,
-    extent: Box,
+    extent: Box | None = None,
     options: TrialOptions = TrialOptions(),
     resources: Resources = Resources(),
     progress: Progress = SILENT,
@@ -74,8 +78,9 @@ def compare_settings(
         LAS, LAZ and COPC files, folders of them, virtual point clouds (.vpc) and lists (.txt).
     page : Path
         The HTML file to write, which contains its pictures.
-    extent : tuple of float
-        The window: smallest x and y, largest x and y in units of the CRS.
+    extent : tuple of float, optional
+        The window: smallest x and y, largest x and y in units of the CRS. By default, a square of
+        250 m in the middle of the survey.
     options : TrialOptions
         The settings, and how much is read round the window.
     resources : Resources
@@ -94,9 +99,7 @@ def compare_settings(
         If the user asked to stop; no page is left behind.
     """
     paths, page = [Path(each) for each in sources], Path(page)
-    check_output(page, tuple(paths))
-    if page.suffix.lower() not in (".html", ".htm"):
-        raise BareEarthError(f"Cannot write {page}: the page is HTML, name it .html.")
+    check_page(page, tuple(paths))
     settings, resources = options.chosen, resources.now()
     reach = max(each.reach for each in settings)
     context = min(reach, USUAL_CONTEXT) if options.context is None else options.context
@@ -119,7 +122,8 @@ def compare_settings(
         temporary.write_text(html, encoding="utf-8")
     progress(1.0)
     told = [{**a._asdict(), **b._asdict()} for a, b in zip(found.figures, found.commands)]
-    return TrialSummary(str(page), points.count, found.figures[0].point_count, context, told)
+    counts = points.count, found.figures[0].point_count
+    return TrialSummary(str(page), *counts, points.box, context, told)
 
 
 def _page(
@@ -136,8 +140,8 @@ def _page(
     profile = Profile.of(window, line, can_be_shown(first.classes, points.withheld))
     return TrialPage(
         paths,
-        f"Window: {box_in_words(points.box)} ({window.width:.0f} x {window.height:.0f} m)",
-        _notes(*seen),
+        f"Window: {box_in_words(points.box)} ({window.size})",
+        _notes(window.units, *seen),
         window,
         outcomes,
         [figures_of(window, each, first) for each in outcomes],
@@ -146,17 +150,17 @@ def _page(
     )
 
 
-def _notes(context: float, reach: float) -> list[str]:
+def _notes(units: Units, context: float, reach: float) -> list[str]:
     """Return notes that are needed to judge the pictures."""
     notes = [
-        f"{context:g} m round the window were read as well, to judge the points in it.",
+        f"{units.length(context)} round the window were read as well, to judge the points in it.",
         "All other parameters have their defaults. As in a run on all points, the present classes"
         " of the points decide which of them take part.",
     ]
     if context < reach:
         notes[0] += (
-            f" The settings look up to {reach:g} m far. So a run on all points may give other"
-            " classes near the edges of the window, mostly beside large buildings. Give more"
+            f" The settings look up to {units.length(reach)} far. So a run on all points may give"
+            " other classes near the edges of the window, mostly beside large buildings. Give more"
             " context to be sure."
         )
     return notes

@@ -19,10 +19,12 @@ from ..las.cloud import PointCloud, survey_frame
 from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
+from ..products.page import Units
 from ..products.window_trial import Line, Outcome, Window, outcome_of
 from ..survey.area import Area
 from ..survey.files import is_one_file, open_survey
-from ..survey.window import read_window
+from ..survey.middle import middle_window, nearest_window
+from ..survey.window import may_touch, read_window
 from .labelling import LabelGround
 from .memory import Resources
 from .memory_points import MemoryPoints, SurveyFile
@@ -83,7 +85,8 @@ class TrialPoints:
         parts = [cloud.points(slice(None), frame) for cloud in self.clouds]
         points = Points(*map(np.concatenate, zip(*parts)))
         inside = np.concatenate([Area(self.box).of(cloud) for cloud in self.clouds])
-        return Window(points, inside, width, height)
+        units = Units(frame.horizontal_unit, frame.vertical_unit)
+        return Window(points, inside, width, height, units)
 
     @property
     def withheld(self) -> np.ndarray:
@@ -145,7 +148,7 @@ class TrialPoints:
 
 def read_trial_points(
     paths: Sequence[Path],
-    box: Box,
+    box: Box | None,
     context: float,
     progress: Progress = SILENT,
     stated: str | None = None,
@@ -156,8 +159,9 @@ def read_trial_points(
     ----------
     paths : sequence of Path
         One file, or the inputs of a survey.
-    box : tuple of float
-        The window: smallest x and y, largest x and y in units of the CRS.
+    box : tuple of float or None
+        The window: smallest x and y, largest x and y in units of the CRS. None for the middle of
+        the survey; a message says where it is.
     context : float
         Metres to read round it.
     progress : Progress
@@ -172,7 +176,7 @@ def read_trial_points(
     Cancelled
         If the user asked to stop.
     """
-    area = Area(tuple(map(float, box)))
+    area = None if box is None else Area(tuple(map(float, box)))
     if is_one_file(paths):
         las = open_las(paths[0], stated)
         files, crs = [las], read_crs(las)
@@ -180,12 +184,20 @@ def read_trial_points(
     else:
         survey = open_survey(paths, progress=progress.part(0.0, 0.1), stated=stated)
         crs, extent = survey.crs, survey.box
-        wide = area.buffered_box(context / crs.horizontal_unit)
-        files = survey.touching(wide)
+        files = survey.tiles
     require_measurable("The survey", crs, extent)
+    wanted, unit = area, crs.horizontal_unit
+    area = area or Area(middle_window(files, unit))
     _check_width(area, crs)
-    clouds = _read(files, area.buffered_box(context / crs.horizontal_unit), progress)
-    if not any(area.of(cloud).any() for cloud in clouds):
+    clouds = _read(files, area, context / unit, progress.part(0.1, 1.0 if wanted else 0.8))
+    is_empty = not any(area.of(cloud).any() for cloud in clouds)
+    if is_empty and wanted is None:
+        area = Area(nearest_window(files, unit, progress.part(0.8, 0.9)))
+        clouds = _read(files, area, context / unit, progress.part(0.9, 1.0))
+        is_empty = not any(area.of(cloud).any() for cloud in clouds)
+    if wanted is None:
+        progress.choice(f"window in the middle of the points, {box_in_words(area.box)}")
+    if is_empty:
         raise BareEarthError(
             f"No point lies in the window ({box_in_words(area.box)}): the points lie in"
             f" {box_in_words(extent)}. Give the window in the CRS of the points."
@@ -203,7 +215,13 @@ def _check_width(area: Area, crs: Crs) -> None:
         )
 
 
-def _read(files: Sequence[LasFile], box: Box, progress: Progress) -> tuple[PointCloud, ...]:
+def _read(
+    files: Sequence[LasFile], area: Area, context: float, progress: Progress
+) -> tuple[PointCloud, ...]:
+    """Return the points in the area and round it, up to a distance in units of the CRS."""
+    box = area.buffered_box(context)
+    if len(files) > 1:  # a survey, whose headers are right
+        files = [file for file in files if may_touch(file, box)]
     parts = progress.shares(*[1.0] * len(files))
     clouds = [read_window(las, box, part) for las, part in zip(files, parts)]
     return tuple(cloud for cloud in clouds if cloud.count)

@@ -56,6 +56,8 @@ class PointCloud:
         Points in the overlap of flight strips, if the point format has this flag (6 to 10).
     remembered : numpy.ndarray of uint8, shape (n,), optional
         The class that an earlier run gave each point, if the file has the dimension `REMEMBERED`.
+    gps_time : numpy.ndarray of float64, shape (n,), optional
+        GPS time of each point, if it was read.
     records : numpy.ndarray of uint8, shape (n, record length), optional
         The records of the file, if they were kept for writing.
     file : LasFile, optional
@@ -77,6 +79,7 @@ class PointCloud:
     scanner_channel: np.ndarray | None = None
     overlap: np.ndarray | None = None
     remembered: np.ndarray | None = None
+    gps_time: np.ndarray | None = None
     records: np.ndarray | None = None
     file: LasFile | None = None
 

@@ -168,7 +168,7 @@ def read_pages(hierarchy: Hierarchy) -> dict[int, np.ndarray]:
 
 
 def read_nodes(
-    hierarchy: Hierarchy, nodes: np.ndarray, is_whole: bool = False
+    hierarchy: Hierarchy, nodes: np.ndarray, is_whole: bool = False, times: bool = False
 ) -> Iterator[laspy.PackedPointRecord]:
     """Yield the points of nodes, about a million at once.
 
@@ -180,6 +180,8 @@ def read_nodes(
         From `find_nodes`.
     is_whole : bool
         Whether to read all values of the points, or only those that a `PointCloud` needs.
+    times : bool
+        Whether to read the GPS times too, which are undefined otherwise.
 
     Raises
     ------
@@ -192,7 +194,7 @@ def read_nodes(
 
     layout = hierarchy.layout
     every = lazrs.DecompressionSelection(lazrs.SELECTIVE_DECOMPRESS_ALL)
-    selection = every if is_whole else selection_of(needed(layout))
+    selection = every if is_whole else selection_of(needed(layout, times))
     with open_source(layout.path) as file:
         for batch in _batches(nodes):
             with damage_told(layout.path):

@@ -21,7 +21,6 @@ from .sources import damaged, open_source
 
 # With the stack size of `algorithms.las`, 32 of these bytes do no harm, and 64 do.
 _RUN = b"\xff" * 32
-_WITH_TIMES = (1, 3, 4, 5, 6, 7, 8, 9, 10)
 _BLOCK = 1 << 24
 
 
@@ -33,7 +32,7 @@ def check_gps_times(layout: LasFile) -> None:
     BareEarthError
         If there are such times.
     """
-    if not layout.laszip or layout.point_format not in _WITH_TIMES:
+    if not layout.laszip or not layout.has_gps_times:
         return
     with open_source(layout.path) as file:
         pieces = _layers(layout, file) if layout.layers else _blocks(layout, file)

@@ -28,6 +28,7 @@ WAVEFORM_PACKETS = ("LASF_Spec", 65535)
 RECORD_LENGTHS = (20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67)
 # From this point format on, points can have more classes and returns.
 FIRST_EXTENDED_FORMAT = 6
+_WITHOUT_TIMES = (0, 2)
 # The integers of points have 32 bits. A few more are allowed, since extents are rounded.
 _MOST_STEPS = (1 << 31) + 16
 
@@ -185,6 +186,11 @@ class LasFile:
     def box(self) -> Box:
         """Smallest x and y, largest x and y in the header, in units of the CRS."""
         return (*self.minimum[:2], *self.maximum[:2])
+
+    @property
+    def has_gps_times(self) -> bool:
+        """Whether points have GPS times."""
+        return self.point_format not in _WITHOUT_TIMES
 
     @property
     def outer_box(self) -> Box:

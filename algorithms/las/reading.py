@@ -250,10 +250,13 @@ def require_packages(layout: LasFile) -> None:
     require(*(("laspy", "lazrs") if layout.is_compressed else ("laspy",)))
 
 
-def read_chunks(layout: LasFile) -> Iterator[laspy.PackedPointRecord]:
-    """Yield all points in parts, which are always the same. Parts share their memory."""
+def read_chunks(layout: LasFile, times: bool = False) -> Iterator[laspy.PackedPointRecord]:
+    """Yield all points in parts, which are always the same. Parts share their memory.
+
+    The GPS times are undefined in point formats 6 to 10, unless `times` is true.
+    """
     pieces = parts_of(layout.count, _CHUNK)
-    for records in read_records(layout, _CHUNK, columns=needed(layout), pieces=pieces):
+    for records in read_records(layout, _CHUNK, columns=needed(layout, times), pieces=pieces):
         yield named(layout, records)
 
 

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import contextlib
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import check_output, replacing
+from ..core.files import replacing
 from ..core.points import Frame, Points
 from ..core.progress import SILENT, Progress
-from ..las.cloud import PointCloud
-from ..las.opening import open_las
-from ..las.reading import read_cloud
 from ..rasters.geotiff import NODATA, RasterGrid
 from ..rasters.writing import check_raster_output, write_geotiff
 from .comparison import GROUND, Assessment, AssessmentOptions, Comparison, compare
+from .matching import match_files
+from .page import Units, check_page
 from .report import write_report
 
 
@@ -29,7 +29,9 @@ def assess_files(
     progress: Progress = SILENT,
     crs: str | None = None,
 ) -> Assessment:
-    """Compare two files that hold the same points, in any order.
+    """Compare the points that two files have in common, in any order.
+
+    One file can be a part of the other. Points without a partner are counted, but not compared.
 
     Parameters
     ----------
@@ -49,29 +51,29 @@ def assess_files(
     Raises
     ------
     BareEarthError
-        If a file cannot be read or written, the files do not hold the same points, or a map is
+        If a file cannot be read or written, the files have no points in common, or a map is
         wanted and the CRS is geographic.
     Cancelled
         If the user asked to stop.
     """
     if report is not None:
-        check_output(report, (classified, reference))
-        if report.suffix.lower() not in (".html", ".htm"):
-            raise BareEarthError(f"Cannot write {report}: the report is HTML, name it .html.")
+        check_page(report, (classified, reference))
     if error_map is not None:
         check_raster_output(error_map, (classified, reference))
-    result = read_cloud(open_las(classified, crs), progress.part(0.0, 0.3))
-    truth = read_cloud(open_las(reference, crs), progress.part(0.3, 0.6))
-    order_result, order_truth = _matching_orders(result, truth)
-    progress(0.64)
-    ground = result.classification[order_result] == GROUND
+    matched = match_files(classified, reference, progress.part(0.0, 0.64), crs)
+    (result, truth), (order, order_truth) = matched.clouds, matched.orders
+    ground = result.classification[order] == GROUND
     classes = truth.classification[order_truth]
-    assessment = compare(ground, classes, options)
+    assessment = replace(
+        compare(ground, classes, options),
+        classified_only=matched.alone[0],
+        reference_only=matched.alone[1],
+    )
     if assessment.point_count == 0:
         raise BareEarthError("All points are of ignored classes: there is nothing to assess.")
     progress(0.67)
     if report is not None or error_map is not None:
-        points = result.points(order_result)
+        points = result.points(order)
         progress(0.71)
         comparison = Comparison.of(ground, classes, options)
         progress(0.75)
@@ -86,7 +88,8 @@ def assess_files(
             if report is not None:
                 files = (classified, reference)
                 part = progress.part(0.85, 1.0)
-                write_report(report, assessment, comparison, points, options, files, part)
+                units = Units(result.crs.horizontal_unit, result.crs.vertical_unit)
+                write_report(report, assessment, comparison, points, options, files, part, units)
             progress(1.0)
     return assessment
 
@@ -117,28 +120,3 @@ def _write_error_map(
     share = np.where(count > 0, errors / np.maximum(count, 1), NODATA).astype(np.float32)
     shares = share.reshape(grid.rows, grid.columns)
     write_geotiff(target, shares, grid, NODATA, progress, "Share of wrong points, 0 to 1")
-
-
-def _matching_orders(one: PointCloud, other: PointCloud) -> tuple[np.ndarray | slice, ...]:
-    """Return slices or indices that put the points of both clouds into the same order.
-
-    Only a .copc.laz output has another order. Then both are sorted by integer coordinates and
-    return number, which differs for most points at the same place.
-    """
-    same = one.count == other.count
-    same = same and np.allclose(one.scale, other.scale) and np.allclose(one.offset, other.offset)
-    if same and all(np.array_equal(a, b) for a, b in zip(_columns(one), _columns(other))):
-        return slice(None), slice(None)
-    if same:
-        orders = np.lexsort(_columns(one)[::-1]), np.lexsort(_columns(other)[::-1])
-        pairs = zip(_columns(one), _columns(other))
-        if all(np.array_equal(a[orders[0]], b[orders[1]]) for a, b in pairs):
-            return orders
-    raise BareEarthError(
-        f"{one.path} and {other.path} do not hold the same points "
-        f"({one.count:,} and {other.count:,}). Compare a classified file with its own reference."
-    )
-
-
-def _columns(cloud: PointCloud) -> list[np.ndarray]:
-    return [cloud.x, cloud.y, cloud.z, cloud.return_number]

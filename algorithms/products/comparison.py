@@ -74,7 +74,8 @@ class Assessment:
 
     Type I error is the share of reference ground that was rejected, type II error the share of
     reference non-ground that was accepted, and total error the share of all points that are wrong.
-    Kappa is Cohen's kappa. All are in percent, and NaN if there are no points to count.
+    Kappa is Cohen's kappa. All are in percent, and NaN if there are no points to count. Points that
+    only one of the files has (`classified_only`, `reference_only`) are not counted.
 
     References
     ----------
@@ -93,6 +94,8 @@ class Assessment:
     total_error: float
     kappa: float
     classes: dict[int, dict[str, int]] = field(default_factory=dict)
+    classified_only: int = 0
+    reference_only: int = 0
 
     def as_dict(self) -> dict[str, Any]:
         """Return all figures for JSON; NaN becomes None."""
@@ -113,6 +116,11 @@ class Assessment:
             f"total error       {self.total_error:>12.2f} %",
             f"kappa             {self.kappa:>12.2f} %",
         ]
+        if self.classified_only or self.reference_only:
+            rows.append(
+                f"not compared      {self.classified_only:>12,}     points of the classified file"
+                f" only, and {self.reference_only:,} of the reference only"
+            )
         for value, counts in self.classes.items():
             rows.append(
                 f"reference class {value:>3} {counts['points']:>10,}     "

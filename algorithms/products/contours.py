@@ -42,7 +42,7 @@ class Contours(ParameterSet):
         None,
         kind="number",
         label="Contour interval",
-        unit="m or ft",
+        unit="height units",
         minimum=0.001,
         maximum=10_000.0,
         advanced=True,

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import base64
+import math
 from html import escape
+from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
-from ..core.errors import printable
+from ..core.errors import BareEarthError, printable
+from ..core.files import check_output
 from .pictures import Picture, png
 
 _STYLE = """
@@ -24,6 +28,67 @@ img { width: 100%; image-rendering: pixelated; border: 1px solid #bbb; box-sizin
        border: 1px solid #555; }
 .files { word-break: break-all; }
 """
+
+
+class Units(NamedTuple):
+    """The units of a survey, for pages: lengths and heights are computed in metres.
+
+    Attributes
+    ----------
+    horizontal, vertical : float
+        Metres in one unit.
+    """
+
+    horizontal: float = 1.0
+    vertical: float = 1.0
+
+    @property
+    def across(self) -> str:
+        """Symbol of the horizontal unit."""
+        return _symbol(self.horizontal)
+
+    @property
+    def up(self) -> str:
+        """Symbol of the vertical unit."""
+        return _symbol(self.vertical)
+
+    def length(self, metres: float, digits: int = 3) -> str:
+        """Return a length in the unit of the survey, with metres if these are another unit.
+
+        >>> Units().length(50.0), Units(0.3048).length(50.0)
+        ('50 m', '164 ft (50 m)')
+        """
+        if self.horizontal == 1.0:
+            return f"{metres:g} m"
+        return f"{metres / self.horizontal:.{digits}g} {self.across} ({metres:g} m)"
+
+    def height(self, metres: float) -> str:
+        """Return a height difference in the unit of the survey.
+
+        >>> Units(vertical=0.3048).height(0.5)
+        '1.64 ft'
+        """
+        return f"{metres / self.vertical:.2f} {self.up}"
+
+
+def _symbol(metres: float) -> str:
+    """Return the symbol of a unit; on a page, both kinds of feet are the same."""
+    if metres == 1.0:
+        return "m"
+    return "ft" if math.isclose(metres, 0.3048, rel_tol=1e-5) else f"units of {metres:g} m"
+
+
+def check_page(target: Path, sources: tuple[Path, ...] = ()) -> None:
+    """Refuse, before any work is done, a page that could not be written at the end.
+
+    Raises
+    ------
+    BareEarthError
+        If it is not named .html, or as for `check_output`.
+    """
+    check_output(target, sources)
+    if target.suffix.lower() not in (".html", ".htm"):
+        raise BareEarthError(f"Cannot write {target}: the page is HTML, name it .html.")
 
 
 def page_html(title: str, body: str, style: str = "") -> str:
@@ -68,7 +133,7 @@ def data_uri(pixels: np.ndarray) -> str:
     return "data:image/png;base64," + base64.b64encode(png(pixels)).decode("ascii")
 
 
-def map_figure(picture: Picture, name: str, caption: str = "") -> str:
+def map_figure(picture: Picture, name: str, caption: str = "", units: Units = Units()) -> str:
     """Return a map with a scale bar below it.
 
     Parameters
@@ -79,12 +144,14 @@ def map_figure(picture: Picture, name: str, caption: str = "") -> str:
         Alternative text for the picture, as plain text.
     caption : str
         Caption above the map, as plain text.
+    units : Units
+        The unit of the scale bar.
     """
-    width = picture.pixels.shape[1] * picture.cell_size
+    width = picture.pixels.shape[1] * picture.cell_size / units.horizontal
     length = round_length(width / 4)
     above = f"<figcaption>{text(caption)}</figcaption>" if caption else ""
     return f"""{above}<img src="{data_uri(picture.pixels)}" alt="{text(name)}">
-<div class="bar" style="width: {100 * length / width:.2f}%"></div>{length:g} m"""
+<div class="bar" style="width: {100 * length / width:.2f}%"></div>{length:g} {units.across}"""
 
 
 def key(colour: str, meaning: str) -> str:

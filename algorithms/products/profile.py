@@ -126,20 +126,23 @@ class Profile(NamedTuple):
 
     def _axes(self, window: Window) -> tuple[str, str]:
         """Return lines and labels of round heights and distances."""
-        grid, labels = [], []
-        step = round_length((self.highest - self.lowest) / 3)
-        for height in np.arange(np.ceil(self.lowest / step), self.highest / step) * step:
-            y = float(self._places(np.zeros(1), np.array([height]))[0][0])
+        grid, labels, units = [], [], window.units
+        low, high = self.lowest / units.vertical, self.highest / units.vertical
+        step = round_length((high - low) / 3)
+        for height in np.arange(np.ceil(low / step), high / step) * step:
+            y = float(self._places(np.zeros(1), np.array([height * units.vertical]))[0][0])
             grid.append(f'<path d="M0 {y:.1f}H{_WIDTH}"/>')
             labels.append(
-                f'<text x="-6" y="{y + 4:.1f}" text-anchor="end">{height + 0.0:g} m</text>'
+                f'<text x="-6" y="{y + 4:.1f}" text-anchor="end">{height + 0.0:g} {units.up}</text>'
             )
-        step = round_length(self.line.length / 4)
-        for length in np.arange(0.0, self.line.length + step / 100, step):
-            x = length / self.line.length * _WIDTH
+        whole = self.line.length / units.horizontal
+        step = round_length(whole / 4)
+        for length in np.arange(0.0, whole + step / 100, step):
+            x = length / whole * _WIDTH
             grid.append(f'<path d="M{x:.1f} 0V{_HEIGHT}"/>')
             labels.append(
-                f'<text x="{x:.1f}" y="{_HEIGHT + 16}" text-anchor="middle">{length:g} m</text>'
+                f'<text x="{x:.1f}" y="{_HEIGHT + 16}" text-anchor="middle">{length:g}'
+                f" {units.across}</text>"
             )
         return "".join(grid), "".join(labels)
 

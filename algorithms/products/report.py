@@ -9,7 +9,7 @@ from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..las.class_names import CLASSES
 from .comparison import Assessment, AssessmentOptions, Comparison
-from .page import key, map_figure, page_html, percent, text
+from .page import Units, key, map_figure, page_html, percent, text
 from .pictures import LONGEST_SIDE, Picture, Relief
 
 # These colours differ for colour-blind people and in print.
@@ -31,6 +31,7 @@ def write_report(
     options: AssessmentOptions,
     files: tuple[Path, Path],
     progress: Progress = SILENT,
+    units: Units = Units(),
 ) -> None:
     """Write the report of an assessment.
 
@@ -50,6 +51,8 @@ def write_report(
         The classified cloud and the reference.
     progress : Progress
         Receives progress.
+    units : Units
+        The units of the survey.
 
     Raises
     ------
@@ -57,7 +60,7 @@ def write_report(
         If the file cannot be written.
     """
     picture = draw_errors(points, comparison, progress.part(0.0, 0.7))
-    text = report_html(assessment, picture, options, files)
+    text = report_html(assessment, picture, options, files, units)
     progress(0.95)
     with replacing(target) as temporary:
         temporary.write_text(text, encoding="utf-8")
@@ -74,7 +77,11 @@ def draw_errors(points: Points, comparison: Comparison, progress: Progress = SIL
 
 
 def report_html(
-    assessment: Assessment, picture: Picture, options: AssessmentOptions, files: tuple[Path, Path]
+    assessment: Assessment,
+    picture: Picture,
+    options: AssessmentOptions,
+    files: tuple[Path, Path],
+    units: Units = Units(),
 ) -> str:
     """Return the page of the report; see `write_report`."""
     classified, reference = map(text, files)
@@ -83,9 +90,9 @@ def report_html(
 <p>Type I error: the share of the reference's ground that was rejected. Type II error: the share of
 all other points that was accepted as ground. Kappa: the agreement beyond what chance alone gives.
 Ground of the reference: {_list(options.ground_classes)}.
-Left out: {_list(options.ignored_classes or ())}.</p>
+Left out: {_list(options.ignored_classes or ())}.{_alone(assessment)}</p>
 <h2>Where the errors are</h2>
-{_map(picture)}
+{_map(picture, units)}
 <h2>Confusion</h2>
 {_confusion(assessment)}
 <h2>Classes of the reference</h2>
@@ -104,14 +111,26 @@ def _figures(assessment: Assessment) -> str:
     return "".join(f"<div><dt>{name}</dt><dd>{value}</dd></div>" for name, value in figures.items())
 
 
-def _map(picture: Picture) -> str:
+def _alone(assessment: Assessment) -> str:
+    """Return a sentence on points that only one of the files has, if there are any."""
+    classified, reference = assessment.classified_only, assessment.reference_only
+    if not classified and not reference:
+        return ""
+    return (
+        f" Only points that both files have are compared: {classified:,} points of the classified"
+        f" file and {reference:,} of the reference have no partner."
+    )
+
+
+def _map(picture: Picture, units: Units) -> str:
     rows, columns, _ = picture.pixels.shape
+    pixel = units.length(float(f"{picture.cell_size:.3g}"))
     return f"""<figure style="max-width: {LONGEST_SIDE * min(columns / rows, 1):.0f}px">
-{map_figure(picture, "Map of the errors")}
+{map_figure(picture, "Map of the errors", units=units)}
 </figure>
 <p>{key(TYPE_1, "type I: ground that was rejected")}
 {key(TYPE_2, "type II: other points that were accepted")}</p>
-<p>North is up. Grey is the relief of the highest points. A pixel is {picture.cell_size:.3g} m wide;
+<p>North is up. Grey is the relief of the highest points. A pixel is {pixel} wide;
 it takes the colour of its more frequent error, the stronger the more of its points are
 wrong.</p>"""
 

@@ -80,13 +80,13 @@ class TrialPage(NamedTuple):
         first = self.outcomes[0]
         notes = "".join(f"<li>{text(note)}</li>" for note in self.notes)
         profiles = "".join(map(self._profile, self.outcomes, self.commands))
-        cell = self.window.cell_size
+        cell = self.window.units.length(self.window.cell_size)
         body = f"""<p class="files">{"<br>".join(map(text, self.sources))}<br>{text(self.where)}</p>
 <ul>{notes}</ul>
 {self._table()}
 <h2>Terrain</h2>
 <div class="maps">{"".join(map(self._terrain, self.outcomes))}</div>
-<p>Hillshade of the terrain, lit from north-west; north is up, a pixel is {cell:g} m wide. Light
+<p>Hillshade of the terrain, lit from north-west; north is up, a pixel is {cell} wide. Light
 grey: no terrain. {key(_PROFILE, "where the profile lies")}</p>
 <h2>Differences from {text(first.label)}</h2>
 <div class="maps">{self._differences()}</div>
@@ -109,7 +109,7 @@ the colour of its more frequent difference, the stronger the more of its points 
                     f"{count:,} ({percent(100.0 * count / each.point_count)})"
                     for count in (each.gained, each.lost)
                 ]
-                others.append("none" if apart is None else f"{apart:.2f} m")
+                others.append("none" if apart is None else self.window.units.height(apart))
             cells = [percent(each.ground_share), f"{each.confidence:.0f} %", *others]
             row = "".join(f"<td>{cell}</td>" for cell in cells)
             rows.append(f'<tr><th class="text">{text(each.label)}</th>{row}</tr>')
@@ -129,7 +129,7 @@ Terrain differs by: the mean of the absolute differences in height.</p>"""
         pixels[np.isnan(outcome.terrain)] = _NO_TERRAIN
         _, row, column = self.profile.line.cells(self.window)
         pixels[row, column] = rgb(_PROFILE)
-        return _figure(Picture(pixels, self.window.cell_size), outcome.label)
+        return self._figure(Picture(pixels, self.window.cell_size), outcome.label)
 
     def _differences(self) -> str:
         inside, first = self.window.inside, self.outcomes[0]
@@ -139,7 +139,7 @@ Terrain differs by: the mean of the absolute differences in height.</p>"""
             ground = outcome.ground[inside]
             picture = relief.marked(ground & ~before, before & ~ground, (_GAINED, _LOST))
             label = "The highest points" if outcome is first else outcome.label
-            maps.append(_figure(picture, label))
+            maps.append(self._figure(picture, label))
         return "".join(maps)
 
     def _profile(self, outcome: Outcome, commands: Commands) -> str:
@@ -152,15 +152,17 @@ Terrain differs by: the mean of the absolute differences in height.</p>"""
 """
 
     def _about_profile(self) -> str:
-        strip, more = 2.0 * self.window.strip, self.profile.exaggeration
-        (x0, y0), (x1, y1) = self.profile.line.start, self.profile.line.end
+        units, more = self.window.units, self.profile.exaggeration
+        strip = units.length(float(f"{2.0 * self.window.strip:.2g}"), 2)
+        ends = self.profile.line.start, self.profile.line.end
+        (x0, y0), (x1, y1) = ((x / units.horizontal, y / units.horizontal) for x, y in ends)
+        unit = units.across
         return (
-            f"The profile runs from {x0:.0f} m east and {y0:.0f} m north of the lower left corner"
-            f" of the window to {x1:.0f} m east and {y1:.0f} m north of it, and shows the points of"
-            f" a strip {strip:.2g} m wide by class, but for noise. Heights are drawn {more:.2g}"
-            " times as large as lengths."
+            f"The profile runs from {x0:.0f} {unit} east and {y0:.0f} {unit} north of the lower"
+            f" left corner of the window to {x1:.0f} {unit} east and {y1:.0f} {unit} north of it,"
+            f" and shows the points of a strip {strip} wide by class, but for noise. Heights are"
+            f" drawn {more:.2g} times as large as lengths."
         )
 
-
-def _figure(picture: Picture, label: str) -> str:
-    return f"<figure>{map_figure(picture, label, label)}</figure>"
+    def _figure(self, picture: Picture, label: str) -> str:
+        return f"<figure>{map_figure(picture, label, label, self.window.units)}</figure>"

@@ -11,6 +11,7 @@ from ..core.points import Points
 from ..filters.shared.confidence import confidence
 from ..grids.cells import are_inside
 from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
+from .page import Units
 
 # Greatest number of cells along the longer side of the terrain, and the sides in metres that cells
 # can have below one metre. Larger cells have whole metres.
@@ -33,12 +34,23 @@ class Window(NamedTuple):
         Which points lie in the window.
     width, height : float
         Size of the window in metres.
+    units : Units
+        The units of the survey.
     """
 
     points: Points
     inside: np.ndarray
     width: float
     height: float
+    units: Units = Units()
+
+    @property
+    def size(self) -> str:
+        """The size in words, in the unit of the survey and in metres."""
+        unit, metric = self.units.horizontal, f"{self.width:.0f} x {self.height:.0f} m"
+        if unit == 1.0:
+            return metric
+        return f"{self.width / unit:.0f} x {self.height / unit:.0f} {self.units.across}, {metric}"
 
     @property
     def cell_size(self) -> float:

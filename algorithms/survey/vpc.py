@@ -116,6 +116,12 @@ def read_vpc(path: Path) -> list[Path]:
     return files
 
 
+def check_vpc(path: Path) -> None:
+    """Refuse a name that is not one of a virtual point cloud; raise BareEarthError."""
+    if path.suffix.lower() != SUFFIX:
+        raise BareEarthError(f"Cannot write {path}: name it {SUFFIX}.")
+
+
 def write_vpc(
     path: Path,
     files: Iterable[Path],
@@ -150,8 +156,7 @@ def write_vpc(
         If the user asked to stop.
     """
     path, files = Path(path), [Path(each) for each in files]
-    if path.suffix.lower() != SUFFIX:
-        raise BareEarthError(f"Cannot write {path}: name it {SUFFIX}.")
+    check_vpc(path)
     if not files:
         raise BareEarthError(f"Cannot write {path}: there are no files to list. Give at least one.")
     check_output(path, tuple(files))

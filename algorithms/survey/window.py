@@ -30,6 +30,7 @@ def read_window(
     progress: Progress = SILENT,
     trust_header: bool = False,
     whole: PointCloud | None = None,
+    times: bool = False,
 ) -> PointCloud:
     """Read the points of a LAS, LAZ or COPC file that lie in a rectangle.
 
@@ -49,6 +50,8 @@ def read_window(
         If the header is wrong, points are missed.
     whole : PointCloud, optional
         All points of the file, if they were read before.
+    times : bool
+        Whether to read the GPS times, too.
 
     Returns
     -------
@@ -68,21 +71,21 @@ def read_window(
     require_packages(layout)
     if layout.is_copc and whole is None:
         try:
-            return _cloud(layout, _in_nodes(layout, area, progress), progress)
+            return _cloud(layout, _in_nodes(layout, area, progress, times), progress, times)
         except OctreeError as error:
             progress.warning(f"{error} The whole file is read instead, which takes longer.")
     if trust_header and not may_touch(layout, box):
-        return _cloud(layout, iter(()), progress)
-    chunks = read_chunks(layout) if whole is None else _chunks_of(whole, layout)
-    return _cloud(layout, _in_chunks(layout, area, chunks, progress), progress)
+        return _cloud(layout, iter(()), progress, times)
+    chunks = read_chunks(layout, times) if whole is None else _chunks_of(whole, layout)
+    return _cloud(layout, _in_chunks(layout, area, chunks, progress, times), progress, times)
 
 
-def _in_nodes(layout: LasFile, area: Area, progress: Progress) -> Iterator[Columns]:
+def _in_nodes(layout: LasFile, area: Area, progress: Progress, times: bool) -> Iterator[Columns]:
     hierarchy = read_hierarchy(layout)
     nodes = find_nodes(hierarchy, area.bounds)
     done, total = 0, int(nodes["count"].sum(dtype=np.int64))
-    for chunk in read_nodes(hierarchy, nodes):
-        yield _inside(layout, area, chunk)
+    for chunk in read_nodes(hierarchy, nodes, times=times):
+        yield _inside(layout, area, chunk, times)
         done += len(chunk)
         progress(done / total)
 
@@ -94,11 +97,11 @@ def _chunks_of(whole: PointCloud, layout: LasFile) -> Iterator[Columns]:
 
 
 def _in_chunks(
-    layout: LasFile, area: Area, chunks: Iterable[Chunk], progress: Progress
+    layout: LasFile, area: Area, chunks: Iterable[Chunk], progress: Progress, times: bool
 ) -> Iterator[Columns]:
     done, is_outside = 0, False
     for chunk in chunks:
-        yield _inside(layout, area, chunk)
+        yield _inside(layout, area, chunk, times)
         is_outside |= _leaves_header(layout, chunk)
         done += len(chunk["X"])
         progress(done / layout.count)
@@ -110,7 +113,7 @@ def _in_chunks(
         )
 
 
-def _inside(layout: LasFile, area: Area, chunk: Chunk) -> Columns:
+def _inside(layout: LasFile, area: Area, chunk: Chunk, times: bool) -> Columns:
     """Return the columns of the points of a chunk that lie in the area."""
     x, y = (
         np.asarray(chunk[name]) * layout.scale[axis] + layout.offset[axis]
@@ -119,15 +122,15 @@ def _inside(layout: LasFile, area: Area, chunk: Chunk) -> Columns:
     which = np.flatnonzero(area.contains(x, y))
     return {
         name: np.asarray(chunk[source])[which].astype(kind)
-        for name, (source, kind) in _columns(layout).items()
+        for name, (source, kind) in _columns(layout, times).items()
     }
 
 
-def _columns(layout: LasFile) -> dict[str, tuple[str, type]]:
+def _columns(layout: LasFile, times: bool = False) -> dict[str, tuple[str, type]]:
     """Return the columns to read: all except those that are needed only for writing."""
     columns = columns_of(layout)
     columns.pop("scanner_channel", None)
-    return columns
+    return {**columns, "gps_time": ("gps_time", np.float64)} if times else columns
 
 
 def _leaves_header(layout: LasFile, chunk: Chunk) -> bool:
@@ -149,8 +152,10 @@ def may_touch(layout: LasFile, box: Box) -> bool:
     return not is_one or Area(box=box).may_touch(layout.outer_box)
 
 
-def _cloud(layout: LasFile, parts: Iterator[Columns], progress: Progress) -> PointCloud:
-    names = _columns(layout)
+def _cloud(
+    layout: LasFile, parts: Iterator[Columns], progress: Progress, times: bool
+) -> PointCloud:
+    names = _columns(layout, times)
     kept: dict[str, list[np.ndarray]] = {
         name: [np.empty(0, dtype=kind)] for name, (_, kind) in names.items()
     }

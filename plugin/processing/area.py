@@ -11,16 +11,16 @@ from qgis.core import (
     QgsProcessingParameterFeatureSource,
 )
 
-from ...algorithms.core.errors import BareEarthError
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.core.progress import Progress
 from ...algorithms.engine.output import Output
 from ...algorithms.engine.raster_grid import ANYWHERE, RasterTarget
 from ...algorithms.survey.area import Area, Polygon
 from .. import compat
-from ..i18n import tr
+from ..i18n import mark
 from .constraints import add_constraints, constraints_of
 from .corrections import add_corrections, corrections_of
+from .feedback import Refusal
 from .inputs import CloudCrs, features_of, is_empty, polygons_of
 from .raster_target import add_raster_target, raster_target_of
 
@@ -39,7 +39,7 @@ _AREA_FIELDS = {
     ),
 }
 # Their help in algorithms that make nothing outside of the area.
-_MAPPED = {
+MAPPED = {
     "EXTENT": "Only points in this rectangle are mapped and written. Points nearby help to judge."
     " Empty: all points.",
     "BOUNDARY": "Only points in these polygons are mapped and written; with an extent, only points"
@@ -110,7 +110,7 @@ def area_of(
         features = features_of(source, _AREA_FIELDS["BOUNDARY"][0], crs.value, context)
         polygons = tuple(each for one in features for each in polygons_of(one.geometry()))
         if not polygons:
-            raise BareEarthError(tr("The boundary holds no polygon. Choose one that does."))
+            raise Refusal(mark("The boundary holds no polygon. Choose one that does."))
     return Area(box, polygons)
 
 
@@ -132,10 +132,8 @@ def area_options(area: Area | None, progress: Progress, is_all: bool = False) ->
     options = ["--area-only"] if is_all else []
     if area.polygons:
         progress.info(
-            tr(
-                "In the command line the boundary is missing: save it in the CRS of the points"
-                " as boundary.geojson, and add --boundary boundary.geojson."
-            )
+            "In the command line the boundary is missing: save it in the CRS of the points"
+            " as boundary.geojson, and add --boundary boundary.geojson."
         )
     return [*options, *(["--extent", *map(repr, area.box)] if area.box else [])]
 
@@ -150,16 +148,8 @@ def given_options(crs: str | None, raster_target: RasterTarget, **others: Any) -
 NOTHING_GIVEN = given_options(None, ANYWHERE)
 
 
-def add_limits(
-    algorithm: QgsProcessingAlgorithm,
-    advanced: Sequence[str] = ("BOUNDARY",),
-    is_all: bool = False,
-) -> None:
-    """Add the fields of an area, of corrections, constraints and rasters to a dialog.
-
-    `advanced` is as for `add_area`; `is_all` says that nothing is made outside of the area.
-    """
-    add_area(algorithm, advanced, _MAPPED if is_all else {})
+def add_limits(algorithm: QgsProcessingAlgorithm) -> None:
+    """Add the fields of corrections, constraints and rasters to a dialog."""
     add_corrections(algorithm)
     add_constraints(algorithm)
     add_raster_target(algorithm)

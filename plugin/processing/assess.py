@@ -17,11 +17,12 @@ _INPUTS = {
         "Classified point cloud",
         "The point cloud to check. Its class 2 counts as ground, all other classes do not.",
     ),
-    "REFERENCE": ("Reference", "The same points with their true classes, in any order."),
+    "REFERENCE": ("Reference", "The same points, or some of them, with their true classes."),
 }
 _NUMBERS = {
     "POINT_COUNT": "Points", "TYPE_1_ERROR": "Type I error [%]", "KAPPA": "Kappa [%]",
     "TYPE_2_ERROR": "Type II error [%]", "TOTAL_ERROR": "Total error [%]",
+    "CLASSIFIED_ONLY": "Classified points only", "REFERENCE_ONLY": "Reference points only",
 }  # fmt: skip
 
 
@@ -33,9 +34,9 @@ class AssessAlgorithm(BareEarthAlgorithm):
     summary = "Compares a classified point cloud with a reference: type I and II error, kappa."
     about = (
         "Compares the ground of a classified point cloud with a reference that holds the same"
-        " points. Type I error: the share of the reference's ground that was rejected. Type II"
-        " error: the share of all other points that was accepted as ground. The report is a web"
-        " page with a map."
+        " points, or a part of them. Type I error: the share of the reference's ground that was"
+        " rejected. Type II error: the share of all other points that was accepted as ground. The"
+        " report is a web page with a map."
     )
 
     def parameter_sets(self):
@@ -60,8 +61,8 @@ class AssessAlgorithm(BareEarthAlgorithm):
 
     def find_inputs(self, parameters, context):
         """Find the input files."""
-        self._files = [source_path(self, parameters, name, context) for name in _INPUTS]
-        self.subject = name_of(self._files[0])
+        self.inputs = [source_path(self, parameters, name, context) for name in _INPUTS]
+        self.subject = name_of(self.inputs[0])
 
     def compute(self, parameters, context, progress):
         """Compare them."""
@@ -71,9 +72,9 @@ class AssessAlgorithm(BareEarthAlgorithm):
             "ERROR_MAP": self.parameterAsOutputLayer(parameters, "ERROR_MAP", context),
         }
         flags = dict(zip(("report", "error-map", "crs"), (*paths.values(), self.stated)))
-        progress.command(command_line("assess", [*map(str, self._files)], [options], flags))
+        progress.command(command_line("assess", [*map(str, self.inputs)], [options], flags))
         outputs = (Path(path) if path else None for path in paths.values())
-        assessment = assess_files(*self._files, options, *outputs, progress, self.stated)
+        assessment = assess_files(*self.inputs, options, *outputs, progress, self.stated)
         progress.info("\n".join(assessment.lines()))
         numbers = {name: assessment.as_dict()[name.lower()] for name in _NUMBERS}
         return {name: it for name, it in {**paths, **numbers}.items() if it not in (None, "")}

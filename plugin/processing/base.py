@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 from html import escape
 from pathlib import Path
-from typing import Any, Iterator, Mapping
+from typing import Any, Iterator, Mapping, Sequence
 
 from qgis.core import (
     QgsProcessingAlgorithm,
@@ -23,15 +23,16 @@ from ...algorithms.core.errors import BareEarthError, Cancelled
 from ...algorithms.core.parameters import Declaration, ParameterSet, shown_value
 from ...algorithms.las.backends import install_hint, missing_packages
 from .. import compat
+from ..help_pages import address_of
 from ..i18n import tr
 from ..styles import layers
 from ..styles.metadata import Origin, settings_of
 from ..styles.stage import Stage
 from .area import check_area_only
-from .feedback import FeedbackProgress, tell_of_unknown
+from .feedback import FeedbackProgress, Refusal, tell_error_once, tell_of_unknown
 from .fields import field_of, parameters_of
-from .help_pages import address_of
 from .inputs import CloudCrs
+from .output_checks import check_outputs
 from .outputs import NOTHING_STAYS, do_not_load, places_of
 from .presets import presets_of
 from .search_words import words_of
@@ -61,6 +62,8 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         The declared parameters that are not advanced. None: as they are declared.
     unused : tuple of str
         The declared parameters without a field, since no output depends on them.
+    inputs : sequence of Path
+        The input files and folders; set by `find_inputs`.
     subject : str
         Name of the input; set by `find_inputs`.
     stated : str or None
@@ -74,6 +77,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
     shown: tuple[str, ...] | None = None
     stated: str | None = None
     unused: tuple[str, ...] = ()
+    inputs: Sequence[Path] = ()
 
     def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
         """Return the declared parameters, in the order of the dialog."""
@@ -89,7 +93,13 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         raise NotImplementedError
 
     def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
-        """Find the input files, and set `subject`; raise BareEarthError if they do not exist."""
+        """Find the input files, and set `inputs` and `subject`.
+
+        Raises
+        ------
+        BareEarthError
+            If a file does not exist.
+        """
 
     def prepare(
         self,
@@ -105,6 +115,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         check_area_only(parameters, self.chosen(parameters, context))
         stated_crs_of(self, parameters, context)
         self.find_inputs(parameters, context)
+        check_outputs(self, parameters, context, self.inputs)
 
     def chosen(
         self, parameters: dict[str, Any], context: QgsProcessingContext
@@ -131,8 +142,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         return super().addOutput(output)
 
     def _is_shown(self, declaration: Declaration) -> bool:
-        is_among = self.shown is None or declaration.name in self.shown
-        return is_among and not declaration.advanced
+        return not declaration.advanced if self.shown is None else declaration.name in self.shown
 
     def add_numbers(self, numbers: Mapping[str, str]) -> None:
         """Add outputs that are numbers, given their names and labels."""
@@ -223,8 +233,8 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         # lazrs is needed only for .laz, and these give a message of their own.
         if missing:
             missing = missing_packages(["laspy", "lazrs"])
-            needed = tr("{} must be installed first.").format(", ".join(missing))
-            return False, f"{needed} {install_hint(missing)}"
+            # In English as the hint is: a message in two languages is hard to read.
+            return False, f"{', '.join(missing)} must be installed first. {install_hint(missing)}"
         return True, ""
 
     def checkParameterValues(
@@ -233,6 +243,8 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         """Check values with the messages of the declarations first, then as QGIS does."""
         try:
             self.check(parameters, context)
+        except Refusal as refusal:
+            return False, refusal.translated
         except BareEarthError as error:
             return False, str(error)
         return super().checkParameterValues(parameters, context)
@@ -244,6 +256,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         feedback: QgsProcessingFeedback,
     ) -> bool:
         """Run `prepare`."""
+        tell_error_once(False)
         tell_of_unknown(self, parameters, feedback)
         with errors_for_qgis():
             self.stated = stated_crs_of(self, parameters, context)
@@ -270,7 +283,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
             with errors_for_qgis():
                 results = self.compute(parameters, context, progress)
         except Cancelled:
-            feedback.pushInfo(tr(self.cancelled))
+            feedback.pushInfo(self.cancelled)
         finally:
             if not results:
                 do_not_load(context, set(context.layersToLoadOnCompletion()) - before)
@@ -303,13 +316,15 @@ def _plain(text: str) -> str:
 
 @contextlib.contextmanager
 def errors_for_qgis() -> Iterator[None]:
-    """Turn errors into exceptions that QGIS shows without a traceback."""
+    """Turn errors into exceptions that QGIS shows without a traceback, and only once."""
     try:
         yield
-    except BareEarthError as error:
-        raise QgsProcessingException(str(error)) from error
-    except MemoryError as error:
-        raise QgsProcessingException(tr("There is not enough memory for this file.")) from error
+    except (BareEarthError, MemoryError) as error:
+        text = "There is not enough memory for this file."
+        tell_error_once(True)
+        raise QgsProcessingException(
+            text if isinstance(error, MemoryError) else str(error)
+        ) from error
 
 
 def command_line(

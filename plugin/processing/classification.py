@@ -14,8 +14,7 @@ from ...algorithms.filters import METHODS
 from ...algorithms.products.surface_model import Gaps
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
-from ..i18n import tr
-from .area import add_limits, area_options, given_options, limits_of
+from .area import add_area, add_limits, area_options, given_options, limits_of
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified
 from .feedback import FeedbackProgress
@@ -67,6 +66,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         """Declare the fields of the dialog and the results."""
         self.addParameter(PointCloudInput("INPUT", "Point cloud"), CLOUD_HELP)
         add_crs(self)
+        add_area(self)
         self.add_declared()
         add_limits(self)
         add_cloud(self)
@@ -79,7 +79,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
     def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
         """Find the input file."""
         self._source = source_path(self, parameters, "INPUT", context)
-        self.subject = name_of(self._source)
+        self.inputs, self.subject = [self._source], name_of(self._source)
 
     def prepare(
         self,
@@ -90,7 +90,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         """Find the input, and read area, corrections and constraints."""
         super().prepare(parameters, context, progress)
         if ignored_filter(self, parameters, "INPUT", context):
-            progress.warning(tr("The layer's filter is not applied: all points are read."))
+            progress.warning("The layer's filter is not applied: all points are read.")
         crs = self.crs_of(self._source)
         self._limits = limits_of(self, parameters, context, crs, progress)
 

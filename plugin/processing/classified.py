@@ -10,7 +10,6 @@ from qgis.core import QgsProcessingContext, QgsProcessingUtils
 from ...algorithms.core.errors import BareEarthError, Cancelled
 from ...algorithms.survey.overview import overview_of
 from .. import compat
-from ..i18n import tr
 from ..styles import clouds, layers
 from ..styles.rasters import is_class_raster
 from .base import BareEarthAlgorithm
@@ -60,7 +59,7 @@ def show_classified(
         if is_virtual:
             _load_virtual(algorithm, cloud, classes, context)
         return
-    progress.info(tr("This QGIS cannot show such a file as a layer. It is at {}.").format(cloud))
+    progress.info(f"This QGIS cannot show such a file as a layer. It is at {cloud}.")
     if not context.layersToLoadOnCompletion():
         return
     # Imported here, since it needs packages that QGIS may lack when it starts.

@@ -9,7 +9,7 @@ from ...algorithms.products.surface_model import Gaps
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
 from ..i18n import mark
-from .area import add_limits, area_options, given_options, limits_of
+from .area import add_area, add_limits, area_options, given_options, limits_of
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified
 from .inputs import add_clouds, clouds_of, names_of
@@ -41,8 +41,9 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""
         add_clouds(self)
+        add_area(self, advanced=("EXTENT", "BOUNDARY"))
         self.add_declared()
-        add_limits(self, advanced=("EXTENT", "BOUNDARY"))
+        add_limits(self)
         add_tiles(self)
         add_rasters(self, ("DTM", "HILLSHADE"))
         self.add_numbers(_NUMBERS)
@@ -50,7 +51,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
     def find_inputs(self, parameters, context):
         """Find the input files."""
         self._sources = clouds_of(self, parameters, context)
-        self.subject = names_of(self._sources)
+        self.inputs, self.subject = self._sources, names_of(self._sources)
 
     def prepare(self, parameters, context, progress):
         """Find the files, and read area, corrections and constraints."""

@@ -12,11 +12,12 @@ from ...algorithms.engine.trial_options import TrialOptions
 from ..i18n import tr
 from .area import area_of
 from .base import BareEarthAlgorithm, command_line
-from .inputs import ANY_CLOUD_HELP, PointCloudInput, add_crs, name_of, source_path
+from .inputs import ANY_CLOUD_HELP, SurveyInput, add_crs, name_of, source_path
 
 _EXTENT_HELP = (
     "The window to classify, such as the map's extent: at most 1,000 m wide, and quick up to about"
-    " 250 x 250 m. It is transformed to the CRS of the points."
+    " 250 x 250 m. It is transformed to the CRS of the points. Empty: 250 x 250 m in the middle of"
+    " the points; the log says where."
 )
 
 
@@ -40,8 +41,8 @@ class CompareSettingsAlgorithm(BareEarthAlgorithm):
 
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""
-        self.addParameter(PointCloudInput("INPUT", "Point cloud"), ANY_CLOUD_HELP)
-        self.addParameter(Extent("EXTENT", "Window"), _EXTENT_HELP)
+        self.addParameter(SurveyInput("INPUT", "Point cloud"), ANY_CLOUD_HELP)
+        self.addParameter(Extent("EXTENT", "Window", None, True), _EXTENT_HELP)
         add_crs(self)
         self.add_declared()
         self.addParameter(
@@ -52,12 +53,13 @@ class CompareSettingsAlgorithm(BareEarthAlgorithm):
     def find_inputs(self, parameters, context):
         """Find the input."""
         self._source = source_path(self, parameters, "INPUT", context)
-        self.subject = name_of(self._source)
+        self.inputs, self.subject = [self._source], name_of(self._source)
 
     def prepare(self, parameters, context, progress):
         """Find the input, and read the window in the CRS of the points."""
         super().prepare(parameters, context, progress)
-        self._window = area_of(self, parameters, context, self.crs_of(self._source)).box
+        area = area_of(self, parameters, context, self.crs_of(self._source))
+        self._window = area.box if area else None
 
     def compute(self, parameters, context, progress):
         """Make the page."""
@@ -68,7 +70,8 @@ class CompareSettingsAlgorithm(BareEarthAlgorithm):
         page = self.parameterAsFileOutput(parameters, "OUTPUT", context)
         words = [str(self._source), page]
         command = command_line("compare-settings", words, chosen, {"crs": self.stated})
-        progress.command(" ".join([command, "--extent", *map(repr, self._window)]))
+        window = ["--extent", *map(repr, self._window)] if self._window else []
+        progress.command(" ".join([command, *window]))
         options, resources = TrialOptions.among(chosen), Resources.among(chosen)
         files = [self._source], Path(page)
         summary = compare_settings(*files, self._window, options, resources, progress, self.stated)

@@ -15,7 +15,6 @@ from qgis.core import (
 from ...algorithms.core.progress import Progress
 from ...algorithms.engine.constraints import Constraints
 from .. import compat
-from ..i18n import tr
 from .inputs import CloudCrs, features_of, is_empty, polygons_of
 
 # Name, label, kind of the layer and help of each field.
@@ -85,10 +84,8 @@ def constraints_of(
         features = features_of(source, label, crs.value, context)
         found[name.lower()] = tuple(each for one in features for each in shapes(one.geometry()))
     progress.info(
-        tr(
-            "In the command line some layers are missing: save each in the CRS of the points as"
-            " GeoJSON, and add {}."
-        ).format(" ".join(map(_option, given)))
+        "In the command line some layers are missing: save each in the CRS of the points as"
+        f" GeoJSON, and add {' '.join(map(_option, given))}."
     )
     return Constraints(**found)
 

@@ -11,11 +11,11 @@ from qgis.core import (
     QgsProcessingParameterField,
 )
 
-from ...algorithms.core.errors import BareEarthError
 from ...algorithms.core.progress import SILENT, Progress
 from ...algorithms.survey.corrections import CLASS_FIELD, NO_CORRECTIONS, Corrections
 from .. import compat
-from ..i18n import tr
+from ..i18n import mark
+from .feedback import Refusal
 from .inputs import CloudCrs, features_of, is_empty, polygons_of
 
 _LAYER, _FIELD = "CORRECTIONS", "CORRECTIONS_FIELD"
@@ -68,15 +68,13 @@ def corrections_of(
     name = algorithm.parameterAsString(parameters, _FIELD, context) or CLASS_FIELD
     source = algorithm.parameterAsSource(parameters, _LAYER, context)
     if source is not None and source.fields().lookupField(name) < 0:
-        raise BareEarthError(
-            tr("The corrections have no attribute {}. Choose the one to use.").format(name)
-        )
-    text = tr(
+        text = mark("The corrections have no attribute {}. Choose the one to use.")
+        raise Refusal(text, name)
+    progress.info(
         "In the command line the corrections are missing: save them in the CRS of the points as"
-        ' corrections.geojson, their class as the attribute "{}", and add --corrections'
+        f' corrections.geojson, their class as the attribute "{CLASS_FIELD}", and add --corrections'
         " corrections.geojson."
     )
-    progress.info(text.format(CLASS_FIELD))
     found = [
         (polygon, feature[name])
         for feature in features_of(source, _TEXTS[_LAYER][0], crs.value, context, [name])

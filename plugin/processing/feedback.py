@@ -1,4 +1,9 @@
-"""Passes progress, messages and cancels between the classifier and a Processing dialog."""
+"""Passes progress, messages and cancels between the classifier and a Processing dialog.
+
+The log of a run is in English, whatever the language of QGIS: the classifier writes most of its
+lines, and lines in two languages would be hard to read, to search for and to report. Dialogs, and
+what they refuse before a run, are in the user's language (`Refusal`).
+"""
 
 from __future__ import annotations
 
@@ -6,12 +11,32 @@ import difflib
 import time
 from typing import Iterable, Mapping
 
-from qgis.core import QgsProcessingAlgorithm, QgsProcessingFeedback
+from qgis.core import QgsApplication, QgsProcessingAlgorithm, QgsProcessingFeedback
 
-from ...algorithms.core.errors import Cancelled
+from ...algorithms.core.errors import BareEarthError, Cancelled
 from ...algorithms.core.progress import Progress
+from ...algorithms.las.class_names import CLASSES
 from ..i18n import tr
-from ..styles.clouds import categories_of
+
+# The class that the log names first.
+_GROUND = 2
+
+
+class Refusal(BareEarthError):
+    """An error that the plugin finds: English in a log, and in the user's language in a dialog.
+
+    Parameters
+    ----------
+    text : str
+        The English text in `mark`, with fields as for `str.format`.
+    *values, **named : object
+        The values of the fields; labels of fields are translated, too.
+    """
+
+    def __init__(self, text: str, *values: object, **named: object) -> None:
+        super().__init__(text.format(*values, **named))
+        shown = {name: tr(str(value)) for name, value in named.items()}
+        self.translated = tr(text).format(*(tr(str(each)) for each in values), **shown)
 
 
 class FeedbackProgress(Progress):
@@ -56,10 +81,9 @@ class FeedbackProgress(Progress):
 
     def share(self, ground: int, count: int, in_area: bool = False) -> None:
         """Write the share of ground points into the log."""
-        text = tr("{ground:,} of {count:,} points are ground ({share:.1%}).")
-        if in_area:
-            text = tr("{ground:,} of {count:,} points in the area are ground ({share:.1%}).")
-        self.info(text.format(ground=ground, count=count, share=ground / max(count, 1)))
+        where = " in the area" if in_area else ""
+        share = ground / max(count, 1)
+        self.info(f"{ground:,} of {count:,} points{where} are ground ({share:.1%}).")
 
     def command(self, text: str) -> None:
         """Store a command that does the same without QGIS, for the end of the log."""
@@ -79,15 +103,15 @@ class FeedbackProgress(Progress):
             Points of each class in the output; empty if no point cloud was made.
         """
         every = max(sum(class_counts.values()), 1)
-        for value, (name, _) in categories_of(class_counts).items():
-            text = tr("Class {number} ({name}): {count:,} points ({share:.1%})")
-            count = class_counts[value]
-            self.info(text.format(number=value, name=name, count=count, share=count / every))
+        for value in sorted(class_counts, key=lambda value: (value != _GROUND, value)):
+            count, name = class_counts[value], CLASSES.get(value, "")
+            title = f"Class {value} ({name})" if name else f"Class {value}"
+            self.info(f"{title}: {count:,} points ({count / every:.1%})")
         for each in self._choices:
-            self.info(tr("Chosen automatically: {text}").format(text=each))
-        self.info(tr("Time: {seconds:.1f} s").format(seconds=time.monotonic() - self._begun))
+            self.info(f"Chosen automatically: {each}")
+        self.info(f"Time: {time.monotonic() - self._begun:.1f} s")
         if self._commands:
-            self.info(tr("The same without QGIS:"))
+            self.info("The same without QGIS:")
         for each in self._commands:
             self._feedback.pushCommandInfo(each)
 
@@ -107,8 +131,16 @@ def tell_of_unknown(
     """Warn of parameters that an algorithm does not have; QGIS ignores them silently."""
     known = [each.name() for each in algorithm.parameterDefinitions()]
     for name in sorted(set(given) - set(known)):
-        text = tr("There is no parameter {name}: it is ignored.").format(name=name)
+        text = f"There is no parameter {name}: it is ignored."
         near = difflib.get_close_matches(name.upper(), known, 1)
-        if near:
-            text += " " + tr("Did you mean {name}?").format(name=near[0])
-        feedback.pushWarning(text)
+        feedback.pushWarning(f"{text} Did you mean {near[0]}?" if near else text)
+
+
+def tell_error_once(is_failing: bool) -> None:
+    """Let qgis_process print the error of a failing run once; before a run, let it print all.
+
+    QGIS gives the error of a run to the feedback, which prints it, and twice to the message log,
+    which qgis_process prints, too. In a window, the message log is a panel of its own.
+    """
+    if QgsApplication.platform() == "qgis_process":
+        QgsApplication.messageLog().blockSignals(is_failing)

@@ -14,12 +14,14 @@ from qgis.core import (
     QgsProcessingParameterString,
 )
 
-from ...algorithms.core.errors import BareEarthError
 from ...algorithms.core.parameters import Declaration, ParameterSet
 from .. import compat
-from ..i18n import tr
+from ..i18n import mark, tr
 from .choices import ChoiceParameter, value_of, values_of, with_labels
+from .feedback import Refusal
 
+# As a name, so that the widget is imported only in dialogs, not in qgis_process.
+_CHECK_WIDGET = f"{__package__}.widgets.CheckWidget"
 _SYMBOLS = {"deg": "°"}
 _LISTS = ("numbers", "integers")
 _FEWEST_DECIMALS = 3
@@ -27,15 +29,17 @@ _FEWEST_DECIMALS = 3
 _MOST_EXPLAINED = 12
 
 
-def field_of(declaration: Declaration, is_shown: bool = True) -> QgsProcessingParameterDefinition:
+def field_of(
+    declaration: Declaration, is_shown: bool | None = None
+) -> QgsProcessingParameterDefinition:
     """Return the Processing parameter for a declared one.
 
     Parameters
     ----------
     declaration : Declaration
         The declared parameter.
-    is_shown : bool
-        False to make it an advanced parameter of the dialog.
+    is_shown : bool, optional
+        False to make it an advanced parameter of the dialog; by default as it is declared.
 
     Returns
     -------
@@ -50,8 +54,9 @@ def field_of(declaration: Declaration, is_shown: bool = True) -> QgsProcessingPa
         )
         field = with_labels(field, list(map(tr, declaration.choices.values())))
     elif declaration.kind == "boolean":
-        # Optional: in old models without this parameter, the designer would demand a value.
+        # Optional: QGIS 3.22 refuses old models without this parameter otherwise.
         field = QgsProcessingParameterBoolean(name, label, default, True)
+        field.setMetadata({"widget_wrapper": {"class": _CHECK_WIDGET}})
     elif declaration.kind == "choice":
         # Stored as values, not as positions in the list, so that saved models stay valid.
         # Advanced ones are optional as booleans are, since they can be newer than a saved model.
@@ -66,7 +71,7 @@ def field_of(declaration: Declaration, is_shown: bool = True) -> QgsProcessingPa
     else:
         field = _number_field(declaration, name, label)
     field.setHelp(help_of(declaration))
-    if declaration.advanced or not is_shown:
+    if not (is_shown if is_shown is not None else not declaration.advanced):
         field.setFlags(field.flags() | compat.ADVANCED)
     return field
 
@@ -164,11 +169,8 @@ def _value(
         return declaration.default
     if isinstance(given, str) and not _is_number(given):
         # parameterAsDouble would silently return the default.
-        raise BareEarthError(
-            tr("{label} must be a number, not {value}.").format(
-                label=tr(declaration.label), value=repr(given)
-            )
-        )
+        text = mark("{label} must be a number, not {value}.")
+        raise Refusal(text, label=declaration.label, value=repr(given))
     # Also for integers as a double, so that 2.5 is refused and does not become 2.
     return algorithm.parameterAsDouble(parameters, name, context)
 

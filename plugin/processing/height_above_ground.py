@@ -6,15 +6,15 @@ from pathlib import Path
 
 from qgis.core import QgsProcessingParameterRasterLayer
 
-from ...algorithms.core.errors import BareEarthError
 from ...algorithms.engine.heights import HeightOutput
 from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.output import HEIGHT_DIMENSION
 from ...algorithms.rasters.sampling import HeightRaster
 from ...algorithms.survey.ground_classes import GroundClasses
-from ..i18n import tr
+from ..i18n import mark
 from ..styles import layers
 from .base import command_line
+from .feedback import Refusal
 from .inputs import is_empty
 from .products import ProductAlgorithm
 
@@ -63,9 +63,7 @@ class HeightAboveGroundAlgorithm(ProductAlgorithm):
         if not is_empty(parameters.get("DTM")):
             layer = self.parameterAsRasterLayer(parameters, "DTM", context)
             if layer is None or layer.providerType() != "gdal":
-                raise BareEarthError(
-                    tr("The terrain model is not a file. Export it as GeoTIFF first.")
-                )
+                raise Refusal(mark("The terrain model is not a file. Export it as GeoTIFF first."))
             self._dtm = layer.source()
 
     def compute(self, parameters, context, progress):
@@ -81,9 +79,8 @@ class HeightAboveGroundAlgorithm(ProductAlgorithm):
         request = HeightRequest.of(chosen, dtm=dtm, crs=self.stated)
         summary = heights(self.source, Path(output), request, progress)
         progress.info(
-            tr("Heights above ground are {low:.2f} to {high:.2f} {unit}.").format(
-                low=summary.minimum, high=summary.maximum, unit=summary.unit
-            )
+            f"Heights above ground are {summary.minimum:.2f} to {summary.maximum:.2f}"
+            f" {summary.unit}."
         )
         attribute = "Z" if request.output.output_as == "z" else HEIGHT_DIMENSION
         self.show(output, layers.heights(attribute, summary.maximum, summary.unit_size))

@@ -34,8 +34,9 @@ from ...algorithms.las.opening import open_las
 from ...algorithms.survey.area import Polygon
 from ...algorithms.survey.files import find_files, open_survey
 from .. import compat
-from ..i18n import tr
+from ..i18n import mark, tr
 from ..styles.loaded import filter_of, has_edits
+from .feedback import Refusal
 from .stated_crs import add_crs as add_crs
 from .stated_crs import crs_of_text
 
@@ -54,6 +55,7 @@ _SURVEY_HELP = (
     "A point cloud layer, a .las, .laz or .copc.laz file, a virtual point cloud (.vpc), or a text"
     " file (.txt) with one path in each line. May stay empty if a folder is given."
 )
+_NOWHERE = mark("{} does not exist. Check the path.")
 # Help of other fields.
 CLOUD_HELP = "A point cloud layer, or a .las, .laz or .copc.laz file."
 ANY_CLOUD_HELP = (
@@ -125,11 +127,9 @@ def source_path(
             return path
         layer = QgsProcessingUtils.mapLayerFromString(text, context, False)
         if layer is None:
-            raise BareEarthError(
-                tr("{} does not exist. Check the path.").format(text)
-                if text
-                else tr("Choose a point cloud.")
-            )
+            if text:
+                raise Refusal(_NOWHERE, text)
+            raise Refusal(mark("Choose a point cloud."))
     return _path_of(layer)
 
 
@@ -162,10 +162,10 @@ def survey_of(
         paths.append(source_path(algorithm, parameters, "INPUT", context))
     folder = algorithm.parameterAsString(parameters, "INPUT_FOLDER", context)
     if folder and not Path(folder).is_dir():
-        raise BareEarthError(tr("{} is not a folder. Check the path.").format(folder))
+        raise Refusal(mark("{} is not a folder. Check the path."), folder)
     paths += [Path(folder)] if folder else []
     if not paths:
-        raise BareEarthError(tr("Choose a point cloud, or a folder of them."))
+        raise Refusal(mark("Choose a point cloud, or a folder of them."))
     return paths
 
 
@@ -203,10 +203,10 @@ def clouds_of(
     for text in filter(None, texts):
         path = _file(text)
         if path is None:
-            raise BareEarthError(tr("{} does not exist. Check the path.").format(text))
+            raise Refusal(_NOWHERE, text)
         paths.append(path)
     if not paths:
-        raise BareEarthError(tr("Choose point clouds, or a folder of them."))
+        raise Refusal(mark("Choose point clouds, or a folder of them."))
     return paths
 
 
@@ -287,7 +287,7 @@ def features_of(
         If the layer cannot be read; the text has its label.
     """
     if source is None:
-        raise BareEarthError(tr('The layer "{}" cannot be read.').format(tr(label)))
+        raise Refusal(mark('The layer "{}" cannot be read.'), label)
     request = QgsFeatureRequest().setSubsetOfAttributes(attributes, source.fields())
     request.setDestinationCrs(crs, context.transformContext())
     yield from source.getFeatures(request)
@@ -304,23 +304,17 @@ def polygons_of(geometry: QgsGeometry) -> Iterator[Polygon]:
 
 def _path_of(layer: QgsMapLayer) -> Path:
     if not isinstance(layer, QgsPointCloudLayer):
-        raise BareEarthError(
-            tr(
-                "{} is not a point cloud. Choose a point cloud layer, or a .las or .laz file."
-            ).format(layer.name())
-        )
+        text = mark("{} is not a point cloud. Choose a point cloud layer, or a .las or .laz file.")
+        raise Refusal(text, layer.name())
     if has_edits(layer):
-        text = tr('The layer "{}" has edits that are not saved. Save or discard them first.')
-        raise BareEarthError(text.format(layer.name()))
+        text = mark('The layer "{}" has edits that are not saved. Save or discard them first.')
+        raise Refusal(text, layer.name())
     provider = layer.dataProvider().name() if layer.dataProvider() else ""
     parts = QgsProviderRegistry.instance().decodeUri(provider, layer.source())
     path = parts.get("path") or layer.source()
     if "://" in path:
-        raise BareEarthError(
-            tr("{} is not on this computer. Download it as .las or .laz first.").format(
-                layer.name()
-            )
-        )
+        text = mark("{} is not on this computer. Download it as .las or .laz first.")
+        raise Refusal(text, layer.name())
     return Path(path)
 
 

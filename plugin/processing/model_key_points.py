@@ -8,7 +8,7 @@ from ...algorithms.engine.key_points import KeyPointMark
 from ...algorithms.engine.memory import Resources
 from ...algorithms.grids.model_key_points import ModelKeyPoints
 from ...algorithms.survey.ground_classes import GroundClasses
-from ..i18n import mark, tr
+from ..i18n import mark
 from ..styles import layers
 from .base import command_line
 from .products import ProductAlgorithm
@@ -51,13 +51,8 @@ class ModelKeyPointsAlgorithm(ProductAlgorithm):
         progress.command(command_line("key-points", files, chosen, {"crs": self.stated}))
         request = KeyPointRequest.of(chosen, crs=self.stated)
         summary = key_points(self.source, Path(output), request, progress)
-        progress.info(
-            tr("{key:,} of {ground:,} ground points are key points ({share:.1%}).").format(
-                key=summary.key_point_count,
-                ground=summary.ground_count,
-                share=summary.key_point_count / summary.ground_count,
-            )
-        )
+        key, ground = summary.key_point_count, summary.ground_count
+        progress.info(f"{key:,} of {ground:,} ground points are key points ({key / ground:.1%}).")
         self.class_counts = summary.class_counts
         self.show(output, layers.classes(summary.class_counts, mark("key points")))
         return {"OUTPUT": output, **self.numbers_of(summary)}

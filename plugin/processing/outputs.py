@@ -25,10 +25,10 @@ from ...algorithms.engine.raster_files import RasterFiles, virtual_of
 from ...algorithms.las.backends import WRITING_COPC, missing_packages
 from ...algorithms.survey.files import is_one_file
 from .. import compat
-from ..i18n import mark, tr
+from ..i18n import tr
 
-NOTHING_STAYS = mark("Cancelled; nothing was written.")
-TILES_STAY = mark("Cancelled. The finished tiles stay, and a later run can continue with them.")
+NOTHING_STAYS = "Cancelled; nothing was written."
+TILES_STAY = "Cancelled. The finished tiles stay, and a later run can continue with them."
 _MODELS = {name.upper(): each for name, each in MODELS.items()}
 # Label and help of each raster, by the name of its field.
 RASTERS = {name: (each.label, each.help) for name, each in _MODELS.items()}

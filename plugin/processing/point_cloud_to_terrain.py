@@ -13,7 +13,7 @@ from ...algorithms.survey.selection import Selection
 from ..i18n import mark
 from ..styles.layers import BELOW_TERRAIN, contours
 from . import outputs
-from .area import add_limits, area_options, given_options, limits_of
+from .area import MAPPED, add_area, add_limits, area_options, given_options, limits_of
 from .base import BareEarthAlgorithm
 from .classified import show_classified
 from .commands import terrain_commands
@@ -30,17 +30,18 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         "Finds the ground of a raw lidar point cloud and makes maps of it. Each output is"
         " optional. Local relief shows small features. Lengths are metres."
     )
-    shown = "method", "preset", "dtm_cell_size"
+    shown = "method", "preset", "dtm_cell_size", "contour_interval"
 
     def parameter_sets(self):
-        """Return method and cell size, then parameters that rarely need a change."""
-        return TileMethod, Contours, MapTerrain, Selection, SurfaceModel, Resources
+        """Return method, cell size and contours, then parameters that rarely need a change."""
+        return TileMethod, MapTerrain, Contours, Selection, SurfaceModel, Resources
 
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""
         add_survey(self)
+        add_area(self, helps=MAPPED)
         self.add_declared()
-        add_limits(self, ("EXTENT", "BOUNDARY"), is_all=True)
+        add_limits(self)
         outputs.add_cloud(self, optional=True)
         outputs.add_rasters(self, default=("DTM", "HILLSHADE", "DSM", "CHM"))
         outputs.add_contours(self)
@@ -48,7 +49,7 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
 
     def find_inputs(self, parameters, context):
         """Find the input files."""
-        self._sources = survey_of(self, parameters, context)
+        self.inputs = self._sources = survey_of(self, parameters, context)
         self.subject, self.cancelled = names_of(self._sources), outputs.after_cancel(self._sources)
 
     def compute(self, parameters, context, progress):

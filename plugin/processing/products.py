@@ -7,10 +7,9 @@ from typing import Any
 from qgis.core import QgsProcessingContext, QgsProcessingOutputNumber
 
 from .. import compat
-from ..i18n import tr
 from .base import BareEarthAlgorithm
 from .feedback import FeedbackProgress
-from .inputs import ANY_CLOUD_HELP, PointCloudInput, ignored_filter, name_of, source_path
+from .inputs import ANY_CLOUD_HELP, SurveyInput, ignored_filter, name_of, source_path
 from .outputs import add_cloud
 from .stated_crs import add_crs
 
@@ -37,7 +36,7 @@ class ProductAlgorithm(BareEarthAlgorithm):
 
     def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
         """Declare the fields of the dialog and the results."""
-        self.addParameter(PointCloudInput("INPUT", "Classified point cloud"), ANY_CLOUD_HELP)
+        self.addParameter(SurveyInput("INPUT", "Classified point cloud"), ANY_CLOUD_HELP)
         add_crs(self)
         self.add_declared()
         self.add_outputs()
@@ -47,7 +46,7 @@ class ProductAlgorithm(BareEarthAlgorithm):
     def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
         """Find the input file."""
         self.source = source_path(self, parameters, "INPUT", context)
-        self.subject = name_of(self.source)
+        self.inputs, self.subject = [self.source], name_of(self.source)
 
     def prepare(
         self,
@@ -58,7 +57,7 @@ class ProductAlgorithm(BareEarthAlgorithm):
         """Find the input, and warn of a filter that is ignored."""
         super().prepare(parameters, context, progress)
         if ignored_filter(self, parameters, "INPUT", context):
-            progress.warning(tr("The layer's filter is not applied: all points are read."))
+            progress.warning("The layer's filter is not applied: all points are read.")
 
     def cloud_output(
         self,
@@ -69,8 +68,7 @@ class ProductAlgorithm(BareEarthAlgorithm):
         """Return the path of the output point cloud; tell the user if QGIS cannot show it."""
         output = self.point_cloud_destination(parameters, "OUTPUT", context)
         if not compat.can_load(output):
-            text = tr("This QGIS cannot show such a file as a layer. It will be at {}.")
-            progress.info(text.format(output))
+            progress.info(f"This QGIS cannot show such a file as a layer. It will be at {output}.")
         return output
 
     def numbers_of(self, summary: Any) -> dict[str, Any]:

@@ -11,10 +11,10 @@ from qgis.core import (
     QgsProcessingParameterRasterLayer,
 )
 
-from ...algorithms.core.errors import BareEarthError
 from ...algorithms.engine.raster_grid import RasterTarget
 from .. import compat
-from ..i18n import tr
+from ..i18n import mark
+from .feedback import Refusal
 from .inputs import CloudCrs, is_empty
 
 _LIKE, _EXTENT = "LIKE", "RASTER_EXTENT"
@@ -54,8 +54,8 @@ def raster_target_of(
     if not is_empty(parameters.get(_LIKE)):
         layer = algorithm.parameterAsRasterLayer(parameters, _LIKE, context)
         if layer is None or layer.providerType() != "gdal":
-            raise BareEarthError(
-                tr("The raster with the grid to use is not a file. Export it as GeoTIFF first.")
+            raise Refusal(
+                mark("The raster with the grid to use is not a file. Export it as GeoTIFF first.")
             )
         like = layer.source()
     if not is_empty(parameters.get(_EXTENT)):

@@ -10,11 +10,11 @@ from qgis.core import (
     QgsProcessingParameterRasterLayer,
 )
 
-from ...algorithms.core.errors import BareEarthError
 from ...algorithms.products.off_terrain import OffTerrain, remove_objects_file
-from ..i18n import tr
+from ..i18n import mark
 from ..styles import layers
 from .base import BareEarthAlgorithm, command_line
+from .feedback import Refusal
 
 
 class RemoveOffTerrainObjectsAlgorithm(BareEarthAlgorithm):
@@ -55,10 +55,9 @@ class RemoveOffTerrainObjectsAlgorithm(BareEarthAlgorithm):
         """Find the input file."""
         layer = self.parameterAsRasterLayer(parameters, "INPUT", context)
         if layer is None or layer.providerType() != "gdal":
-            raise BareEarthError(
-                tr("The elevation raster is not a file. Export it as GeoTIFF first.")
-            )
+            raise Refusal(mark("The elevation raster is not a file. Export it as GeoTIFF first."))
         self._source, self.subject = layer.source(), layer.name()
+        self.inputs = [Path(self._source)]
 
     def compute(self, parameters, context, progress):
         """Remove the objects."""

@@ -11,9 +11,9 @@ from qgis.core import (
     QgsProcessingParameterCrs,
 )
 
-from ...algorithms.core.errors import BareEarthError
 from .. import compat
-from ..i18n import tr
+from ..i18n import mark
+from .feedback import Refusal
 
 _NAME = "CRS"
 _HELP = (
@@ -44,9 +44,7 @@ def stated_crs_of(
         return None
     crs = algorithm.parameterAsCrs(parameters, _NAME, context)
     if not crs.isValid():
-        raise BareEarthError(
-            tr("{} is no known CRS. Choose one from the list.").format(parameters[_NAME])
-        )
+        raise Refusal(mark("{} is no known CRS. Choose one from the list."), parameters[_NAME])
     if crs.authid().startswith("EPSG:"):
         return crs.authid()
     return crs.toWkt(compat.WKT)

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from ...algorithms.core.errors import BareEarthError
 from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.options import RasterOutput
 from ...algorithms.products.surface_model import SurfaceModel
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.files import is_one_file
 from ...algorithms.survey.ground_classes import GroundClasses
-from ..i18n import mark, tr
+from ..i18n import mark
 from .area import OF_RASTERS, add_area, area_of, area_options, given_options
 from .base import command_line
 from .constraints import add_constraints, constraints_of
+from .feedback import Refusal
 from .outputs import add_rasters, raster_files, raster_paths, shown_rasters
 from .products import ProductAlgorithm
 from .raster_target import add_raster_target, raster_target_of
@@ -53,7 +53,7 @@ class TerrainModelAlgorithm(ProductAlgorithm):
         chosen = self.chosen(parameters, context)
         paths = raster_paths(self, parameters, context)
         if not paths:
-            raise BareEarthError(tr("Choose at least one raster to make."))
+            raise Refusal(mark("Choose at least one raster to make."))
         crs = self.crs_of(self.source)
         target = raster_target_of(self, parameters, context, crs)
         area = area_of(self, parameters, context, crs)
@@ -66,8 +66,7 @@ class TerrainModelAlgorithm(ProductAlgorithm):
         }  # fmt: skip
         request = TerrainRequest.of(chosen, **wanted)
         summary = terrain(self.source, request, progress)
-        size = summary.columns, summary.rows
-        progress.info(tr("The rasters have {:,} x {:,} cells.").format(*size))
+        progress.info(f"The rasters have {summary.columns:,} x {summary.rows:,} cells.")
         if not is_one_file([self.source]):
             paths = shown_rasters(paths, request.raster_output, context)
         return {**paths, **self.numbers_of(summary)}

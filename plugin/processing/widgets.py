@@ -13,6 +13,7 @@ from qgis.core import (
     QgsProcessingContext,
     QgsProcessingParameterDefinition,
     QgsProcessingParameterFile,
+    QgsProcessingParameters,
     QgsProject,
 )
 from qgis.gui import (
@@ -27,7 +28,7 @@ from qgis.gui import (
 )
 from qgis.PyQt import sip
 from qgis.PyQt.QtCore import Qt
-from qgis.PyQt.QtWidgets import QComboBox, QWidget
+from qgis.PyQt.QtWidgets import QCheckBox, QComboBox, QLabel, QWidget
 
 from .. import compat
 from ..styles.loaded import file_of
@@ -49,6 +50,18 @@ class ChoiceWidget:
         return box(parameter, _kind(dialog), dialog)
 
 
+class CheckWidget:
+    """Makes the widget of a boolean: a box that has always a value, so it is not "[optional]"."""
+
+    def __new__(cls, parameter: QgsProcessingParameterDefinition, dialog: QWidget, *_: Any) -> Any:
+        """Return a widget, not an instance of this class."""
+        if _is_designer(dialog):
+            return _designer_widget(parameter, dialog)
+        if _kind(dialog) == QgsProcessingGui.WidgetType.Standard:
+            return _CheckBox(parameter, _kind(dialog), dialog)
+        return _usual_widget(parameter, dialog)
+
+
 class PointCloudWidget:
     """Makes the widget of a point cloud, which accepts files in the model designer, too.
 
@@ -61,11 +74,7 @@ class PointCloudWidget:
         if _kind(dialog) == QgsProcessingGui.WidgetType.Standard and not _is_designer(dialog):
             return _CloudBox(parameter, _kind(dialog), dialog)
         if not _is_designer(dialog):
-            widget = QgsGui.processingGuiRegistry().createParameterWidgetWrapper(
-                parameter, _kind(dialog)
-            )
-            widget.setDialog(dialog)
-            return widget
+            return _usual_widget(parameter, dialog)
         widget = _designer_widget(parameter, dialog)
         # Adds inputs that are files; outputs that are files are already in the list.
         widget.populateSources([QgsProcessingParameterFile.typeName()], [], [])
@@ -81,6 +90,21 @@ def _kind(dialog: QWidget) -> Any:
     return QgsProcessingGui.WidgetType.Batch if is_batch else QgsProcessingGui.WidgetType.Standard
 
 
+def _usual_widget(parameter: QgsProcessingParameterDefinition, dialog: QWidget) -> Any:
+    """Return the widget of QGIS in a dialog or in batch mode."""
+    registry = QgsGui.processingGuiRegistry()
+    widget = registry.createParameterWidgetWrapper(parameter, _kind(dialog))
+    widget.setDialog(dialog)
+    return widget
+
+
+def _label_of(parameter: QgsProcessingParameterDefinition) -> QLabel:
+    """Return a label without "[optional]", since a box with choices has always a value."""
+    label = QLabel(parameter.description())
+    label.setToolTip(parameter.toolTip())
+    return label
+
+
 def _designer_widget(
     parameter: QgsProcessingParameterDefinition, dialog: QWidget
 ) -> QgsProcessingModelerParameterWidget:
@@ -92,8 +116,39 @@ def _designer_widget(
     return widget
 
 
+class _CheckBox(QgsAbstractProcessingParameterWidgetWrapper):
+    """A box to check, with the label of the parameter."""
+
+    def createLabel(self) -> QLabel | None:
+        """Return no label: the box shows it."""
+        return None
+
+    def createWidget(self) -> QWidget:
+        """Return the box, checked if the default is true."""
+        parameter = self.parameterDefinition()
+        box = QCheckBox(parameter.description())
+        box.setToolTip(parameter.toolTip())
+        box.setChecked(bool(parameter.defaultValue()))
+        box.toggled.connect(lambda _: self.widgetValueHasChanged.emit(self))
+        return box
+
+    def setWidgetValue(self, value: Any, context: QgsProcessingContext) -> None:
+        """Check the box or not, also as in an earlier run."""
+        box, parameter = self.wrappedWidget(), self.parameterDefinition()
+        if box is not None and not compat.is_null(value):
+            box.setChecked(QgsProcessingParameters.parameterAsBool(parameter, value, context))
+
+    def widgetValue(self) -> Any:
+        """Return whether the box is checked."""
+        return self.wrappedWidget().isChecked()
+
+
 class _ChoiceBox(QgsAbstractProcessingParameterWidgetWrapper):
     """A box with the labels in the metadata of the parameter."""
+
+    def createLabel(self) -> QLabel:
+        """Return the label."""
+        return _label_of(self.parameterDefinition())
 
     def createWidget(self) -> QWidget:
         """Return the box, with the default chosen."""
@@ -120,6 +175,10 @@ class _ChoiceBox(QgsAbstractProcessingParameterWidgetWrapper):
 
 class _ChoicesBox(QgsAbstractProcessingParameterWidgetWrapper):
     """A box with the labels in the metadata of the parameter, for several choices."""
+
+    def createLabel(self) -> QLabel:
+        """Return the label."""
+        return _label_of(self.parameterDefinition())
 
     def createWidget(self) -> QWidget:
         """Return the box, with the defaults chosen."""

@@ -197,12 +197,6 @@ def test_a_report_that_cannot_be_written_is_refused_at_once(files, tmp_path, nam
         assess_files(*files, report=tmp_path / name)
 
 
-def test_other_points_are_refused(files, tmp_path):
-    other = write(tmp_path / "other.las", TRUTH, np.arange(100))
-    with pytest.raises(BareEarthError, match="same points"):
-        assess_files(other, files[1])
-
-
 @pytest.mark.parametrize("count", [1, 2])
 def test_a_picture_of_hardly_any_points(count):
     points = Points(np.arange(count) * 5.0, np.zeros(count), np.zeros(count))

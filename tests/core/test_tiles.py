@@ -171,7 +171,7 @@ def test_messages_that_differ_in_names_and_numbers_only_are_told_once(tmp_path, 
     (told,) = (each for each in heard.warnings if "return number" in each)
     assert told == (
         "0.laz: 3 points have no return number: they are taken as single returns."
-        " (And 3 more like this.)"
+        " The same, with other numbers: 1.laz, 2.laz, 3.laz."
     )
 
 

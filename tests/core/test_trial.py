@@ -24,6 +24,7 @@ HALL = (40.0, 70.0, 50.0, 80.0)
 WINDOW = (*(each + 20 for each in ORIGIN), *(each + 100 for each in ORIGIN))
 BOTH = TrialOptions(settings=("tin-densification:automatic", "slope:whitebox"))
 FOOT = 0.3048
+ONE = TrialOptions(settings=("grid-minimum:automatic",))
 
 
 def scene():
@@ -151,7 +152,16 @@ def test_feet_are_converted(made, tmp_path):
     source = write(tmp_path / "feet.laz", epsg=2222, unit=FOOT)  # Arizona East, feet
     box = [start + metres / FOOT for metres in (20, 100) for start in ORIGIN]
     summary = compare_settings([source], tmp_path / "feet.html", box, BOTH)
-    assert "(80 x 80 m)" in (tmp_path / "feet.html").read_text(encoding="utf-8")
+    page = (tmp_path / "feet.html").read_text(encoding="utf-8")
+    # The page speaks in the unit of the survey, and its figures are in metres.
+    assert "(262 x 262 ft, 80 x 80 m)" in page and "164 ft (50 m) round the window" in page
+    axes = re.findall(r">(-?[\d.]+) (\w+)</text>", page)
+    assert {unit for _, unit in axes} == {"ft"}
+    assert {"100 ft", "200 ft"} <= {" ".join(each) for each in axes}  # of 262 ft
+    heights = [float(number) for number, _ in axes if 300 < float(number) < 400]
+    assert heights  # the plane is 100 m high
+    assert f"{summary.settings[1]['terrain_difference'] / FOOT:.2f} ft" in page
+    assert not re.search(r"\d m</div>|</div>\d+ m", page)
     for one, other in zip(figures(summary), figures(made[0])):
         # Coordinates are rounded otherwise.
         assert one["ground_count"] == pytest.approx(other["ground_count"], rel=0.005)
@@ -218,6 +228,66 @@ def test_a_cancel_leaves_nothing(source, tmp_path):
     with pytest.raises(Cancelled):
         compare_settings([source], tmp_path / "p.html", WINDOW, BOTH, progress=CancelAt(0.5))
     assert not list(tmp_path.iterdir())
+
+
+def test_without_a_window_the_middle_is_taken(source, tmp_path, capsys):
+    x, *_ = scene()
+    heard = Heard()
+    page = tmp_path / "p.html"
+    summary = compare_settings([source], page, options=BOTH, progress=heard)
+    # The scene is smaller than 250 m.
+    assert summary.point_count == len(x)
+    assert any("window in the middle of the points, x 5" in each for each in heard.infos)
+    first = page.read_bytes()
+    words = ["compare-settings", str(source), str(page), "--settings", *BOTH.settings]
+    assert main(words) == 0 and page.read_bytes() == first
+    assert main([*words, "--extent", *map(repr, summary.window)]) == 0
+    assert page.read_bytes() == first
+
+
+def test_the_middle_of_a_wide_survey_is_250_m_wide(tmp_path):
+    source = tmp_path / "wide.laz"
+    rows = np.arange(0.0, 800.0, 4.0)
+    x, y = (each.ravel() for each in np.meshgrid(rows, rows))
+    write_places(source, x, y)
+    summary = compare_settings([source], tmp_path / "p.html", options=ONE)
+    corner = ORIGIN[0] + 398 - 125, ORIGIN[1] + 398 - 125
+    assert summary.window == (*corner, corner[0] + 250, corner[1] + 250)
+
+
+@pytest.mark.parametrize("as_tiles", [False, True])
+def test_in_a_gap_the_nearest_points_are_taken(tmp_path, as_tiles):
+    rows = np.arange(0.0, 1000.0, 4.0)
+    x, y = (each.ravel() for each in np.meshgrid(rows, rows))
+    # An L: the middle of the extent is empty, and the nearest point lies west of it.
+    strip = (x < 100) | (y < 60)
+    if as_tiles:
+        (tmp_path / "in").mkdir()
+        write_places(tmp_path / "in" / "north.laz", x[strip & (y > 90)], y[strip & (y > 90)])
+        write_places(tmp_path / "in" / "south.laz", x[strip & (y <= 90)], y[strip & (y <= 90)])
+        sources = [tmp_path / "in"]
+    else:
+        write_places(tmp_path / "in.laz", x[strip], y[strip])
+        sources = [tmp_path / "in.laz"]
+    summary = compare_settings(sources, tmp_path / "p.html", options=ONE)
+    west, south, east, north = summary.window
+    place = ORIGIN[0] + 96, ORIGIN[1] + 496
+    assert (east, south, north) == (place[0] + 125, place[1] - 125, place[1] + 125)
+    assert west == pytest.approx(ORIGIN[0], abs=0.01)
+    assert summary.point_count == np.count_nonzero(
+        strip & (y >= south - ORIGIN[1]) & (y <= north - ORIGIN[1])
+    )
+
+
+def write_places(path, x, y):
+    """Write a plane with points at some places."""
+    header = laspy.LasHeader(point_format=6, version="1.4")
+    header.scales, header.offsets = (0.001,) * 3, (*ORIGIN, 0.0)
+    header.add_crs(CRS.from_epsg(25832))
+    las = laspy.LasData(header)
+    las.x, las.y, las.z = x + ORIGIN[0], y + ORIGIN[1], 100 + 0.03 * x
+    las.return_number[:] = las.number_of_returns[:] = 1
+    las.write(str(path))
 
 
 def test_the_command(source, made, tmp_path, capsys):

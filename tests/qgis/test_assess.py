@@ -88,8 +88,23 @@ def test_errors_are_one_line(files, scene, tmp_path):
     missing = {"CLASSIFIED": files[0], "REFERENCE": str(tmp_path / "missing.laz")}
     with pytest.raises(QgsProcessingException, match=r"missing\.laz does not exist"):
         processing.run(ALGORITHM, missing)
-    few = laspy.read(files[0])
-    few.points = few.points[:100]
-    few.write(str(tmp_path / "few.laz"))
+    moved = laspy.read(files[0])
+    moved.x = np.asarray(moved.x) + 0.07
+    moved.write(str(tmp_path / "moved.laz"))
     with pytest.raises(QgsProcessingException, match="same points"):
-        processing.run(ALGORITHM, {"CLASSIFIED": str(tmp_path / "few.laz"), "REFERENCE": files[1]})
+        processing.run(
+            ALGORITHM, {"CLASSIFIED": str(tmp_path / "moved.laz"), "REFERENCE": files[1]}
+        )
+
+
+def test_a_clip_is_assessed_against_the_whole(files, scene, tmp_path):
+    import processing
+
+    clip = laspy.read(files[0])
+    clip.points = clip.points[1000:4000]
+    clip.write(str(tmp_path / "clip.laz"))
+    results = processing.run(
+        ALGORITHM, {"CLASSIFIED": str(tmp_path / "clip.laz"), "REFERENCE": files[1]}
+    )
+    assert (results["POINT_COUNT"], results["CLASSIFIED_ONLY"]) == (3000, 0)
+    assert results["REFERENCE_ONLY"] == scene.count - 3000

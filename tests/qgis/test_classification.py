@@ -299,7 +299,7 @@ def test_the_log_ends_with_what_was_done(algorithm, scene, out, context, log):
     assert done
     end = log.text[log.text.index("Class 2") :].splitlines()
     share = scene.ground_count / scene.count
-    assert end[0] == f"Class 2 (Ground): {scene.ground_count:,} points ({share:.1%})"
+    assert end[0] == f"Class 2 (ground): {scene.ground_count:,} points ({share:.1%})"
     assert end[1].startswith("Class 1 (") and end[1].endswith(f" points ({1 - share:.1%})")
     assert re.match("Chosen automatically: .*maximum building size [0-9.]+ m", end[2])
     assert re.fullmatch(r"Time: [0-9]+\.[0-9] s", end[3])

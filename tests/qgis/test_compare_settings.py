@@ -48,6 +48,23 @@ def test_run(registry, parameters, tmp_path, context, log):
     assert (tmp_path / "page.html").read_bytes() == page
 
 
+def test_without_a_window_the_middle_is_taken(registry, parameters, context, log):
+    del parameters["EXTENT"]
+    results, done = registry.createAlgorithmById(ALGORITHM).run(parameters, context, log)
+    assert done and Path(results["OUTPUT"]).is_file(), log.text
+    # The scene is smaller than the window.
+    (told,) = (each for each in log.said if each.startswith("Chosen automatically: window"))
+    assert "x 500000.249 to 500079.751" in told
+    command = next(each for each in log.said if each.startswith("bare-earth "))
+    assert "--extent" not in command
+
+
+def test_qgis_process_needs_no_window(qgis_process, parameters, tmp_path):
+    words = f"INPUT={parameters['INPUT']}", f"OUTPUT={tmp_path / 'p.html'}", "SETTINGS=slope:town"
+    done = qgis_process("run", ALGORITHM, "--", *words)
+    assert done.returncode == 0 and (tmp_path / "p.html").is_file(), done.stderr
+
+
 def test_the_order_of_the_parameters_is_that_of_the_dialog_only(
     registry, parameters, context, log, monkeypatch
 ):

@@ -189,7 +189,7 @@ def test_the_log_tells_each_thing_once_and_ends_with_named_classes(tmp_path):
     (units,) = (each for each in log.said if "taken as metres" in each)
     assert units.startswith("scene.laz does not say its CRS")
     counts = [each for each in log.said if "Class " in each]
-    assert counts[0].startswith(f"Class 2 (Ground): {np.count_nonzero(ground):,} points")
+    assert counts[0].startswith(f"Class 2 (ground): {np.count_nonzero(ground):,} points")
     assert counts[1].startswith("Class 1 (")
 
 

@@ -161,7 +161,7 @@ def ground_of(path):
 
 def test_qgis_installs_the_zip(fresh):
     qgis, answer = fresh
-    assert answer["menu"] == ["LAZ support…"]
+    assert answer["menu"] == ["LAZ support…", "Documentation"]
     assert answer["algorithms"] >= 14
     assert answer["model"] == [True, ""]
     assert Path(answer["laspy"]) == (
@@ -205,6 +205,48 @@ def test_the_help_button_opens_the_page_in_the_plugin(qgis):
     assert all(Path(each).is_file() for each in answer["all"])
 
 
+def test_the_menu_opens_the_documentation_in_the_plugin(qgis):
+    answer = qgis.window(
+        """
+        from qgis.PyQt.QtCore import QObject, pyqtSlot, QUrl
+        from qgis.PyQt.QtGui import QDesktopServices
+
+        class Browser(QObject):
+            @pyqtSlot(QUrl)
+            def open(self, url):
+                answer["opened"] = url.toLocalFile()
+
+        browser = Browser()
+        QDesktopServices.setUrlHandler("file", browser, "open")
+        menus = [each for each in iface.pluginMenu().actions() if each.text() == "Bare Earth"]
+        entries = {each.text(): each for each in menus[0].menu().actions()}
+        entries["Documentation"].trigger()
+        """
+    )
+    page = qgis.profile / "python" / "plugins" / "bare_earth" / "help" / "index.html"
+    assert Path(answer["opened"]) == page and page.is_file()
+
+
+def test_the_message_on_laz_goes_when_lazrs_is_there(qgis):
+    answer = qgis.window(
+        """
+        from qgis.utils import reloadPlugin
+        QgsSettings().remove("bare_earth/laz_support_told")
+        reloadPlugin("bare_earth")
+        answer["before"] = messages()
+        found = dialog()
+        found.get_from_wheel(given["wheel"])
+        answer["result"] = result(found)
+        wait(lambda: not messages(), 5)
+        answer["after"] = messages()
+        """,
+        wheel=next(WHEELS.glob("lazrs-*.whl")),
+    )
+    assert any(".laz" in each for each in answer["before"])
+    assert answer["result"].startswith("Done")
+    assert not any(".laz" in each for each in answer["after"])
+
+
 @pytest.mark.parametrize(
     ("locale", "title", "menu"),
     [
@@ -231,7 +273,7 @@ def test_the_window_speaks_the_language_of_qgis(qgis, clouds, tmp_path, locale, 
         """,
         algorithm=ALGORITHM,
     )
-    assert (answer["title"], answer["menu"]) == (title, [menu])
+    assert (answer["title"], answer["menu"][0]) == (title, menu)
     assert not answer["state"].startswith("Not installed")
     # Ids and values are the same in every language.
     done = qgis.process(clouds[0].path, tmp_path / "out.las")

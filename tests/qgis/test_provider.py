@@ -31,7 +31,7 @@ SHARED_PARAMETERS = [
         "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE", "RELIEF_SMOOTHING",
         "MAX_EDGE",
     "GROUND_ONLY", "AREA_ONLY", "HEIGHT_ABOVE_GROUND", "THREADS", "MEMORY",
-    "EXTENT", "BOUNDARY", "CORRECTIONS", "CORRECTIONS_FIELD",
+    "CORRECTIONS", "CORRECTIONS_FIELD",
     "BREAKLINES", "WATER", "RIVERS", "NO_GROUND", "LIKE", "RASTER_EXTENT",
     "OUTPUT", "DTM", "HILLSHADE",
 ]  # fmt: skip
@@ -40,7 +40,7 @@ SHARED_OUTPUTS = [
 ]  # fmt: skip
 PARAMETERS = {
     "bareearth:tindensification": [
-        "INPUT", "CRS",
+        "INPUT", "CRS", "EXTENT", "BOUNDARY",
         "PRESET", "MAX_BUILDING_SIZE", "MAX_TERRAIN_ANGLE", "ITERATION_ANGLE",
         "ITERATION_DISTANCE", "REDUCE_ANGLE_EDGE", "STOP_EDGE", "NOISE_DISTANCE",
         "GROUND_TOLERANCE", "GROUND_TOLERANCE_BELOW", "SLOPE_TOLERANCE", "ONLY_KEY_POINTS",
@@ -48,33 +48,34 @@ PARAMETERS = {
         *SHARED_PARAMETERS,
     ],
     "bareearth:pointcloudtoterrain": [
-        "INPUT", "INPUT_FOLDER", "CRS",
-        "METHOD", "PRESET", "CONTOUR_INTERVAL", "CONTOUR_SMOOTHING", "CONTOUR_MIN_LENGTH",
+        "INPUT", "INPUT_FOLDER", "CRS", "EXTENT", "BOUNDARY",
+        "METHOD", "PRESET",
         "DTM_CELL_SIZE", "DTM_CELL_UNIT", "RASTER_NODATA",
         "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
         "RELIEF_SMOOTHING", "RELIEF_RADIUS",
+        "CONTOUR_INTERVAL", "CONTOUR_SMOOTHING", "CONTOUR_MIN_LENGTH",
         "FROM_CLASSES", "SEED_CLASSES", "TO_CLASS", "RETURNS", "OVERLAP", "OTHERS",
         "LOW_NOISE_CLASS", "LOW_NOISE_DEPTH", "HIGH_NOISE_CLASS", "HIGH_NOISE_HEIGHT",
         "BRIDGES", "BRIDGE_CLASS", "REMEMBER_CLASSES",
         "SURFACE_RETURNS", "SURFACE_CLASSES", "MAX_EDGE", "PIT_FREE", "THREADS", "MEMORY",
-        "EXTENT", "BOUNDARY", "CORRECTIONS", "CORRECTIONS_FIELD",
+        "CORRECTIONS", "CORRECTIONS_FIELD",
         "BREAKLINES", "WATER", "RIVERS", "NO_GROUND", "LIKE", "RASTER_EXTENT",
         "OUTPUT", "DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE", "RELIEF", "CONTOURS",
     ],
     "bareearth:gridminimum": [
-        "INPUT", "CRS",
+        "INPUT", "CRS", "EXTENT", "BOUNDARY",
         "PRESET", "CELL_SIZE", "HEIGHT_THRESHOLDS", "FINAL_HEIGHT", "MAX_OBJECT_SIZE",
         "GROUND_TOLERANCE", "SLOPE_TOLERANCE",
         *SHARED_PARAMETERS,
     ],
     "bareearth:slopefilter": [
-        "INPUT", "CRS",
+        "INPUT", "CRS", "EXTENT", "BOUNDARY",
         "PRESET", "SEARCH_RADIUS", "MIN_NEIGHBOURS", "SLOPE_THRESHOLD", "HEIGHT_THRESHOLD",
         "SLOPE_NORM", "CELL_SIZE", "MAX_BUILDING_SIZE", "GROUND_TOLERANCE", "SLOPE_TOLERANCE",
         *SHARED_PARAMETERS,
     ],
     "bareearth:classifytiles": [
-        "INPUT", "INPUT_FOLDER", "CRS",
+        "INPUT", "INPUT_FOLDER", "CRS", "EXTENT", "BOUNDARY",
         "METHOD", "PRESET",
         "FROM_CLASSES", "SEED_CLASSES", "TO_CLASS", "RETURNS", "OVERLAP", "OTHERS",
         "LOW_NOISE_CLASS", "LOW_NOISE_DEPTH", "HIGH_NOISE_CLASS", "HIGH_NOISE_HEIGHT",
@@ -83,7 +84,7 @@ PARAMETERS = {
         "DTM_CELL_SIZE", "DTM_CELL_UNIT", "RASTER_NODATA",
         "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE", "RELIEF_SMOOTHING",
         "MAX_EDGE", "RASTER_PER_FILE",
-        "THREADS", "MEMORY", "EXTENT", "BOUNDARY", "CORRECTIONS", "CORRECTIONS_FIELD",
+        "THREADS", "MEMORY", "CORRECTIONS", "CORRECTIONS_FIELD",
         "BREAKLINES", "WATER", "RIVERS", "NO_GROUND", "LIKE", "RASTER_EXTENT",
         "OUTPUT_FOLDER", "OUTPUT_VPC", "DTM", "HILLSHADE",
     ],
@@ -170,6 +171,8 @@ OUTPUTS = {
         "KAPPA",
         "TYPE_2_ERROR",
         "TOTAL_ERROR",
+        "CLASSIFIED_ONLY",
+        "REFERENCE_ONLY",
     ],
     "bareearth:removeoffterrainobjects": ["OUTPUT", "CELL_COUNT", "REMOVED_COUNT"],
 }
@@ -300,6 +303,24 @@ def test_a_dialog_shows_eight_fields_at_most(each):
         # It is there to make them all, and QGIS cannot fold outputs away.
         fields = [p for p in fields if not p.isDestination()]
     assert len(fields) <= 8, [p.name() for p in fields]
+
+
+def test_what_users_look_for_is_in_front(registry):
+    advanced = QgsProcessingParameterDefinition.Flag.FlagAdvanced
+
+    def seen(name):
+        algorithm = registry.createAlgorithmById(f"bareearth:{name}")
+        fields = [p for p in algorithm.parameterDefinitions() if not p.isDestination()]
+        return [p.name() for p in fields if not p.flags() & advanced]
+
+    for name in ("tindensification", "gridminimum", "slopefilter"):
+        assert seen(name)[:2] == ["INPUT", "EXTENT"]
+    assert seen("pointcloudtoterrain") == [
+        "INPUT", "INPUT_FOLDER", "EXTENT", "METHOD", "PRESET", "DTM_CELL_SIZE", "CONTOUR_INTERVAL",
+    ]  # fmt: skip
+    whole = registry.createAlgorithmById("bareearth:pointcloudtoterrain")
+    interval = whole.parameterDefinition("CONTOUR_INTERVAL").description()
+    assert interval == "Contour interval [height units]"
 
 
 def test_the_help_has_the_order_of_the_dialog(each):
@@ -454,3 +475,11 @@ def test_qgis_process_tells_of_unknown_parameters(qgis_process, scene, tmp_path)
     assert "There is no parameter OUPUT: it is ignored. Did you mean OUTPUT?" in (
         done.stdout + done.stderr
     )
+
+
+def test_qgis_process_prints_an_error_once(qgis_process, scene, tmp_path):
+    # No point of the scene is ground, as the run finds out.
+    words = f"INPUT={scene.path}", f"DTM={tmp_path / 'dtm.tif'}"
+    done = qgis_process("run", "bareearth:terrainmodel", "--", *words)
+    assert done.returncode != 0
+    assert (done.stdout + done.stderr).count("has no ground points") == 1, done.stderr

@@ -126,9 +126,44 @@ def test_a_run_speaks_and_takes_the_same_values(registry, speak, tmp_path, conte
     values = {"INPUT": str(scene.path), "PRESET": "town", "OUTPUT": str(tmp_path / "out.las")}
     assert algorithm.checkParameterValues(values, context)[0]
     _, done = algorithm.run(values, context, log)
-    assert done and f"von {scene.count:,} Punkten sind Boden" in log.text
+    assert done and f"of {scene.count:,} points are ground" in log.text
     possible, text = algorithm.checkParameterValues({**values, "INPUT": "no.las"}, context)
     assert not possible and text == "no.las gibt es nicht. Prüfen Sie den Pfad."
+
+
+def test_the_log_of_a_run_is_in_one_language(registry, marked, tmp_path, context):
+    scene = Scene(tmp_path, ".las")
+    ground, out = str(tmp_path / "ground.las"), str(tmp_path / "out.las")
+    terrain = str(tmp_path / "dtm.tif")
+    runs = {
+        ALGORITHM: {"INPUT": str(scene.path), "OUTPUT": ground, "NOSUCH": 1},
+        "bareearth:classifytiles": {
+            "INPUT": [str(scene.path)], "OUTPUT_FOLDER": str(tmp_path / "tiles"),
+        },
+        "bareearth:pointcloudtoterrain": {"INPUT": str(scene.path), "DTM": terrain},
+        "bareearth:terrainmodel": {"INPUT": ground, "DTM": terrain},
+        "bareearth:heightaboveground": {"INPUT": ground, "OUTPUT": out},
+        "bareearth:modelkeypoints": {"INPUT": ground, "OUTPUT": out},
+        "bareearth:assess": {"CLASSIFIED": ground, "REFERENCE": ground},
+        "bareearth:comparesettings": {
+            "INPUT": str(scene.path), "OUTPUT": str(tmp_path / "page.html"),
+            "SETTINGS": ["slope:town"],
+        },
+        "bareearth:removeoffterrainobjects": {"INPUT": terrain, "OUTPUT": out + ".tif"},
+    }  # fmt: skip
+    for name, values in runs.items():
+        log = Log()
+        registry.createAlgorithmById(name).run(values, context, log)
+        assert "Time: " in log.text and _OPEN not in log.text, f"{name}: {log.text}"
+    log = Log(cancel_at=0)
+    registry.createAlgorithmById(ALGORITHM).run(runs[ALGORITHM], context, log)
+    assert "Cancelled" in log.text and _OPEN not in log.text
+    # What a dialog refuses is in its language; the same in a log is English.
+    wrong = {**runs[ALGORITHM], "INPUT": "no.las"}
+    algorithm, log = registry.createAlgorithmById(ALGORITHM), Log()
+    assert algorithm.checkParameterValues(wrong, context)[1].startswith(_OPEN)
+    assert algorithm.run(wrong, context, log)[1] is False
+    assert "no.las does not exist. Check the path." in log.said
 
 
 def test_choices_of_a_dialog_are_in_german_and_give_the_same_values(registry, speak):

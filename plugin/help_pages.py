@@ -7,7 +7,7 @@ from pathlib import Path
 
 from qgis.PyQt.QtCore import QUrl
 
-_ROOT = Path(__file__).parents[2]
+_ROOT = Path(__file__).parents[1]
 # Only in the package, made by `make package`; not in a clone of the repository.
 _HELP = _ROOT / "help"
 

@@ -1,0 +1,217 @@
+"""Finds the points that two files have in common."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import NamedTuple, Sequence
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.points import Box
+from ..core.progress import Progress
+from ..las.cloud import PointCloud
+from ..las.lasfile import LasFile
+from ..las.opening import open_las
+from ..las.reading import read_cloud
+from ..survey.window import read_window
+
+# Points are compared in strips from west to east with about so many points, to bound memory.
+_STRIP = 1 << 22
+# Files of which fewer points are common do not show the same survey.
+_LEAST_SHARE = 0.01
+# Times are used if so large a share of the points at the same places has equal ones.
+_TRUSTED = 0.5
+# Every place that coordinates can have, as a finite box.
+_EVERYWHERE = (-1e300, -1e300, 1e300, 1e300)
+
+
+class Matched(NamedTuple):
+    """The points that two files have in common, in the same order.
+
+    Attributes
+    ----------
+    clouds : tuple of PointCloud
+        The points of both files, perhaps without some that are not common.
+    orders : tuple of slice or numpy.ndarray of int64, shape (n,)
+        The common points of each cloud.
+    alone : tuple of int
+        Number of points of each file that the other file does not have.
+    """
+
+    clouds: tuple[PointCloud, PointCloud]
+    orders: tuple[slice | np.ndarray, slice | np.ndarray]
+    alone: tuple[int, int]
+
+
+def match_files(one: Path, other: Path, progress: Progress, crs: str | None = None) -> Matched:
+    """Find the points that two files have in common, in any order.
+
+    Points are the same if their coordinates, return numbers and GPS times are. Times do not count
+    where a file has none, or for most points another one. Of several equal points, each is used
+    once. If the scales of the files differ, coordinates are compared in steps of the coarser one.
+
+    Parameters
+    ----------
+    one, other : Path
+        The files. One can be a part of the other, or both can overlap. Of the one with more points
+        only the extent of the other is kept.
+    progress : Progress
+        Receives progress and messages.
+    crs : str, optional
+        The CRS that the user states in place of their records, as well-known text.
+
+    Raises
+    ------
+    BareEarthError
+        If a file cannot be read, or hardly a point is common.
+    Cancelled
+        If the user asked to stop.
+    """
+    files = open_las(one, crs), open_las(other, crs)
+    if files[0].count == files[1].count:
+        clouds = (
+            read_cloud(files[0], progress.part(0.0, 0.4)),
+            read_cloud(files[1], progress.part(0.4, 0.8)),
+        )
+        if _is_same_order(*clouds):
+            return Matched(clouds, (slice(None), slice(None)), (0, 0))
+        del clouds
+    clouds = _read(files, progress)
+    orders = _pairs(*clouds, progress.part(0.6, 1.0))
+    count = len(orders[0])
+    if count < _LEAST_SHARE * min(file.count for file in files) or not count:
+        raise BareEarthError(
+            f"{one} and {other} do not hold the same points: of {files[0].count:,} and"
+            f" {files[1].count:,} points {count:,} are in both. Compare a classified file with its"
+            " own reference."
+        )
+    alone = files[0].count - count, files[1].count - count
+    if any(alone):
+        progress.info(
+            f"{count:,} points are in both files and are compared. {alone[0]:,} points of"
+            f" {one.name} and {alone[1]:,} of {other.name} have no partner."
+        )
+    return Matched(clouds, orders, alone)
+
+
+def _is_same_order(one: PointCloud, other: PointCloud) -> bool:
+    """Return whether two clouds have the same points in the same order."""
+    if not (np.allclose(one.scale, other.scale) and np.allclose(one.offset, other.offset)):
+        return False
+    names = ("x", "y", "z", "return_number")
+    return all(np.array_equal(getattr(one, name), getattr(other, name)) for name in names)
+
+
+def _read(files: tuple[LasFile, LasFile], progress: Progress) -> tuple[PointCloud, PointCloud]:
+    """Read the smaller file, and of the other one what lies in its extent."""
+    small, large = sorted(range(2), key=lambda number: files[number].count)
+    has_times = all(file.has_gps_times for file in files)
+    first = read_window(files[small], _EVERYWHERE, progress.part(0.0, 0.3), times=has_times)
+    box = _extent(first, max(files[large].scale))
+    second = read_window(files[large], box, progress.part(0.3, 0.6), times=has_times)
+    return (first, second) if small == 0 else (second, first)
+
+
+def _extent(cloud: PointCloud, step: float) -> Box:
+    """Return smallest x and y, largest x and y of the points, and a little more."""
+    (west, south), (east, north) = (
+        [value * scale + offset for value, scale, offset in zip(each, cloud.scale, cloud.offset)]
+        for each in (cloud.lowest, cloud.highest)
+    )
+    more = max(step, *cloud.scale[:2])
+    return west - more, south - more, east + more, north + more
+
+
+def _pairs(one: PointCloud, other: PointCloud, progress: Progress) -> tuple[np.ndarray, np.ndarray]:
+    """Return the indices of the common points of two clouds, in the order of the first one."""
+    clouds = one, other
+    steps = [max(pair) for pair in zip(one.scale, other.scale)]
+    columns = [_integers(cloud, 0, one, steps) for cloud in clouds]
+    times = [cloud.gps_time for cloud in clouds if cloud.gps_time is not None]
+    has_times = len(times) == len(clouds)
+    timed, untimed, edges = [], [], _edges(columns)
+    for number, (west, east) in enumerate(zip(edges, edges[1:])):
+        strips = [np.flatnonzero((x >= west) & (x < east)) for x in columns]
+        keys = [_keys(cloud, strip, one, steps) for cloud, strip in zip(clouds, strips)]
+        untimed.append(_of_strips(strips, _equal(*keys)))
+        if has_times:
+            for key, time, strip in zip(keys, times, strips):
+                key.append(time[strip].view(np.int64))
+            timed.append(_of_strips(strips, _equal(*keys)))
+        progress((number + 1) / (len(edges) - 1))
+    # Where times were changed, few points have the same.
+    use_times = _count(timed) >= _TRUSTED * _count(untimed)
+    first, second = map(np.concatenate, zip(*(timed if has_times and use_times else untimed)))
+    order = np.argsort(first, kind="stable")
+    return first[order], second[order]
+
+
+def _keys(
+    cloud: PointCloud, which: np.ndarray, origin: PointCloud, steps: Sequence[float]
+) -> list[np.ndarray]:
+    """Return what the same points have in common, without times; int64 columns."""
+    places = [_integers(cloud, axis, origin, steps, which) for axis in range(3)]
+    return [*places, cloud.return_number[which].astype(np.int64)]
+
+
+def _of_strips(strips: Sequence[np.ndarray], pairs: Sequence[np.ndarray]) -> list[np.ndarray]:
+    """Return rows of strips as indices of the clouds."""
+    return [strip[pair] for strip, pair in zip(strips, pairs)]
+
+
+def _count(pairs: Sequence[Sequence[np.ndarray]]) -> int:
+    return sum(len(first) for first, _ in pairs)
+
+
+def _integers(
+    cloud: PointCloud,
+    axis: int,
+    origin: PointCloud,
+    steps: Sequence[float],
+    which: np.ndarray | slice = slice(None),
+) -> np.ndarray:
+    """Return coordinates of points in whole steps from the offset of a cloud; int64."""
+    values = (cloud.x, cloud.y, cloud.z)[axis][which]
+    start = cloud.offset[axis] - origin.offset[axis]
+    return np.rint((values * cloud.scale[axis] + start) / steps[axis]).astype(np.int64)
+
+
+def _edges(columns: Sequence[np.ndarray]) -> np.ndarray:
+    """Return limits of strips, given the x of both clouds; the strips hold all points."""
+    most = max(columns, key=len)
+    count = max(-(-len(most) // _STRIP), 1)
+    inner = np.sort(most[:: max(len(most) // 100_000, 1)])
+    inner = inner[np.arange(1, count) * len(inner) // count]
+    ends = np.iinfo(np.int64)
+    return np.unique([ends.min, *inner.tolist(), ends.max])
+
+
+def _equal(one: Sequence[np.ndarray], other: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """Return the rows of two tables that are equal; several equal rows are paired in order.
+
+    Parameters
+    ----------
+    one, other : sequence of numpy.ndarray of int64, shape (n,) and (m,)
+        The columns of the tables.
+
+    Returns
+    -------
+    tuple of numpy.ndarray of int64, shape (k,)
+        The rows of each table; no row is used twice.
+    """
+    first_count = len(one[0])
+    columns = [np.concatenate(pair) for pair in zip(one, other)]
+    if not len(columns[0]):
+        return np.empty(0, np.int64), np.empty(0, np.int64)
+    # Stable, so that equal rows are in order, those of the first table before the others.
+    order = np.lexsort(columns[::-1])
+    is_new = np.ones(len(order), dtype=bool)
+    is_new[1:] = np.any([each[order][1:] != each[order][:-1] for each in columns], axis=0)
+    group, is_first = np.cumsum(is_new) - 1, order < first_count
+    counts = [np.bincount(group[side], minlength=group[-1] + 1) for side in (is_first, ~is_first)]
+    pairs = np.minimum(*counts)
+    rank = np.arange(len(order)) - np.flatnonzero(is_new)[group]
+    rank[~is_first] -= counts[0][group[~is_first]]
+    used = rank < pairs[group]
+    return order[used & is_first], order[used & ~is_first] - first_count

@@ -1,0 +1,105 @@
+"""Refuses, before a run, outputs that the run could not write at its end."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Callable, Sequence
+
+from qgis.core import (
+    QgsProcessing,
+    QgsProcessingAlgorithm,
+    QgsProcessingContext,
+    QgsProcessingOutputLayerDefinition,
+    QgsProcessingParameterDefinition,
+    QgsProcessingParameterFolderDestination,
+    QgsProperty,
+)
+
+from ...algorithms.core.files import check_output
+from ...algorithms.engine.one_file import check_cloud
+from ...algorithms.products.contours import CONTOUR_FORMATS, check_contour_output
+from ...algorithms.products.page import check_page
+from ...algorithms.rasters.writing import check_raster_output
+from ...algorithms.survey.files import is_one_file
+from ...algorithms.survey.vpc import SUFFIX, check_vpc
+from .inputs import is_empty
+
+Check = Callable[[Path, "tuple[Path, ...]"], None]
+
+
+def check_outputs(
+    algorithm: QgsProcessingAlgorithm,
+    parameters: dict[str, Any],
+    context: QgsProcessingContext,
+    sources: Sequence[Path],
+) -> None:
+    """Refuse files whose folder does not exist, or whose ending or name is not suitable.
+
+    Parameters
+    ----------
+    algorithm : QgsProcessingAlgorithm
+        The algorithm to run.
+    parameters : dict
+        The values of the user.
+    context : QgsProcessingContext
+        Where expressions are evaluated.
+    sources : sequence of Path
+        The inputs.
+
+    Raises
+    ------
+    BareEarthError
+        With the text that the run would give.
+    """
+    for output in algorithm.destinationParameterDefinitions():
+        path = _path_of(parameters.get(output.name()), context)
+        if path is not None:
+            _check_of(output)(path, tuple(sources))
+
+
+def _path_of(value: Any, context: QgsProcessingContext) -> Path | None:
+    """Return the path that the user gave for an output; None if QGIS makes one up, or for none."""
+    if isinstance(value, QgsProcessingOutputLayerDefinition):
+        value = value.sink
+    if isinstance(value, QgsProperty):
+        value, _ = value.valueAsString(context.expressionContext(), "")
+    if is_empty(value) or value == QgsProcessing.TEMPORARY_OUTPUT:
+        return None
+    return Path(value) if isinstance(value, (str, Path)) else None
+
+
+def _check_of(output: QgsProcessingParameterDefinition) -> Check:
+    """Return the check for the kind of an output."""
+    if isinstance(output, QgsProcessingParameterFolderDestination):
+        return _check_folder
+    ending = f".{output.defaultFileExtension()}"
+    if ending in CONTOUR_FORMATS:
+        return check_contour_output
+    checks: dict[str, Check] = {
+        ".html": check_page,
+        ".tif": check_raster_output,
+        SUFFIX: _check_list,
+    }
+    return checks.get(ending, _check_points)
+
+
+def _check_points(path: Path, sources: tuple[Path, ...]) -> None:
+    """Check a point cloud; for many files, it is a folder, or gets another name."""
+    if is_one_file(sources):
+        check_cloud(sources[0], path)
+    else:
+        _check_folder(path, sources)
+
+
+def _check_folder(path: Path, sources: tuple[Path, ...]) -> None:
+    """Check a folder, which is made if its own folder exists."""
+    if not path.exists():
+        check_output(path)
+
+
+def _check_list(path: Path, sources: tuple[Path, ...]) -> None:
+    """Check a virtual point cloud, which may be in the folder that the run makes."""
+    check_vpc(path)
+    if path.parent.parent.is_dir() and not path.parent.exists():
+        return
+    check_output(path, sources)
