@@ -75,7 +75,7 @@ class Mosaic:
         whole = self.window
         strip = CellWindow(whole.row + whole.rows - end, whole.column, end - start, whole.columns)
         empty = np.nan if issubclass(kind, np.floating) else 0
-        heights = np.full(strip.shape, empty, dtype=kind)
+        heights: np.ndarray = np.full(strip.shape, empty, dtype=kind)
         for each in self._made:
             target, source = _overlap(strip, each.window), _overlap(each.window, strip)
             if target is not None:

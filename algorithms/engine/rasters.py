@@ -364,7 +364,8 @@ def _mosaics_of(
         loose = [each.loose[name] for each in made if name in each.loose]
         if loose and step.surface.max_edge is None:
             vertices = np.concatenate(loose)
-            row, column = window.places(*vertices[:, :2].T, (0.0, 0.0), cell)
+            x, y = vertices[:, :2].T
+            row, column = window.places(x, y, (0.0, 0.0), cell)
             vertices = vertices[are_inside(row, column, window.shape)]
             mosaics[name].fill_gaps(vertices, next(parts))
     return mosaics

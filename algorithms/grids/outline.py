@@ -52,7 +52,9 @@ class Outline:
                 place = (start + row) // _ROWS, column // _COLUMNS
                 is_plain = part.all() or not part.any()
                 self._parts[place] = (
-                    bool(part.flat[0]) if is_plain else zlib.compress(np.packbits(part), 1)
+                    bool(part.flat[0])
+                    if is_plain
+                    else zlib.compress(np.packbits(part).tobytes(), 1)
                 )
 
     def rows(self, start: int, end: int, first: int = 0, last: int | None = None) -> np.ndarray:
@@ -131,7 +133,8 @@ class Discs:
         columns = cells.shape[1]
         if group > 1:
             cells = np.pad(cells, ((0, 0), (west, -(west + columns) % group)))
-            cells = cells.reshape(len(cells) // group, group, -1, group).any(axis=(1, 3))
+            grouped = cells.reshape(len(cells) // group, group, -1, group)
+            cells = np.logical_or.reduce(grouped, axis=(1, 3))
         if self._shrink:
             cells = closing(cells, self._grow, self._shrink)
         else:
@@ -206,9 +209,9 @@ class _JoinedGaps:
         """Return which cells of a strip lie in gaps that are not inside; bool."""
         labels, count = _labelled(cells)
         is_outside = np.zeros(count + 1, dtype=bool)
-        for label, number in self._strips[strip].items():
-            is_outside[label] = self._group(number) == _OUTSIDE
-        return is_outside[labels]
+        numbers = self._strips[strip].items()
+        is_outside[[k for k, number in numbers if self._group(number) == _OUTSIDE]] = True
+        return np.take(is_outside, labels)
 
     def _group(self, number: int) -> int:
         while self._parents[number] != number:
