@@ -4,18 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from qgis.core import QgsProcessingParameterRasterLayer
-
 from ...algorithms.engine.heights import HeightOutput
 from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.output import HEIGHT_DIMENSION
 from ...algorithms.rasters.sampling import HeightRaster
 from ...algorithms.survey.ground_classes import GroundClasses
-from ..i18n import mark
 from ..styles import layers
 from .base import command_line
-from .feedback import Refusal
-from .inputs import is_empty
+from .given_terrain import add_terrain, terrain_of
 from .products import ProductAlgorithm
 
 
@@ -50,21 +46,12 @@ class HeightAboveGroundAlgorithm(ProductAlgorithm):
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""
         super().initAlgorithm(configuration)
-        self.addParameter(
-            QgsProcessingParameterRasterLayer("DTM", "Terrain model", None, True),
-            "Heights are measured above this raster, and not above the ground points. It must have"
-            " the CRS of the points. Empty: above the ground points.",
-        )
+        add_terrain(self)
 
     def prepare(self, parameters, context, progress):
         """Find the inputs."""
         super().prepare(parameters, context, progress)
-        self._dtm = ""
-        if not is_empty(parameters.get("DTM")):
-            layer = self.parameterAsRasterLayer(parameters, "DTM", context)
-            if layer is None or layer.providerType() != "gdal":
-                raise Refusal(mark("The terrain model is not a file. Export it as GeoTIFF first."))
-            self._dtm = layer.source()
+        self._dtm = terrain_of(self, parameters, context)
 
     def compute(self, parameters, context, progress):
         """Write the heights."""

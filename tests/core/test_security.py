@@ -78,7 +78,9 @@ def outputs(folder, source, name):
     classified = out.with_name(f"{name}.las")
     return {
         "info": ("info", source),
-        "classify": ("classify", source, classified, "--method", "slope", *rasters),
+        # The classes of the points are random numbers.
+        "classify": ("classify", source, classified, "--method", "slope", *rasters,
+                     "--from-classes", "all"),
         "height": ("height", classified, out.with_name(f"{name}.laz")),
         "key-points": ("key-points", classified, out.with_name(f"{name}.laz")),
         "terrain": ("terrain", classified, *rasters),

@@ -1,0 +1,44 @@
+"""The field for a given terrain model, above which heights are measured."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from qgis.core import (
+    QgsProcessingAlgorithm,
+    QgsProcessingContext,
+    QgsProcessingParameterRasterLayer,
+)
+
+from ..i18n import mark
+from .feedback import Refusal
+from .inputs import is_empty
+
+DTM = "DTM"
+
+
+def add_terrain(algorithm: QgsProcessingAlgorithm) -> None:
+    """Add the field to a dialog."""
+    algorithm.addParameter(
+        QgsProcessingParameterRasterLayer(DTM, "Terrain model", None, True),
+        "Heights are measured above this raster, and not above the ground points. It must have the"
+        " CRS of the points. Empty: above the ground points.",
+    )
+
+
+def terrain_of(
+    algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], context: QgsProcessingContext
+) -> str:
+    """Return the file of the raster; empty if there is none.
+
+    Raises
+    ------
+    BareEarthError
+        If the layer is not a file.
+    """
+    if is_empty(parameters.get(DTM)):
+        return ""
+    layer = algorithm.parameterAsRasterLayer(parameters, DTM, context)
+    if layer is None or layer.providerType() != "gdal":
+        raise Refusal(mark("The terrain model is not a file. Export it as GeoTIFF first."))
+    return layer.source()
