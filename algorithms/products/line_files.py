@@ -49,7 +49,7 @@ class ContourLine(NamedTuple):
 
 
 def line_writer(target: Path) -> Callable[..., int]:
-    """Return the function that writes lines into a format: ``write(target, lines, raster, progress)``.
+    """Return the function that writes lines: ``write(target, lines, raster, progress)``.
 
     It returns the number of lines. Their fields are ID, ELEV (the height) and INDEX (1 or 0).
 
@@ -119,8 +119,8 @@ def _by_pyogrio(
                 warnings.simplefilter("ignore")  # if there is no CRS
                 pyogrio.raw.write(
                     str(target), shapes, fields, names, layer=_layer_of(target),
-                    driver=FORMATS[target.suffix.lower()], geometry_type="LineString", crs=raster.frame.wkt,
-                    append=count > 0,
+                    driver=FORMATS[target.suffix.lower()], geometry_type="LineString",
+                    crs=raster.frame.wkt, append=count > 0,
                 )  # fmt: skip
             count += len(some)
     except (BareEarthError, MemoryError):

@@ -64,8 +64,8 @@ def read_features(
         raise
     except Exception as error:  # the errors of the libraries have many types
         raise BareEarthError(
-            f"Cannot read {name}: it is damaged, or no vector file. Give GeoJSON, WKT, GeoPackage or"
-            " a shapefile."
+            f"Cannot read {name}: it is damaged, or no vector file. Give GeoJSON, WKT, GeoPackage"
+            " or a shapefile."
         ) from error
     if wanted and not found:
         raise BareEarthError(f"{name} has no layer {wanted}. Check its name.")
