@@ -62,6 +62,8 @@ def read_features(
         found = {each.name: (list(_of_kind(each, kind)), each.crs) for each in layers}
     except (BareEarthError, MemoryError):
         raise
+    except ValueError as error:  # of a geometry
+        raise BareEarthError(f"Cannot read {name}: {error}.") from error
     except Exception as error:  # the errors of the libraries have many types
         raise BareEarthError(
             f"Cannot read {name}: it is damaged, or no vector file. Give GeoJSON, WKT, GeoPackage"
