@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from .core.errors import Cancelled as Cancelled
     from .core.progress import Progress as Progress
     from .core.version import __version__ as __version__
+    from .engine.constraints import Constraints as Constraints
     from .engine.heights import HeightOutput as HeightOutput
     from .engine.key_points import KeyPointMark as KeyPointMark
     from .engine.memory import Resources as Resources
@@ -41,6 +42,10 @@ if TYPE_CHECKING:
     from .filters.tin_densification.filter import TinDensification as TinDensification
     from .grids.model_key_points import ModelKeyPoints as ModelKeyPoints
     from .products.assessment import assess_files as assess  # noqa: F401
+    from .products.contours import Contours as Contours
+    from .products.contours import write_contours as write_contours
+    from .products.local_relief import LocalRelief as LocalRelief
+    from .products.local_relief import write_local_relief as write_local_relief
     from .products.surface_model import SurfaceModel as SurfaceModel
     from .products.terrain_model import TerrainModel as TerrainModel
     from .rasters.sampling import HeightRaster as HeightRaster
@@ -48,6 +53,9 @@ if TYPE_CHECKING:
     from .survey.corrections import Corrections as Corrections
     from .survey.ground_classes import GroundClasses as GroundClasses
     from .survey.selection import Selection as Selection
+    from .survey.vector_files import read_boundary as read_boundary
+    from .survey.vector_files import read_corrections as read_corrections
+    from .survey.vector_files import read_lines as read_lines
 
 # The module of each name; with the name in that module, if it differs.
 _MODULES = {
@@ -55,6 +63,7 @@ _MODULES = {
     "Cancelled": "core.errors",
     "Progress": "core.progress",
     "__version__": "core.version",
+    "Constraints": "engine.constraints",
     "HeightOutput": "engine.heights",
     "KeyPointMark": "engine.key_points",
     "Resources": "engine.memory",
@@ -79,6 +88,10 @@ _MODULES = {
     "TinDensification": "filters.tin_densification.filter",
     "ModelKeyPoints": "grids.model_key_points",
     "assess": "products.assessment:assess_files",
+    "Contours": "products.contours",
+    "write_contours": "products.contours",
+    "LocalRelief": "products.local_relief",
+    "write_local_relief": "products.local_relief",
     "SurfaceModel": "products.surface_model",
     "TerrainModel": "products.terrain_model",
     "HeightRaster": "rasters.sampling",
@@ -86,6 +99,9 @@ _MODULES = {
     "Corrections": "survey.corrections",
     "GroundClasses": "survey.ground_classes",
     "Selection": "survey.selection",
+    "read_boundary": "survey.vector_files",
+    "read_corrections": "survey.vector_files",
+    "read_lines": "survey.vector_files",
 }
 
 __all__ = list(_MODULES)

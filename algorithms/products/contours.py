@@ -13,7 +13,6 @@ from ..core.errors import BareEarthError
 from ..core.files import check_output, replace_with_files_of, temporary_folder
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
-from ..crs.system import unit_symbol
 from ..grids.isolines import Isoline, Isolines
 from ..grids.local_trend import local_trend, reach_of
 from ..rasters.rows import RowsOfRaster, raster_rows
@@ -160,11 +159,7 @@ def write_contours(
     with raster_rows(source) as raster:
         low, high = _range_of(raster, progress.part(0.0, 0.2))
         height = contours.interval(low, high, raster.frame.vertical_unit)
-        # The description that `write_geotiff` gives to bands of terrain models.
-        unit = raster.description.partition(", ")[2]
-        if not unit and raster.frame.wkt:
-            unit = unit_symbol(raster.frame.vertical_unit)
-        interval = Interval(height, unit)
+        interval = Interval(height, raster.unit)
         if (high - low) / height > _MOST_LEVELS:
             raise BareEarthError(
                 f"An interval of {interval.text()} would give more than {_MOST_LEVELS:,} heights of"
@@ -172,7 +167,7 @@ def write_contours(
             )
         with temporary_folder(target.parent) as folder:
             lines = _lines_of(raster, contours, height, progress.part(0.2, 1.0))
-            count = write(folder / target.name, lines, raster.frame.wkt, progress)
+            count = write(folder / target.name, lines, raster, progress)
             progress.info(f"{count:,} contour lines, one every {interval.text()}")
             progress(1.0)
             replace_with_files_of(folder, target, files_beside(target))

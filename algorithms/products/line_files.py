@@ -14,8 +14,8 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
 from ..core.temporary import shown
-from ..crs.wkt import read_wkt
 from ..rasters.libraries import GdalErrors
+from ..rasters.rows import RowsOfRaster
 
 # The formats, and their names in GDAL.
 FORMATS = {".gpkg": "GPKG", ".geojson": "GeoJSON", ".shp": "ESRI Shapefile", ".fgb": "FlatGeobuf"}
@@ -49,7 +49,7 @@ class ContourLine(NamedTuple):
 
 
 def line_writer(target: Path) -> Callable[..., int]:
-    """Return the function that writes lines into a format: ``write(target, lines, wkt, progress)``.
+    """Return the function that writes lines: ``write(target, lines, raster, progress)``.
 
     It returns the number of lines. Their fields are ID, ELEV (the height) and INDEX (1 or 0).
 
@@ -76,10 +76,9 @@ def line_writer(target: Path) -> Callable[..., int]:
 
 
 def _geojson(
-    target: Path, lines: Iterable[ContourLine], wkt: str | None, progress: Progress = SILENT
+    target: Path, lines: Iterable[ContourLine], raster: RowsOfRaster, progress: Progress = SILENT
 ) -> int:
-    facts, count = read_wkt(wkt) if wkt else None, 0
-    crs = f"urn:ogc:def:crs:EPSG::{facts.epsg}" if facts is not None and facts.epsg else None
+    crs, count = f"urn:ogc:def:crs:EPSG::{raster.epsg}" if raster.epsg else None, 0
     if crs is None:
         progress.warning(
             f"{target.name} states no CRS, since GeoJSON can hold only EPSG codes. Write .gpkg to"
@@ -101,7 +100,7 @@ def _geojson(
 
 
 def _by_pyogrio(
-    target: Path, lines: Iterable[ContourLine], wkt: str | None, progress: Progress = SILENT
+    target: Path, lines: Iterable[ContourLine], raster: RowsOfRaster, progress: Progress = SILENT
 ) -> int:
     import pyogrio
 
@@ -120,8 +119,8 @@ def _by_pyogrio(
                 warnings.simplefilter("ignore")  # if there is no CRS
                 pyogrio.raw.write(
                     str(target), shapes, fields, names, layer=_layer_of(target),
-                    driver=FORMATS[target.suffix.lower()], geometry_type="LineString", crs=wkt,
-                    append=count > 0,
+                    driver=FORMATS[target.suffix.lower()], geometry_type="LineString",
+                    crs=raster.frame.wkt, append=count > 0,
                 )  # fmt: skip
             count += len(some)
     except (BareEarthError, MemoryError):
@@ -132,7 +131,7 @@ def _by_pyogrio(
 
 
 def _by_gdal(
-    target: Path, lines: Iterable[ContourLine], wkt: str | None, progress: Progress = SILENT
+    target: Path, lines: Iterable[ContourLine], raster: RowsOfRaster, progress: Progress = SILENT
 ) -> int:
     from osgeo import gdal, ogr, osr
 
@@ -141,7 +140,7 @@ def _by_gdal(
         driver = ogr.GetDriverByName(FORMATS[target.suffix.lower()])
         made = driver.CreateDataSource(str(target))
         errors.check(target)
-        reference = osr.SpatialReference(wkt) if wkt else None
+        reference = osr.SpatialReference(raster.frame.wkt) if raster.frame.wkt else None
         if reference is not None:
             reference.SetAxisMappingStrategy(osr.OAMS_TRADITIONAL_GIS_ORDER)
         layer = made.CreateLayer(_layer_of(target), reference, ogr.wkbLineString)

@@ -10,6 +10,8 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.points import Frame
+from ..crs.system import unit_symbol
+from ..crs.wkt import read_wkt
 from .geotiff import Content, check_local, frame_of
 from .libraries import GdalErrors, library
 
@@ -25,8 +27,10 @@ class RowsOfRaster(NamedTuple):
         Geotransform of GDAL.
     frame : Frame
         The CRS and its units.
-    description : str
-        Description of the band.
+    unit : str
+        Symbol of the unit of heights; empty if the file states neither unit nor CRS.
+    epsg : int or None
+        EPSG code of the CRS.
     read : callable
         ``read(start, end)`` returns rows as heights: float32, NaN where there is none.
     """
@@ -34,7 +38,8 @@ class RowsOfRaster(NamedTuple):
     shape: tuple[int, int]
     geotransform: tuple[float, ...]
     frame: Frame
-    description: str
+    unit: str
+    epsg: int | None
     read: Callable[[int, int], np.ndarray]
 
 
@@ -58,7 +63,13 @@ def raster_rows(source: str | Path) -> Iterator[RowsOfRaster]:
             heights[~(valid & np.isfinite(values))] = np.nan
             return heights
 
-        yield RowsOfRaster(shape, content.geotransform, frame, description, rows)
+        facts = read_wkt(content.wkt) if content.wkt else None
+        # The description that `write_geotiff` gives to bands of terrain models.
+        unit = description.partition(", ")[2]
+        if not unit and facts is not None:
+            unit = unit_symbol(frame.vertical_unit)
+        epsg = facts.epsg if facts is not None else None
+        yield RowsOfRaster(shape, content.geotransform, frame, unit, epsg, rows)
 
 
 @contextlib.contextmanager

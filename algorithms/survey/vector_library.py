@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any, Iterator, NamedTuple, Sequence
 
 from ..core.errors import BareEarthError
-from ..core.temporary import shown
 from ..las.sources import open_source
 from .wkb import geometries_of
 
@@ -63,9 +62,13 @@ def read_features(
         found = {each.name: (list(_of_kind(each, kind)), each.crs) for each in layers}
     except (BareEarthError, MemoryError):
         raise
+    except ValueError as error:  # of a geometry
+        raise BareEarthError(f"Cannot read {name}: {error}.") from error
     except Exception as error:  # the errors of the libraries have many types
-        reason = " ".join(shown(error).split()).rstrip(".")
-        raise BareEarthError(f"Cannot read {name}: {reason}.") from error
+        raise BareEarthError(
+            f"Cannot read {name}: it is damaged, or no vector file. Give GeoJSON, WKT, GeoPackage"
+            " or a shapefile."
+        ) from error
     if wanted and not found:
         raise BareEarthError(f"{name} has no layer {wanted}. Check its name.")
     filled = [each for each in found if found[each][0]]
@@ -122,7 +125,7 @@ def _by_gdal(name: str, attribute: str) -> Iterator[_Layer]:
     try:
         source = gdal.OpenEx(name, gdal.OF_VECTOR | gdal.OF_READONLY)
         if source is None:
-            raise BareEarthError(f"Cannot read {name}: it is no vector file that GDAL can read.")
+            raise OSError(f"{name} is no vector file")
         for number in range(source.GetLayerCount()):
             layer, features = source.GetLayer(number), []
             has = layer.GetLayerDefn().GetFieldIndex(attribute) >= 0

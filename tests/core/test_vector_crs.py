@@ -12,6 +12,7 @@ from realdata import real
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.crs import provider
+from bare_earth.algorithms.engine import file_points
 from bare_earth.algorithms.engine.constraints import Constraints
 from bare_earth.algorithms.engine.raster_files import RasterFiles
 from bare_earth.algorithms.engine.requests import ClassifyRequest, TerrainRequest
@@ -121,6 +122,17 @@ def test_extended_wkt_states_its_crs(cloud, tmp_path):
     ring = ", ".join(f"{x} {y}" for x, y in moved(CORNERS, "EPSG:25833"))
     (tmp_path / "a.wkt").write_text(f"SRID=25833;POLYGON (({ring}))", encoding="utf-8")
     assert highest(cloud, tmp_path / "a.tif", no_ground=read_boundary(tmp_path / "a.wkt")) < 50.1
+
+
+@pytest.mark.parametrize("at", ["near", "far"])
+def test_points_that_wait_on_disk_are_no_exception(cloud, tmp_path, monkeypatch, at):
+    monkeypatch.setattr(file_points, "fits_in_memory", lambda *_: False)
+    path = geojson(tmp_path / "a.geojson", moved(CORNERS if at == "near" else FAR, "EPSG:4326"))
+    if at == "near":
+        assert highest(cloud, tmp_path / "a.tif", no_ground=read_boundary(path)) < 50.1
+    else:
+        with pytest.raises(BareEarthError, match="lies in the polygons without ground"):
+            highest(cloud, tmp_path / "a.tif", no_ground=read_boundary(path))
 
 
 def test_the_same_points_are_classified_in_a_boundary_of_any_crs(cloud, tmp_path):

@@ -296,6 +296,14 @@ def test_numbers_have_ranges_and_names_are_upper_case(each):
             assert parameter.usesStaticStrings()
 
 
+def test_lines_are_offered_in_the_formats_that_can_be_written(registry):
+    algorithm = registry.createAlgorithmById("bareearth:pointcloudtoterrain")
+    field = algorithm.parameterDefinition("CONTOURS")
+    assert field.supportedOutputVectorLayerExtensions() == ["gpkg", "geojson", "shp", "fgb"]
+    assert field.defaultFileExtension() == "gpkg"
+    assert "dxf" not in field.createFileFilter()
+
+
 def test_a_dialog_shows_eight_fields_at_most(each):
     advanced = QgsProcessingParameterDefinition.Flag.FlagAdvanced
     fields = [p for p in each.parameterDefinitions() if not p.flags() & advanced]

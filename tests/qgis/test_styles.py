@@ -5,6 +5,8 @@ import pytest
 from osgeo import gdal
 from qgis.core import (
     Qgis,
+    QgsExpression,
+    QgsExpressionContext,
     QgsLayerTreeGroup,
     QgsLayerTreeModel,
     QgsPointCloudLayer,
@@ -251,6 +253,28 @@ def test_the_legend_of_contour_lines_says_the_unit(run, tmp_path):
     values = {"INPUT": str(tmp_path / "feet.las"), "CONTOUR_INTERVAL": 2.5}
     run("bareearth:pointcloudtoterrain", values, outputs)
     assert legend_of("Contour lines") == ["Every 12.5 US survey ft", "Every 2.5 US survey ft"]
+
+
+def test_every_fifth_contour_line_has_its_height_as_a_label(run, tmp_path):
+    write_scene(tmp_path / "scene.las")
+    outputs = {"CONTOURS": tmp_path / "lines.gpkg", "DTM": tmp_path / "dtm.tif"}
+    values = {"INPUT": str(tmp_path / "scene.las"), "CONTOUR_INTERVAL": 0.2}
+    run("bareearth:pointcloudtoterrain", values, outputs)
+    layers = QgsProject.instance().mapLayers().values()
+    (layer,) = (each for each in layers if each.name().endswith("contour lines"))
+    assert layer.labelsEnabled()
+    (rule,) = layer.labeling().rootRule().children()
+    context = QgsExpressionContext()
+    labelled = set()
+    for feature in layer.getFeatures():
+        context.setFeature(feature)
+        expression = QgsExpression(rule.filterExpression())
+        context.setFields(layer.fields())
+        if expression.evaluate(context):
+            labelled.add(feature["ELEV"])
+        assert bool(expression.evaluate(context)) == (feature["INDEX"] == 1)
+    assert labelled == {101.0, 102.0, 103.0, 104.0, 105.0}
+    assert rule.settings().fieldName == "ELEV" and rule.settings().format().buffer().enabled()
 
 
 @pytest.mark.skipif(Qgis.QGIS_VERSION_INT < 32600, reason="shows no point clouds")
