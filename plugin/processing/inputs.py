@@ -302,7 +302,7 @@ def _path_of(layer: QgsMapLayer) -> Path:
             ).format(layer.name())
         )
     if has_edits(layer):
-        text = tr('The layer "{}" has edits that are not saved. Save or discard them first.')
+        text = tr('The layer "{}" is being edited. Save or discard the edits first.')
         raise BareEarthError(text.format(layer.name()))
     provider = layer.dataProvider().name() if layer.dataProvider() else ""
     parts = QgsProviderRegistry.instance().decodeUri(provider, layer.source())

@@ -195,9 +195,12 @@ def reload(
             continue
         _close(layer)
         uri = fresh_path(str(each.path)) if each.provider == "copc" else each.uri
-        metadata = layer.metadata()
+        # QGIS forgets both.
+        metadata, own = layer.metadata(), filter_of(layer)
         layer.setDataSource(uri, layer.name(), each.provider)
-        layer.setMetadata(metadata)  # newer versions of QGIS forget it
+        layer.setMetadata(metadata)
+        if own:
+            layer.setSubsetString(own)
         show_fresh_points(layer)
         dress = known.get(_normal(each.path))
         if dress is not None and layer.isValid():

@@ -47,7 +47,7 @@ class Stage:
         self._sources = loaded.sources_of(self._project, self._places) if is_main else []
         title = loaded.edited(self._project, self._sources)
         if title:
-            text = tr('The layer "{}" has edits that are not saved. Save or discard them first.')
+            text = tr('The layer "{}" is being edited. Save or discard the edits first.')
             raise BareEarthError(text.format(title))
         self.is_old = bool(self._sources) and self._old_group() is not None
         self.group = name if self.is_old or not is_main else free_name(self._project, name)
