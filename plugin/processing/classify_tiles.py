@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from ...algorithms.engine import options
 from ...algorithms.engine.memory import Resources
-from ...algorithms.engine.options import RasterOutput, TileInput, TileMethod, TileOutput
 from ...algorithms.engine.output import Output
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
@@ -34,8 +34,8 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
 
     def parameter_sets(self):
         """Return method, points and classes, files, outputs, and resources."""
-        sets = TileMethod, Selection, TileInput, TileOutput, Output, TerrainModel, RasterOutput
-        return (*sets, Resources)
+        files = options.TileInput, options.ShownTiles, Output
+        return options.TileMethod, Selection, *files, TerrainModel, options.RasterOutput, Resources
 
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""
@@ -63,7 +63,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         from ...algorithms.engine.many_files import classify_files
         from ...algorithms.engine.requests import ClassifyRequest
 
-        chosen, sources = self.chosen(parameters, context), self._sources
+        chosen, sources = options.as_command(self.chosen(parameters, context)), self._sources
         folder = self.parameterAsFileOutput(parameters, "OUTPUT_FOLDER", context)
         vpc = self.parameterAsFileOutput(parameters, "OUTPUT_VPC", context)
         paths = raster_paths(self, parameters, context)
@@ -72,8 +72,8 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         request = ClassifyRequest.of(chosen, rasters=raster_files(paths), **self._limits)
         summary = classify_files(sources, folder, request, progress, vpc=vpc or None)
         progress.info(f"{summary.text}.")
-        paths = shown_rasters(paths, request.raster_output, context)
         self.class_counts = summary.class_counts
-        show_classified(self, summary.vpc, self.class_counts, request, context, progress)
+        paths = shown_rasters(paths, request.raster_output, context)
+        show_classified(self, summary.vpc, summary.class_counts, request, context, progress)
         results = {name: getattr(summary, name.lower()) for name in _NUMBERS}
         return {"OUTPUT_FOLDER": folder, "OUTPUT_VPC": summary.vpc, **paths, **results}
