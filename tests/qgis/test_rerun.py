@@ -16,6 +16,7 @@ from qgis.core import (
     QgsPointXY,
     QgsProcessingAlgRunnerTask,
     QgsProcessingContext,
+    QgsProcessingException,
     QgsProcessingOutputLayerDefinition,
     QgsProject,
     QgsProviderRegistry,
@@ -372,3 +373,39 @@ def test_the_filter_of_the_user_stays_beside_ours(tmp_path, run):
         for _ in range(2):
             run("bareearth:classifytiles", values, outputs)
             assert layer.subsetString() != own and loaded.filter_of(layer) == own
+
+
+def test_a_shipped_model_reloads_its_layers(run, scene, tmp_path):
+    outputs = {
+        "ground:DTM": tmp_path / "dtm.tif",
+        "ground:HILLSHADE": tmp_path / "hillshade.tif",
+        "contours:OUTPUT": tmp_path / "lines.gpkg",
+    }
+    values = {"INPUT": str(scene.path), "INTERVAL": 0.5, "ground:OUTPUT": str(tmp_path / "o.las")}
+    before = run("bareearth:terraincontours", values, outputs)
+    ids, tree = {each.id() for each in before.values()}, groups()
+    assert tree == {
+        "scene: Terrain, hillshade and contours": [
+            "Contour lines",
+            "Classes",
+            "Terrain model",
+            "Hillshade",
+        ]
+    }
+    lift(scene.path, 50.0)
+    after = run("bareearth:terraincontours", values, outputs)
+    assert {each.id() for each in after.values()} == ids and groups() == tree
+    assert value_of(after["Terrain model"]) == pytest.approx(150.7, abs=0.1)
+    assert after["Terrain model"].renderer().classificationMin() > 149
+    assert {each["ELEV"] for each in after["Contour lines"].getFeatures()} >= {151.0, 155.5}
+    assert after["Contour lines"].renderer().type() == "RuleRenderer"
+    # With another interval, the legend is another one.
+    again = run("bareearth:terraincontours", {**values, "INTERVAL": 1.0}, outputs)
+    rules = again["Contour lines"].renderer().rootRule().children()
+    assert [each.label() for each in rules] == ["Every 5 m", "Every 1 m"]
+    # A run that fails leaves all layers as they were.
+    scene.path.write_bytes(scene.path.read_bytes()[:3000])
+    with pytest.raises(QgsProcessingException):
+        run("bareearth:terraincontours", values, outputs)
+    assert all(each.isValid() for each in again.values()) and groups() == tree
+    assert value_of(again["Terrain model"]) == pytest.approx(150.7, abs=0.1)
