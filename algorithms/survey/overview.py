@@ -93,7 +93,7 @@ def _sample(layout: LasFile, like: LasFile, count: int) -> np.ndarray:
     before = np.cumsum(nodes["count"], dtype=np.int64) - nodes["count"]
     nodes = nodes[before < count]
     nodes = nodes[np.argsort(nodes["start"], kind="stable")]
-    step = max(int(nodes["count"].sum(dtype=np.int64)) // count, 1)
+    step = -(-int(nodes["count"].sum(dtype=np.int64)) // count)
     parts = []
     for points in read_nodes(hierarchy, nodes, is_whole=True):
         records = points.array.view(np.uint8).reshape(len(points), -1)
