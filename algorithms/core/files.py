@@ -16,6 +16,8 @@ from .temporary import make_temporary, new_marks, remove_leftovers, remove_tempo
 
 # Errors of the system for a file that another process has locked.
 _LOCKED = (errno.EACCES, errno.EAGAIN, errno.EDEADLK)
+# Errors of Windows if a file that a program has open is to be replaced: access denied, in use.
+_IN_USE = (5, 32)
 _REASONS = {
     errno.ENOSPC: "the disk is full. Free some space or choose another folder",
     errno.EDQUOT: "your disk quota is used up. Free some space or choose another folder",
@@ -24,7 +26,8 @@ _REASONS = {
     errno.EROFS: "the disk is read-only. Choose another folder",
     errno.ENAMETOOLONG: "the name is too long. Choose a shorter one",
     errno.ESTALE: "the network disk lost the file. Run it again",
-    errno.EBUSY: "another program uses it. Close it there, or choose another name",
+    errno.EBUSY: "another program uses it, or QGIS shows it as a layer. Close it there, or choose"
+    " another name",
     errno.EXDEV: "the folder spans two disks. Choose another folder",
 }
 
@@ -254,10 +257,12 @@ def _rename(temporary: Path, target: Path) -> None:
     written = os.stat(temporary)
     try:
         os.replace(temporary, target)
-    except OSError:
+    except OSError as error:
         with contextlib.suppress(OSError):
             if os.path.samestat(written, os.stat(target)):
                 return
+        if getattr(error, "winerror", None) in _IN_USE and os.path.exists(target):
+            raise OSError(errno.EBUSY, os.strerror(errno.EBUSY)) from error
         raise
 
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Iterable
 
-from ..core.parameters import ParameterSet, parameter
+from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..filters import DEFAULT_METHOD, METHODS
 
 
@@ -72,12 +73,24 @@ class TileOutput(ParameterSet):
         " with the same parameters. All other tiles are classified again.",
     )
     overview: bool = parameter(
-        True,
+        False,
         label="Overview of the virtual point cloud",
         advanced=True,
         help="Writes a few points of all tiles into a further COPC file beside the virtual point"
         " cloud, if the tiles are COPC. QGIS 3.42 and newer shows them at small scales.",
     )
+
+
+@dataclass(frozen=True)
+class ShownTiles(TileOutput):
+    """The same with an overview by default, since QGIS shows the tiles at once."""
+
+    overview: bool = parameter_of(TileOutput, "overview", default=True)
+
+
+def as_command(sets: Iterable[ParameterSet]) -> list[ParameterSet]:
+    """Return parameter sets of a dialog as those of the command, whose defaults differ."""
+    return [TileOutput(**vars(each)) if isinstance(each, ShownTiles) else each for each in sets]
 
 
 @dataclass(frozen=True)

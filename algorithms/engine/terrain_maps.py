@@ -165,6 +165,6 @@ def _classified(
     name = target.name.lower()
     kind = next((each for each in _FORMATS if name.endswith(f".{each}")), target.suffix[1:])
     folder = target.with_name(target.name[: -len(kind) - 1])
-    how = replace(how, tiles=TileOutput(kind if kind in _FORMATS else "same"))
+    how = replace(how, tiles=TileOutput(kind if kind in _FORMATS else "same", overview=True))
     many = classify_files(sources, folder, how, progress)
     return MapSummary(Path(many.vpc), many.point_count, many.ground_count, many.class_counts)

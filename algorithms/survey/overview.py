@@ -20,10 +20,10 @@ from ..core.progress import SILENT, Progress
 from ..las.copc import write_copc
 from ..las.copc_nodes import find_nodes, read_hierarchy, read_nodes
 from ..las.edits import EditedFile, Edits
-from ..las.extrabytes import extra_dimensions
+from ..las.extrabytes import extra_dimensions, runs_of_bytes
 from ..las.header_edits import with_count
 from ..las.lasfile import LasFile
-from ..las.records import as_points, column, named, runs_of_bytes
+from ..las.records import as_points, column, named
 
 _ENDING = "-overview.copc.laz"
 # An overview has at most so many points, and at most one of so many.
@@ -93,7 +93,7 @@ def _sample(layout: LasFile, like: LasFile, count: int) -> np.ndarray:
     before = np.cumsum(nodes["count"], dtype=np.int64) - nodes["count"]
     nodes = nodes[before < count]
     nodes = nodes[np.argsort(nodes["start"], kind="stable")]
-    step = max(int(nodes["count"].sum(dtype=np.int64)) // count, 1)
+    step = -(-int(nodes["count"].sum(dtype=np.int64)) // count)
     parts = []
     for points in read_nodes(hierarchy, nodes, is_whole=True):
         records = points.array.view(np.uint8).reshape(len(points), -1)
@@ -104,7 +104,8 @@ def _sample(layout: LasFile, like: LasFile, count: int) -> np.ndarray:
 def _as_records(layout: LasFile, like: LasFile, records: np.ndarray) -> np.ndarray:
     """Return points as records of another file, with its scale and offset."""
     old = named(layout, records)
-    if layout.point_format == like.point_format and _extra(layout) == _extra(like):
+    extra = [extra_dimensions(each) for each in (layout, like)]
+    if layout.point_format == like.point_format and extra[0] == extra[1]:
         new = records.copy()
     else:
         new = np.zeros((len(records), like.record_length), dtype=np.uint8)
@@ -117,7 +118,3 @@ def _as_records(layout: LasFile, like: LasFile, records: np.ndarray) -> np.ndarr
         column(new, 4 * axis, "<i4")[:] = np.clip(integers, *_LIMITS)
     # Points too far away for the scale of the first file.
     return new[fits]
-
-
-def _extra(layout: LasFile) -> list[tuple[str, str, int]]:
-    return extra_dimensions(layout)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from ...algorithms.engine import options
 from ...algorithms.engine.memory import Resources
-from ...algorithms.engine.options import RasterOutput, TileInput, TileMethod, TileOutput
 from ...algorithms.engine.output import Output
 from ...algorithms.products.surface_model import Gaps
 from ...algorithms.products.terrain_model import TerrainModel
@@ -35,8 +35,9 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
 
     def parameter_sets(self):
         """Return method, points and classes, files, outputs, and resources."""
-        sets = TileMethod, Selection, TileInput, TileOutput, Output, TerrainModel, Gaps
-        return (*sets, RasterOutput, Resources)
+        files = options.TileInput, options.ShownTiles, Output
+        rasters = TerrainModel, Gaps, options.RasterOutput
+        return (options.TileMethod, Selection, *files, *rasters, Resources)
 
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""
@@ -65,7 +66,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         from ...algorithms.engine.many_files import classify_files
         from ...algorithms.engine.requests import ClassifyRequest
 
-        chosen, sources = self.chosen(parameters, context), self._sources
+        chosen, sources = options.as_command(self.chosen(parameters, context)), self._sources
         folder = self.parameterAsFileOutput(parameters, "OUTPUT_FOLDER", context)
         vpc = self.parameterAsFileOutput(parameters, "OUTPUT_VPC", context)
         paths = raster_paths(self, parameters, context)
@@ -75,8 +76,8 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         request = ClassifyRequest.of(chosen, rasters=raster_files(paths), **self._limits)
         summary = classify_files(sources, folder, request, progress, vpc=vpc or None)
         progress.info(f"{summary.text}.")
-        paths = shown_rasters(paths, request.raster_output, context)
         self.class_counts = summary.class_counts
-        show_classified(self, summary.vpc, self.class_counts, request, context, progress)
+        paths = shown_rasters(paths, request.raster_output, context)
+        show_classified(self, summary.vpc, summary.class_counts, request, context, progress)
         results = {name: getattr(summary, name.lower()) for name in _NUMBERS}
         return {"OUTPUT_FOLDER": folder, "OUTPUT_VPC": summary.vpc, **paths, **results}

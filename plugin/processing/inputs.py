@@ -307,7 +307,7 @@ def _path_of(layer: QgsMapLayer) -> Path:
         text = mark("{} is not a point cloud. Choose a point cloud layer, or a .las or .laz file.")
         raise Refusal(text, layer.name())
     if has_edits(layer):
-        text = mark('The layer "{}" has edits that are not saved. Save or discard them first.')
+        text = mark('The layer "{}" is being edited. Save or discard the edits first.')
         raise Refusal(text, layer.name())
     provider = layer.dataProvider().name() if layer.dataProvider() else ""
     parts = QgsProviderRegistry.instance().decodeUri(provider, layer.source())

@@ -116,7 +116,7 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         )
         self._settings = settings_of(self, parameters, context)
         with errors_for_qgis():
-            self._stage = Stage(context, group, places)
+            self._stage = Stage(context, group, places, is_in_place=True)
         return super().prepareAlgorithm(parameters, context, feedback)
 
     def processAlgorithm(

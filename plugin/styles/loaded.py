@@ -152,7 +152,7 @@ def edited(project: QgsProject | None, sources: Iterable[Source]) -> str:
     """Return the name of a layer with edits that are not saved; empty if there is none."""
     for each in sources:
         layer = project.mapLayer(each.layer) if project else None
-        if has_edits(layer):
+        if layer is not None and has_edits(layer):
             return layer.name()
     return ""
 
@@ -195,9 +195,12 @@ def reload(
             continue
         _close(layer)
         uri = fresh_path(str(each.path)) if each.provider == "copc" else each.uri
-        metadata = layer.metadata()
+        # QGIS forgets both.
+        metadata, own = layer.metadata(), filter_of(layer)
         layer.setDataSource(uri, layer.name(), each.provider)
-        layer.setMetadata(metadata)  # newer versions of QGIS forget it
+        layer.setMetadata(metadata)
+        if own:
+            layer.setSubsetString(own)
         show_fresh_points(layer)
         dress = known.get(_normal(each.path))
         if dress is not None and layer.isValid():
@@ -240,7 +243,7 @@ class _Caller(QObject):
         self.asked.connect(self._call, Qt.ConnectionType.QueuedConnection)
 
     # As a slot: otherwise PyQt would call it in the thread of the connection.
-    @pyqtSlot()
+    @pyqtSlot()  # type: ignore[untyped-decorator]
     def _call(self) -> None:
         _WAITING.remove(self)
         self._work()

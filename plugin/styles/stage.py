@@ -25,6 +25,8 @@ class Stage:
         Name of a new group. A number is added if there is such a group.
     places : iterable of Path
         Files and folders that the run may write.
+    is_in_place : bool
+        Whether steps of other programs write into old files, which layers must not have open then.
 
     Attributes
     ----------
@@ -39,7 +41,13 @@ class Stage:
         If a layer of these files has edits that are not saved.
     """
 
-    def __init__(self, context: QgsProcessingContext, name: str, places: Iterable[Path]) -> None:
+    def __init__(
+        self,
+        context: QgsProcessingContext,
+        name: str,
+        places: Iterable[Path],
+        is_in_place: bool = False,
+    ) -> None:
         self._project, self._places = context.project(), list(places)
         loaded.count_replaced(self._places)
         # Steps of models run in other threads, where the project cannot be read.
@@ -47,12 +55,11 @@ class Stage:
         self._sources = loaded.sources_of(self._project, self._places) if is_main else []
         title = loaded.edited(self._project, self._sources)
         if title:
-            text = tr('The layer "{}" has edits that are not saved. Save or discard them first.')
+            text = tr('The layer "{}" is being edited. Save or discard the edits first.')
             raise BareEarthError(text.format(title))
         self.is_old = bool(self._sources) and self._old_group() is not None
         self.group = name if self.is_old or not is_main else free_name(self._project, name)
-        self._is_released = loaded.MUST_RELEASE and bool(self._sources)
-        if self._is_released:
+        if self._sources and (loaded.MUST_RELEASE or is_in_place):
             loaded.release(self._project, self._sources)
 
     def shows(self, path: str) -> bool:

@@ -267,3 +267,22 @@ def test_messages_are_one_line_without_what_steers_a_terminal():
     error = BareEarthError("\x1b[31mno\nsuch \udcff file\x07 in Zürich")
     assert str(error) == "\\x1b[31mno\\nsuch \\xff file\\x07 in Zürich"
     assert str(pickle.loads(pickle.dumps(error))) == str(error)
+
+
+@pytest.mark.parametrize(("number", "exists"), [(5, True), (32, True), (5, False)])
+def test_windows_says_that_a_layer_has_the_file_open(number, exists, tmp_path, monkeypatch):
+    target = tmp_path / "dtm.tif"
+    if exists:
+        target.write_text("old")
+
+    def denied(*_):
+        error = PermissionError(errno.EACCES, "Access is denied")
+        error.winerror = number
+        raise error
+
+    monkeypatch.setattr(os, "replace", denied)
+    with pytest.raises(BareEarthError) as told, replacing(target) as temporary:
+        temporary.write_text("new")
+    assert ("QGIS shows it as a layer" in str(told.value)) == exists
+    assert ("no permission" in str(told.value)) != exists
+    assert [each.read_text() for each in tmp_path.iterdir()] == ["old"] * exists

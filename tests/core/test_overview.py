@@ -44,8 +44,8 @@ def tiles(tmp_path):
     return tmp_path / "in"
 
 
-def classify(tiles, folder, kind="copc.laz", **options):
-    request = ClassifyRequest(tiles=TileOutput(kind, **options))
+def classify(tiles, folder, kind="copc.laz", overview=True):
+    request = ClassifyRequest(tiles=TileOutput(kind, overview=overview))
     return many_files.classify_files([tiles], folder, request)
 
 
@@ -157,3 +157,12 @@ def test_a_failure_leaves_nothing_half_written(tiles, tmp_path, monkeypatch):
     write_vpc(vpc, files, overview=True)
     assert set((tmp_path / "out").iterdir()) == before - {overview.overview_of(vpc)}
     assert read_vpc(vpc) == files
+
+
+def test_the_command_line_makes_one_on_demand(tiles, tmp_path):
+    from bare_earth.algorithms.cli import main
+
+    words = ["classify", str(tiles), str(tmp_path / "out"), "--format", "copc.laz"]
+    for more, exists in (([], False), (["--overview"], True)):
+        assert main([*words, *more]) == 0
+        assert overview.overview_of(tmp_path / "out" / "classified.vpc").exists() == exists

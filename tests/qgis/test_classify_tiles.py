@@ -163,7 +163,7 @@ def test_each_file_gets_its_own_rasters_and_one_layer_shows_them(
     assert [each.name for each in parts] == [f"{number}.tif" for number in range(4)]
     rasters = (each for each in project.mapLayers().values() if isinstance(each, QgsRasterLayer))
     # Beside the classes, where this QGIS shows no points.
-    (layer,) = (each for each in rasters if not each.name().endswith(": classes"))
-    assert layer.isValid() and layer.name().endswith(": terrain model")
+    (layer,) = (each for each in rasters if each.name() != "Classes")
+    assert layer.isValid() and layer.name().endswith("Terrain model")
     height, found = layer.dataProvider().sample(QgsPointXY(500_200.5, 5_700_040.5), 1)
     assert found and height == pytest.approx(100 + 0.05 * 200.5 + 0.02 * 40.5, abs=0.02)

@@ -228,13 +228,13 @@ def test_layers_are_styled_and_the_terrain_is_shown(scene, tmp_path, context):
     processing.runAndLoadResults(ALL_IN_ONE, {"INPUT": str(scene.path), **outputs})
     (group,) = project.layerTreeRoot().children()
     assert group.name() == "scene: terrain"
-    titles = [each.name().partition(": ")[2] for each in group.children()]
+    titles = [each.name() for each in group.children()]
     assert titles == [
-        "contour lines", "classes", "confidence", "local relief", "canopy height",
-        "surface model", "terrain model", "hillshade",
+        "Contour lines", "Classes", "Confidence", "Local relief", "Canopy height",
+        "Surface model", "Terrain model", "Hillshade",
     ]  # fmt: skip
     shown = [title for title, each in zip(titles, group.children()) if each.isVisible()]
-    assert shown == ["contour lines", "terrain model", "hillshade"]
+    assert shown == ["Contour lines", "Terrain model", "Hillshade"]
 
 
 def test_without_an_input_it_says_what_to_do(algorithm, registry, context):

@@ -411,8 +411,7 @@ def test_layers_are_in_order_in_a_window_whatever_layer_is_current(qgis, clouds,
         """,
         cloud=clouds[0].path, algorithm="bareearth:pointcloudtoterrain",
     )  # fmt: skip
-    titles = ("confidence", "canopy height", "surface model", "terrain model", "hillshade")
-    layers = [f"scene: {each}" for each in titles]
+    layers = ["Confidence", "Canopy height", "Surface model", "Terrain model", "Hillshade"]
     groups = {name: layers for name in ("scene: terrain", "scene: terrain (2)")}
     assert dict(answer["groups"]) == groups and len(answer["groups"]) == 2
 

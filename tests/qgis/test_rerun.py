@@ -12,9 +12,11 @@ from qgis.core import (
     QgsLayerTreeGroup,
     QgsMapRendererParallelJob,
     QgsMapSettings,
+    QgsPointCloudLayer,
     QgsPointXY,
     QgsProcessingAlgRunnerTask,
     QgsProcessingContext,
+    QgsProcessingException,
     QgsProcessingOutputLayerDefinition,
     QgsProject,
     QgsProviderRegistry,
@@ -265,7 +267,7 @@ def test_a_layer_with_edits_that_are_not_saved_is_not_overwritten(run, scene, tm
     algorithm = registry.createAlgorithmById(ONE_STEP)
     given = {**values, "CONTOURS": str(outputs["CONTOURS"])}
     _, done = algorithm.run(given, context, log)
-    assert not done and "edits that are not saved" in log.text
+    assert not done and "is being edited" in log.text
     written = QgsVectorLayer(str(outputs["CONTOURS"]))
     assert lines.isModified() and max(each["ELEV"] for each in written.getFeatures()) < 110
     lines.rollBack()
@@ -339,3 +341,71 @@ def test_the_loop_of_corrections_by_polygons(run, scene, tmp_path):
     assert terrain.dataProvider().sample(on_roof, 1)[0] == pytest.approx(112.0, abs=0.01)
     assert terrain.renderer().classificationMax() > 110
     assert len(groups()) == 1
+
+
+@needs_copc
+def test_a_cloud_with_edits_that_are_not_saved_is_not_read(run, scene, tmp_path, monkeypatch):
+    """Its edits would be missing without a word. Scripts cannot edit points, so this acts it."""
+    (layer,) = run(
+        ALGORITHM, {"INPUT": str(scene.path)}, {"OUTPUT": tmp_path / "o.copc.laz"}
+    ).values()
+    monkeypatch.setattr(QgsPointCloudLayer, "isEditable", lambda _: True)
+    monkeypatch.setattr(QgsPointCloudLayer, "isModified", lambda _: True, raising=False)
+    algorithm = QgsApplication.processingRegistry().createAlgorithmById(ALGORITHM)
+    context = QgsProcessingContext()
+    context.setProject(QgsProject.instance())
+    for value in (layer, layer.id()):
+        values = {"INPUT": value, "OUTPUT": str(tmp_path / "again.laz")}
+        possible, text = algorithm.checkParameterValues(values, context)
+        assert not possible and "is being edited" in text
+
+
+@needs_copc
+def test_the_filter_of_the_user_stays_beside_ours(tmp_path, run):
+    (tmp_path / "in").mkdir()
+    write_scene(tmp_path / "in" / "a.laz")
+    values = {"INPUT_FOLDER": str(tmp_path / "in"), "OUTPUT_FOLDER": str(tmp_path / "out")}
+    values["FORMAT"] = "copc.laz"
+    outputs = {"DTM": tmp_path / "dtm.tif"}
+    layer = run("bareearth:classifytiles", values, outputs)["Classes"]
+    for own in ("", "(Z > 100) AND (Z < 105)"):
+        assert layer.setSubsetString(own)
+        for _ in range(2):
+            run("bareearth:classifytiles", values, outputs)
+            assert layer.subsetString() != own and loaded.filter_of(layer) == own
+
+
+def test_a_shipped_model_reloads_its_layers(run, scene, tmp_path):
+    outputs = {
+        "ground:DTM": tmp_path / "dtm.tif",
+        "ground:HILLSHADE": tmp_path / "hillshade.tif",
+        "contours:OUTPUT": tmp_path / "lines.gpkg",
+    }
+    values = {"INPUT": str(scene.path), "INTERVAL": 0.5, "ground:OUTPUT": str(tmp_path / "o.las")}
+    before = run("bareearth:terraincontours", values, outputs)
+    ids, tree = {each.id() for each in before.values()}, groups()
+    assert tree == {
+        "scene: Terrain, hillshade and contours": [
+            "Contour lines",
+            "Classes",
+            "Terrain model",
+            "Hillshade",
+        ]
+    }
+    lift(scene.path, 50.0)
+    after = run("bareearth:terraincontours", values, outputs)
+    assert {each.id() for each in after.values()} == ids and groups() == tree
+    assert value_of(after["Terrain model"]) == pytest.approx(150.7, abs=0.1)
+    assert after["Terrain model"].renderer().classificationMin() > 149
+    assert {each["ELEV"] for each in after["Contour lines"].getFeatures()} >= {151.0, 155.5}
+    assert after["Contour lines"].renderer().type() == "RuleRenderer"
+    # With another interval, the legend is another one.
+    again = run("bareearth:terraincontours", {**values, "INTERVAL": 1.0}, outputs)
+    rules = again["Contour lines"].renderer().rootRule().children()
+    assert [each.label() for each in rules] == ["Every 5 m", "Every 1 m"]
+    # A run that fails leaves all layers as they were.
+    scene.path.write_bytes(scene.path.read_bytes()[:3000])
+    with pytest.raises(QgsProcessingException):
+        run("bareearth:terraincontours", values, outputs)
+    assert all(each.isValid() for each in again.values()) and groups() == tree
+    assert value_of(again["Terrain model"]) == pytest.approx(150.7, abs=0.1)

@@ -9,12 +9,16 @@ from qgis.core import (
     QgsExpressionContext,
     QgsLayerTreeGroup,
     QgsLayerTreeModel,
+    QgsMapRendererParallelJob,
+    QgsMapSettings,
     QgsPointCloudLayer,
+    QgsPointXY,
     QgsProcessingOutputLayerDefinition,
     QgsProject,
     QgsRasterLayer,
+    QgsRectangle,
 )
-from qgis.PyQt.QtCore import Qt
+from qgis.PyQt.QtCore import QSize, Qt
 from qgis.PyQt.QtGui import QPainter
 from support import ALGORITHM, write_scene
 
@@ -294,3 +298,29 @@ def test_all_that_bands_say_is_translated():
     said = [each.shows for each in RASTERS.values()]
     pieces = {piece for each in said for piece in each.split(", ")} - {"{unit}"}
     assert pieces <= set(rasters.SHOWN)
+
+
+def test_the_map_has_the_colours_of_the_legend(run, tmp_path):
+    """Also with the terrain and its hillshade switched on below the classes."""
+    write_scene(tmp_path / "scene.las")
+    outputs = {each: tmp_path / f"{each}.tif" for each in ("DTM", "HILLSHADE")}
+    outputs["OUTPUT"] = tmp_path / "o.copc.laz"
+    run(ALGORITHM, {"INPUT": str(tmp_path / "scene.las")}, outputs)
+    root = QgsProject.instance().layerTreeRoot()
+    for each in root.findLayers():
+        each.setItemVisibilityChecked(True)
+    wanted = clouds.categories_of([1, 2])
+    places = {2: (10.25, 60.25), 1: (39.25, 33.25)}
+    for value, (x, y) in places.items():
+        settings = QgsMapSettings()
+        settings.setLayers(root.layerOrder())
+        settings.setDestinationCrs(root.layerOrder()[0].crs())
+        settings.setOutputSize(QSize(101, 101))
+        place = QgsPointXY(500_000 + x, 5_700_000 + y)
+        settings.setExtent(QgsRectangle.fromCenterAndSize(place, 10.1, 10.1))
+        job = QgsMapRendererParallelJob(settings)
+        job.start()
+        job.waitForFinished()
+        seen, colour = job.renderedImage().pixelColor(50, 50), wanted[value][1]
+        channels = zip(seen.getRgb()[:3], colour.getRgb()[:3])
+        assert max(abs(one - other) for one, other in channels) < 20, (value, seen.name())
