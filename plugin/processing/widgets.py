@@ -28,6 +28,8 @@ from .. import compat
 from .choices import LABELS, ChoiceParameter, value_of, values_of
 
 _STATE = Qt.ItemDataRole.CheckStateRole
+# A box with choices is at least so many letters wide.
+_LEAST_LETTERS = 16
 # Values of Qt.CheckState in items. The names do not work in the same way in PyQt 5 and 6.
 _UNCHECKED, _CHECKED = 0, 2
 
@@ -144,7 +146,7 @@ class _ChoiceBox(QgsAbstractProcessingParameterWidgetWrapper):
     def createWidget(self) -> QWidget:
         """Return the box, with the default chosen."""
         parameter = self.parameterDefinition()
-        box = QComboBox()
+        box = _narrow(QComboBox())
         for label, value in zip(parameter.metadata()[LABELS], parameter.options()):
             box.addItem(label, value)
         box.setCurrentIndex(box.findData(parameter.defaultValue()))
@@ -174,7 +176,7 @@ class _ChoicesBox(QgsAbstractProcessingParameterWidgetWrapper):
     def createWidget(self) -> QWidget:
         """Return the box, with the defaults chosen."""
         parameter = self.parameterDefinition()
-        box = QgsCheckableComboBox()
+        box = _narrow(QgsCheckableComboBox())
         # Not a comma, which labels contain.
         box.setSeparator("; ")
         for label, value in zip(parameter.metadata()[LABELS], parameter.options()):
@@ -195,6 +197,13 @@ class _ChoicesBox(QgsAbstractProcessingParameterWidgetWrapper):
         states = [Qt.CheckState(box.itemData(place, _STATE)) for place in range(box.count())]
         chosen = [place for place, state in enumerate(states) if state == Qt.CheckState.Checked]
         return [box.itemData(place) for place in chosen]
+
+
+def _narrow(box: QComboBox) -> QComboBox:
+    """Let a box be narrower than its longest label, so that no button beside it leaves a dialog."""
+    box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+    box.setMinimumContentsLength(_LEAST_LETTERS)
+    return box
 
 
 def _check(box: QComboBox, values: list[str]) -> None:
