@@ -44,4 +44,4 @@ def test_long_choices_do_not_make_a_dialog_wide(registry, speak, locale):
         for wrapper in dialog.mainWidget().wrappers.values():
             widget = getattr(wrapper, "wrappedWidget", lambda: None)()
             if isinstance(widget, QComboBox):
-                assert widget.minimumSizeHint().width() < WIDTH / 3, name
+                assert widget.minimumSizeHint().width() < WIDTH / 2, name
