@@ -41,7 +41,7 @@ class Contours(ParameterSet):
         None,
         kind="number",
         label="Contour interval",
-        unit="height units",
+        unit="m or ft",
         minimum=0.001,
         maximum=10_000.0,
         advanced=True,

@@ -71,8 +71,8 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         vpc = self.parameterAsFileOutput(parameters, "OUTPUT_VPC", context)
         paths = raster_paths(self, parameters, context)
         words = [*map(str, sources), folder, *area_options(self._limits["area"], progress)]
-        options = {"VPC": vpc, **given_options(**self._limits), **paths}
-        progress.command(command_line("classify-tiles", words, chosen, options))
+        given = {"VPC": vpc, **given_options(**self._limits), **paths}
+        progress.command(command_line("classify-tiles", words, chosen, given))
         request = ClassifyRequest.of(chosen, rasters=raster_files(paths), **self._limits)
         summary = classify_files(sources, folder, request, progress, vpc=vpc or None)
         progress.info(f"{summary.text}.")

@@ -35,6 +35,8 @@ from ..styles.loaded import file_of
 from .choices import LABELS, ChoiceParameter, value_of, values_of
 
 _STATE = Qt.ItemDataRole.CheckStateRole
+# A box with choices is at least so many letters wide.
+_LEAST_LETTERS = 16
 # Values of Qt.CheckState in items. The names do not work in the same way in PyQt 5 and 6.
 _UNCHECKED, _CHECKED = 0, 2
 
@@ -153,7 +155,7 @@ class _ChoiceBox(QgsAbstractProcessingParameterWidgetWrapper):
     def createWidget(self) -> QWidget:
         """Return the box, with the default chosen."""
         parameter = self.parameterDefinition()
-        box = QComboBox()
+        box = _narrow(QComboBox())
         for label, value in zip(parameter.metadata()[LABELS], parameter.options()):
             box.addItem(label, value)
         box.setCurrentIndex(box.findData(parameter.defaultValue()))
@@ -183,7 +185,7 @@ class _ChoicesBox(QgsAbstractProcessingParameterWidgetWrapper):
     def createWidget(self) -> QWidget:
         """Return the box, with the defaults chosen."""
         parameter = self.parameterDefinition()
-        box = QgsCheckableComboBox()
+        box = _narrow(QgsCheckableComboBox())
         # Not a comma, which labels contain.
         box.setSeparator("; ")
         for label, value in zip(parameter.metadata()[LABELS], parameter.options()):
@@ -267,6 +269,13 @@ def _cloud_of(project: QgsProject | None) -> QgsPointCloudLayer | None:
     layers = [*active, *project.layerTreeRoot().layerOrder()]
     clouds = (each for each in layers if isinstance(each, QgsPointCloudLayer) and file_of(each))
     return next(clouds, None)
+
+
+def _narrow(box: QComboBox) -> QComboBox:
+    """Let a box be narrower than its longest label, so that no button beside it leaves a dialog."""
+    box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+    box.setMinimumContentsLength(_LEAST_LETTERS)
+    return box
 
 
 def _check(box: QComboBox, values: list[str]) -> None:

@@ -9,7 +9,10 @@ from pathlib import Path
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
 import pytest
-from qgis.core import QgsApplication, QgsProcessingContext, QgsProject
+import qm
+import translations
+from qgis.core import QgsApplication, QgsProcessingContext, QgsProject, QgsSettings
+from qgis.PyQt.QtCore import QCoreApplication
 
 # For support.py, which the tests import too.
 sys.path.append(str(Path(__file__).parent))
@@ -99,3 +102,27 @@ def data():
         if Path(folder).is_dir():
             return Path(folder)
     return None
+
+
+@pytest.fixture
+def speak(tmp_path):
+    """Return what makes QGIS speak a language, with what `make package` makes."""
+    installed = []
+
+    from bare_earth.plugin import i18n
+
+    def set_language(locale):
+        settings = QgsSettings()
+        settings.setValue("locale/overrideFlag", True)
+        settings.setValue("locale/userLocale", locale)
+        for path in translations.FILES:
+            messages = qm.read_ts(path.read_bytes())
+            (tmp_path / path.name).with_suffix(".qm").write_bytes(qm.compiled(messages))
+        installed.append(i18n.install(tmp_path))
+        return installed[-1]
+
+    yield set_language
+    for each in filter(None, installed):
+        QCoreApplication.removeTranslator(each)
+    QgsSettings().remove("locale/overrideFlag")
+    QgsSettings().remove("locale/userLocale")

@@ -329,7 +329,7 @@ def test_what_users_look_for_is_in_front(registry):
     ]  # fmt: skip
     whole = registry.createAlgorithmById("bareearth:pointcloudtoterrain")
     interval = whole.parameterDefinition("CONTOUR_INTERVAL").description()
-    assert interval == "Contour interval [height units]"
+    assert interval == "Contour interval [m or ft]"
 
 
 def test_the_help_has_the_order_of_the_dialog(each):

@@ -5,7 +5,7 @@ import re
 import pytest
 import qm
 import translations
-from qgis.core import QgsProcessingParameterEnum, QgsSettings
+from qgis.core import QgsProcessingParameterEnum
 from qgis.PyQt.QtCore import QCoreApplication, QTranslator
 from support import ALGORITHM, Log, Scene, remove
 
@@ -27,28 +27,6 @@ def marked():
     QCoreApplication.installTranslator(marker)
     yield
     QCoreApplication.removeTranslator(marker)
-
-
-@pytest.fixture
-def speak(tmp_path):
-    """Return what makes QGIS speak a language, with what `make package` makes."""
-    installed = []
-
-    def set_language(locale):
-        settings = QgsSettings()
-        settings.setValue("locale/overrideFlag", True)
-        settings.setValue("locale/userLocale", locale)
-        for path in translations.FILES:
-            messages = qm.read_ts(path.read_bytes())
-            (tmp_path / path.name).with_suffix(".qm").write_bytes(qm.compiled(messages))
-        installed.append(i18n.install(tmp_path))
-        return installed[-1]
-
-    yield set_language
-    for each in filter(None, installed):
-        QCoreApplication.removeTranslator(each)
-    QgsSettings().remove("locale/overrideFlag")
-    QgsSettings().remove("locale/userLocale")
 
 
 def algorithms(registry):
