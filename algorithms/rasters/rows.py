@@ -86,6 +86,7 @@ def _by_gdal(source: str) -> Iterator[Any]:
         content = Content(
             np.zeros(0), np.zeros(0), tuple(dataset.GetGeoTransform()), dataset.GetProjection(),
             band.GetUnitType() or "", 1.0 if scale is None else scale, offset or 0.0,
+            (dataset.RasterYSize, columns),
         )  # fmt: skip
 
         def read(start: int, end: int) -> tuple[np.ndarray, np.ndarray]:
@@ -94,7 +95,7 @@ def _by_gdal(source: str) -> Iterator[Any]:
             errors.check(source)
             return values, valid != 0
 
-        yield content, (dataset.RasterYSize, columns), band.GetDescription() or "", read
+        yield content, content.shape, band.GetDescription() or "", read
 
 
 @contextlib.contextmanager
@@ -108,13 +109,13 @@ def _by_rasterio(source: str) -> Iterator[Any]:
             content = Content(
                 np.zeros(0), np.zeros(0), dataset.transform.to_gdal(),
                 dataset.crs.to_wkt() if dataset.crs else "", dataset.units[0] or "",
-                dataset.scales[0], dataset.offsets[0],
+                dataset.scales[0], dataset.offsets[0], dataset.shape,
             )  # fmt: skip
 
             def read(start: int, end: int) -> tuple[np.ndarray, np.ndarray]:
                 window = Window(0, start, dataset.width, end - start)
                 return dataset.read(1, window=window), dataset.read_masks(1, window=window) != 0
 
-            yield content, dataset.shape, dataset.descriptions[0] or "", read
+            yield content, content.shape, dataset.descriptions[0] or "", read
     except RasterioError as error:
         raise BareEarthError(f"Cannot read {source}: {str(error).rstrip('.')}.") from error

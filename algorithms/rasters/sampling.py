@@ -11,6 +11,7 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
+from ..crs.matching import is_same_map
 from ..crs.system import Crs, crs_of_wkt
 from .geotiff import read_raster
 
@@ -71,7 +72,7 @@ class HeightRaster:
         BareEarthError
             If both state a CRS, and these differ.
         """
-        if self.crs is None or crs == Crs() or _is_same_map(self.crs, crs):
+        if self.crs is None or crs == Crs() or is_same_map(self.crs, crs):
             return
         raise BareEarthError(
             f"{self.path} is in another CRS ({self.crs.name}) than {points} ({crs.name}). Reproject"
@@ -179,15 +180,3 @@ def _interpolated(square: _Square, row: np.ndarray, column: np.ndarray) -> np.nd
             weights += weight
     found = np.divide(total, weights, out=np.full(len(row), np.nan), where=weights > 0.0)
     return np.where(np.isnan(own), np.nan, found)
-
-
-def _is_same_map(one: Crs, other: Crs) -> bool:
-    """Return whether x and y of two CRS are the same, whatever their heights."""
-    if one.epsg and other.epsg:
-        return one.epsg == other.epsg
-    return _bare(one.name) == _bare(other.name)
-
-
-def _bare(name: str) -> str:
-    """Return the letters and digits of the horizontal part of a name."""
-    return "".join(filter(str.isalnum, name.split(" + ")[0])).lower()

@@ -17,7 +17,8 @@ from qgis.core import (
 
 from ...algorithms.core.files import check_output
 from ...algorithms.engine.one_file import check_cloud
-from ...algorithms.products.contours import CONTOUR_FORMATS, check_contour_output
+from ...algorithms.products.contours import check_contours
+from ...algorithms.products.line_files import FORMATS as LINE_FORMATS
 from ...algorithms.products.page import check_page
 from ...algorithms.rasters.writing import check_raster_output
 from ...algorithms.survey.files import is_one_file
@@ -73,8 +74,8 @@ def _check_of(output: QgsProcessingParameterDefinition) -> Check:
     if isinstance(output, QgsProcessingParameterFolderDestination):
         return _check_folder
     ending = f".{output.defaultFileExtension()}"
-    if ending in CONTOUR_FORMATS:
-        return check_contour_output
+    if ending in LINE_FORMATS:
+        return check_contours
     checks: dict[str, Check] = {
         ".html": check_page,
         ".tif": check_raster_output,

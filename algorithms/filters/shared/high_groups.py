@@ -124,7 +124,7 @@ class HighGroups:
         places = np.column_stack(points)
         group = linked(places, self.width, self.width, 0.0)
         sizes = np.bincount(group)
-        low, high = np.full((2, len(sizes), 2), np.inf)
+        low, high = (np.full((len(sizes), 2), np.inf) for _ in range(2))
         for axis in (0, 1):
             lower_at(low[:, axis], group, places[:, axis])
             lower_at(high[:, axis], group, -places[:, axis])

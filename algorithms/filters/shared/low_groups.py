@@ -267,9 +267,9 @@ class _Lowest(NamedTuple):
         lowest = cells.lowest_points(points)
         row, column = np.divmod(cells.index[lowest], cells.columns)
         shape = cells.rows + 2 * margin, cells.columns + 2 * margin
-        grids = np.full((3, *shape), np.nan)
+        x, y, z = grids = np.full((3, *shape), np.nan)
         grids[:, row + margin, column + margin] = points.take(lowest)
-        return cls(*grids, margin)
+        return cls(x, y, z, margin)
 
     def pits(self, cells: Cells, depth: float, reach: int) -> np.ndarray:
         """Return the cells that a closing raises, the deepest or lowest within reach only."""
