@@ -85,9 +85,9 @@ class HighGroups:
         # The topmost points of a cell, and the highest of the others.
         is_topmost = z > (top - self.height).ravel()[cell]
         count = np.bincount(cell[is_topmost], minlength=top.size).reshape(top.shape)
-        bottom = np.full(top.size, np.inf)
-        lower_at(bottom, cell[is_topmost], z[is_topmost])
-        bottom = bottom.reshape(top.shape)
+        lowest = np.full(top.size, np.inf)
+        lower_at(lowest, cell[is_topmost], z[is_topmost])
+        bottom = lowest.reshape(top.shape)
         below = self._highest(cells, cell[~is_topmost], z[~is_topmost])
         few = (count > 0) & (count <= self.points) & (bottom - below >= self.height)
         # A group can lie in several cells.
