@@ -154,6 +154,9 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
     ) -> str:
         """Return the path of an output point cloud; do not load it if QGIS cannot show it."""
         path = compat.point_cloud_output_path(self, parameters, name, context)
+        field = self.parameterDefinition(name)
+        if not path and not field.flags() & compat.OPTIONAL:
+            raise BareEarthError(tr("Choose a file: {}.").format(field.description()))
         if not compat.can_load(path):
             do_not_load(context, [path])
         return path

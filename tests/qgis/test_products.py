@@ -230,3 +230,12 @@ def test_a_terrain_model_respects_lines_and_polygons(labelled, out):
     assert np.nanmax(heights()) > 2.0
     assert np.nanmax(np.abs(heights(NO_GROUND=house))) < 0.3
     assert np.nanmax(heights(NO_GROUND=house, BREAKLINES=line)) > 20.0
+
+
+@pytest.mark.parametrize("name", ["tindensification", "heightaboveground", "modelkeypoints"])
+def test_without_an_output_it_says_what_to_choose(name, scene, registry, context, log):
+    """As a step of a model whose output was not given."""
+    algorithm = registry.createAlgorithmById(f"bareearth:{name}")
+    _, done = algorithm.run({"INPUT": str(scene.path)}, context, log)
+    label = algorithm.parameterDefinition("OUTPUT").description()
+    assert not done and f"Choose a file: {label}." in log.text
