@@ -69,16 +69,20 @@ def match_files(one: Path, other: Path, progress: Progress, crs: str | None = No
         If the user asked to stop.
     """
     files = open_las(one, crs), open_las(other, crs)
-    if files[0].count == files[1].count:
+    left = progress
+    # COPC has an order of its own.
+    if files[0].count == files[1].count and files[0].is_copc == files[1].is_copc:
         clouds = (
-            read_cloud(files[0], progress.part(0.0, 0.4)),
-            read_cloud(files[1], progress.part(0.4, 0.8)),
+            read_cloud(files[0], progress.part(0.0, 0.2)),
+            read_cloud(files[1], progress.part(0.2, 0.4)),
         )
         if _is_same_order(*clouds):
             return Matched(clouds, (slice(None), slice(None)), (0, 0))
         del clouds
-    clouds = _read(files, progress)
-    orders = _pairs(*clouds, progress.part(0.6, 1.0))
+        # The messages of reading were given.
+        left = progress.part(0.4, 1.0).quiet()
+    clouds = _read(files, left)
+    orders = _pairs(*clouds, left.part(0.6, 1.0))
     count = len(orders[0])
     if count < _LEAST_SHARE * min(file.count for file in files) or not count:
         raise BareEarthError(

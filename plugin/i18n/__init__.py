@@ -31,6 +31,16 @@ def mark(text: str) -> str:
     return text
 
 
+def number(value: float) -> str:
+    """Return a number as the user's language writes it, if the plugin speaks that language."""
+    text = f"{value:g}"
+    if QCoreApplication is None:
+        return text
+    language = QLocale(QgsApplication.instance().locale())
+    is_spoken = any(_FOLDER.glob(f"bare_earth_{language.name()[:2]}.*"))
+    return text.replace(".", language.decimalPoint()) if is_spoken else text
+
+
 def install(folder: Path = _FOLDER) -> QTranslator | None:
     """Install the translations into the language of QGIS for `tr`.
 

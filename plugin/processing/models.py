@@ -14,6 +14,7 @@ from qgis.core import (
     QgsProcessingParameterEnum,
 )
 
+from ...algorithms.core.errors import BareEarthError
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.engine.options import TileMethod
 from ...algorithms.products.contours import Interval
@@ -28,6 +29,7 @@ from .choices import ChoiceParameter, with_labels
 from .feedback import tell_of_unknown
 from .fields import help_of
 from .inputs import is_empty, name_of
+from .output_checks import check_outputs
 from .outputs import do_not_load, places_of
 from .search_words import words_of
 
@@ -101,6 +103,19 @@ class ShippedModel(QgsProcessingModelAlgorithm):
     def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
         """Return no declared parameters, since the fields are in the model."""
         return ()
+
+    def checkParameterValues(
+        self, parameters: dict[str, Any], context: QgsProcessingContext
+    ) -> tuple[bool, str]:
+        """Check values as QGIS does, and outputs as the other algorithms do."""
+        possible, text = super().checkParameterValues(parameters, context)
+        if possible:
+            try:
+                source = Path(self.parameterAsFile(parameters, "INPUT", context))
+                check_outputs(self, parameters, context, [source])
+            except BareEarthError as error:
+                possible, text = False, str(error)
+        return possible, text
 
     def prepareAlgorithm(
         self,

@@ -10,10 +10,12 @@ from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.engine.options import TileMethod
 from ...algorithms.filters import METHODS
 from ...algorithms.filters.method import Method
-from ..i18n import tr
+from ..i18n import number, tr
 from .fields import title_of
 
 _BETWEEN = " / "
+# Between the values of a list; a comma can be a part of a number.
+_AMONG = "; "
 
 
 def presets_of(sets: Sequence[type[ParameterSet]]) -> str:
@@ -61,4 +63,4 @@ def _shown(value: Any) -> str:
     if value is None:
         return "-"
     values = value if isinstance(value, tuple) else (value,)
-    return ", ".join(f"{each:g}" for each in values)
+    return _AMONG.join(map(number, values))

@@ -120,6 +120,18 @@ def test_changed_times_do_not_keep_points_apart(tmp_path):
     assert assess_files(tmp_path / "found.las", truth).point_count == len(CLIP)
 
 
+def test_the_same_points_in_another_order_are_read_with_messages_once(tmp_path):
+    heard = Heard()
+    mixed = np.random.default_rng(5).permutation(COUNT)
+    found = write(tmp_path / "found.las", mixed, FOUND)
+    truth = write(tmp_path / "truth.las", slice(None), TRUTH)
+    result = assess_files(found, truth, progress=heard)
+    assert result.point_count == COUNT and not result.reference_only
+    assert result.ground_as_other == np.count_nonzero((TRUTH == 2) & (FOUND != 2))
+    assert heard.fractions == sorted(heard.fractions)
+    assert sorted(each[:5] for each in heard.warnings) == ["found", "truth"]  # of the CRS
+
+
 def test_strips_make_no_difference(tmp_path, expected, monkeypatch):
     monkeypatch.setattr(matching, "_STRIP", 100)
     found = write(tmp_path / "found.las", MIXED, FOUND)

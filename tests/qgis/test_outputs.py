@@ -100,3 +100,23 @@ def test_what_has_always_a_value_is_not_called_optional(registry, context):
             assert f"{parameter.description()} [optional]" not in labels, name
     assert "Low noise class [optional]" not in labels and labels
     remove(dialog)
+
+
+@pytest.mark.parametrize(
+    ("output", "file"),
+    [
+        ("ground:DTM", "missing/dtm.tif"),
+        ("ground:OUTPUT", "missing/ground.laz"),
+        ("contours:OUTPUT", "lines.dxf"),
+    ],
+)
+def test_models_refuse_outputs_too(output, file, registry, tmp_path, context):
+    cloud = str(tmp_path / "scene.laz")
+    write_scene(cloud)
+    model = registry.createAlgorithmById("bareearth:terraincontours")
+    names = [each.name() for each in model.destinationParameterDefinitions()]
+    values = {"INPUT": cloud, **dict.fromkeys(names, "TEMPORARY_OUTPUT")}
+    assert model.checkParameterValues(values, context) == (True, "")
+    values[output] = str(tmp_path / file)
+    possible, text = model.checkParameterValues(values, context)
+    assert not possible and text.startswith("Cannot write")

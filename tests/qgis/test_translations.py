@@ -83,6 +83,19 @@ def test_qgis_speaks_german_and_french(registry, speak, locale, title, label, ta
         assert each.displayName() != english[name][0] and each.shortHelpString() != english[name][3]
 
 
+@pytest.mark.parametrize(
+    ("locale", "values"),
+    [
+        ("de", "<td>30 / 15 / 1,4</td>"),
+        ("fr", "<td>30 / 15 / 1,4</td>"),
+        ("es", "<td>30 / 15 / 1.4"),
+    ],
+)
+def test_numbers_are_those_of_the_language_of_the_text(algorithm, speak, locale, values):
+    speak(locale)
+    assert values in algorithm.create().shortHelpString()
+
+
 @pytest.mark.parametrize("locale", ["en_US", "es", "C"])
 def test_other_languages_see_english(algorithm, speak, locale):
     assert speak(locale) is None
