@@ -43,7 +43,7 @@ def test_labels_are_shown_and_ids_given(dialog, scene):
 def test_values_of_a_run_before_are_chosen(dialog, scene, given):
     dialog = dialog()
     dialog.setParameters({"INPUT": str(scene.path), "PRESET": given})
-    assert box_of(dialog, "Automatic").currentText() == "Hilly land, forest"
+    assert box_of(dialog, "Steep or rugged terrain").currentText() == "Hilly land, forest"
     assert dialog.createProcessingParameters()["PRESET"] == "hilly"
 
 
