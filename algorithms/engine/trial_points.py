@@ -191,12 +191,14 @@ def read_trial_points(
     _check_width(area, crs)
     clouds = _read(files, area, context / unit, progress.part(0.1, 1.0 if wanted else 0.8))
     is_empty = not any(area.of(cloud).any() for cloud in clouds)
+    where = "in the middle of the points"
     if is_empty and wanted is None:
+        where = "round the point that is nearest to the middle"
         area = Area(nearest_window(files, unit, progress.part(0.8, 0.9)))
         clouds = _read(files, area, context / unit, progress.part(0.9, 1.0))
         is_empty = not any(area.of(cloud).any() for cloud in clouds)
     if wanted is None:
-        progress.choice(f"window in the middle of the points, {box_in_words(area.box)}")
+        progress.choice(f"window {where}, {box_in_words(area.box)}")
     if is_empty:
         raise BareEarthError(
             f"No point lies in the window ({box_in_words(area.box)}): the points lie in"

@@ -269,7 +269,9 @@ def test_in_a_gap_the_nearest_points_are_taken(tmp_path, as_tiles):
     else:
         write_places(tmp_path / "in.laz", x[strip], y[strip])
         sources = [tmp_path / "in.laz"]
-    summary = compare_settings(sources, tmp_path / "p.html", options=ONE)
+    heard = Heard()
+    summary = compare_settings(sources, tmp_path / "p.html", options=ONE, progress=heard)
+    assert any(each.startswith("window round the point that is nearest") for each in heard.infos)
     west, south, east, north = summary.window
     place = ORIGIN[0] + 96, ORIGIN[1] + 496
     assert (east, south, north) == (place[0] + 125, place[1] - 125, place[1] + 125)
