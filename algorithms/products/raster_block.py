@@ -27,6 +27,8 @@ _EDGES = 2.0
 # The layer that tells what each cell holds: bits for ground points in its four quarters, from
 # southwest to northeast, and a bit for any points.
 HELD, QUARTERS, ANY = "held", 4, 16
+# Rounding error of coordinates in metres.
+_ROUNDING = 1e-6
 # Least number of points that are processed together.
 _POINTS_A_PART = 1 << 20
 
@@ -161,6 +163,12 @@ def _held(step: RasterStep, seen: Seen) -> np.ndarray:
         holds_any[row[inside], column[inside]] = True
         inside &= seen.ground[part]
         holds_ground[row[inside], column[inside]] = True
+        # A point on the middle line of a cell lies in the quarters on both sides.
+        before = window.places(x - _ROUNDING, y - _ROUNDING, seen.corner, step.cell / 2.0)
+        south, west = (np.where(at % 2, low, at) for at, low in zip((row, column), before))
+        middle = np.flatnonzero(inside & ((south < row) | (west < column)))
+        for one, two in ((south, column), (row, west), (south, west)):
+            holds_ground[one[middle], two[middle]] = True
     held = np.zeros(seen.window.shape, dtype=np.uint8)
     for number in range(QUARTERS):
         quarter = slice(number // 2, None, 2), slice(number % 2, None, 2)

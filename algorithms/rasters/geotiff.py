@@ -268,7 +268,7 @@ def _require_measurable(source: str | Path, content: Content) -> None:
     """Refuse Web Mercator and its kin where lengths are far too long."""
     crs = crs_of_wkt(content.wkt) if content.wkt else None
     west, a, b, north, c, d = content.geotransform
-    rows, columns = content.values.shape
+    rows, columns = content.shape
     centre = west + (a * columns + b * rows) / 2.0, north + (c * columns + d * rows) / 2.0
     wrong = "" if crs is None else wrong_lengths(length_scale(crs, (*centre, *centre)))
     if wrong:

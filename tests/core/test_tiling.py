@@ -262,7 +262,7 @@ def test_blocks_without_ground_are_told_and_messages_told_once(monkeypatch, las)
     watched(monkeypatch, function)
     heard, blocks = las.Heard(), Blocks(100.0, 20.0)
     # Windows of these blocks are narrower than the usual building.
-    small = SlopeFilter(search_radius=5.0)
+    small = SlopeFilter(preset="whitebox", search_radius=5.0)
     (labels,) = labels_of([cloud_of(*survey())], small, blocks, 3, None, progress=heard)
     assert heard.infos == ["All the same."]
     assert heard.warnings[0] == "A southern block (in 2 of 6 blocks)."
