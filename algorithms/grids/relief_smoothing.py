@@ -58,7 +58,7 @@ def without_noise(heights: np.ndarray, cell_size: float) -> np.ndarray:
         return heights
     rough = heights - local_trend(heights, (sigma, sigma))
     rough -= local_trend(rough, (sigma, sigma))
-    largest, smallest = _structure(np.nan_to_num(rough) / cell_size, _WIDER * sigma)
+    largest, smallest = _structure(rough / cell_size, _WIDER * sigma)
     # Of what is left, the share that varies in all directions, and how visible it is.
     share = smallest / np.maximum(largest, np.finfo(float).tiny)
     return heights - rough * share * smallest / (smallest + _VISIBLE**2)
@@ -76,7 +76,11 @@ def _structure(rough: np.ndarray, sigma: float) -> tuple[np.ndarray, np.ndarray]
     def mean(values: np.ndarray) -> np.ndarray:
         return gaussian_filter(values, sigma, mode="constant", truncate=TRUNCATE)
 
-    down, right = (correlate1d(rough, (-0.5, 0.0, 0.5), axis, mode="nearest") for axis in (0, 1))
+    # Without a slope beside cells that have no height: it would be that of the border.
+    down, right = (
+        np.nan_to_num(correlate1d(rough, (-0.5, 0.0, 0.5), axis, mode="constant", cval=np.nan))
+        for axis in (0, 1)
+    )
     rr, rc, cc = in_threads(mean, [down * down, down * right, right * right])
     half, apart = (rr + cc) / 2, np.hypot((rr - cc) / 2, rc)
     return half + apart, np.maximum(half - apart, 0.0)

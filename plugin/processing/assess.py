@@ -76,5 +76,5 @@ class AssessAlgorithm(BareEarthAlgorithm):
         outputs = (Path(path) if path else None for path in paths.values())
         assessment = assess_files(*self.inputs, options, *outputs, progress, self.stated)
         progress.info("\n".join(assessment.lines()))
-        numbers = {name: assessment.as_dict()[name.lower()] for name in _NUMBERS}
-        return {name: it for name, it in {**paths, **numbers}.items() if it not in (None, "")}
+        results = {**paths, **{name: assessment.as_dict()[name.lower()] for name in _NUMBERS}}
+        return {name: it for name, it in results.items() if it not in (None, "")}
