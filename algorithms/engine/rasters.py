@@ -15,7 +15,7 @@ from ..core.files import new_folder, replacing
 from ..core.points import Box, Frame
 from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
-from ..grids.cells import are_inside, first_of_each
+from ..grids.cells import first_of_each
 from ..grids.dense_surface import VERTICES_A_SIDE
 from ..las.cloud import PointCloud, survey_frame
 from ..products.raster_block import LAYERS, BlockRasters, RasterStep
@@ -32,7 +32,7 @@ from .constraints import NO_CONSTRAINTS, Constraints, FixedTerrain, fixed_terrai
 from .ground import over_blocks
 from .memory import Cost, Resources
 from .mosaic import Mosaic, gathered_strips
-from .outlines import Held, Outlines
+from .outlines import Held, Outlines, mosaics_of
 from .raster_files import RASTERS, Raster, RasterFiles, folder_of, virtual_of
 from .steps import Marks, Step
 
@@ -282,7 +282,7 @@ def write_rasters(
         whole = _window_in(area.buffered_box(AROUND_AREA), window, cell, step.area)
         window = _window_in(area.bounds, window, cell, step.area)
     outlines = Outlines(Held(made, whole, cell), step.of_block)
-    mosaics = _mosaics_of(made, whole, step, outlines, progress.part(0.0, 0.3))
+    mosaics = mosaics_of(made, whole, step.of_block, outlines, progress.part(0.0, 0.3))
     parts = progress.part(0.3, 1.0).shares(*[1.0] * len(wanted))
     for (name, path), part in zip(wanted.items(), parts):
         raster = RASTERS[name]
@@ -303,30 +303,6 @@ def write_rasters(
             write_virtual(temporary, virtual.parent, grid, grids, raster.kind, band)
     counts = np.sum([each.counts for each in made], axis=0)
     return RasterSize(int(counts[0]), int(counts[1]), window.columns, window.rows)
-
-
-def _mosaics_of(
-    made: Sequence[BlockRasters],
-    window: CellWindow,
-    step: MakeRasters,
-    outlines: Outlines,
-    progress: Progress,
-) -> dict[str, Mosaic]:
-    """Return the layers of all blocks inside their outlines, with the gaps there filled."""
-    names, cell = step.files.layers, step.model.dtm_cell_size
-    parts = iter(progress.shares(*[1.0] * (2 * len(names) + 1)))
-    survey, mosaics = outlines.survey(next(parts)), {}
-    for name in names:
-        outline = outlines.terrain(survey, next(parts)) if name == "terrain" else survey
-        mosaics[name] = Mosaic(made, name, window, cell, outline)
-        loose = [each.loose[name] for each in made if name in each.loose]
-        if loose and step.surface.max_edge is None:
-            vertices = np.concatenate(loose)
-            x, y = vertices[:, :2].T
-            row, column = window.places(x, y, (0.0, 0.0), cell)
-            vertices = vertices[are_inside(row, column, window.shape)]
-            mosaics[name].fill_gaps(vertices, next(parts))
-    return mosaics
 
 
 def _write(
