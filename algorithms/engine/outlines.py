@@ -15,7 +15,7 @@ import numpy as np
 
 from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
-from ..grids.cells import usual_count
+from ..grids.cells import are_inside, usual_count
 from ..grids.morphology import closing, within_square
 from ..grids.outline import MOST_CELLS, Discs, Outline, with_gaps_inside
 from ..products.raster_block import ANY, HELD, QUARTERS, BlockRasters, RasterStep
@@ -189,3 +189,40 @@ class Outlines:
             all_four = closed[::2, ::2] & closed[1::2, ::2] & closed[::2, 1::2] & closed[1::2, 1::2]
             part = slice(low - start, high - start), slice(first, last)
             cells[part] &= all_four | ~border[part]
+
+
+def mosaics_of(
+    made: Sequence[BlockRasters],
+    window: CellWindow,
+    step: RasterStep,
+    outlines: Outlines,
+    progress: Progress = SILENT,
+) -> dict[str, Mosaic]:
+    """Return the layers of all blocks inside their outlines, with the gaps there filled.
+
+    Parameters
+    ----------
+    made : sequence of BlockRasters
+        The rasters of the blocks.
+    window : CellWindow
+        All cells.
+    step : RasterStep
+        How the rasters are made.
+    outlines : Outlines
+        The outlines of the same cells.
+    progress : Progress
+        Receives progress.
+    """
+    parts = iter(progress.shares(*[1.0] * (2 * len(step.layers) + 1)))
+    survey, mosaics = outlines.survey(next(parts)), {}
+    for name in step.layers:
+        outline = outlines.terrain(survey, next(parts)) if name == "terrain" else survey
+        mosaics[name] = Mosaic(made, name, window, step.cell, outline)
+        loose = [each.loose[name] for each in made if name in each.loose]
+        if loose and step.max_edge is None:
+            vertices = np.concatenate(loose)
+            x, y = vertices[:, :2].T
+            row, column = window.places(x, y, (0.0, 0.0), step.cell)
+            vertices = vertices[are_inside(row, column, window.shape)]
+            mosaics[name].fill_gaps(vertices, next(parts))
+    return mosaics

@@ -16,7 +16,7 @@ from ..core.points import Box, Frame, box_in_words
 from ..core.progress import SILENT, Progress
 from ..crs.system import Crs
 from ..grids.cell_window import CellWindow
-from ..grids.cells import are_inside, first_of_each
+from ..grids.cells import first_of_each
 from ..grids.dense_surface import VERTICES_A_SIDE
 from ..las.cloud import PointCloud, survey_frame
 from ..products.height_above_ground import with_roads
@@ -34,7 +34,7 @@ from .constraints import NO_CONSTRAINTS, Constraints, FixedTerrain, fixed_terrai
 from .ground import over_blocks
 from .memory import Cost, Resources
 from .mosaic import Mosaic, gathered_strips
-from .outlines import Held, Outlines
+from .outlines import Held, Outlines, mosaics_of
 from .raster_files import RASTERS, Raster, RasterFiles, folder_of, virtual_of
 from .raster_grid import (
     ANYWHERE,
@@ -323,7 +323,7 @@ def write_rasters(
         whole = _window_in(area.buffered_box(AROUND_AREA), window, cell, step.area)
         window = _window_in(area.bounds, window, cell, step.area)
     outlines = Outlines(Held(made, whole, cell), step.of_block)
-    mosaics = _mosaics_of(made, whole, step, outlines, progress.part(0.0, 0.3))
+    mosaics = mosaics_of(made, whole, step.of_block, outlines, progress.part(0.0, 0.3))
     window = _covered(window, step, frame)
     parts = progress.part(0.3, 1.0).shares(*[1.0] * len(wanted))
     for (name, path), part in zip(wanted.items(), parts):
@@ -345,30 +345,6 @@ def write_rasters(
             write_virtual(temporary, virtual.parent, grid, grids, raster.kind, band)
     counts = np.sum([each.counts for each in made], axis=0)
     return RasterSize(int(counts[0]), int(counts[1]), window.columns, window.rows)
-
-
-def _mosaics_of(
-    made: Sequence[BlockRasters],
-    window: CellWindow,
-    step: MakeRasters,
-    outlines: Outlines,
-    progress: Progress,
-) -> dict[str, Mosaic]:
-    """Return the layers of all blocks inside their outlines, with the gaps there filled."""
-    names, cell = step.files.layers, step.cell
-    parts = iter(progress.shares(*[1.0] * (2 * len(names) + 1)))
-    survey, mosaics = outlines.survey(next(parts)), {}
-    for name in names:
-        outline = outlines.terrain(survey, next(parts)) if name == "terrain" else survey
-        mosaics[name] = Mosaic(made, name, window, cell, outline)
-        loose = [each.loose[name] for each in made if name in each.loose]
-        if loose and step.surface.max_edge is None:
-            vertices = np.concatenate(loose)
-            x, y = vertices[:, :2].T
-            row, column = window.places(x, y, (0.0, 0.0), cell)
-            vertices = vertices[are_inside(row, column, window.shape)]
-            mosaics[name].fill_gaps(vertices, next(parts))
-    return mosaics
 
 
 def _write(

@@ -67,13 +67,12 @@ class AssessAlgorithm(BareEarthAlgorithm):
     def compute(self, parameters, context, progress):
         """Compare them."""
         (options,) = self.chosen(parameters, context)
-        paths = {
-            "REPORT": self.parameterAsFileOutput(parameters, "REPORT", context),
-            "ERROR_MAP": self.parameterAsOutputLayer(parameters, "ERROR_MAP", context),
-        }
+        report = self.parameterAsFileOutput(parameters, "REPORT", context)
+        error_map = self.parameterAsOutputLayer(parameters, "ERROR_MAP", context)
+        paths = {"REPORT": report, "ERROR_MAP": error_map}
         flags = dict(zip(("report", "error-map", "crs"), (*paths.values(), self.stated)))
         progress.command(command_line("assess", [*map(str, self.inputs)], [options], flags))
-        outputs = (Path(path) if path else None for path in paths.values())
+        outputs = [Path(path) if path else None for path in paths.values()]
         assessment = assess_files(*self.inputs, options, *outputs, progress, self.stated)
         progress.info("\n".join(assessment.lines()))
         results = {**paths, **{name: assessment.as_dict()[name.lower()] for name in _NUMBERS}}

@@ -15,10 +15,8 @@ from .classified import show_classified
 from .inputs import add_clouds, clouds_of, names_of
 from .outputs import TILES_STAY, add_rasters, add_tiles, raster_files, raster_paths, shown_rasters
 
-_NUMBERS = {
-    "TILE_COUNT": "Tiles", "DONE_COUNT": "Classified tiles", "KEPT_COUNT": "Tiles kept",
-    "POINT_COUNT": "Points", "GROUND_COUNT": "Ground points",
-}  # fmt: skip
+_TILES = {"TILE_COUNT": "Tiles", "DONE_COUNT": "Classified tiles", "KEPT_COUNT": "Tiles kept"}
+_NUMBERS = {**_TILES, "POINT_COUNT": "Points", "GROUND_COUNT": "Ground points"}
 
 
 class ClassifyTilesAlgorithm(BareEarthAlgorithm):
@@ -35,9 +33,8 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
 
     def parameter_sets(self):
         """Return method, points and classes, files, outputs, and resources."""
-        files = options.TileInput, options.ShownTiles, Output
-        rasters = TerrainModel, Gaps, options.RasterOutput
-        return (options.TileMethod, Selection, *files, *rasters, Resources)
+        files = options.TileMethod, Selection, options.TileInput, options.ShownTiles
+        return (*files, Output, TerrainModel, Gaps, options.RasterOutput, Resources)
 
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""
@@ -51,14 +48,14 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
 
     def find_inputs(self, parameters, context):
         """Find the input files."""
-        self._sources = clouds_of(self, parameters, context)
-        self.inputs, self.subject = self._sources, names_of(self._sources)
+        self.inputs = clouds_of(self, parameters, context)
+        self.subject = names_of(self.inputs)
 
     def prepare(self, parameters, context, progress):
         """Find the files, and read area, corrections and constraints."""
         super().prepare(parameters, context, progress)
         recursive = self.parameterAsBool(parameters, "RECURSIVE", context)
-        crs = self.crs_of(*self._sources, recursive=recursive)
+        crs = self.crs_of(*self.inputs, recursive=recursive)
         self._limits = limits_of(self, parameters, context, crs, progress)
 
     def compute(self, parameters, context, progress):
@@ -66,18 +63,18 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         from ...algorithms.engine.many_files import classify_files
         from ...algorithms.engine.requests import ClassifyRequest
 
-        chosen, sources = options.as_command(self.chosen(parameters, context)), self._sources
+        chosen = options.as_command(self.chosen(parameters, context))
         folder = self.parameterAsFileOutput(parameters, "OUTPUT_FOLDER", context)
         vpc = self.parameterAsFileOutput(parameters, "OUTPUT_VPC", context)
         paths = raster_paths(self, parameters, context)
-        words = [*map(str, sources), folder, *area_options(self._limits["area"], progress)]
+        words = [*map(str, self.inputs), folder, *area_options(self._limits["area"], progress)]
         given = {"VPC": vpc, **given_options(**self._limits), **paths}
         progress.command(command_line("classify-tiles", words, chosen, given))
         request = ClassifyRequest.of(chosen, rasters=raster_files(paths), **self._limits)
-        summary = classify_files(sources, folder, request, progress, vpc=vpc or None)
+        summary = classify_files(self.inputs, folder, request, progress, vpc=vpc or None)
         progress.info(f"{summary.text}.")
         self.class_counts = summary.class_counts
         paths = shown_rasters(paths, request.raster_output, context)
-        show_classified(self, summary.vpc, summary.class_counts, request, context, progress)
-        results = {name: getattr(summary, name.lower()) for name in _NUMBERS}
-        return {"OUTPUT_FOLDER": folder, "OUTPUT_VPC": summary.vpc, **paths, **results}
+        show_classified(self, summary.vpc, self.class_counts, request, context, progress)
+        numbers = {name: getattr(summary, name.lower()) for name in _NUMBERS}
+        return {"OUTPUT_FOLDER": folder, "OUTPUT_VPC": summary.vpc, **paths, **numbers}

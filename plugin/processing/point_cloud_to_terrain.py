@@ -62,8 +62,9 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         cloud = self.point_cloud_destination(parameters, "OUTPUT", context)
         results = outputs.raster_paths(self, parameters, context)
         lines = results.get("CONTOURS")
-        rasters = outputs.raster_files(results)
-        files = MapFiles(cloud and Path(cloud), rasters, lines and Path(lines))
+        files = MapFiles(
+            cloud and Path(cloud), outputs.raster_files(results), lines and Path(lines)
+        )
         summary = make_maps(self._sources, files, request, progress)
         made = str(cloud and summary.cloud)
         words = area_options(request.area, progress, is_all=True), given_options(**limits)
