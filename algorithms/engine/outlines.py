@@ -96,19 +96,25 @@ class Held:
             for some, which in zip(counts, (held >= ANY, held % ANY > 0)):
                 along = np.add.reduceat(which, places[0][1], axis=0, dtype=np.int64)
                 some[here] += np.add.reduceat(along, places[1][1], axis=1)
-        return _apart(counts[0], side), _apart(counts[1], side)
+        area = window.rows * window.columns
+        return _apart(counts[0], side, area), _apart(counts[1], side, area)
 
 
-def _apart(counts: np.ndarray, side: int) -> float:
-    """Return the usual distance of cells, of which squares of some cells hold so many."""
+def _apart(counts: np.ndarray, side: int, area: int) -> float:
+    """Return the usual distance of cells, of which squares of some cells hold so many.
+
+    It is never more than if they were spread evenly over the `area`, in cells, of the raster: a
+    small raster is only a part of a square.
+    """
     if not counts.any():
         return 1.0
+    widest = math.sqrt(area / int(counts.sum()))
     while usual_count(counts) < _FEWEST and max(counts.shape) > 1:
         counts = np.pad(counts, [(0, each % 2) for each in counts.shape])
         counts = counts[::2] + counts[1::2]
         counts = counts[:, ::2] + counts[:, 1::2]
         side *= 2
-    return max(side / math.sqrt(usual_count(counts)), 1.0)
+    return max(min(side / math.sqrt(usual_count(counts)), widest), 1.0)
 
 
 def _radius(cells: float) -> float:

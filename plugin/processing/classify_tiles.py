@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from ...algorithms.engine import options
-from ...algorithms.engine.memory import Resources
+from ...algorithms.engine import memory, options
 from ...algorithms.engine.output import Output
 from ...algorithms.products.surface_model import Gaps
 from ...algorithms.products.terrain_model import TerrainModel
@@ -34,7 +33,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
     def parameter_sets(self):
         """Return method, points and classes, files, outputs, and resources."""
         files = options.TileMethod, Selection, options.TileInput, options.ShownTiles
-        return (*files, Output, TerrainModel, Gaps, options.RasterOutput, Resources)
+        return (*files, Output, TerrainModel, Gaps, options.RasterOutput, memory.Resources)
 
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""
@@ -76,5 +75,5 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         self.class_counts = summary.class_counts
         paths = shown_rasters(paths, request.raster_output, context)
         show_classified(self, summary.vpc, self.class_counts, request, context, progress)
-        numbers = {name: getattr(summary, name.lower()) for name in _NUMBERS}
-        return {"OUTPUT_FOLDER": folder, "OUTPUT_VPC": summary.vpc, **paths, **numbers}
+        paths.update({name: getattr(summary, name.lower()) for name in _NUMBERS})
+        return {"OUTPUT_FOLDER": folder, "OUTPUT_VPC": summary.vpc, **paths}

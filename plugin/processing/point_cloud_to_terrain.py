@@ -49,26 +49,24 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
 
     def find_inputs(self, parameters, context):
         """Find the input files."""
-        self.inputs = self._sources = survey_of(self, parameters, context)
-        self.subject, self.cancelled = names_of(self._sources), outputs.after_cancel(self._sources)
+        self.inputs = sources = survey_of(self, parameters, context)
+        self.subject, self.cancelled = names_of(sources), outputs.after_cancel(sources)
 
     def compute(self, parameters, context, progress):
         """Make the wanted outputs."""
         from ...algorithms.engine.terrain_maps import MapFiles, MapRequest, make_maps
 
-        limits = limits_of(self, parameters, context, self.crs_of(*self._sources), progress)
+        limits = limits_of(self, parameters, context, self.crs_of(*self.inputs), progress)
         chosen = self.chosen(parameters, context)
         request = MapRequest.of(chosen, **limits)
         cloud = self.point_cloud_destination(parameters, "OUTPUT", context)
         results = outputs.raster_paths(self, parameters, context)
-        lines = results.get("CONTOURS")
-        files = MapFiles(
-            cloud and Path(cloud), outputs.raster_files(results), lines and Path(lines)
-        )
-        summary = make_maps(self._sources, files, request, progress)
+        lines, rasters = results.get("CONTOURS"), outputs.raster_files(results)
+        files = MapFiles(cloud and Path(cloud), rasters, lines and Path(lines))
+        summary = make_maps(self.inputs, files, request, progress)
         made = str(cloud and summary.cloud)
         words = area_options(request.area, progress, is_all=True), given_options(**limits)
-        for each in terrain_commands(self._sources, made, results, chosen, *words):
+        for each in terrain_commands(self.inputs, made, results, chosen, *words):
             progress.command(each)
         progress.share(summary.ground_count, summary.point_count, bool(request.area))
         if "CONTOURS" in results:

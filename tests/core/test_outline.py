@@ -422,3 +422,13 @@ def test_the_commands_fill_pits(tmp_path):
         assert said("terrain", path, "--chm", chm, *more)[0] == 0
         sums.append(np.nansum(_values(chm)[0]))
     assert sums[1] > 1.05 * sums[0]
+
+
+def test_a_survey_smaller_than_a_few_cells_has_terrain(tmp_path):
+    x, y = np.random.default_rng(3).uniform(0.0, 18.0, (2, 60))
+    source = tmp_path / "small.las"
+    _write(source, x, y, np.full(60, 100.0))
+    ((terrain,),) = (_terrain(tmp_path / "out", [source], cell=5.0),)
+    values, east, north = terrain
+    inner = (np.abs(east - 9.0) < 5.0) & (np.abs(north - 9.0) < 5.0)
+    assert inner.sum() >= 4 and np.allclose(values[inner], 100.0)
