@@ -32,8 +32,12 @@
         <translation>Ein Verzeichnis der klassifizierten Dateien, das QGIS 3.32 und neuer als einen Layer zeigt. Ohne Namen heißt es classified.vpc und kommt in deren Ordner.</translation>
     </message>
     <message>
-        <source>A point becomes low noise if it lies farther below the ground than this. On slopes, the rise of the ground over 1 m is added. Used only if low outliers are put into class 7.</source>
-        <translation>Ein Punkt wird tiefes Rauschen, wenn er weiter als dies unter dem Boden liegt. Am Hang kommt der Anstieg des Bodens auf 1 m hinzu. Gilt nur, wenn tiefe Ausreißer in Klasse 7 kommen.</translation>
+        <source>A point becomes high noise if it hangs at least this far above all others within about 10 m. Used only if high outliers are put into class 18.</source>
+        <translation>Ein Punkt wird hohes Rauschen, wenn er mindestens so hoch über allen anderen im Umkreis von etwa 10 m hängt. Gilt nur, wenn hohe Ausreißer in Klasse 18 kommen.</translation>
+    </message>
+    <message>
+        <source>A point becomes low noise if it lies farther below the ground than this. On slopes, the rise of the ground over 1 m is added. Points with ground all round them that lie 0.4 m and more below it become low noise too. Used only if low outliers are put into class 7.</source>
+        <translation>Ein Punkt wird tiefes Rauschen, wenn er weiter als dies unter dem Boden liegt. Am Hang kommt der Anstieg des Bodens auf 1 m hinzu. Punkte, die ringsum Boden haben und 0,4 m oder mehr darunter liegen, werden auch tiefes Rauschen. Gilt nur, wenn tiefe Ausreißer in Klasse 7 kommen.</translation>
     </message>
     <message>
         <source>A point cloud layer, a .las, .laz or .copc.laz file, a virtual point cloud (.vpc), or a text file (.txt) with one path in each line. May stay empty if a folder is given.</source>
@@ -104,8 +108,10 @@
         <translation>Fügt die Zusatzdimension HeightAboveGround hinzu, die Höhe jedes Punkts über dem Boden, in der Höheneinheit des KBS.</translation>
     </message>
     <message>
-        <source>Adds the height above ground to every point of a classified point cloud: its height above the triangulation (TIN) of the ground points or, outside of it, above the nearest ground point. Heights are in the vertical unit of the CRS. They become an extra dimension, HeightAboveGround, or replace z; nothing else in the file changes.</source>
-        <translation>Gibt jedem Punkt einer klassifizierten Punktwolke seine Höhe über dem Boden: über der Dreiecksvermaschung (TIN) der Bodenpunkte oder, außerhalb davon, über dem nächsten Bodenpunkt. Höhen stehen in der Höheneinheit des KBS. Sie werden eine Zusatzdimension, HeightAboveGround, oder treten an die Stelle von z; sonst ändert sich nichts in der Datei.</translation>
+        <source>Adds the height above ground to every point of a classified point cloud: its height above the triangulation (TIN) of the ground points or, outside of it, above the nearest ground point. Heights are in the vertical unit of the CRS. They become an extra dimension, HeightAboveGround, or replace z; nothing else in the file changes.
+With a terrain model, heights are measured above that raster, and the points need no classes.</source>
+        <translation>Gibt jedem Punkt einer klassifizierten Punktwolke seine Höhe über dem Boden: über der Dreiecksvermaschung (TIN) der Bodenpunkte oder, außerhalb davon, über dem nächsten Bodenpunkt. Höhen stehen in der Höheneinheit des KBS. Sie werden eine Zusatzdimension, HeightAboveGround, oder treten an die Stelle von z; sonst ändert sich nichts in der Datei.
+Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die Punkte brauchen keine Klassen.</translation>
     </message>
     <message>
         <source>Adds the height of every point above the ground points of a point cloud.</source>
@@ -122,6 +128,10 @@
     <message>
         <source>All in one</source>
         <translation>Alles in einem</translation>
+    </message>
+    <message>
+        <source>All rasters get the grid of this raster: CRS, cell size, position of the cells, and extent. It must be in the CRS of the points, with square cells and north up. It replaces the cell size.</source>
+        <translation>Alle Raster bekommen das Gitter dieses Rasters: KBS, Zellgröße, Lage der Zellen und Ausdehnung. Dieses muss im KBS der Punkte sein, mit quadratischen Zellen und Norden oben. Es tritt an die Stelle der Zellgröße.</translation>
     </message>
     <message>
         <source>All returns</source>
@@ -156,6 +166,10 @@
         <translation>Automatisch (viele Maßstäbe, folgt dem Gelände)</translation>
     </message>
     <message>
+        <source>Automatic: for the pictures, heights are smoothed as much as they are noisy, so that low plants in a forest do not speckle them. Banks, ditches and walls stay sharp, and so does open ground. The terrain model does not change.</source>
+        <translation>Automatisch: Für die Bilder werden Höhen so stark geglättet, wie sie verrauscht sind, damit niedrige Pflanzen im Wald die Bilder nicht sprenkeln. Böschungen, Gräben und Mauern bleiben scharf, offener Boden auch. Das Geländemodell ändert sich nicht.</translation>
+    </message>
+    <message>
         <source>Band</source>
         <translation>Kanal</translation>
     </message>
@@ -184,16 +198,16 @@
         <translation>COPC, das QGIS sofort zeigt</translation>
     </message>
     <message>
+        <source>CRS of the points</source>
+        <translation>KBS der Punkte</translation>
+    </message>
+    <message>
         <source>Cancelled.</source>
         <translation>Abgebrochen.</translation>
     </message>
     <message>
-        <source>Cancelled. The finished tiles stay, and a later run can continue with them.</source>
-        <translation>Abgebrochen. Die fertigen Kacheln bleiben, und ein späterer Lauf kann mit ihnen weitermachen.</translation>
-    </message>
-    <message>
-        <source>Cancelled; nothing was written.</source>
-        <translation>Abgebrochen; es wurde nichts geschrieben.</translation>
+        <source>Canopy height</source>
+        <translation>Kronenhöhe</translation>
     </message>
     <message>
         <source>Canopy height (CHM)</source>
@@ -224,6 +238,10 @@
         <translation>Zellen mit einer Höhe</translation>
     </message>
     <message>
+        <source>Choose a file: {}.</source>
+        <translation>Wählen Sie eine Datei: {}.</translation>
+    </message>
+    <message>
         <source>Choose a point cloud, or a folder of them.</source>
         <translation>Wählen Sie eine Punktwolke oder einen Ordner mit Punktwolken.</translation>
     </message>
@@ -238,10 +256,6 @@
     <message>
         <source>Choose point clouds, or a folder of them.</source>
         <translation>Wählen Sie Punktwolken oder einen Ordner mit Punktwolken.</translation>
-    </message>
-    <message>
-        <source>Chosen automatically: {text}</source>
-        <translation>Automatisch gewählt: {text}</translation>
     </message>
     <message>
         <source>City, large halls</source>
@@ -272,20 +286,24 @@
         <translation>Klasse des Bodens</translation>
     </message>
     <message>
-        <source>Class {number} ({name}): {count:,} points ({share:.1%})</source>
-        <translation>Klasse {number} ({name}): {count:,} Punkte ({share:.1%})</translation>
+        <source>Classes</source>
+        <translation>Klassen</translation>
     </message>
     <message>
         <source>Classes of known ground</source>
         <translation>Klassen bekannten Bodens</translation>
     </message>
     <message>
-        <source>Classes of the points that are ground. Add 8 if model key points have that class, and 9 if water counts as ground. Withheld points are not used.</source>
-        <translation>Klassen der Punkte, die Boden sind. Fügen Sie 8 hinzu, wenn Schlüsselpunkte diese Klasse haben, und 9, wenn Wasser als Boden gilt. Zurückgehaltene Punkte (withheld) werden nicht benutzt.</translation>
+        <source>Classes of the points that are ground. Add 8 if model key points have that class, 10 and 11 for rails and roads that lie on the ground, and 9 if water counts as ground. Withheld points are not used.</source>
+        <translation>Klassen der Punkte, die Boden sind. Fügen Sie 8 hinzu, wenn Schlüsselpunkte diese Klasse haben, 10 und 11 für Schienen und Straßen, die auf dem Boden liegen, und 9, wenn Wasser als Boden gilt. Zurückgehaltene Punkte (withheld) werden nicht benutzt.</translation>
     </message>
     <message>
         <source>Classes of the reference that are ground. Add 9 if water counts as ground.</source>
         <translation>Klassen der Referenz, die Boden sind. Fügen Sie 9 hinzu, wenn Wasser als Boden gilt.</translation>
+    </message>
+    <message>
+        <source>Classes of the surface model</source>
+        <translation>Klassen des Oberflächenmodells</translation>
     </message>
     <message>
         <source>Classes to classify</source>
@@ -294,6 +312,10 @@
     <message>
         <source>Classified point cloud</source>
         <translation>Klassifizierte Punktwolke</translation>
+    </message>
+    <message>
+        <source>Classified points only</source>
+        <translation>Nur klassifizierte Punkte</translation>
     </message>
     <message>
         <source>Classified tiles</source>
@@ -328,6 +350,10 @@
         <translation>Modell-Schlüsselpunkte klassifizieren</translation>
     </message>
     <message>
+        <source>Closed lines that are shorter are left out: they show single plants and noise.</source>
+        <translation>Kürzere geschlossene Linien werden weggelassen: Sie zeigen einzelne Pflanzen und Rauschen.</translation>
+    </message>
+    <message>
         <source>Compare settings on a window</source>
         <translation>Einstellungen in einem Fenster vergleichen</translation>
     </message>
@@ -340,8 +366,8 @@
         <translation>Vergleicht Höhen über einer Fläche, die dem Gelände folgt (weißer Top-Hat), nicht die Höhen selbst, damit Boden am Hang nicht verloren geht.</translation>
     </message>
     <message>
-        <source>Compares the ground of a classified point cloud with a reference that holds the same points. Type I error: the share of the reference's ground that was rejected. Type II error: the share of all other points that was accepted as ground. The report is a web page with a map.</source>
-        <translation>Vergleicht den Boden einer klassifizierten Punktwolke mit einer Referenz, die dieselben Punkte enthält. Fehler 1. Art: der Anteil des Bodens der Referenz, der verworfen wurde. Fehler 2. Art: der Anteil aller anderen Punkte, der als Boden angenommen wurde. Der Bericht ist eine Webseite mit einer Karte.</translation>
+        <source>Compares the ground of a classified point cloud with a reference that holds the same points, or a part of them. Type I error: the share of the reference's ground that was rejected. Type II error: the share of all other points that was accepted as ground. The report is a web page with a map.</source>
+        <translation>Vergleicht den Boden einer klassifizierten Punktwolke mit einer Referenz, die dieselben Punkte oder einen Teil davon enthält. Fehler 1. Art: der Anteil des Bodens der Referenz, der verworfen wurde. Fehler 2. Art: der Anteil aller anderen Punkte, der als Boden angenommen wurde. Der Bericht ist eine Webseite mit einer Karte.</translation>
     </message>
     <message>
         <source>Comparison of settings</source>
@@ -388,12 +414,12 @@
         <translation>Tiefe tiefer Ausreißer</translation>
     </message>
     <message>
-        <source>Did you mean {name}?</source>
-        <translation>War {name} gemeint?</translation>
-    </message>
-    <message>
         <source>Direction from which the light comes, clockwise from north. Four lights have their own directions.</source>
         <translation>Richtung, aus der das Licht kommt, von Norden aus im Uhrzeigersinn. Vier Lichter haben ihre eigenen Richtungen.</translation>
+    </message>
+    <message>
+        <source>Documentation</source>
+        <translation>Dokumentation</translation>
     </message>
     <message>
         <source>Done; no restart is needed.</source>
@@ -412,6 +438,10 @@
         <translation>Fehlerkarte</translation>
     </message>
     <message>
+        <source>Errors</source>
+        <translation>Fehler</translation>
+    </message>
+    <message>
         <source>Every {}</source>
         <translation>Alle {}</translation>
     </message>
@@ -420,12 +450,20 @@
         <translation>Ausdehnung</translation>
     </message>
     <message>
+        <source>Extent of the rasters</source>
+        <translation>Ausdehnung der Raster</translation>
+    </message>
+    <message>
         <source>Extra dimension HeightAboveGround</source>
         <translation>Zusatzdimension HeightAboveGround</translation>
     </message>
     <message>
         <source>Files keep their names; only the ending follows the format.</source>
         <translation>Die Dateien behalten ihre Namen; nur die Endung richtet sich nach dem Format.</translation>
+    </message>
+    <message>
+        <source>Fill pits of the canopy</source>
+        <translation>Löcher im Kronendach füllen</translation>
     </message>
     <message>
         <source>Final height</source>
@@ -516,6 +554,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Ordner der klassifizierten Punktwolken</translation>
     </message>
     <message>
+        <source>For the lines, each height is averaged with its surroundings up to about this distance, so that they do not show noise. The terrain model does not change. 0: as the terrain model is.</source>
+        <translation>Für die Linien wird jede Höhe mit ihrer Umgebung bis etwa zu dieser Entfernung gemittelt, damit sie kein Rauschen zeigen. Das Geländemodell ändert sich nicht. 0: wie das Geländemodell ist.</translation>
+    </message>
+    <message>
         <source>Format of the output</source>
         <translation>Format der Ausgabe</translation>
     </message>
@@ -540,8 +582,8 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>GB</translation>
     </message>
     <message>
-        <source>Gaps between points are filled by triangles. A triangle with a longer edge than this has no data, for example over water. Empty: all gaps are filled, out to the convex hull of the points.</source>
-        <translation>Lücken zwischen Punkten werden mit Dreiecken gefüllt. Ein Dreieck mit einer längeren Kante als dieser hat keine Werte, zum Beispiel über Wasser. Leer: Alle Lücken werden gefüllt, bis zur konvexen Hülle der Punkte.</translation>
+        <source>Gaps inside the survey are filled by triangles. A triangle with a longer edge than this has no data, for example over water. Empty: all gaps inside are filled. Beyond the outline of the points no raster has data in any case.</source>
+        <translation>Lücken innerhalb der Befliegung werden mit Dreiecken gefüllt. Ein Dreieck mit einer längeren Kante als dieser hat keine Werte, zum Beispiel über Wasser. Leer: Alle Lücken darin werden gefüllt. Außerhalb des Umrisses der Punkte hat ein Raster in keinem Fall Werte.</translation>
     </message>
     <message>
         <source>Get lazrs</source>
@@ -628,6 +670,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Höhe über Grund</translation>
     </message>
     <message>
+        <source>Height of high outliers</source>
+        <translation>Höhe hoher Ausreißer</translation>
+    </message>
+    <message>
         <source>Height threshold</source>
         <translation>Höhenschwelle</translation>
     </message>
@@ -636,8 +682,12 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Höhenschwellen</translation>
     </message>
     <message>
-        <source>Heights above ground are {low:.2f} to {high:.2f} {unit}.</source>
-        <translation>Die Höhen über Grund reichen von {low:.2f} bis {high:.2f} {unit}.</translation>
+        <source>Heights above ground</source>
+        <translation>Höhen über Grund</translation>
+    </message>
+    <message>
+        <source>Heights are measured above this raster, and not above the ground points. It must have the CRS of the points. Empty: above the ground points.</source>
+        <translation>Höhen werden über diesem Raster gemessen und nicht über den Bodenpunkten. Es muss das KBS der Punkte haben. Leer: über den Bodenpunkten.</translation>
     </message>
     <message>
         <source>Heights of the bare ground.</source>
@@ -688,6 +738,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Nicht beachtete Klassen der Referenz</translation>
     </message>
     <message>
+        <source>In a CRS in feet, a size of 3 in units of the CRS gives cells of exactly 3 feet that begin at whole multiples of 3 feet.</source>
+        <translation>In einem KBS in Fuß ergibt eine Größe von 3 in Einheiten des KBS Zellen von genau 3 Fuß, die an ganzen Vielfachen von 3 Fuß beginnen.</translation>
+    </message>
+    <message>
         <source>In each cell of this size that has ground points, at least the lowest one is a key point, however flat the ground is.</source>
         <translation>In jeder Zelle dieser Größe, die Bodenpunkte hat, ist mindestens der tiefste ein Schlüsselpunkt, wie eben der Boden auch ist.</translation>
     </message>
@@ -710,18 +764,6 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>In scripts</source>
         <translation>In Skripten</translation>
-    </message>
-    <message>
-        <source>In the command line some layers are missing: save each in the CRS of the points as GeoJSON, and add {}.</source>
-        <translation>In der Befehlszeile fehlen einige Layer: Speichern Sie jeden im KBS der Punkte als GeoJSON, und ergänzen Sie {}.</translation>
-    </message>
-    <message>
-        <source>In the command line the boundary is missing: save it in the CRS of the points as boundary.geojson, and add --boundary boundary.geojson.</source>
-        <translation>In der Befehlszeile fehlt die Begrenzung: Speichern Sie sie im KBS der Punkte als boundary.geojson, und fügen Sie --boundary boundary.geojson hinzu.</translation>
-    </message>
-    <message>
-        <source>In the command line the corrections are missing: save them in the CRS of the points as corrections.geojson, their class as the attribute "{}", and add --corrections corrections.geojson.</source>
-        <translation>In der Befehlszeile fehlen die Korrekturen: Speichern Sie sie im KBS der Punkte als corrections.geojson, ihre Klasse als Attribut „{}“, und fügen Sie --corrections corrections.geojson hinzu.</translation>
     </message>
     <message>
         <source>In triangles whose longest edge is shorter than this, the iteration angle is reduced in proportion. So the TIN does not climb low vegetation step by step. Empty: the angle is never reduced.</source>
@@ -800,6 +842,14 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Letzte Echos erreichen den Boden. Nehmen Sie alle Echos, wenn die Nummern der Echos in der Datei falsch sind.</translation>
     </message>
     <message>
+        <source>Leave out</source>
+        <translation>Weglassen</translation>
+    </message>
+    <message>
+        <source>Leave out; they keep their class</source>
+        <translation>Weglassen; sie behalten ihre Klasse</translation>
+    </message>
+    <message>
         <source>LiDAR360's values</source>
         <translation>Werte von LiDAR360</translation>
     </message>
@@ -820,6 +870,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Linien gleicher Höhe des Geländemodells, mit dem Feld ELEV.</translation>
     </message>
     <message>
+        <source>Lines of equal height of the terrain model, with the field ELEV. They are smoothed, so that they do not show noise. Every fifth line has its height as a label.</source>
+        <translation>Linien gleicher Höhe des Geländemodells, mit dem Feld ELEV. Sie sind geglättet, damit sie kein Rauschen zeigen. Jede fünfte Linie ist mit ihrer Höhe beschriftet.</translation>
+    </message>
+    <message>
         <source>Lines that no triangle of the terrain crosses: edges of walls, dykes and terraces. A line with z has this height. Without z, each side of the line has the height of the nearest ground point on that side.</source>
         <translation>Linien, über die kein Dreieck des Geländes hinweggeht: Kanten von Mauern, Deichen und Terrassen. Eine Linie mit z hat diese Höhe. Ohne z hat jede Seite der Linie die Höhe des nächsten Bodenpunkts auf dieser Seite.</translation>
     </message>
@@ -830,6 +884,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>Lowest height</source>
         <translation>Kleinste Höhe</translation>
+    </message>
+    <message>
+        <source>Made by Bare Earth with these settings:</source>
+        <translation>Von Bare Earth mit diesen Einstellungen gemacht:</translation>
     </message>
     <message>
         <source>Makes a map of the terrain of a raw point cloud: classes, models, contours.</source>
@@ -882,20 +940,12 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Verfahren, jedes mit einer Voreinstellung. Alle anderen werden mit dem ersten verglichen.</translation>
     </message>
     <message>
+        <source>Metres</source>
+        <translation>Meter</translation>
+    </message>
+    <message>
         <source>Minimum number of neighbours</source>
         <translation>Mindestzahl der Nachbarn</translation>
-    </message>
-    <message>
-        <source>Model: heights above ground</source>
-        <translation>Modell: Höhen über Grund</translation>
-    </message>
-    <message>
-        <source>Model: terrain, hillshade and contours</source>
-        <translation>Modell: Gelände, Schummerung und Höhenlinien</translation>
-    </message>
-    <message>
-        <source>Model: two methods compared</source>
-        <translation>Modell: zwei Verfahren im Vergleich</translation>
     </message>
     <message>
         <source>Models</source>
@@ -910,8 +960,16 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Hier kein Boden</translation>
     </message>
     <message>
+        <source>No-data value of the rasters</source>
+        <translation>NoData-Wert der Raster</translation>
+    </message>
+    <message>
         <source>Noise distance</source>
         <translation>Rauschabstand</translation>
+    </message>
+    <message>
+        <source>None</source>
+        <translation>Keine</translation>
     </message>
     <message>
         <source>Not ground</source>
@@ -954,28 +1012,40 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Nur Schlüsselpunkte</translation>
     </message>
     <message>
-        <source>Only points in these polygons are classified; with an extent, only points in both. Points outside keep their class, but those nearby help to judge. Empty: all points.</source>
-        <translation>Nur Punkte in diesen Polygonen werden klassifiziert; gibt es eine Ausdehnung, nur Punkte in beiden. Punkte außerhalb behalten ihre Klasse, doch die in der Nähe helfen beim Urteil. Leer: alle Punkte.</translation>
+        <source>Only points in these polygons are classified, and rasters end at them; with an extent, only what lies in both. Points outside keep their class, but those nearby help to judge. Empty: all points.</source>
+        <translation>Nur Punkte in diesen Polygonen werden klassifiziert, und Raster enden an ihnen; gibt es eine Ausdehnung, gilt nur, was in beiden liegt. Punkte außerhalb behalten ihre Klasse, doch die in der Nähe helfen beim Urteil. Leer: alle Punkte.</translation>
     </message>
     <message>
         <source>Only points in these polygons are mapped and written; with an extent, only points in both. Points nearby help to judge. Empty: all points.</source>
         <translation>Nur Punkte in diesen Polygonen werden kartiert und geschrieben; gibt es eine Ausdehnung, nur Punkte in beiden. Punkte in der Nähe helfen beim Urteil. Leer: alle Punkte.</translation>
     </message>
     <message>
-        <source>Only points in this rectangle are classified. Points outside keep their class, but those nearby help to judge. Empty: all points.</source>
-        <translation>Nur Punkte in diesem Rechteck werden klassifiziert. Punkte außerhalb behalten ihre Klasse, doch die in der Nähe helfen beim Urteil. Leer: alle Punkte.</translation>
+        <source>Only points in this rectangle are classified, and rasters end at it. Points outside keep their class, but those nearby help to judge. Empty: all points.</source>
+        <translation>Nur Punkte in diesem Rechteck werden klassifiziert, und Raster enden an ihm. Punkte außerhalb behalten ihre Klasse, doch die in der Nähe helfen beim Urteil. Leer: alle Punkte.</translation>
     </message>
     <message>
         <source>Only points in this rectangle are mapped and written. Points nearby help to judge. Empty: all points.</source>
         <translation>Nur Punkte in diesem Rechteck werden kartiert und geschrieben. Punkte in der Nähe helfen beim Urteil. Leer: alle Punkte.</translation>
     </message>
     <message>
-        <source>Only points of these classes take part and may change their class. Empty: all classes but low and high noise (7 and 18).</source>
-        <translation>Nur Punkte dieser Klassen nehmen teil und können ihre Klasse ändern. Leer: alle Klassen außer tiefem und hohem Rauschen (7 und 18).</translation>
+        <source>Only points of these classes make the surface, such as 41 for a water surface, or 2 and 6 for terrain with buildings. Empty: all classes but low and high noise (7 and 18).</source>
+        <translation>Nur Punkte dieser Klassen bilden die Oberfläche, etwa 41 für eine Wasseroberfläche, oder 2 und 6 für Gelände mit Gebäuden. Leer: alle Klassen außer tiefem und hohem Rauschen (7 und 18).</translation>
+    </message>
+    <message>
+        <source>Only points of these classes take part and may change their class. Empty: 0 to 6, 8, 12 and the class of the ground. Points of other classes, such as water (9) and bridge decks (17), keep their class. Rails and roads (10 and 11) keep theirs too, but take part. all: all classes but low and high noise (7 and 18).</source>
+        <translation>Nur Punkte dieser Klassen nehmen teil und können ihre Klasse ändern. Leer: 0 bis 6, 8, 12 und die Klasse des Bodens. Punkte anderer Klassen, etwa Wasser (9) und Fahrbahnen von Brücken (17), behalten ihre Klasse. Schienen und Straßen (10 und 11) behalten ihre auch, nehmen aber teil. all: alle Klassen außer tiefem und hohem Rauschen (7 und 18).</translation>
     </message>
     <message>
         <source>Only the points that a terrain model needs become ground. Of all other ground points, none lies farther from the TIN of these key points than the two tolerances below.</source>
         <translation>Nur die Punkte, die ein Geländemodell braucht, werden Boden. Von allen anderen Bodenpunkten liegt keiner weiter vom TIN dieser Schlüsselpunkte entfernt, als die beiden folgenden Toleranzen erlauben.</translation>
+    </message>
+    <message>
+        <source>Overview of the classes</source>
+        <translation>Übersicht der Klassen</translation>
+    </message>
+    <message>
+        <source>Overview of the virtual point cloud</source>
+        <translation>Übersicht der virtuellen Punktwolke</translation>
     </message>
     <message>
         <source>Point cloud</source>
@@ -1010,6 +1080,18 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Punkte im Gebiet</translation>
     </message>
     <message>
+        <source>Points in the overlap of flight strips, by their flag in LAS 1.4, or by class 12 in older files. If strips do not fit together, leave them out of ground and surface.</source>
+        <translation>Punkte in der Überlappung von Flugstreifen, nach ihrem Kennzeichen in LAS 1.4 oder, in älteren Dateien, nach Klasse 12. Wenn Streifen nicht zusammenpassen, lassen Sie diese Punkte bei Boden und Oberfläche weg.</translation>
+    </message>
+    <message>
+        <source>Points in the overlap of flight strips, by their flag in LAS 1.4, or by class 12 in older files. If strips do not fit together, leave them out: ground, and rasters made in the same run, then come from one strip everywhere.</source>
+        <translation>Punkte in der Überlappung von Flugstreifen, nach ihrem Kennzeichen in LAS 1.4 oder, in älteren Dateien, nach Klasse 12. Wenn Streifen nicht zusammenpassen, lassen Sie diese Punkte weg: Der Boden, und Raster aus demselben Lauf, stammen dann überall aus einem einzigen Streifen.</translation>
+    </message>
+    <message>
+        <source>Points of overlap</source>
+        <translation>Punkte der Überlappung</translation>
+    </message>
+    <message>
         <source>Points of the surface</source>
         <translation>Punkte der Oberfläche</translation>
     </message>
@@ -1024,6 +1106,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Points that took part</source>
         <translation>Punkte, die teilnahmen</translation>
+    </message>
+    <message>
+        <source>Points that took part and hang far above all others of their place, alone or in small groups (birds, clouds, faults of the sensor) become high noise, class 18. Wires, masts and trees do not. Surface and canopy models never use such points, whether this is on or off.</source>
+        <translation>Punkte, die teilnahmen und weit über allen anderen an ihrer Stelle hängen, allein oder in kleinen Gruppen (Vögel, Wolken, Fehler des Sensors), werden hohes Rauschen, Klasse 18. Leitungen, Masten und Bäume nicht. Oberflächen- und Kronenhöhenmodelle benutzen solche Punkte nie, ob dies an ist oder aus.</translation>
     </message>
     <message>
         <source>Points that took part and lie far below the ground (multipath, faults of the sensor) become low noise, class 7. If this is off, they are treated as other points.</source>
@@ -1054,6 +1140,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Produkte</translation>
     </message>
     <message>
+        <source>Put high outliers into class 18</source>
+        <translation>Hohe Ausreißer in Klasse 18</translation>
+    </message>
+    <message>
         <source>Put low outliers into class 7</source>
         <translation>Tiefe Ausreißer in Klasse 7</translation>
     </message>
@@ -1064,6 +1154,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Radius of the local relief</source>
         <translation>Radius des lokalen Reliefs</translation>
+    </message>
+    <message>
+        <source>Raster with the grid to use</source>
+        <translation>Raster, dessen Gitter gilt</translation>
     </message>
     <message>
         <source>Ready. Compressed point clouds (.laz) need one more package, which is installed only once.</source>
@@ -1084,6 +1178,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Reference</source>
         <translation>Referenz</translation>
+    </message>
+    <message>
+        <source>Reference points only</source>
+        <translation>Nur Punkte der Referenz</translation>
     </message>
     <message>
         <source>Remember the classes</source>
@@ -1174,6 +1272,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Kürzere Seite des größten Gebäudes. Gebäude, die breiter sind als zwei Suchradien, werden am Abfall auf allen Seiten erkannt. Leer: aus der Voreinstellung, oder zwei Suchradien, wenn der Suchradius angegeben ist. Nicht für die Voreinstellung Whitebox.</translation>
     </message>
     <message>
+        <source>Shortest closed contour line</source>
+        <translation>Kürzeste geschlossene Höhenlinie</translation>
+    </message>
+    <message>
         <source>Side of a cell of the error map. The map in the report has its own cell size.</source>
         <translation>Seite einer Zelle der Fehlerkarte. Die Karte im Bericht hat ihre eigene Zellgröße.</translation>
     </message>
@@ -1234,6 +1336,14 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Neigungsschwelle</translation>
     </message>
     <message>
+        <source>Smoothing of hillshade and local relief</source>
+        <translation>Glättung von Schummerung und lokalem Relief</translation>
+    </message>
+    <message>
+        <source>Smoothing of the contour lines</source>
+        <translation>Glättung der Höhenlinien</translation>
+    </message>
+    <message>
         <source>Steep or rugged terrain</source>
         <translation>Steiles oder raues Gelände</translation>
     </message>
@@ -1246,8 +1356,12 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Vermaschung beenden, wenn Kanten kürzer sind als</translation>
     </message>
     <message>
-        <source>Surface minus terrain: the height of trees, and of buildings too.</source>
-        <translation>Oberfläche minus Gelände: die Höhe von Bäumen, und auch von Gebäuden.</translation>
+        <source>Surface minus terrain: the height of trees, and of buildings too. Empty where no ground point lies within 50 m (or 20 cells), and in gaps of the surface.</source>
+        <translation>Oberfläche minus Gelände: die Höhe von Bäumen, und auch von Gebäuden. Leer, wo kein Bodenpunkt im Umkreis von 50 m (oder 20 Zellen) liegt, und in Lücken der Oberfläche.</translation>
+    </message>
+    <message>
+        <source>Surface model</source>
+        <translation>Oberflächenmodell</translation>
     </message>
     <message>
         <source>Surface model (DSM)</source>
@@ -1286,12 +1400,28 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>TIN-Verdichtung, Stadt</translation>
     </message>
     <message>
+        <source>Take part as others do</source>
+        <translation>Teilnehmen wie die übrigen</translation>
+    </message>
+    <message>
+        <source>Terrain model</source>
+        <translation>Geländemodell</translation>
+    </message>
+    <message>
         <source>Terrain model (DTM)</source>
         <translation>Geländemodell (DGM)</translation>
     </message>
     <message>
+        <source>Terrain, hillshade and contours</source>
+        <translation>Gelände, Schummerung und Höhenlinien</translation>
+    </message>
+    <message>
         <source>Terrain, surface and canopy height models</source>
         <translation>Gelände-, Oberflächen- und Kronenhöhenmodelle</translation>
+    </message>
+    <message>
+        <source>The CRS of the points, for files that state none or a wrong one. It replaces what files state: it decides the units of lengths and heights, and rasters and layers get it. Written point clouds keep the records that the files have. Empty: what the files state.</source>
+        <translation>Das KBS der Punkte, für Dateien, die keines oder ein falsches angeben. Es tritt an die Stelle dessen, was Dateien angeben: Es bestimmt die Einheiten von Längen und Höhen, und Raster und Layer bekommen es. Geschriebene Punktwolken behalten die Angaben der Dateien. Leer: was die Dateien angeben.</translation>
     </message>
     <message>
         <source>The attribute of these polygons that holds their class: 2 for ground, 1 for unclassified.</source>
@@ -1342,8 +1472,8 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Der Höhenabstand der Höhenlinien, in der Einheit der Höhen.</translation>
     </message>
     <message>
-        <source>The height between contour lines, in the vertical unit of the CRS. Empty: a value that gives about 20 lines.</source>
-        <translation>Der Höhenabstand der Höhenlinien, in der Höheneinheit des KBS. Leer: ein Wert, der etwa 20 Linien ergibt.</translation>
+        <source>The height between contour lines, in the vertical unit of the CRS: metres, or feet if the heights are feet. Empty: 1, 2 or 5 times a power of ten, so that there are about 20 lines. Every fifth line is an index contour.</source>
+        <translation>Der Höhenabstand der Höhenlinien, in der Höheneinheit des KBS: Meter, oder Fuß, wenn die Höhen in Fuß sind. Leer: das 1-, 2- oder 5-Fache einer Zehnerpotenz, so dass es etwa 20 Linien gibt. Jede fünfte Linie ist eine Zählkurve.</translation>
     </message>
     <message>
         <source>The highest point of each cell, noise left out.</source>
@@ -1366,8 +1496,8 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Der Layer „{}“ lässt sich nicht lesen.</translation>
     </message>
     <message>
-        <source>The layer's filter is not applied: all points are read.</source>
-        <translation>Der Filter des Layers wird nicht angewendet: Alle Punkte werden gelesen.</translation>
+        <source>The layer "{}" is being edited. Save or discard the edits first.</source>
+        <translation>Der Layer „{}“ wird gerade bearbeitet. Speichern oder verwerfen Sie zuerst die Änderungen.</translation>
     </message>
     <message>
         <source>The paper's values</source>
@@ -1382,8 +1512,20 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Die Wahrscheinlichkeit, 0 bis 1, dass das Geländemodell stimmt: gering unter dichten Bäumen, über Lücken und an Kanten.</translation>
     </message>
     <message>
-        <source>The rasters have {:,} x {:,} cells.</source>
-        <translation>Die Raster haben {:,} x {:,} Zellen.</translation>
+        <source>The raster with the grid to use is not a file. Export it as GeoTIFF first.</source>
+        <translation>Das Raster, dessen Gitter gilt, ist keine Datei. Exportieren Sie es zuerst als GeoTIFF.</translation>
+    </message>
+    <message>
+        <source>The rasters cover this rectangle, widened to whole cells, which stay where they are. All points are used. Empty: where the points are.</source>
+        <translation>Die Raster bedecken dieses Rechteck, erweitert auf ganze Zellen, die an ihrem Ort bleiben. Alle Punkte werden benutzt. Leer: wo die Punkte sind.</translation>
+    </message>
+    <message>
+        <source>The rasters end at this rectangle. Points outside still help along its border. Empty: the rasters cover all points.</source>
+        <translation>Die Raster enden an diesem Rechteck. Punkte außerhalb helfen noch an seinem Rand. Leer: Die Raster bedecken alle Punkte.</translation>
+    </message>
+    <message>
+        <source>The rasters have data only in these polygons; with an extent, only in both. Points outside still help along the border. Empty: the rasters cover all points.</source>
+        <translation>Die Raster haben nur in diesen Polygonen Werte; gibt es eine Ausdehnung, nur in beiden. Punkte außerhalb helfen noch am Rand. Leer: Die Raster bedecken alle Punkte.</translation>
     </message>
     <message>
         <source>The removed lazrs is still in use: restart QGIS and try again.</source>
@@ -1398,8 +1540,8 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Dieselben Punkte mit ihren neuen Klassen.</translation>
     </message>
     <message>
-        <source>The same points with their true classes, in any order.</source>
-        <translation>Dieselben Punkte mit ihren wahren Klassen, in beliebiger Reihenfolge.</translation>
+        <source>The same points, or some of them, with their true classes.</source>
+        <translation>Dieselben Punkte, oder einige davon, mit ihren wahren Klassen.</translation>
     </message>
     <message>
         <source>The same points, with the key points marked.</source>
@@ -1418,6 +1560,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Der Anteil falscher Punkte in jeder Zelle eines Rasters, 0 bis 1.</translation>
     </message>
     <message>
+        <source>The terrain model is not a file. Export it as GeoTIFF first.</source>
+        <translation>Das Geländemodell ist keine Datei. Exportieren Sie es zuerst als GeoTIFF.</translation>
+    </message>
+    <message>
         <source>The terrain model minus a smoothed one. Mounds, ditches and old paths stand out.</source>
         <translation>Das Geländemodell abzüglich eines geglätteten. Hügel, Gräben und alte Wege treten hervor.</translation>
     </message>
@@ -1426,20 +1572,16 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Das Geländemodell, von einem Licht oder von vieren beleuchtet.</translation>
     </message>
     <message>
+        <source>The value of cells without data. Choose one that no height has. Empty: NaN. The hillshade has 0.</source>
+        <translation>Der Wert der Zellen ohne Daten. Wählen Sie einen, den keine Höhe hat. Leer: NaN. Die Schummerung hat 0.</translation>
+    </message>
+    <message>
         <source>The values of the method for a kind of terrain. For other values, use the command line or the algorithm of the method.</source>
         <translation>Die Werte des Verfahrens für eine Geländeart. Andere Werte nehmen die Befehlszeile und der Algorithmus des Verfahrens.</translation>
     </message>
     <message>
-        <source>The window to classify, such as the map's extent: at most 1,000 m wide, and quick up to about 250 x 250 m. It is transformed to the CRS of the points.</source>
-        <translation>Das Fenster, das klassifiziert wird, etwa die Kartenausdehnung; höchstens 1.000 m breit, und schnell bis etwa 250 x 250 m. Es wird in das KBS der Punkte transformiert.</translation>
-    </message>
-    <message>
-        <source>There is no parameter {name}: it is ignored.</source>
-        <translation>Es gibt keinen Parameter {name}: er wird nicht beachtet.</translation>
-    </message>
-    <message>
-        <source>There is not enough memory for this file.</source>
-        <translation>Der Arbeitsspeicher reicht für diese Datei nicht.</translation>
+        <source>The window to classify, such as the map's extent: at most 1,000 m wide, and quick up to about 250 x 250 m. It is transformed to the CRS of the points. Empty: 250 x 250 m in the middle of the points; the log says where.</source>
+        <translation>Das Fenster, das klassifiziert wird, etwa die Kartenausdehnung; höchstens 1.000 m breit, und schnell bis etwa 250 x 250 m. Es wird in das KBS der Punkte transformiert. Leer: 250 x 250 m in der Mitte der Punkte; das Protokoll sagt, wo.</translation>
     </message>
     <message>
         <source>This Python has neither pip nor ensurepip: install pip for it (in Debian and Ubuntu python3-pip), or choose a wheel file.</source>
@@ -1450,20 +1592,8 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Dieses QGIS kann das installierte lazrs nicht laden: {}.</translation>
     </message>
     <message>
-        <source>This QGIS cannot show such a file as a layer. It is at {}.</source>
-        <translation>Dieses QGIS kann eine solche Datei nicht als Layer zeigen. Sie liegt unter {}.</translation>
-    </message>
-    <message>
-        <source>This QGIS cannot show such a file as a layer. It will be at {}.</source>
-        <translation>Dieses QGIS kann eine solche Datei nicht als Layer zeigen. Sie wird unter {} liegen.</translation>
-    </message>
-    <message>
         <source>This QGIS has no scipy. On Windows, install python3-scipy with the OSGeo4W setup. Elsewhere, install the scipy of the system, or a newer QGIS.</source>
         <translation>Dieses QGIS hat kein scipy. Installieren Sie unter Windows python3-scipy mit dem Setup von OSGeo4W. Sonst installieren Sie das scipy des Systems oder ein neueres QGIS.</translation>
-    </message>
-    <message>
-        <source>This QGIS has no {}.</source>
-        <translation>Diesem QGIS fehlt: {}.</translation>
     </message>
     <message>
         <source>This share of the rise of the ground from point to point, over at most a metre, is added to the ground tolerance. In the paper's preset it is a share of the rise over one cell. Empty: from the preset.</source>
@@ -1480,10 +1610,6 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Tiles kept</source>
         <translation>Behaltene Kacheln</translation>
-    </message>
-    <message>
-        <source>Time: {seconds:.1f} s</source>
-        <translation>Dauer: {seconds:.1f} s</translation>
     </message>
     <message>
         <source>Tolerance above</source>
@@ -1510,6 +1636,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Probiert Verfahren und Voreinstellungen an einem Teil einer Punktwolke und zeigt sie nebeneinander.</translation>
     </message>
     <message>
+        <source>Two methods compared</source>
+        <translation>Zwei Verfahren im Vergleich</translation>
+    </message>
+    <message>
         <source>Type I error [%]</source>
         <translation>Fehler 1. Art [%]</translation>
     </message>
@@ -1518,8 +1648,20 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Fehler 2. Art [%]</translation>
     </message>
     <message>
+        <source>Unit of the cell size</source>
+        <translation>Einheit der Zellgröße</translation>
+    </message>
+    <message>
+        <source>Units of the CRS, such as its feet</source>
+        <translation>Einheiten des KBS, zum Beispiel Fuß</translation>
+    </message>
+    <message>
         <source>Up to LAS 1.3, and in most programs, key points have a class. LAS 1.4 has a flag for them, so that they keep the class of the ground.</source>
         <translation>Bis LAS 1.3, und in den meisten Programmen, haben Schlüsselpunkte eine Klasse. LAS 1.4 hat ein Kennzeichen für sie, so dass sie die Klasse des Bodens behalten.</translation>
+    </message>
+    <message>
+        <source>Use as others</source>
+        <translation>Wie die übrigen benutzen</translation>
     </message>
     <message>
         <source>Virtual point cloud</source>
@@ -1536,6 +1678,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Wheel files (*.whl)</source>
         <translation>Wheel-Dateien (*.whl)</translation>
+    </message>
+    <message>
+        <source>Where a pulse passed between the branches, the canopy height has pits. This raises cells that lie over 2 m below the mean of their neighbours to the median of them, as crowns and trees are easier to find without pits. The surface model keeps them.</source>
+        <translation>Wo ein Puls zwischen den Ästen hindurchging, hat die Kronenhöhe Löcher. Dies hebt Zellen, die mehr als 2 m unter dem Mittel ihrer Nachbarn liegen, auf deren Median, denn ohne Löcher sind Kronen und Bäume leichter zu finden. Das Oberflächenmodell behält die Löcher.</translation>
     </message>
     <message>
         <source>Where they differ</source>
@@ -1570,6 +1716,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Höhen schreiben als</translation>
     </message>
     <message>
+        <source>Writes a few points of all tiles into a further COPC file beside the virtual point cloud, if the tiles are COPC. QGIS 3.42 and newer shows them at small scales.</source>
+        <translation>Schreibt einige Punkte aller Kacheln in eine weitere COPC-Datei neben der virtuellen Punktwolke, wenn die Kacheln COPC sind. QGIS 3.42 und neuer zeigt sie in kleinen Maßstäben.</translation>
+    </message>
+    <message>
         <source>Writes only the points inside the extent and the boundary, and makes the rasters from them. Files without such points are not written. If this is off, all files are written with all their points, and points outside keep their class.</source>
         <translation>Schreibt nur die Punkte innerhalb von Ausdehnung und Begrenzung und macht die Raster aus ihnen. Dateien ohne solche Punkte werden nicht geschrieben. Ist dies aus, werden alle Dateien mit allen ihren Punkten geschrieben, und Punkte außerhalb behalten ihre Klasse.</translation>
     </message>
@@ -1590,36 +1740,16 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Boden,Oberfläche,Gebäude,Bäume,Vegetation,Objekte,oto,whitebox,lindsay,top-hat</translation>
     </message>
     <message>
-        <source>canopy height</source>
-        <translation>Kronenhöhe</translation>
-    </message>
-    <message>
         <source>chm,ndsm,canopy,vegetation,vegetation height,normalize,normalise,hag,lasheight</source>
         <translation>chm,ndom,Kronenhöhe,Kronenhöhenmodell,Vegetation,Vegetationshöhe,normalisieren,Höhe über Grund</translation>
-    </message>
-    <message>
-        <source>classes</source>
-        <translation>Klassen</translation>
     </message>
     <message>
         <source>classified files</source>
         <translation>klassifizierte Dateien</translation>
     </message>
     <message>
-        <source>confidence</source>
-        <translation>Verlässlichkeit</translation>
-    </message>
-    <message>
-        <source>contour lines</source>
-        <translation>Höhenlinien</translation>
-    </message>
-    <message>
         <source>contours,workflow</source>
         <translation>Höhenlinien,Isolinien,Arbeitsablauf</translation>
-    </message>
-    <message>
-        <source>errors</source>
-        <translation>Fehler</translation>
     </message>
     <message>
         <source>grid,raster,rasterize,interpolate</source>
@@ -1638,16 +1768,8 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Boden,ausdünnen,Ausdünnung,Generalisierung,Schlüsselpunkte,Höhenlinien</translation>
     </message>
     <message>
-        <source>height above ground</source>
-        <translation>Höhe über Grund</translation>
-    </message>
-    <message>
         <source>height,extra bytes</source>
         <translation>Höhe,Zusatzdimension</translation>
-    </message>
-    <message>
-        <source>hillshade</source>
-        <translation>Schummerung</translation>
     </message>
     <message>
         <source>key points</source>
@@ -1666,16 +1788,16 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Lidar,Laserscanning,Airborne Laserscanning,Drohne,las,laz,copc,Punktwolke</translation>
     </message>
     <message>
-        <source>local relief</source>
-        <translation>lokales Relief</translation>
-    </message>
-    <message>
         <source>lowest,minimum</source>
         <translation>tiefster,Minimum</translation>
     </message>
     <message>
         <source>m</source>
         <translation>m</translation>
+    </message>
+    <message>
+        <source>m or ft</source>
+        <translation>m oder ft</translation>
     </message>
     <message>
         <source>pip cannot work through the SOCKS proxy of QGIS's settings: choose a wheel file.</source>
@@ -1702,20 +1824,12 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Neigung,Hangneigung,vosselman,whitebox,top-hat</translation>
     </message>
     <message>
-        <source>surface model</source>
-        <translation>Oberflächenmodell</translation>
-    </message>
-    <message>
         <source>terrain</source>
         <translation>Gelände</translation>
     </message>
     <message>
         <source>terrain and surface</source>
         <translation>Gelände und Oberfläche</translation>
-    </message>
-    <message>
-        <source>terrain model</source>
-        <translation>Geländemodell</translation>
     </message>
     <message>
         <source>terrain,terrain model,elevation model,dtm,dem,dsm,hillshade,relief</source>
@@ -1750,10 +1864,6 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>vpc,Kacheln,Stapel,Befliegung,Ordner,viele Dateien</translation>
     </message>
     <message>
-        <source>without objects</source>
-        <translation>ohne Objekte</translation>
-    </message>
-    <message>
         <source>you have no permission to write into the folder of the profile.</source>
         <translation>Sie dürfen nicht in den Ordner des Profils schreiben.</translation>
     </message>
@@ -1776,18 +1886,6 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>{file} is larger than any wheel of {package}.</source>
         <translation>{file} ist größer als jedes Wheel von {package}.</translation>
-    </message>
-    <message>
-        <source>{ground:,} of {count:,} points are ground ({share:.1%}).</source>
-        <translation>{ground:,} von {count:,} Punkten sind Boden ({share:.1%}).</translation>
-    </message>
-    <message>
-        <source>{ground:,} of {count:,} points in the area are ground ({share:.1%}).</source>
-        <translation>{ground:,} von {count:,} Punkten im Gebiet sind Boden ({share:.1%}).</translation>
-    </message>
-    <message>
-        <source>{key:,} of {ground:,} ground points are key points ({share:.1%}).</source>
-        <translation>{key:,} von {ground:,} Bodenpunkten sind Schlüsselpunkte ({share:.1%}).</translation>
     </message>
     <message>
         <source>{label} must be a number, not {value}.</source>
@@ -1814,6 +1912,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>{} ist beschädigt: Eine Datei weicht von ihrem Verzeichnis ab. Laden Sie es erneut herunter.</translation>
     </message>
     <message>
+        <source>{} is no known CRS. Choose one from the list.</source>
+        <translation>{} ist kein bekanntes KBS. Wählen Sie eines aus der Liste.</translation>
+    </message>
+    <message>
         <source>{} is not a folder. Check the path.</source>
         <translation>{} ist kein Ordner. Prüfen Sie den Pfad.</translation>
     </message>
@@ -1832,10 +1934,6 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>{} is not on this computer. Download it as .las or .laz first.</source>
         <translation>{} ist keine Datei auf diesem Rechner. Laden Sie sie zuerst als .las oder .laz herunter.</translation>
-    </message>
-    <message>
-        <source>{} must be installed first.</source>
-        <translation>Zuerst zu installieren: {}.</translation>
     </message>
 </context>
 </TS>

@@ -32,8 +32,12 @@
         <translation>Une liste des fichiers classés, que QGIS 3.32 et plus récent affiche comme une seule couche. Sans nom, c'est classified.vpc dans leur dossier.</translation>
     </message>
     <message>
-        <source>A point becomes low noise if it lies farther below the ground than this. On slopes, the rise of the ground over 1 m is added. Used only if low outliers are put into class 7.</source>
-        <translation>Un point devient du bruit bas s'il se trouve plus loin que ceci sous le sol. En pente s'ajoute la montée du sol sur 1 m. Ne sert que si les points aberrants bas vont dans la classe 7.</translation>
+        <source>A point becomes high noise if it hangs at least this far above all others within about 10 m. Used only if high outliers are put into class 18.</source>
+        <translation>Un point devient du bruit haut s'il flotte au moins à cette hauteur au-dessus de tous les autres à moins d'environ 10 m. Ne sert que si les points aberrants hauts vont dans la classe 18.</translation>
+    </message>
+    <message>
+        <source>A point becomes low noise if it lies farther below the ground than this. On slopes, the rise of the ground over 1 m is added. Points with ground all round them that lie 0.4 m and more below it become low noise too. Used only if low outliers are put into class 7.</source>
+        <translation>Un point devient du bruit bas s'il se trouve plus loin que ceci sous le sol. En pente s'ajoute la montée du sol sur 1 m. Les points entourés de sol qui se trouvent 0,4 m ou plus au-dessous deviennent aussi du bruit bas. Ne sert que si les points aberrants bas vont dans la classe 7.</translation>
     </message>
     <message>
         <source>A point cloud layer, a .las, .laz or .copc.laz file, a virtual point cloud (.vpc), or a text file (.txt) with one path in each line. May stay empty if a folder is given.</source>
@@ -104,8 +108,10 @@
         <translation>Ajoute la dimension supplémentaire HeightAboveGround, la hauteur de chaque point au-dessus du sol, dans l'unité verticale du SCR.</translation>
     </message>
     <message>
-        <source>Adds the height above ground to every point of a classified point cloud: its height above the triangulation (TIN) of the ground points or, outside of it, above the nearest ground point. Heights are in the vertical unit of the CRS. They become an extra dimension, HeightAboveGround, or replace z; nothing else in the file changes.</source>
-        <translation>Ajoute à chaque point d'un nuage de points classé sa hauteur au-dessus du sol : au-dessus de la triangulation (TIN) des points sol ou, en dehors, au-dessus du point sol le plus proche. Les hauteurs sont dans l'unité verticale du SCR. Elles deviennent une dimension supplémentaire, HeightAboveGround, ou remplacent z ; rien d'autre ne change dans le fichier.</translation>
+        <source>Adds the height above ground to every point of a classified point cloud: its height above the triangulation (TIN) of the ground points or, outside of it, above the nearest ground point. Heights are in the vertical unit of the CRS. They become an extra dimension, HeightAboveGround, or replace z; nothing else in the file changes.
+With a terrain model, heights are measured above that raster, and the points need no classes.</source>
+        <translation>Ajoute à chaque point d'un nuage de points classé sa hauteur au-dessus du sol : au-dessus de la triangulation (TIN) des points sol ou, en dehors, au-dessus du point sol le plus proche. Les hauteurs sont dans l'unité verticale du SCR. Elles deviennent une dimension supplémentaire, HeightAboveGround, ou remplacent z ; rien d'autre ne change dans le fichier.
+Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, et les points n'ont pas besoin de classes.</translation>
     </message>
     <message>
         <source>Adds the height of every point above the ground points of a point cloud.</source>
@@ -122,6 +128,10 @@
     <message>
         <source>All in one</source>
         <translation>Chaîne complète</translation>
+    </message>
+    <message>
+        <source>All rasters get the grid of this raster: CRS, cell size, position of the cells, and extent. It must be in the CRS of the points, with square cells and north up. It replaces the cell size.</source>
+        <translation>Tous les rasters reçoivent la grille de ce raster : SCR, taille de cellule, position des cellules et emprise. Il doit être dans le SCR des points, avec des cellules carrées et le nord en haut. Il remplace la taille de cellule.</translation>
     </message>
     <message>
         <source>All returns</source>
@@ -156,6 +166,10 @@
         <translation>Automatique (plusieurs échelles, suit le terrain)</translation>
     </message>
     <message>
+        <source>Automatic: for the pictures, heights are smoothed as much as they are noisy, so that low plants in a forest do not speckle them. Banks, ditches and walls stay sharp, and so does open ground. The terrain model does not change.</source>
+        <translation>Automatique : pour les images, les altitudes sont lissées autant qu'elles sont bruitées, afin que les plantes basses d'une forêt ne les mouchettent pas. Les talus, les fossés et les murs restent nets, le sol découvert aussi. Le modèle de terrain ne change pas.</translation>
+    </message>
+    <message>
         <source>Band</source>
         <translation>Bande</translation>
     </message>
@@ -184,16 +198,16 @@
         <translation>COPC, que QGIS affiche aussitôt</translation>
     </message>
     <message>
+        <source>CRS of the points</source>
+        <translation>SCR des points</translation>
+    </message>
+    <message>
         <source>Cancelled.</source>
         <translation>Annulé.</translation>
     </message>
     <message>
-        <source>Cancelled. The finished tiles stay, and a later run can continue with them.</source>
-        <translation>Annulé. Les dalles terminées restent, et un traitement ultérieur peut continuer avec elles.</translation>
-    </message>
-    <message>
-        <source>Cancelled; nothing was written.</source>
-        <translation>Annulé ; rien n'a été écrit.</translation>
+        <source>Canopy height</source>
+        <translation>Hauteur de canopée</translation>
     </message>
     <message>
         <source>Canopy height (CHM)</source>
@@ -224,6 +238,10 @@
         <translation>Cellules avec une altitude</translation>
     </message>
     <message>
+        <source>Choose a file: {}.</source>
+        <translation>Choisissez un fichier : {}.</translation>
+    </message>
+    <message>
         <source>Choose a point cloud, or a folder of them.</source>
         <translation>Choisissez un nuage de points, ou un dossier de nuages de points.</translation>
     </message>
@@ -238,10 +256,6 @@
     <message>
         <source>Choose point clouds, or a folder of them.</source>
         <translation>Choisissez des nuages de points, ou un dossier de nuages de points.</translation>
-    </message>
-    <message>
-        <source>Chosen automatically: {text}</source>
-        <translation>Choisi automatiquement : {text}</translation>
     </message>
     <message>
         <source>City, large halls</source>
@@ -272,20 +286,24 @@
         <translation>Classe du sol</translation>
     </message>
     <message>
-        <source>Class {number} ({name}): {count:,} points ({share:.1%})</source>
-        <translation>Classe {number} ({name}) : {count:,} points ({share:.1%})</translation>
+        <source>Classes</source>
+        <translation>Classes</translation>
     </message>
     <message>
         <source>Classes of known ground</source>
         <translation>Classes de sol connu</translation>
     </message>
     <message>
-        <source>Classes of the points that are ground. Add 8 if model key points have that class, and 9 if water counts as ground. Withheld points are not used.</source>
-        <translation>Classes des points qui sont du sol. Ajoutez 8 si les points clés du modèle ont cette classe, et 9 si l'eau compte comme sol. Les points retenus (withheld) ne sont pas utilisés.</translation>
+        <source>Classes of the points that are ground. Add 8 if model key points have that class, 10 and 11 for rails and roads that lie on the ground, and 9 if water counts as ground. Withheld points are not used.</source>
+        <translation>Classes des points qui sont du sol. Ajoutez 8 si les points clés du modèle ont cette classe, 10 et 11 pour les rails et les routes posés sur le sol, et 9 si l'eau compte comme sol. Les points retenus (withheld) ne sont pas utilisés.</translation>
     </message>
     <message>
         <source>Classes of the reference that are ground. Add 9 if water counts as ground.</source>
         <translation>Classes de la référence qui sont du sol. Ajoutez 9 si l'eau compte comme sol.</translation>
+    </message>
+    <message>
+        <source>Classes of the surface model</source>
+        <translation>Classes du modèle de surface</translation>
     </message>
     <message>
         <source>Classes to classify</source>
@@ -294,6 +312,10 @@
     <message>
         <source>Classified point cloud</source>
         <translation>Nuage de points classé</translation>
+    </message>
+    <message>
+        <source>Classified points only</source>
+        <translation>Points classés seulement</translation>
     </message>
     <message>
         <source>Classified tiles</source>
@@ -328,6 +350,10 @@
         <translation>Classer les points clés du modèle</translation>
     </message>
     <message>
+        <source>Closed lines that are shorter are left out: they show single plants and noise.</source>
+        <translation>Les lignes fermées plus courtes sont laissées de côté : elles montrent des plantes isolées et du bruit.</translation>
+    </message>
+    <message>
         <source>Compare settings on a window</source>
         <translation>Comparer des réglages dans une fenêtre</translation>
     </message>
@@ -340,8 +366,8 @@
         <translation>Compare les hauteurs au-dessus d'une surface qui suit le terrain (chapeau haut-de-forme blanc), et non les altitudes, pour ne pas perdre le sol en pente.</translation>
     </message>
     <message>
-        <source>Compares the ground of a classified point cloud with a reference that holds the same points. Type I error: the share of the reference's ground that was rejected. Type II error: the share of all other points that was accepted as ground. The report is a web page with a map.</source>
-        <translation>Compare le sol d'un nuage de points classé avec une référence qui contient les mêmes points. Erreur de type I : la part du sol de la référence qui a été rejetée. Erreur de type II : la part de tous les autres points qui a été acceptée comme sol. Le rapport est une page web avec une carte.</translation>
+        <source>Compares the ground of a classified point cloud with a reference that holds the same points, or a part of them. Type I error: the share of the reference's ground that was rejected. Type II error: the share of all other points that was accepted as ground. The report is a web page with a map.</source>
+        <translation>Compare le sol d'un nuage de points classé avec une référence qui contient les mêmes points, ou une partie d'entre eux. Erreur de type I : la part du sol de la référence qui a été rejetée. Erreur de type II : la part de tous les autres points qui a été acceptée comme sol. Le rapport est une page web avec une carte.</translation>
     </message>
     <message>
         <source>Comparison of settings</source>
@@ -388,12 +414,12 @@
         <translation>Profondeur des points aberrants bas</translation>
     </message>
     <message>
-        <source>Did you mean {name}?</source>
-        <translation>Vouliez-vous dire {name} ?</translation>
-    </message>
-    <message>
         <source>Direction from which the light comes, clockwise from north. Four lights have their own directions.</source>
         <translation>Direction d'où vient la lumière, dans le sens horaire depuis le nord. Quatre lumières ont leurs propres directions.</translation>
+    </message>
+    <message>
+        <source>Documentation</source>
+        <translation>Documentation</translation>
     </message>
     <message>
         <source>Done; no restart is needed.</source>
@@ -412,6 +438,10 @@
         <translation>Carte des erreurs</translation>
     </message>
     <message>
+        <source>Errors</source>
+        <translation>Erreurs</translation>
+    </message>
+    <message>
         <source>Every {}</source>
         <translation>Tous les {}</translation>
     </message>
@@ -420,12 +450,20 @@
         <translation>Emprise</translation>
     </message>
     <message>
+        <source>Extent of the rasters</source>
+        <translation>Emprise des rasters</translation>
+    </message>
+    <message>
         <source>Extra dimension HeightAboveGround</source>
         <translation>Dimension supplémentaire HeightAboveGround</translation>
     </message>
     <message>
         <source>Files keep their names; only the ending follows the format.</source>
         <translation>Les fichiers gardent leurs noms ; seule l'extension suit le format.</translation>
+    </message>
+    <message>
+        <source>Fill pits of the canopy</source>
+        <translation>Combler les trous de la canopée</translation>
     </message>
     <message>
         <source>Final height</source>
@@ -516,6 +554,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Dossier des nuages de points classés</translation>
     </message>
     <message>
+        <source>For the lines, each height is averaged with its surroundings up to about this distance, so that they do not show noise. The terrain model does not change. 0: as the terrain model is.</source>
+        <translation>Pour les lignes, chaque altitude est moyennée avec son voisinage jusqu'à environ cette distance, afin qu'elles ne montrent pas de bruit. Le modèle de terrain ne change pas. 0 : comme le modèle de terrain.</translation>
+    </message>
+    <message>
         <source>Format of the output</source>
         <translation>Format de sortie</translation>
     </message>
@@ -540,8 +582,8 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Go</translation>
     </message>
     <message>
-        <source>Gaps between points are filled by triangles. A triangle with a longer edge than this has no data, for example over water. Empty: all gaps are filled, out to the convex hull of the points.</source>
-        <translation>Les vides entre les points sont comblés par des triangles. Un triangle dont un côté est plus long que ceci reste sans donnée, par exemple sur l'eau. Vide : tous les vides sont comblés, jusqu'à l'enveloppe convexe des points.</translation>
+        <source>Gaps inside the survey are filled by triangles. A triangle with a longer edge than this has no data, for example over water. Empty: all gaps inside are filled. Beyond the outline of the points no raster has data in any case.</source>
+        <translation>Les vides à l'intérieur du levé sont comblés par des triangles. Un triangle dont un côté est plus long que ceci reste sans donnée, par exemple sur l'eau. Vide : tous les vides à l'intérieur sont comblés. Au-delà du contour des points, aucun raster n'a de données, dans tous les cas.</translation>
     </message>
     <message>
         <source>Get lazrs</source>
@@ -628,6 +670,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Hauteur au-dessus du sol</translation>
     </message>
     <message>
+        <source>Height of high outliers</source>
+        <translation>Hauteur des points aberrants hauts</translation>
+    </message>
+    <message>
         <source>Height threshold</source>
         <translation>Seuil de hauteur</translation>
     </message>
@@ -636,8 +682,12 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Seuils de hauteur</translation>
     </message>
     <message>
-        <source>Heights above ground are {low:.2f} to {high:.2f} {unit}.</source>
-        <translation>Les hauteurs au-dessus du sol vont de {low:.2f} à {high:.2f} {unit}.</translation>
+        <source>Heights above ground</source>
+        <translation>Hauteurs au-dessus du sol</translation>
+    </message>
+    <message>
+        <source>Heights are measured above this raster, and not above the ground points. It must have the CRS of the points. Empty: above the ground points.</source>
+        <translation>Les hauteurs sont mesurées au-dessus de ce raster, et non au-dessus des points sol. Il doit avoir le SCR des points. Vide : au-dessus des points sol.</translation>
     </message>
     <message>
         <source>Heights of the bare ground.</source>
@@ -688,6 +738,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Classes ignorées de la référence</translation>
     </message>
     <message>
+        <source>In a CRS in feet, a size of 3 in units of the CRS gives cells of exactly 3 feet that begin at whole multiples of 3 feet.</source>
+        <translation>Dans un SCR en pieds, une taille de 3 en unités du SCR donne des cellules d'exactement 3 pieds, qui commencent aux multiples entiers de 3 pieds.</translation>
+    </message>
+    <message>
         <source>In each cell of this size that has ground points, at least the lowest one is a key point, however flat the ground is.</source>
         <translation>Dans chaque cellule de cette taille qui a des points sol, au moins le plus bas est un point clé, aussi plat que soit le sol.</translation>
     </message>
@@ -710,18 +764,6 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>In scripts</source>
         <translation>Dans les scripts</translation>
-    </message>
-    <message>
-        <source>In the command line some layers are missing: save each in the CRS of the points as GeoJSON, and add {}.</source>
-        <translation>Dans la ligne de commande, certaines couches manquent : enregistrez chacune en GeoJSON dans le SCR des points, et ajoutez {}.</translation>
-    </message>
-    <message>
-        <source>In the command line the boundary is missing: save it in the CRS of the points as boundary.geojson, and add --boundary boundary.geojson.</source>
-        <translation>Dans la ligne de commande, la limite manque : enregistrez-la dans le SCR des points comme boundary.geojson, et ajoutez --boundary boundary.geojson.</translation>
-    </message>
-    <message>
-        <source>In the command line the corrections are missing: save them in the CRS of the points as corrections.geojson, their class as the attribute "{}", and add --corrections corrections.geojson.</source>
-        <translation>Dans la ligne de commande, les corrections manquent : enregistrez-les dans le SCR des points comme corrections.geojson, leur classe comme attribut « {} », et ajoutez --corrections corrections.geojson.</translation>
     </message>
     <message>
         <source>In triangles whose longest edge is shorter than this, the iteration angle is reduced in proportion. So the TIN does not climb low vegetation step by step. Empty: the angle is never reduced.</source>
@@ -800,6 +842,14 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Les derniers retours atteignent le sol. Prenez tous les retours si les numéros de retour du fichier sont faux.</translation>
     </message>
     <message>
+        <source>Leave out</source>
+        <translation>Laisser de côté</translation>
+    </message>
+    <message>
+        <source>Leave out; they keep their class</source>
+        <translation>Laisser de côté ; ils gardent leur classe</translation>
+    </message>
+    <message>
         <source>LiDAR360's values</source>
         <translation>Valeurs de LiDAR360</translation>
     </message>
@@ -820,6 +870,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Lignes d'égale altitude du modèle de terrain, avec le champ ELEV.</translation>
     </message>
     <message>
+        <source>Lines of equal height of the terrain model, with the field ELEV. They are smoothed, so that they do not show noise. Every fifth line has its height as a label.</source>
+        <translation>Lignes d'égale altitude du modèle de terrain, avec le champ ELEV. Elles sont lissées, afin de ne pas montrer de bruit. Une ligne sur cinq porte son altitude comme étiquette.</translation>
+    </message>
+    <message>
         <source>Lines that no triangle of the terrain crosses: edges of walls, dykes and terraces. A line with z has this height. Without z, each side of the line has the height of the nearest ground point on that side.</source>
         <translation>Lignes qu'aucun triangle du terrain ne traverse : bords de murs, de digues et de terrasses. Une ligne avec z a cette altitude. Sans z, chaque côté de la ligne a l'altitude du point sol le plus proche de ce côté.</translation>
     </message>
@@ -830,6 +884,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>Lowest height</source>
         <translation>Hauteur la plus petite</translation>
+    </message>
+    <message>
+        <source>Made by Bare Earth with these settings:</source>
+        <translation>Produit par Bare Earth avec ces réglages :</translation>
     </message>
     <message>
         <source>Makes a map of the terrain of a raw point cloud: classes, models, contours.</source>
@@ -882,20 +940,12 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Méthodes, chacune avec un préréglage. Toutes les autres sont comparées à la première.</translation>
     </message>
     <message>
+        <source>Metres</source>
+        <translation>Mètres</translation>
+    </message>
+    <message>
         <source>Minimum number of neighbours</source>
         <translation>Nombre minimal de voisins</translation>
-    </message>
-    <message>
-        <source>Model: heights above ground</source>
-        <translation>Modèle : hauteurs au-dessus du sol</translation>
-    </message>
-    <message>
-        <source>Model: terrain, hillshade and contours</source>
-        <translation>Modèle : terrain, ombrage et courbes de niveau</translation>
-    </message>
-    <message>
-        <source>Model: two methods compared</source>
-        <translation>Modèle : deux méthodes comparées</translation>
     </message>
     <message>
         <source>Models</source>
@@ -910,8 +960,16 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Pas de sol ici</translation>
     </message>
     <message>
+        <source>No-data value of the rasters</source>
+        <translation>Valeur nodata des rasters</translation>
+    </message>
+    <message>
         <source>Noise distance</source>
         <translation>Distance de bruit</translation>
+    </message>
+    <message>
+        <source>None</source>
+        <translation>Aucun</translation>
     </message>
     <message>
         <source>Not ground</source>
@@ -954,28 +1012,40 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Points clés seulement</translation>
     </message>
     <message>
-        <source>Only points in these polygons are classified; with an extent, only points in both. Points outside keep their class, but those nearby help to judge. Empty: all points.</source>
-        <translation>Seuls les points dans ces polygones sont classés ; avec une emprise, seuls les points dans les deux. Les points à l'extérieur gardent leur classe, mais ceux qui sont proches aident à juger. Vide : tous les points.</translation>
+        <source>Only points in these polygons are classified, and rasters end at them; with an extent, only what lies in both. Points outside keep their class, but those nearby help to judge. Empty: all points.</source>
+        <translation>Seuls les points dans ces polygones sont classés, et les rasters s'y arrêtent ; avec une emprise, seul compte ce qui est dans les deux. Les points à l'extérieur gardent leur classe, mais ceux qui sont proches aident à juger. Vide : tous les points.</translation>
     </message>
     <message>
         <source>Only points in these polygons are mapped and written; with an extent, only points in both. Points nearby help to judge. Empty: all points.</source>
         <translation>Seuls les points dans ces polygones sont cartographiés et écrits ; avec une emprise, seuls les points dans les deux. Les points proches aident à juger. Vide : tous les points.</translation>
     </message>
     <message>
-        <source>Only points in this rectangle are classified. Points outside keep their class, but those nearby help to judge. Empty: all points.</source>
-        <translation>Seuls les points dans ce rectangle sont classés. Les points à l'extérieur gardent leur classe, mais ceux qui sont proches aident à juger. Vide : tous les points.</translation>
+        <source>Only points in this rectangle are classified, and rasters end at it. Points outside keep their class, but those nearby help to judge. Empty: all points.</source>
+        <translation>Seuls les points dans ce rectangle sont classés, et les rasters s'y arrêtent. Les points à l'extérieur gardent leur classe, mais ceux qui sont proches aident à juger. Vide : tous les points.</translation>
     </message>
     <message>
         <source>Only points in this rectangle are mapped and written. Points nearby help to judge. Empty: all points.</source>
         <translation>Seuls les points dans ce rectangle sont cartographiés et écrits. Les points proches aident à juger. Vide : tous les points.</translation>
     </message>
     <message>
-        <source>Only points of these classes take part and may change their class. Empty: all classes but low and high noise (7 and 18).</source>
-        <translation>Seuls les points de ces classes participent et peuvent changer de classe. Vide : toutes les classes sauf le bruit bas et haut (7 et 18).</translation>
+        <source>Only points of these classes make the surface, such as 41 for a water surface, or 2 and 6 for terrain with buildings. Empty: all classes but low and high noise (7 and 18).</source>
+        <translation>Seuls les points de ces classes forment la surface, par exemple 41 pour une surface d'eau, ou 2 et 6 pour le terrain avec les bâtiments. Vide : toutes les classes sauf le bruit bas et haut (7 et 18).</translation>
+    </message>
+    <message>
+        <source>Only points of these classes take part and may change their class. Empty: 0 to 6, 8, 12 and the class of the ground. Points of other classes, such as water (9) and bridge decks (17), keep their class. Rails and roads (10 and 11) keep theirs too, but take part. all: all classes but low and high noise (7 and 18).</source>
+        <translation>Seuls les points de ces classes participent et peuvent changer de classe. Vide : 0 à 6, 8, 12 et la classe du sol. Les points d'autres classes, comme l'eau (9) et les tabliers de ponts (17), gardent leur classe. Les rails et les routes (10 et 11) gardent aussi la leur, mais participent. all : toutes les classes sauf le bruit bas et haut (7 et 18).</translation>
     </message>
     <message>
         <source>Only the points that a terrain model needs become ground. Of all other ground points, none lies farther from the TIN of these key points than the two tolerances below.</source>
         <translation>Seuls les points dont un modèle de terrain a besoin deviennent du sol. Parmi tous les autres points sol, aucun n'est plus loin du TIN de ces points clés que les deux tolérances ci-dessous.</translation>
+    </message>
+    <message>
+        <source>Overview of the classes</source>
+        <translation>Vue d'ensemble des classes</translation>
+    </message>
+    <message>
+        <source>Overview of the virtual point cloud</source>
+        <translation>Vue d'ensemble du nuage de points virtuel</translation>
     </message>
     <message>
         <source>Point cloud</source>
@@ -1010,6 +1080,18 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Points dans la zone</translation>
     </message>
     <message>
+        <source>Points in the overlap of flight strips, by their flag in LAS 1.4, or by class 12 in older files. If strips do not fit together, leave them out of ground and surface.</source>
+        <translation>Points dans le recouvrement de bandes de vol, d'après leur indicateur en LAS 1.4, ou la classe 12 dans les fichiers plus anciens. Si les bandes ne concordent pas, laissez ces points de côté pour le sol et la surface.</translation>
+    </message>
+    <message>
+        <source>Points in the overlap of flight strips, by their flag in LAS 1.4, or by class 12 in older files. If strips do not fit together, leave them out: ground, and rasters made in the same run, then come from one strip everywhere.</source>
+        <translation>Points dans le recouvrement de bandes de vol, d'après leur indicateur en LAS 1.4, ou la classe 12 dans les fichiers plus anciens. Si les bandes ne concordent pas, laissez ces points de côté : le sol, et les rasters du même traitement, viennent alors partout d'une seule bande.</translation>
+    </message>
+    <message>
+        <source>Points of overlap</source>
+        <translation>Points de recouvrement</translation>
+    </message>
+    <message>
         <source>Points of the surface</source>
         <translation>Points de la surface</translation>
     </message>
@@ -1024,6 +1106,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Points that took part</source>
         <translation>Points qui ont participé</translation>
+    </message>
+    <message>
+        <source>Points that took part and hang far above all others of their place, alone or in small groups (birds, clouds, faults of the sensor) become high noise, class 18. Wires, masts and trees do not. Surface and canopy models never use such points, whether this is on or off.</source>
+        <translation>Les points qui ont participé et flottent bien au-dessus de tous les autres du lieu, seuls ou en petits groupes (oiseaux, nuages, défauts du capteur) deviennent du bruit haut, classe 18. Les câbles, les mâts et les arbres non. Les modèles de surface et de hauteur de canopée n'utilisent jamais de tels points, avec ou sans cette option.</translation>
     </message>
     <message>
         <source>Points that took part and lie far below the ground (multipath, faults of the sensor) become low noise, class 7. If this is off, they are treated as other points.</source>
@@ -1054,6 +1140,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Produits</translation>
     </message>
     <message>
+        <source>Put high outliers into class 18</source>
+        <translation>Mettre les points aberrants hauts dans la classe 18</translation>
+    </message>
+    <message>
         <source>Put low outliers into class 7</source>
         <translation>Mettre les points aberrants bas dans la classe 7</translation>
     </message>
@@ -1064,6 +1154,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Radius of the local relief</source>
         <translation>Rayon du relief local</translation>
+    </message>
+    <message>
+        <source>Raster with the grid to use</source>
+        <translation>Raster dont la grille est à utiliser</translation>
     </message>
     <message>
         <source>Ready. Compressed point clouds (.laz) need one more package, which is installed only once.</source>
@@ -1084,6 +1178,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Reference</source>
         <translation>Référence</translation>
+    </message>
+    <message>
+        <source>Reference points only</source>
+        <translation>Points de la référence seulement</translation>
     </message>
     <message>
         <source>Remember the classes</source>
@@ -1174,6 +1272,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Petit côté du plus grand bâtiment. Les bâtiments plus larges que deux rayons de recherche sont trouvés à la chute de tous leurs côtés. Vide : d'après le préréglage, ou deux rayons de recherche si celui-ci est donné. Pas pour le préréglage Whitebox.</translation>
     </message>
     <message>
+        <source>Shortest closed contour line</source>
+        <translation>Courbe de niveau fermée la plus courte</translation>
+    </message>
+    <message>
         <source>Side of a cell of the error map. The map in the report has its own cell size.</source>
         <translation>Côté d'une cellule de la carte des erreurs. La carte du rapport a sa propre taille de cellule.</translation>
     </message>
@@ -1234,6 +1336,14 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Seuil de pente</translation>
     </message>
     <message>
+        <source>Smoothing of hillshade and local relief</source>
+        <translation>Lissage de l'ombrage et du relief local</translation>
+    </message>
+    <message>
+        <source>Smoothing of the contour lines</source>
+        <translation>Lissage des courbes de niveau</translation>
+    </message>
+    <message>
         <source>Steep or rugged terrain</source>
         <translation>Terrain raide ou accidenté</translation>
     </message>
@@ -1246,8 +1356,12 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Arrêter la triangulation quand les côtés sont plus courts que</translation>
     </message>
     <message>
-        <source>Surface minus terrain: the height of trees, and of buildings too.</source>
-        <translation>Surface moins terrain : la hauteur des arbres, et aussi des bâtiments.</translation>
+        <source>Surface minus terrain: the height of trees, and of buildings too. Empty where no ground point lies within 50 m (or 20 cells), and in gaps of the surface.</source>
+        <translation>Surface moins terrain : la hauteur des arbres, et aussi des bâtiments. Vide là où aucun point sol ne se trouve à moins de 50 m (ou 20 cellules), et dans les vides de la surface.</translation>
+    </message>
+    <message>
+        <source>Surface model</source>
+        <translation>Modèle de surface</translation>
     </message>
     <message>
         <source>Surface model (DSM)</source>
@@ -1286,12 +1400,28 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Densification de TIN, Ville</translation>
     </message>
     <message>
+        <source>Take part as others do</source>
+        <translation>Participer comme les autres</translation>
+    </message>
+    <message>
+        <source>Terrain model</source>
+        <translation>Modèle de terrain</translation>
+    </message>
+    <message>
         <source>Terrain model (DTM)</source>
         <translation>Modèle numérique de terrain (MNT)</translation>
     </message>
     <message>
+        <source>Terrain, hillshade and contours</source>
+        <translation>Terrain, ombrage et courbes de niveau</translation>
+    </message>
+    <message>
         <source>Terrain, surface and canopy height models</source>
         <translation>Modèles de terrain, de surface et de hauteur de canopée</translation>
+    </message>
+    <message>
+        <source>The CRS of the points, for files that state none or a wrong one. It replaces what files state: it decides the units of lengths and heights, and rasters and layers get it. Written point clouds keep the records that the files have. Empty: what the files state.</source>
+        <translation>Le SCR des points, pour les fichiers qui n'en indiquent aucun ou un faux. Il remplace ce que les fichiers indiquent : il décide des unités des longueurs et des altitudes, et les rasters et les couches le reçoivent. Les nuages de points écrits gardent les indications des fichiers. Vide : ce que les fichiers indiquent.</translation>
     </message>
     <message>
         <source>The attribute of these polygons that holds their class: 2 for ground, 1 for unclassified.</source>
@@ -1342,8 +1472,8 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>La différence d'altitude entre les courbes de niveau, dans l'unité des altitudes.</translation>
     </message>
     <message>
-        <source>The height between contour lines, in the vertical unit of the CRS. Empty: a value that gives about 20 lines.</source>
-        <translation>La différence d'altitude entre les courbes de niveau, dans l'unité verticale du SCR. Vide : une valeur qui donne environ 20 courbes.</translation>
+        <source>The height between contour lines, in the vertical unit of the CRS: metres, or feet if the heights are feet. Empty: 1, 2 or 5 times a power of ten, so that there are about 20 lines. Every fifth line is an index contour.</source>
+        <translation>La différence d'altitude entre les courbes de niveau, dans l'unité verticale du SCR : mètres, ou pieds si les altitudes sont en pieds. Vide : 1, 2 ou 5 fois une puissance de dix, de sorte qu'il y ait environ 20 courbes. Une courbe sur cinq est une courbe maîtresse.</translation>
     </message>
     <message>
         <source>The highest point of each cell, noise left out.</source>
@@ -1366,8 +1496,8 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>La couche « {} » ne peut pas être lue.</translation>
     </message>
     <message>
-        <source>The layer's filter is not applied: all points are read.</source>
-        <translation>Le filtre de la couche n'est pas appliqué : tous les points sont lus.</translation>
+        <source>The layer "{}" is being edited. Save or discard the edits first.</source>
+        <translation>La couche « {} » est en cours d'édition. Enregistrez ou annulez d'abord les modifications.</translation>
     </message>
     <message>
         <source>The paper's values</source>
@@ -1382,8 +1512,20 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>La probabilité, de 0 à 1, que le modèle de terrain soit juste : faible sous des arbres denses, au-dessus des vides et aux ruptures.</translation>
     </message>
     <message>
-        <source>The rasters have {:,} x {:,} cells.</source>
-        <translation>Les rasters ont {:,} x {:,} cellules.</translation>
+        <source>The raster with the grid to use is not a file. Export it as GeoTIFF first.</source>
+        <translation>Le raster dont la grille est à utiliser n'est pas un fichier. Exportez-le d'abord en GeoTIFF.</translation>
+    </message>
+    <message>
+        <source>The rasters cover this rectangle, widened to whole cells, which stay where they are. All points are used. Empty: where the points are.</source>
+        <translation>Les rasters couvrent ce rectangle, élargi à des cellules entières, qui restent à leur place. Tous les points sont utilisés. Vide : là où sont les points.</translation>
+    </message>
+    <message>
+        <source>The rasters end at this rectangle. Points outside still help along its border. Empty: the rasters cover all points.</source>
+        <translation>Les rasters s'arrêtent à ce rectangle. Les points à l'extérieur aident encore le long de son bord. Vide : les rasters couvrent tous les points.</translation>
+    </message>
+    <message>
+        <source>The rasters have data only in these polygons; with an extent, only in both. Points outside still help along the border. Empty: the rasters cover all points.</source>
+        <translation>Les rasters n'ont de données que dans ces polygones ; avec une emprise, que dans les deux. Les points à l'extérieur aident encore le long du bord. Vide : les rasters couvrent tous les points.</translation>
     </message>
     <message>
         <source>The removed lazrs is still in use: restart QGIS and try again.</source>
@@ -1398,8 +1540,8 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Les mêmes points avec leurs nouvelles classes.</translation>
     </message>
     <message>
-        <source>The same points with their true classes, in any order.</source>
-        <translation>Les mêmes points avec leurs vraies classes, dans un ordre quelconque.</translation>
+        <source>The same points, or some of them, with their true classes.</source>
+        <translation>Les mêmes points, ou certains d'entre eux, avec leurs vraies classes.</translation>
     </message>
     <message>
         <source>The same points, with the key points marked.</source>
@@ -1418,6 +1560,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>La part de points faux dans chaque cellule d'un raster, de 0 à 1.</translation>
     </message>
     <message>
+        <source>The terrain model is not a file. Export it as GeoTIFF first.</source>
+        <translation>Le modèle de terrain n'est pas un fichier. Exportez-le d'abord en GeoTIFF.</translation>
+    </message>
+    <message>
         <source>The terrain model minus a smoothed one. Mounds, ditches and old paths stand out.</source>
         <translation>Le modèle de terrain moins un modèle lissé. Les buttes, les fossés et les anciens chemins ressortent.</translation>
     </message>
@@ -1426,20 +1572,16 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Le modèle de terrain, éclairé par une lumière ou par quatre.</translation>
     </message>
     <message>
+        <source>The value of cells without data. Choose one that no height has. Empty: NaN. The hillshade has 0.</source>
+        <translation>La valeur des cellules sans donnée. Choisissez-en une qu'aucune altitude n'a. Vide : NaN. L'ombrage a 0.</translation>
+    </message>
+    <message>
         <source>The values of the method for a kind of terrain. For other values, use the command line or the algorithm of the method.</source>
         <translation>Les valeurs de la méthode pour un type de terrain. Pour d'autres valeurs, utilisez la ligne de commande ou l'algorithme de la méthode.</translation>
     </message>
     <message>
-        <source>The window to classify, such as the map's extent: at most 1,000 m wide, and quick up to about 250 x 250 m. It is transformed to the CRS of the points.</source>
-        <translation>La fenêtre à classer, par exemple l'emprise de la carte ; au plus 1 000 m de large, et rapide jusqu'à environ 250 x 250 m. Elle est transformée dans le SCR des points.</translation>
-    </message>
-    <message>
-        <source>There is no parameter {name}: it is ignored.</source>
-        <translation>Il n'y a pas de paramètre {name} : il est ignoré.</translation>
-    </message>
-    <message>
-        <source>There is not enough memory for this file.</source>
-        <translation>La mémoire ne suffit pas pour ce fichier.</translation>
+        <source>The window to classify, such as the map's extent: at most 1,000 m wide, and quick up to about 250 x 250 m. It is transformed to the CRS of the points. Empty: 250 x 250 m in the middle of the points; the log says where.</source>
+        <translation>La fenêtre à classer, par exemple l'emprise de la carte ; au plus 1 000 m de large, et rapide jusqu'à environ 250 x 250 m. Elle est transformée dans le SCR des points. Vide : 250 x 250 m au milieu des points ; le journal dit où.</translation>
     </message>
     <message>
         <source>This Python has neither pip nor ensurepip: install pip for it (in Debian and Ubuntu python3-pip), or choose a wheel file.</source>
@@ -1450,20 +1592,8 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Ce QGIS ne peut pas charger le lazrs installé : {}.</translation>
     </message>
     <message>
-        <source>This QGIS cannot show such a file as a layer. It is at {}.</source>
-        <translation>Ce QGIS ne peut pas afficher un tel fichier comme couche. Il se trouve ici : {}.</translation>
-    </message>
-    <message>
-        <source>This QGIS cannot show such a file as a layer. It will be at {}.</source>
-        <translation>Ce QGIS ne peut pas afficher un tel fichier comme couche. Il se trouvera ici : {}.</translation>
-    </message>
-    <message>
         <source>This QGIS has no scipy. On Windows, install python3-scipy with the OSGeo4W setup. Elsewhere, install the scipy of the system, or a newer QGIS.</source>
         <translation>Ce QGIS n'a pas scipy. Sous Windows, installez python3-scipy avec l'installateur OSGeo4W. Ailleurs, installez le scipy du système, ou un QGIS plus récent.</translation>
-    </message>
-    <message>
-        <source>This QGIS has no {}.</source>
-        <translation>Il manque à ce QGIS : {}.</translation>
     </message>
     <message>
         <source>This share of the rise of the ground from point to point, over at most a metre, is added to the ground tolerance. In the paper's preset it is a share of the rise over one cell. Empty: from the preset.</source>
@@ -1480,10 +1610,6 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Tiles kept</source>
         <translation>Dalles gardées</translation>
-    </message>
-    <message>
-        <source>Time: {seconds:.1f} s</source>
-        <translation>Durée : {seconds:.1f} s</translation>
     </message>
     <message>
         <source>Tolerance above</source>
@@ -1510,6 +1636,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Essaie des méthodes et des préréglages sur une partie d'un nuage de points, et les montre côte à côte.</translation>
     </message>
     <message>
+        <source>Two methods compared</source>
+        <translation>Deux méthodes comparées</translation>
+    </message>
+    <message>
         <source>Type I error [%]</source>
         <translation>Erreur de type I [%]</translation>
     </message>
@@ -1518,8 +1648,20 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Erreur de type II [%]</translation>
     </message>
     <message>
+        <source>Unit of the cell size</source>
+        <translation>Unité de la taille de cellule</translation>
+    </message>
+    <message>
+        <source>Units of the CRS, such as its feet</source>
+        <translation>Unités du SCR, par exemple ses pieds</translation>
+    </message>
+    <message>
         <source>Up to LAS 1.3, and in most programs, key points have a class. LAS 1.4 has a flag for them, so that they keep the class of the ground.</source>
         <translation>Jusqu'à LAS 1.3, et dans la plupart des logiciels, les points clés ont une classe. LAS 1.4 a un indicateur pour eux, de sorte qu'ils gardent la classe du sol.</translation>
+    </message>
+    <message>
+        <source>Use as others</source>
+        <translation>Utiliser comme les autres</translation>
     </message>
     <message>
         <source>Virtual point cloud</source>
@@ -1536,6 +1678,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Wheel files (*.whl)</source>
         <translation>Fichiers wheel (*.whl)</translation>
+    </message>
+    <message>
+        <source>Where a pulse passed between the branches, the canopy height has pits. This raises cells that lie over 2 m below the mean of their neighbours to the median of them, as crowns and trees are easier to find without pits. The surface model keeps them.</source>
+        <translation>Là où une impulsion est passée entre les branches, la hauteur de canopée a des trous. Ceci relève les cellules situées à plus de 2 m sous la moyenne de leurs voisines à la médiane de celles-ci, car les houppiers et les arbres sont plus faciles à trouver sans trous. Le modèle de surface garde les trous.</translation>
     </message>
     <message>
         <source>Where they differ</source>
@@ -1570,6 +1716,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Écrire les hauteurs comme</translation>
     </message>
     <message>
+        <source>Writes a few points of all tiles into a further COPC file beside the virtual point cloud, if the tiles are COPC. QGIS 3.42 and newer shows them at small scales.</source>
+        <translation>Écrit quelques points de toutes les dalles dans un fichier COPC de plus à côté du nuage de points virtuel, si les dalles sont en COPC. QGIS 3.42 et plus récent les affiche aux petites échelles.</translation>
+    </message>
+    <message>
         <source>Writes only the points inside the extent and the boundary, and makes the rasters from them. Files without such points are not written. If this is off, all files are written with all their points, and points outside keep their class.</source>
         <translation>N'écrit que les points à l'intérieur de l'emprise et de la limite, et en fait les rasters. Les fichiers sans de tels points ne sont pas écrits. Sans cette option, tous les fichiers sont écrits avec tous leurs points, et les points à l'extérieur gardent leur classe.</translation>
     </message>
@@ -1590,36 +1740,16 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>sol nu,surface,bâtiments,arbres,végétation,sursol,objets,oto,whitebox,lindsay,top-hat</translation>
     </message>
     <message>
-        <source>canopy height</source>
-        <translation>hauteur de canopée</translation>
-    </message>
-    <message>
         <source>chm,ndsm,canopy,vegetation,vegetation height,normalize,normalise,hag,lasheight</source>
         <translation>mhc,chm,canopée,modèle de hauteur de canopée,végétation,hauteur de végétation,normaliser</translation>
-    </message>
-    <message>
-        <source>classes</source>
-        <translation>classes</translation>
     </message>
     <message>
         <source>classified files</source>
         <translation>fichiers classés</translation>
     </message>
     <message>
-        <source>confidence</source>
-        <translation>fiabilité</translation>
-    </message>
-    <message>
-        <source>contour lines</source>
-        <translation>courbes de niveau</translation>
-    </message>
-    <message>
         <source>contours,workflow</source>
         <translation>courbes de niveau,chaîne de traitement</translation>
-    </message>
-    <message>
-        <source>errors</source>
-        <translation>erreurs</translation>
     </message>
     <message>
         <source>grid,raster,rasterize,interpolate</source>
@@ -1638,16 +1768,8 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>sol,éclaircir,généraliser,points clés,courbes de niveau</translation>
     </message>
     <message>
-        <source>height above ground</source>
-        <translation>hauteur au-dessus du sol</translation>
-    </message>
-    <message>
         <source>height,extra bytes</source>
         <translation>hauteur,dimension supplémentaire</translation>
-    </message>
-    <message>
-        <source>hillshade</source>
-        <translation>ombrage</translation>
     </message>
     <message>
         <source>key points</source>
@@ -1666,16 +1788,16 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>lidar,laser aéroporté,drone,las,laz,copc,nuage de points</translation>
     </message>
     <message>
-        <source>local relief</source>
-        <translation>relief local</translation>
-    </message>
-    <message>
         <source>lowest,minimum</source>
         <translation>plus bas,minimum</translation>
     </message>
     <message>
         <source>m</source>
         <translation>m</translation>
+    </message>
+    <message>
+        <source>m or ft</source>
+        <translation>m ou ft</translation>
     </message>
     <message>
         <source>pip cannot work through the SOCKS proxy of QGIS's settings: choose a wheel file.</source>
@@ -1702,20 +1824,12 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>pente,vosselman,whitebox,top-hat</translation>
     </message>
     <message>
-        <source>surface model</source>
-        <translation>modèle de surface</translation>
-    </message>
-    <message>
         <source>terrain</source>
         <translation>terrain</translation>
     </message>
     <message>
         <source>terrain and surface</source>
         <translation>terrain et surface</translation>
-    </message>
-    <message>
-        <source>terrain model</source>
-        <translation>modèle de terrain</translation>
     </message>
     <message>
         <source>terrain,terrain model,elevation model,dtm,dem,dsm,hillshade,relief</source>
@@ -1750,10 +1864,6 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>vpc,dalles,lot,levé,dossier,nombreux fichiers</translation>
     </message>
     <message>
-        <source>without objects</source>
-        <translation>sans objets</translation>
-    </message>
-    <message>
         <source>you have no permission to write into the folder of the profile.</source>
         <translation>vous n'avez pas la permission d'écrire dans le dossier du profil.</translation>
     </message>
@@ -1776,18 +1886,6 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>{file} is larger than any wheel of {package}.</source>
         <translation>{file} est plus grand que tout wheel de {package}.</translation>
-    </message>
-    <message>
-        <source>{ground:,} of {count:,} points are ground ({share:.1%}).</source>
-        <translation>{ground:,} points sur {count:,} sont du sol ({share:.1%}).</translation>
-    </message>
-    <message>
-        <source>{ground:,} of {count:,} points in the area are ground ({share:.1%}).</source>
-        <translation>{ground:,} points sur {count:,} dans la zone sont du sol ({share:.1%}).</translation>
-    </message>
-    <message>
-        <source>{key:,} of {ground:,} ground points are key points ({share:.1%}).</source>
-        <translation>{key:,} points sol sur {ground:,} sont des points clés ({share:.1%}).</translation>
     </message>
     <message>
         <source>{label} must be a number, not {value}.</source>
@@ -1814,6 +1912,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>{} est endommagé : un fichier diffère de sa liste. Téléchargez-le à nouveau.</translation>
     </message>
     <message>
+        <source>{} is no known CRS. Choose one from the list.</source>
+        <translation>{} n'est pas un SCR connu. Choisissez-en un dans la liste.</translation>
+    </message>
+    <message>
         <source>{} is not a folder. Check the path.</source>
         <translation>{} n'est pas un dossier. Vérifiez le chemin.</translation>
     </message>
@@ -1832,10 +1934,6 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>{} is not on this computer. Download it as .las or .laz first.</source>
         <translation>{} n'est pas sur cet ordinateur. Téléchargez-le d'abord en .las ou .laz.</translation>
-    </message>
-    <message>
-        <source>{} must be installed first.</source>
-        <translation>À installer d'abord : {}.</translation>
     </message>
 </context>
 </TS>
