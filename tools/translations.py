@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ast
 import os
+import sys
 from pathlib import Path
 from xml.sax.saxutils import escape
 
@@ -90,8 +91,13 @@ def main() -> None:
 
     application = QgsApplication([], False)
     application.initQgis()
+    # Outputs of the models are known only when the algorithms of Processing are registered.
+    sys.path.append(str(Path(application.pkgDataPath()) / "python" / "plugins"))
+    from processing.core.Processing import Processing
+
     from bare_earth import classFactory
 
+    Processing.initialize()
     plugin = classFactory(None)
     plugin.initProcessing()
     texts = written_texts() | asked_texts()
