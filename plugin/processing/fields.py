@@ -78,9 +78,9 @@ def field_of(
 
 def _number_field(declaration: Declaration, name: str, label: str) -> QgsProcessingParameterNumber:
     kind = compat.INTEGER if declaration.kind == "integer" else compat.NUMBER
-    field = QgsProcessingParameterNumber(
-        name, label, kind, declaration.default, declaration.optional
-    )
+    # Advanced ones can be newer than a saved model, as choices.
+    optional = declaration.optional or declaration.advanced
+    field = QgsProcessingParameterNumber(name, label, kind, declaration.default, optional)
     if declaration.minimum is not None:
         field.setMinimum(declaration.minimum)
     if declaration.maximum is not None:
@@ -151,7 +151,7 @@ def _value(
         return algorithm.parameterAsBool(parameters, name, context)
     if name in parameters and (compat.is_null(given) or given == ""):
         # The user emptied the field; parameterAs... would return the default.
-        return declaration.default if declaration.kind == "choice" else None
+        return None if declaration.optional else _default_of(declaration)
     if declaration.kind == "choice":
         if isinstance(given, (str, int)):
             return value_of(given, list(declaration.choices))
@@ -173,6 +173,11 @@ def _value(
         raise Refusal(text, label=declaration.label, value=repr(given))
     # Also for integers as a double, so that 2.5 is refused and does not become 2.
     return algorithm.parameterAsDouble(parameters, name, context)
+
+
+def _default_of(declaration: Declaration) -> Any:
+    """Return what an emptied field means that must have a value; None to refuse it."""
+    return declaration.default if declaration.kind == "choice" or declaration.advanced else None
 
 
 def _is_number(text: str) -> bool:

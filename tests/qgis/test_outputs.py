@@ -72,7 +72,7 @@ def test_file_dialogs_offer_what_can_be_written(registry):
     offered = algorithm.parameterDefinition("CONTOURS").createFileFilter()
     kinds = [each for each in offered.split(";;") if "*.*" not in each]
     assert [each.partition("(")[2] for each in kinds] == [
-        "*.gpkg)", "*.shp)", "*.geojson)", "*.fgb)",
+        "*.gpkg)", "*.geojson)", "*.shp)", "*.fgb)",
     ]  # fmt: skip
     for name in ("terrainmodel", "heightaboveground", "comparesettings"):
         field = registry.createAlgorithmById(f"bareearth:{name}").parameterDefinition("INPUT")

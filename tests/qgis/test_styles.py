@@ -265,7 +265,7 @@ def test_every_fifth_contour_line_has_its_height_as_a_label(run, tmp_path):
     values = {"INPUT": str(tmp_path / "scene.las"), "CONTOUR_INTERVAL": 0.2}
     run("bareearth:pointcloudtoterrain", values, outputs)
     layers = QgsProject.instance().mapLayers().values()
-    (layer,) = (each for each in layers if each.name().endswith("contour lines"))
+    (layer,) = (each for each in layers if each.name() == "Contour lines")
     assert layer.labelsEnabled()
     (rule,) = layer.labeling().rootRule().children()
     context = QgsExpressionContext()
