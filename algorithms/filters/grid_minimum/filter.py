@@ -29,7 +29,7 @@ from ..shared.height_steps import HeightSteps
 from ..shared.near_ground import Candidates, near_ground
 from ..shared.near_surface import near_surface
 from ..shared.objects import PLATEAU_HEIGHT, Objects, covered, raised_objects
-from ..shared.outliers import low_outliers, supported
+from ..shared.outliers import low_outliers, supported, under_canopy
 
 # Points that a cell should hold on average: with fewer, gaps break the rims.
 _POINTS_PER_CELL = 1.0
@@ -274,7 +274,7 @@ def classify(points: Points, parameters: GridMinimum, progress: Progress = SILEN
     if cells.size != resolved.cell_size:
         cells = Cells.over(points, resolved.cell_size)
     progress(0.1)
-    grids = _by_rims(cells, points.z, resolved, progress.part(0.1, 0.6))
+    grids = _by_rims(points, cells, resolved, progress.part(0.1, 0.6))
     if resolved.preset == CLASSIC:
         limits = _limits(inpaint(grids.ground, _RELAXATIONS, cells.first), resolved)
         return near_surface(points, cells, limits, progress.part(0.6, 1.0))
@@ -307,16 +307,17 @@ class _Grids(NamedTuple):
     objects: Objects
 
 
-def _by_rims(cells: Cells, z: np.ndarray, parameters: GridMinimum, progress: Progress) -> _Grids:
+def _by_rims(points: Points, cells: Cells, parameters: GridMinimum, progress: Progress) -> _Grids:
     """Tell ground from objects by the rims round them."""
-    heights = cells.minimum(z)
+    heights = cells.minimum(points.z)
     blocks = CellBlocks.over(cells, _BLOCK)
     count, classic = np.count_nonzero(np.isfinite(heights)), parameters.preset == CLASSIC
-    heights[_noise(heights, cells, blocks, classic)] = np.nan
+    heights[_noise(points, heights, cells, blocks, classic)] = np.nan
     if not classic and _density(cells) >= _DENSE:
         # After the clusters are removed, because they would lose their rims.
         slope = _OUTLIER_SLOPE_WHERE_DENSE
-        heights[low_outliers(heights, cells.size, slope, cells.first)] = np.nan
+        pits = low_outliers(heights, cells.size, slope, cells.first)
+        heights[pits & ~under_canopy(pits, points, cells)] = np.nan
     tell_of_outliers(count, heights, progress)
     progress(0.2)
     objects = _tall_objects(heights, blocks, parameters, progress.part(0.2, 0.6))
@@ -393,7 +394,9 @@ def _density(cells: Cells) -> float:
     return usual_count(blocks.total(cells.counts())) / blocks.size**2
 
 
-def _noise(heights: np.ndarray, cells: Cells, blocks: CellBlocks, classic: bool) -> np.ndarray:
+def _noise(
+    points: Points, heights: np.ndarray, cells: Cells, blocks: CellBlocks, classic: bool
+) -> np.ndarray:
     """Return the cells of narrow pits far below the usual lowest points around.
 
     A gap in the canopy, a yard or a street between roofs is a pit too, but others near it are as
@@ -405,6 +408,7 @@ def _noise(heights: np.ndarray, cells: Cells, blocks: CellBlocks, classic: bool)
     noise = np.zeros(heights.shape, dtype=bool)
     if not classic:
         noise = low_outliers(heights, cells.size, _OUTLIER_SLOPE, cells.first)
+        noise &= ~under_canopy(noise, points, cells)
         heights = np.where(noise, np.nan, heights)
     around = CellBlocks.over(cells, _NOISE_WIDTH)
     usual = inpaint(around.lowest(heights), first=around.first_block)

@@ -16,6 +16,7 @@ from ...grids.gradient import steepness
 from ...grids.inpaint import inpaint
 from ...grids.morphology import within_square
 from .half_planes import Sides
+from .openness import openness
 
 # Seeds are neighbours within so many times their spacing, and within at least so many metres.
 _SPACINGS, _LEAST_REACH = 5.0, 6.0
@@ -27,6 +28,9 @@ _MEAN_SPACINGS = 1.5
 # Metres from the plane of one side within which a point joins the ground, and the largest misfit
 # of that plane.
 _LEVEL, _LARGEST_MISFIT = 0.25, 0.3
+# Points join only where the openness is at least so large: under trees, plants are level with
+# something too.
+_OPEN = 0.8
 # How often points join the ground, each time within so many spacings of it.
 _PASSES, _STEP_SPACINGS = 2, 1.5
 # Largest rise over run from the seeds within that distance to a point that joins.
@@ -65,10 +69,14 @@ def checked_seeds(
     reach = max(_LEAST_REACH, _SPACINGS * spacing)
     wrong = _wrong(points, seeds, cells, spacing, reach)
     waiting, seeds = np.append(waiting, seeds[wrong]), seeds[~wrong]
-    for _ in range(_PASSES if has_gaps else 0):
+    if not has_gaps:
+        return seeds, waiting
+    is_open = (openness(points, cells) >= _OPEN).ravel()[cells.index[waiting]]
+    waiting, never = waiting[is_open], waiting[~is_open]
+    for _ in range(_PASSES):
         joins = _level(points, seeds, waiting, cells, spacing, reach)
         seeds, waiting = np.append(seeds, waiting[joins]), waiting[~joins]
-    return seeds, waiting
+    return seeds, np.append(waiting, never)
 
 
 def _wrong(

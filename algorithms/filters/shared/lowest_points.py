@@ -9,7 +9,7 @@ from ...core.progress import Progress
 from ...grids.cell_blocks import CellBlocks
 from ...grids.cells import Cells, spacing
 from .objects import PLATEAU_HEIGHT, Objects, raised_objects
-from .outliers import lone_points, low_outliers
+from .outliers import lone_points, low_outliers, under_canopy
 
 # A pit with steeper sides (rise over run) is a low outlier: no terrain is so steep.
 _OUTLIER_SLOPE = 5.0
@@ -60,7 +60,10 @@ class LowestPoints:
 
     def _without_outliers(self, heights: np.ndarray, cells: Cells) -> np.ndarray:
         spares = not self._classic
-        heights[low_outliers(heights, cells.size, _OUTLIER_SLOPE, cells.first, spares)] = np.nan
+        pits = low_outliers(heights, cells.size, _OUTLIER_SLOPE, cells.first, spares)
+        if spares:
+            pits &= ~under_canopy(pits, self._points, cells)
+        heights[pits] = np.nan
         if spares:
             heights[lone_points(heights, cells, self._points.z)] = np.nan
         return heights

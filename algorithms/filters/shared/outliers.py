@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
+from ...core.points import Points
+from ...core.threads import parts_of
 from ...grids.cells import Cells
 from ...grids.inpaint import First, inpaint
 from ...grids.morphology import median_of_nine, within_square
+from .surroundings import LowestOfCells
 
 # Cells between so many metres from a pit are its witnesses; nearer ones may belong to the same
 # fault.
@@ -23,6 +28,13 @@ _LEAST_WITNESSES, _LEAST_SHARE = 4, 0.15
 # even. Its cell has at least so many points, and the next one is higher by at least this share of
 # its depth.
 _LONE_DEPTH, _LEAST_EVEN, _LEAST_POINTS, _LONE_GAP = 0.6, 6, 4, 0.7
+# The lowest points round a pit are those of a canopy if their median distance from a plane is more
+# than so many metres. They are looked at up to so many metres and cells away. A pit that is deeper
+# than so many times this distance is an outlier all the same.
+_ROUGH, _ROUGH_REACH, _ROUGH_CELLS, _ROUGH_DEPTH = 2.5, 6.0, 4, 6.0
+# The plane is fitted without the points that may belong to the pit, so many metres round it.
+_PIT = 2.0
+_PLACES_A_PART = 2048
 # A cell of an even surface is at most so many metres off the median of the 3 x 3 cells round it.
 _EVEN = 0.3
 
@@ -64,6 +76,41 @@ def low_outliers(
     depth = depth_of_pits(grid, first)
     pits = depth > slope * size
     return pits & ~supported(grid, size, pits, depth, first) if spares_supported else pits
+
+
+def under_canopy(pits: np.ndarray, points: Points, cells: Cells) -> np.ndarray:
+    """Return which pits are ground under a canopy, where the lowest points round them are crowns.
+
+    Where hardly a pulse gets through, as in rain forest, hardly any other point is as low, so that
+    the pits are not `supported`. But an outlier lies below a surface, and the lower side of crowns
+    is none.
+
+    Parameters
+    ----------
+    pits : numpy.ndarray of bool, shape (rows, columns)
+        Cells that lie far below the cells next to them.
+    points : Points
+        All points.
+    cells : Cells
+        Their cells.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (rows, columns)
+    """
+    found = np.zeros(pits.shape, dtype=bool)
+    if not pits.any():
+        return found
+    margin = math.ceil(max(_ROUGH_REACH / cells.size, _ROUGH_CELLS))
+    lowest = LowestOfCells.of(points, cells, margin)
+    places, rough = lowest.places(pits), []
+    for part in parts_of(len(places), _PLACES_A_PART):
+        around = lowest.around(places[part], _PIT)
+        plane, above = around.plane()
+        distance = around.median(np.abs(above))
+        rough.append((distance > _ROUGH) & (plane[:, 2] <= _ROUGH_DEPTH * distance))
+    found[pits] = np.concatenate(rough)
+    return found
 
 
 def lone_points(grid: np.ndarray, cells: Cells, z: np.ndarray) -> np.ndarray:

@@ -1,0 +1,196 @@
+"""The lowest points of cells, and the plane through those round a place.
+
+The plane follows the lower ones where roofs or crowns stand among them.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ...core.points import Points
+from ...grids.cells import Cells
+from ...grids.gradient import gradient
+from ...grids.inpaint import inpaint
+from ...grids.morphology import median_of_nine, within_square
+
+# Directions in which the surroundings are looked at.
+SIDES = 8
+# Rounds in which the plane is fitted; in the first ones, heights far from it still count.
+_ROUNDS, _WIDE_ROUNDS, _WIDE, _NARROW = 6, 2, 3.0, 2.0
+# Least distance in metres from the plane at which a height counts less.
+_EXACT = 0.1
+# Side in cells of the squares over which the slope of the terrain is averaged.
+_SLOPE_CELLS = 5
+# Share of the known heights below which the fit of the plane starts: under roofs and crowns.
+_START = 0.3
+
+
+class Surroundings(NamedTuple):
+    """The lowest points round some places; arrays of shape (places, neighbours).
+
+    Attributes
+    ----------
+    centre : tuple of numpy.ndarray
+        x, y and z of the places.
+    x, y, z : numpy.ndarray of float32
+        Relative to the place; 0 where nothing is known.
+    distance : numpy.ndarray of float32
+        Horizontal distance from the place.
+    side : numpy.ndarray of int8
+        Direction from the place, 0 to 7.
+    known : numpy.ndarray of bool
+        Where there is a point that cannot belong to the group itself.
+    """
+
+    centre: tuple[np.ndarray, np.ndarray, np.ndarray]
+    x: np.ndarray
+    y: np.ndarray
+    z: np.ndarray
+    distance: np.ndarray
+    side: np.ndarray
+    known: np.ndarray
+
+    @property
+    def count(self) -> np.ndarray:
+        """Number of heights round each place."""
+        return np.count_nonzero(self.known, axis=1)
+
+    def plane(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return the plane through most of the heights round each place, and the heights above it.
+
+        Least squares with weights by Geman and McClure, from a level plane under most heights.
+
+        Returns
+        -------
+        plane : numpy.ndarray of float32, shape (places, 3)
+            Rise towards east and north, and height in metres above the place.
+        above : numpy.ndarray of float32, shape (places, neighbours)
+            Metres.
+        """
+        count = len(self.z)
+        plane = np.zeros((count, 3), dtype=np.float32)
+        plane[:, 2] = np.nan_to_num(self._quantile(self.z, _START), posinf=0.0)
+        for number in range(_ROUNDS):
+            misfit = self._above(plane)
+            scale = self.median(np.abs(misfit))
+            scale *= _WIDE if number < _WIDE_ROUNDS else _NARROW
+            weights = 1.0 + (misfit / np.maximum(scale, _EXACT)[:, None]) ** 2
+            plane = self._fitted(np.where(self.known, weights**-2.0, 0.0))
+        return plane, self._above(plane)
+
+    def median(self, values: np.ndarray, which: np.ndarray | None = None) -> np.ndarray:
+        """Return the median of some values round each place; infinite where there are none.
+
+        Of an even number, the lower of the two in the middle. `which` selects values.
+        """
+        return self._quantile(values, 0.5, which)
+
+    def _above(self, plane: np.ndarray) -> np.ndarray:
+        east, north, height = plane.T[:, :, None]
+        return self.z - (self.x * east + self.y * north + height)
+
+    def _quantile(
+        self, values: np.ndarray, share: float, which: np.ndarray | None = None
+    ) -> np.ndarray:
+        """Return a quantile of some values of each place; infinite where there are none."""
+        which = self.known if which is None else which
+        ordered = np.sort(np.where(which, values, np.inf), axis=1)
+        last = np.maximum(np.count_nonzero(which, axis=1) - 1, 0)
+        return ordered[np.arange(len(ordered)), np.floor(share * last).astype(np.intp)]
+
+    def _fitted(self, weights: np.ndarray) -> np.ndarray:
+        """Return the planes of weighted least squares."""
+        columns = self.x, self.y, np.ones_like(self.x)
+        normal, right = np.zeros((len(weights), 3, 3)), np.zeros((len(weights), 3, 1))
+        for i, one in enumerate(columns):
+            weighted = weights * one
+            right[:, i, 0] = np.einsum("pn,pn->p", weighted, self.z)
+            for k in range(i, 3):
+                normal[:, i, k] = normal[:, k, i] = np.einsum("pn,pn->p", weighted, columns[k])
+        # So that a place with hardly any neighbours has a plane as well.
+        normal += 1e-6 * np.eye(3)
+        return np.linalg.solve(normal, right)[:, :, 0].astype(np.float32)
+
+
+class LowestOfCells(NamedTuple):
+    """Where the lowest point of each cell lies, on grids with a margin of unknown cells.
+
+    Attributes
+    ----------
+    x, y, z : numpy.ndarray of float64, shape (rows, columns)
+        NaN where there is none.
+    margin : int
+        Cells of margin, the radius of the surroundings.
+    """
+
+    x: np.ndarray
+    y: np.ndarray
+    z: np.ndarray
+    margin: int
+
+    @classmethod
+    def of(cls, points: Points, cells: Cells, margin: int) -> LowestOfCells:
+        """Return the lowest points of cells."""
+        lowest = cells.lowest_points(points)
+        row, column = np.divmod(cells.index[lowest], cells.columns)
+        shape = cells.rows + 2 * margin, cells.columns + 2 * margin
+        x, y, z = grids = np.full((3, *shape), np.nan)
+        grids[:, row + margin, column + margin] = points.take(lowest)
+        return cls(x, y, z, margin)
+
+    def pits(self, cells: Cells, depth: float, reach: int) -> np.ndarray:
+        """Return the cells that a closing raises, the deepest or lowest within reach only."""
+        inner = (slice(self.margin, -self.margin),) * 2
+        known = np.isfinite(self.z[inner])
+        filled = inpaint(self.z[inner], first=cells.first)
+        filled -= self._beside_centre(cells, filled)
+        closed = within_square(np.minimum, within_square(np.maximum, filled, reach), reach)
+        raised = np.where(known, closed - filled, 0.0)
+        pits = raised >= within_square(np.maximum, raised, reach)
+        pits |= filled <= within_square(np.minimum, filled, reach)
+        return self.places(pits & (raised > depth))
+
+    def places(self, cells: np.ndarray) -> np.ndarray:
+        """Return the indices of the marked cells (rows, columns) in the flattened grids."""
+        row, column = np.nonzero(cells)
+        return (row + self.margin) * self.z.shape[1] + column + self.margin
+
+    def _beside_centre(self, cells: Cells, filled: np.ndarray) -> np.ndarray:
+        """Return how much lower or higher than the centre of its cell the lowest point lies.
+
+        The lowest point of a cell on a slope is one at its lower side, by chance nearer or farther.
+        """
+        from scipy import ndimage
+
+        inner = (slice(self.margin, -self.margin),) * 2
+        smooth = ndimage.uniform_filter(median_of_nine(filled.astype(np.float32)), _SLOPE_CELLS)
+        north, east = gradient(smooth, cells.size)
+        y, x = (
+            axis[inner] - (first + np.arange(count) + 0.5).reshape(shape) * cells.size
+            for axis, first, count, shape in zip(
+                (self.y, self.x), cells.first, cells.shape, ((-1, 1), (1, -1))
+            )
+        )
+        return np.nan_to_num(east * x + north * y)
+
+    def around(self, places: np.ndarray, width: float) -> Surroundings:
+        """Return the lowest points round some cells, but for those nearer than a width in metres.
+
+        `places` are indices of cells in the flattened grids, as `pits` returns them.
+        """
+        steps = np.arange(-self.margin, self.margin + 1)
+        row, column = (axis.ravel() for axis in np.meshgrid(steps, steps, indexing="ij"))
+        disc = (row**2 + column**2 <= self.margin**2) & ((row != 0) | (column != 0))
+        there = places[:, None] + (row * self.z.shape[1] + column)[disc]
+        centre = tuple(grid.ravel()[places] for grid in (self.x, self.y, self.z))
+        x, y, z = (
+            (grid.ravel()[there] - at[:, None]).astype(np.float32)
+            for grid, at in zip((self.x, self.y, self.z), centre)
+        )
+        distance = np.hypot(x, y)
+        known = distance > width  # False for NaN
+        x, y, z, distance = (np.where(known, axis, np.float32(0.0)) for axis in (x, y, z, distance))
+        side = np.floor((np.arctan2(y, x) / np.pi + 1.0) * (0.5 * SIDES)).astype(np.int8) % SIDES
+        return Surroundings(centre, x, y, z, distance, side, known)
