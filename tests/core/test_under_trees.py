@@ -1,0 +1,91 @@
+"""The ground under trees: seen through gaps of a canopy, or hidden by plants that are level."""
+
+import numpy as np
+import pytest
+from realdata import real
+
+from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.filters.shared.breaks import checked_seeds
+from bare_earth.algorithms.filters.shared.openness import openness
+from bare_earth.algorithms.filters.shared.outliers import low_outliers, under_canopy
+from bare_earth.algorithms.grids.cells import Cells
+from benchmarks import data
+from benchmarks.measure import Filter, ReferenceModel
+
+
+def seen_through_gaps(rough, side=60.0, density=6.0, seed=0):
+    """Return points on a canopy 20 m above ground, 1 % of them below it, and which these are."""
+    random = np.random.default_rng(seed)
+    count = int(density * side**2)
+    x, y = random.uniform(0.0, side, (2, count))
+    ground = random.random(count) < 0.01
+    canopy = 20.0 + rough * random.uniform(-1.0, 1.0, count)
+    return Points(x, y, 100.0 + 0.3 * x + np.where(ground, 0.0, canopy)), ground
+
+
+def pits_of(points):
+    cells = Cells.over(points, 1.0)
+    heights = cells.minimum(points.z)
+    # As where hardly any other pit is as low.
+    pits = low_outliers(heights, 1.0, 5.0, cells.first, spares_supported=False)
+    return pits, cells
+
+
+def test_pits_in_a_rough_canopy_are_ground():
+    points, ground = seen_through_gaps(rough=12.0, density=1.5)
+    pits, cells = pits_of(points)
+    spared = pits & under_canopy(pits, points, cells)
+    of_ground = cells.holding(ground)
+    assert (pits & of_ground).sum() > 10 and spared[pits & of_ground].mean() > 0.8
+
+
+def test_pits_in_an_even_surface_are_outliers_however_deep():
+    points, _ = seen_through_gaps(rough=0.1)
+    pits, cells = pits_of(points)
+    assert pits.sum() > 50
+    assert not under_canopy(pits, points, cells).any()
+
+
+def test_nothing_is_spared_where_there_is_no_pit():
+    points, _ = seen_through_gaps(rough=0.1)
+    cells = Cells.over(points, 1.0)
+    assert not under_canopy(np.zeros(cells.shape, dtype=bool), points, cells).any()
+
+
+def test_openness_is_one_on_open_ground_and_low_under_trees():
+    random = np.random.default_rng(1)
+    x, y = random.uniform(0.0, 60.0, (2, 40_000))
+    wood = x > 30.0
+    z = 5.0 + 0.1 * x + np.where(wood & (random.random(len(x)) < 0.7), 8.0, 0.0)
+    points = Points(x, y, z)
+    cells = Cells.over(points, 1.0)
+    share = openness(points, cells)
+    assert share[:, 4:26].min() > 0.99 and share[:, 34:56].max() < 0.5
+    sparse = points.take(slice(None, None, 50))
+    assert openness(sparse, Cells.over(sparse, 1.0))[:, :26].min() > 0.95
+
+
+@pytest.mark.parametrize(("thick", "joins"), [(False, True), (True, False)])
+def test_points_join_at_a_break_only_where_it_is_open(thick, joins):
+    # A terrace whose edge the seeds leave out; with crowns above it, its points are plants.
+    random = np.random.default_rng(2)
+    x, y = random.uniform(0.0, 40.0, (2, 8000))
+    z = np.where(x < 20.0, 10.0, 12.0)
+    crown = np.full(len(x), thick) & (random.random(len(x)) < 0.6)
+    points = Points(x, y, z + np.where(crown, 9.0, 0.0))
+    cells = Cells.over(points, 1.0)
+    lowest = cells.lowest_points(points)
+    edge = (points.x[lowest] > 20.0) & (points.x[lowest] < 22.0) & ~crown[lowest]
+    seeds, waiting = lowest[~edge & ~crown[lowest]], lowest[edge]
+    found, _ = checked_seeds(points, seeds, waiting, cells, 1.0)
+    assert np.isin(waiting, found).mean() == pytest.approx(float(joins), abs=0.1)
+
+
+@pytest.mark.parametrize(
+    ("tile", "most"),
+    [("rainforest_ridge.laz", 2.6), ("conifer_1.laz", 0.23), ("megaplot.laz", 0.14)],
+)
+def test_terrain_models_of_forests_come_out_as_measured(tile, most):
+    cloud, reference = data.load(real(f"real/{tile}"))
+    model = ReferenceModel(cloud, reference)
+    assert model.error(Filter("tin-densification").ground(cloud)).rmse < most
