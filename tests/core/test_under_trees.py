@@ -52,17 +52,20 @@ def test_nothing_is_spared_where_there_is_no_pit():
     assert not under_canopy(np.zeros(cells.shape, dtype=bool), points, cells).any()
 
 
-def test_openness_is_one_on_open_ground_and_low_under_trees():
+@pytest.mark.parametrize("slope", [0.1, 2.0])
+def test_openness_is_one_on_open_ground_and_low_under_trees(slope):
     random = np.random.default_rng(1)
     x, y = random.uniform(0.0, 60.0, (2, 40_000))
     wood = x > 30.0
-    z = 5.0 + 0.1 * x + np.where(wood & (random.random(len(x)) < 0.7), 8.0, 0.0)
+    z = 5.0 + slope * x + np.where(wood & (random.random(len(x)) < 0.7), 8.0, 0.0)
     points = Points(x, y, z)
-    cells = Cells.over(points, 1.0)
-    share = openness(points, cells)
-    assert share[:, 4:26].min() > 0.99 and share[:, 34:56].max() < 0.5
-    sparse = points.take(slice(None, None, 50))
-    assert openness(sparse, Cells.over(sparse, 1.0))[:, :26].min() > 0.95
+
+    def share(points):
+        cells = Cells.over(points, 1.0)
+        return openness(points, cells, np.full(cells.shape, slope * cells.size))
+
+    assert share(points)[:, 4:26].min() > 0.99 and share(points)[:, 34:56].max() < 0.5
+    assert share(points.take(slice(None, None, 50)))[:, :26].min() > 0.95
 
 
 @pytest.mark.parametrize(("thick", "joins"), [(False, True), (True, False)])

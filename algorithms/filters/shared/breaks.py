@@ -67,11 +67,13 @@ def checked_seeds(
         The same after the check.
     """
     reach = max(_LEAST_REACH, _SPACINGS * spacing)
-    wrong = _wrong(points, seeds, cells, spacing, reach)
+    mean = _mean_surface(points, seeds, cells, spacing)
+    rise = steepness(mean, cells.size) * cells.size
+    wrong = _wrong(points, seeds, cells, mean, rise, reach)
     waiting, seeds = np.append(waiting, seeds[wrong]), seeds[~wrong]
     if not has_gaps:
         return seeds, waiting
-    is_open = (openness(points, cells) >= _OPEN).ravel()[cells.index[waiting]]
+    is_open = (openness(points, cells, rise) >= _OPEN).ravel()[cells.index[waiting]]
     waiting, never = waiting[is_open], waiting[~is_open]
     for _ in range(_PASSES):
         joins = _level(points, seeds, waiting, cells, spacing, reach)
@@ -79,18 +81,28 @@ def checked_seeds(
     return seeds, np.append(waiting, never)
 
 
-def _wrong(
-    points: Points, seeds: np.ndarray, cells: Cells, spacing: float, reach: float
-) -> np.ndarray:
-    """Return which seeds lie above the planes of all sides, or below all."""
+def _mean_surface(points: Points, seeds: np.ndarray, cells: Cells, spacing: float) -> np.ndarray:
+    """Return a smooth surface through the lowest seeds."""
     from scipy import ndimage
 
     lowest = _extreme(cells, points, seeds)
     surface = inpaint(np.where(np.isfinite(lowest), lowest, np.nan), 2, cells.first)
     width = 2 * int(np.ceil(_MEAN_SPACINGS * spacing / cells.size)) + 1
-    mean = ndimage.uniform_filter(surface, width, mode="nearest")
-    # On a slope, the height of a seed above the mean depends on its place in the cell.
-    allowed = steepness(mean, cells.size) * cells.size
+    return ndimage.uniform_filter(surface, width, mode="nearest")
+
+
+def _wrong(
+    points: Points,
+    seeds: np.ndarray,
+    cells: Cells,
+    mean: np.ndarray,
+    allowed: np.ndarray,
+    reach: float,
+) -> np.ndarray:
+    """Return which seeds lie above the planes of all sides, or below all.
+
+    On a slope, the height of a seed above the mean depends on its place in the cell: `allowed`.
+    """
     cell, z = cells.index[seeds], points.z[seeds]
     above, allowed = z - mean.ravel()[cell], allowed.ravel()[cell]
     doubtful = np.flatnonzero((above - allowed > _PLANT) | (above + allowed < -_FAULT))

@@ -7,13 +7,14 @@ import numpy as np
 from ...core.points import Points
 from ...grids.cells import Cells
 
-# Points up to so many metres above the lowest one of their cell count as near it.
+# Points up to so many metres above the lowest one of their cell count as near it, and on slopes
+# what the ground rises within the cell.
 _NEAR = 0.6
 # Side in metres of the square in which they are counted.
 _WIDTH = 5.0
 
 
-def openness(points: Points, cells: Cells) -> np.ndarray:
+def openness(points: Points, cells: Cells, rise: np.ndarray) -> np.ndarray:
     """Return the share of points near the lowest one of their cell, in the surroundings of a cell.
 
     It is about 1 on open ground, on roofs and where points are sparse, and 0.2 to 0.6 under trees.
@@ -24,6 +25,8 @@ def openness(points: Points, cells: Cells) -> np.ndarray:
         All points that take part, mostly last returns.
     cells : Cells
         Their cells.
+    rise : numpy.ndarray of float, shape (rows, columns)
+        How much the ground rises from side to side of a cell, in metres.
 
     Returns
     -------
@@ -33,7 +36,7 @@ def openness(points: Points, cells: Cells) -> np.ndarray:
     from scipy import ndimage
 
     lowest = cells.minimum(points.z).ravel()
-    near = points.z <= lowest[cells.index] + _NEAR
+    near = points.z <= (lowest + rise.ravel() + _NEAR)[cells.index]
     counts = cells.counts().astype(np.float32)
     nearby = np.bincount(cells.index[near], minlength=counts.size).reshape(cells.shape)
     width = 2 * round(_WIDTH / cells.size / 2.0 - 0.5) + 1
