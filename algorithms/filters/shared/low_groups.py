@@ -100,7 +100,7 @@ class LowGroups:
         as_low = around.known & (misfit < -0.5 * depth[:, None])
         as_low &= around.distance > _BESIDE_GROUP * self.width
         deep = depth > np.maximum(self.depth, self.deviations * deviation)
-        seen = around.count >= self.heights
+        seen = around.number_known >= self.heights
         alone = ~as_low.any(axis=1)
         for number in np.flatnonzero(deep & seen & alone & self._enclosed(around, on_plane)):
             east, north, height = plane[number].tolist()

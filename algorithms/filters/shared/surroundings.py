@@ -53,7 +53,7 @@ class Surroundings(NamedTuple):
     known: np.ndarray
 
     @property
-    def count(self) -> np.ndarray:
+    def number_known(self) -> np.ndarray:
         """Number of heights round each place."""
         return np.count_nonzero(self.known, axis=1)
 
