@@ -62,7 +62,8 @@ class LowestPoints:
         spares = not self._classic
         pits = low_outliers(heights, cells.size, _OUTLIER_SLOPE, cells.first, spares)
         if spares:
-            pits &= ~under_canopy(pits, self._points, cells)
+            known = self.lowest if cells is self.cells else None
+            pits &= ~under_canopy(pits, self._points, cells, known)
         heights[pits] = np.nan
         if spares:
             heights[lone_points(heights, cells, self._points.z)] = np.nan

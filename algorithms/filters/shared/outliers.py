@@ -78,7 +78,9 @@ def low_outliers(
     return pits & ~supported(grid, size, pits, depth, first) if spares_supported else pits
 
 
-def under_canopy(pits: np.ndarray, points: Points, cells: Cells) -> np.ndarray:
+def under_canopy(
+    pits: np.ndarray, points: Points, cells: Cells, lowest: np.ndarray | None = None
+) -> np.ndarray:
     """Return which pits are ground under a canopy, where the lowest points round them are crowns.
 
     Where hardly a pulse gets through, as in rain forest, hardly any other point is as low, so that
@@ -93,6 +95,8 @@ def under_canopy(pits: np.ndarray, points: Points, cells: Cells) -> np.ndarray:
         All points.
     cells : Cells
         Their cells.
+    lowest : numpy.ndarray of int, optional
+        The lowest point of each cell, if it is known: finding it takes time.
 
     Returns
     -------
@@ -102,10 +106,10 @@ def under_canopy(pits: np.ndarray, points: Points, cells: Cells) -> np.ndarray:
     if not pits.any():
         return found
     margin = math.ceil(max(_ROUGH_REACH / cells.size, _ROUGH_CELLS))
-    lowest = LowestOfCells.of(points, cells, margin)
-    places, rough = lowest.places(pits), []
+    grids = LowestOfCells.of(points, cells, margin, lowest)
+    places, rough = grids.places(pits), []
     for part in parts_of(len(places), _PLACES_A_PART):
-        around = lowest.around(places[part], _PIT)
+        around = grids.around(places[part], _PIT)
         plane, above = around.plane()
         distance = around.median(np.abs(above))
         rough.append((distance > _ROUGH) & (plane[:, 2] <= _ROUGH_DEPTH * distance))

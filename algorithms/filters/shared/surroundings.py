@@ -131,9 +131,12 @@ class LowestOfCells(NamedTuple):
     margin: int
 
     @classmethod
-    def of(cls, points: Points, cells: Cells, margin: int) -> LowestOfCells:
-        """Return the lowest points of cells."""
-        lowest = cells.lowest_points(points)
+    def of(
+        cls, points: Points, cells: Cells, margin: int, lowest: np.ndarray | None = None
+    ) -> LowestOfCells:
+        """Return the lowest points of cells; `lowest` are their indices, if they are known."""
+        if lowest is None:
+            lowest = cells.lowest_points(points)
         row, column = np.divmod(cells.index[lowest], cells.columns)
         shape = cells.rows + 2 * margin, cells.columns + 2 * margin
         x, y, z = grids = np.full((3, *shape), np.nan)
