@@ -15,7 +15,7 @@ from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..grids.isolines import Isoline, Isolines
 from ..grids.local_trend import local_trend, reach_of
-from ..rasters.rows import RowsOfRaster, raster_rows
+from ..rasters.rows import RowsOfRaster
 from .line_files import ContourLine, files_beside, line_writer
 
 # A map with about so many lines is easy to read.
@@ -156,21 +156,21 @@ def write_contours(
     target = Path(target)
     check_contours(target, (Path(source),))
     write = line_writer(target)
-    with raster_rows(source) as raster:
-        low, high = _range_of(raster, progress.part(0.0, 0.2))
-        height = contours.interval(low, high, raster.frame.vertical_unit)
-        interval = Interval(height, raster.unit)
-        if (high - low) / height > _MOST_LEVELS:
-            raise BareEarthError(
-                f"An interval of {interval.text()} would give more than {_MOST_LEVELS:,} heights of"
-                " contour lines. Choose a larger one."
-            )
-        with temporary_folder(target.parent) as folder:
-            lines = _lines_of(raster, contours, height, progress.part(0.2, 1.0))
-            count = write(folder / target.name, lines, raster, progress)
-            progress.info(f"{count:,} contour lines, one every {interval.text()}")
-            progress(1.0)
-            replace_with_files_of(folder, target, files_beside(target))
+    raster = RowsOfRaster.of(source)
+    low, high = _range_of(raster, progress.part(0.0, 0.2))
+    height = contours.interval(low, high, raster.frame.vertical_unit)
+    interval = Interval(height, raster.unit)
+    if (high - low) / height > _MOST_LEVELS:
+        raise BareEarthError(
+            f"An interval of {interval.text()} would give more than {_MOST_LEVELS:,} heights of"
+            " contour lines. Choose a larger one."
+        )
+    with temporary_folder(target.parent) as folder:
+        lines = _lines_of(raster, contours, height, progress.part(0.2, 1.0))
+        count = write(folder / target.name, lines, raster, progress)
+        progress.info(f"{count:,} contour lines, one every {interval.text()}")
+        progress(1.0)
+        replace_with_files_of(folder, target, files_beside(target))
     return interval
 
 

@@ -176,6 +176,8 @@ class Raster(NamedTuple):
 
 # First column and row, and numbers of columns and rows.
 Window = tuple[int, int, int, int]
+# Reads what a file says of itself, but none of its cells.
+NO_CELLS: Window = (0, 0, 0, 0)
 
 
 def read_raster(
@@ -204,9 +206,7 @@ def read_raster(
         If there is no library to read rasters with, the raster is not on this computer, the band
         cannot be read, or the CRS is geographic.
     """
-    read = library(_read_with_gdal, _read_with_rasterio, "Reading")
-    check_local(str(source))
-    content = read(str(source), band, window)
+    content = read_content(source, band, window)
     values, valid = content.values, content.valid
     if values.dtype.kind not in "iuf":
         raise BareEarthError(f"Cannot read {source}: its cells hold {values.dtype}, not heights.")
@@ -222,7 +222,7 @@ def read_raster(
 
 
 class Content(NamedTuple):
-    """The contents of a raster file."""
+    """Cells of a band, and what the file says of them; `shape` is that of the whole file."""
 
     values: np.ndarray
     valid: np.ndarray
@@ -232,6 +232,14 @@ class Content(NamedTuple):
     scale: float
     offset: float
     shape: tuple[int, int]
+    description: str
+
+
+def read_content(source: str | Path, band: int = 1, window: Window | None = None) -> Content:
+    """Read a band as it is; arguments and errors are as for `read_raster`, but the CRS is any."""
+    read = library(_read_with_gdal, _read_with_rasterio, "Reading")
+    _check_local(str(source))
+    return read(str(source), band, window)
 
 
 def frame_of(source: str | Path, content: Content, progress: Progress = SILENT) -> Frame:
@@ -278,7 +286,7 @@ def _require_measurable(source: str | Path, content: Content) -> None:
         )
 
 
-def check_local(source: str) -> None:
+def _check_local(source: str) -> None:
     """Refuse a URL, and files such as VRT that contain one, since GDAL would fetch it."""
     if any("\ud800" <= each <= "\udfff" for each in source):
         raise BareEarthError(f"The name of {source} is not UTF-8, which GDAL needs. Rename it.")
@@ -311,10 +319,12 @@ def _read_with_gdal(source: str, band: int, window: Window | None) -> Content:
         shape = dataset.RasterYSize, dataset.RasterXSize
         _check_size(source, band, dataset.RasterCount, shape, window)
         layer, part = dataset.GetRasterBand(band), window or (0, 0, *shape[::-1])
-        values = layer.ReadAsArray(*part)
-        errors.check(source)
-        valid = layer.GetMaskBand().ReadAsArray(*part) != 0
-        errors.check(source)
+        values = valid = np.zeros((0, 0))
+        if part != NO_CELLS:
+            values = layer.ReadAsArray(*part)
+            errors.check(source)
+            valid = layer.GetMaskBand().ReadAsArray(*part) != 0
+            errors.check(source)
         scale, offset = layer.GetScale(), layer.GetOffset()
         return Content(
             values,
@@ -325,6 +335,7 @@ def _read_with_gdal(source: str, band: int, window: Window | None) -> Content:
             1.0 if scale is None else scale,
             0.0 if offset is None else offset,
             shape,
+            layer.GetDescription() or "",
         )
 
 
@@ -337,15 +348,20 @@ def _read_with_rasterio(source: str, band: int, window: Window | None) -> Conten
         with rasterio.open(source) as dataset:
             _check_size(source, band, dataset.count, dataset.shape, window)
             part = None if window is None else rasterio.windows.Window(*window)
+            values = valid = np.zeros((0, 0))
+            if window != NO_CELLS:
+                values = dataset.read(band, window=part)
+                valid = dataset.read_masks(band, window=part) != 0
             return Content(
-                dataset.read(band, window=part),
-                dataset.read_masks(band, window=part) != 0,
+                values,
+                valid,
                 dataset.transform.to_gdal(),
                 dataset.crs.to_wkt() if dataset.crs else "",
                 dataset.units[band - 1] or "",
                 dataset.scales[band - 1],
                 dataset.offsets[band - 1],
                 dataset.shape,
+                dataset.descriptions[band - 1] or "",
             )
     except RasterioError as error:
         raise BareEarthError(f"Cannot read {source}: {str(error).rstrip('.')}.") from error

@@ -6,8 +6,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ..core.errors import BareEarthError
-from .geotiff import check_local
-from .libraries import GdalErrors, library
+from .geotiff import NO_CELLS, read_content
 
 # Sides of cells, and corners, may be off by this share of a cell over the whole raster.
 _ROUNDING = 0.01
@@ -50,9 +49,8 @@ def read_grid(source: str | Path) -> GivenGrid:
         If there is no library to read rasters with, the raster cannot be read or is not on this
         computer, or its cells are not square with north up.
     """
-    read = library(_with_gdal, _with_rasterio, "Reading")
-    check_local(str(source))
-    (columns, rows), (west, width, tilt, north, lean, height), wkt = read(str(source))
+    content = read_content(source, window=NO_CELLS)
+    (rows, columns), (west, width, tilt, north, lean, height) = content.shape, content.geotransform
     if height > 0.0 and width > 0.0 and not tilt and not lean:
         raise BareEarthError(
             f"{source} states no place on the map, or has south up. Give a raster with north up."
@@ -68,31 +66,4 @@ def read_grid(source: str | Path) -> GivenGrid:
             f"The cells of {source} are not square ({width:.10g} x {abs(height):.10g}). Give a"
             " raster with square cells, such as gdalwarp -tr makes."
         )
-    return GivenGrid(west, north, width, columns, rows, wkt)
-
-
-_Content = tuple[tuple[int, int], tuple[float, ...], str]
-
-
-def _with_gdal(source: str) -> _Content:
-    from osgeo import gdal
-
-    with GdalErrors(gdal, "read") as errors:
-        dataset = gdal.Open(source, gdal.GA_ReadOnly)
-        errors.check(source)
-        if dataset is None:
-            raise BareEarthError(f"Cannot read {source}: it is not a raster that GDAL can read.")
-        size = dataset.RasterXSize, dataset.RasterYSize
-        return size, tuple(dataset.GetGeoTransform()), dataset.GetProjection()
-
-
-def _with_rasterio(source: str) -> _Content:
-    import rasterio
-    from rasterio.errors import RasterioError
-
-    try:
-        with rasterio.open(source) as dataset:
-            size = dataset.width, dataset.height
-            return size, dataset.transform.to_gdal(), dataset.crs.to_wkt() if dataset.crs else ""
-    except RasterioError as error:
-        raise BareEarthError(f"Cannot read {source}: {str(error).rstrip('.')}.") from error
+    return GivenGrid(west, north, width, columns, rows, content.wkt)
