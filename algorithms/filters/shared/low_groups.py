@@ -9,7 +9,6 @@ from typing import Iterator, NamedTuple
 import numpy as np
 
 from ...core.points import Points
-from ...core.threads import parts_of
 from ...grids.cells import Cells, spacing
 from ...grids.morphology import within_square
 from .surroundings import SIDES, LowestOfCells, Surroundings
@@ -19,8 +18,6 @@ _CELL = 1.0
 # Distances from the lowest point of a group, as multiples of its width: up to the first, points
 # below the plane are of the group; beyond the second, others as low show that it is none.
 _OF_GROUP, _BESIDE_GROUP = 1.5, 1.25
-# Places that are judged at a time.
-_PLACES_A_PART = 2048
 # The deviation of a normal distribution as a multiple of the median of its absolute values.
 _DEVIATION = 1.48
 
@@ -86,8 +83,8 @@ class LowGroups:
         places = grids.pits(cells, 0.5 * self.depth, math.ceil(self.width / size))
         groups = [
             found
-            for part in parts_of(len(places), _PLACES_A_PART)
-            for found in self._groups(grids.around(places[part], self.width))
+            for around in grids.around(places, self.width)
+            for found in self._groups(around)
         ]
         return self._members(points, cells, groups)
 

@@ -7,7 +7,6 @@ import math
 import numpy as np
 
 from ...core.points import Points
-from ...core.threads import parts_of
 from ...grids.cells import Cells
 from ...grids.inpaint import First, inpaint
 from ...grids.morphology import median_of_nine, within_square
@@ -34,7 +33,6 @@ _LONE_DEPTH, _LEAST_EVEN, _LEAST_POINTS, _LONE_GAP = 0.6, 6, 4, 0.7
 _ROUGH, _ROUGH_REACH, _ROUGH_CELLS, _ROUGH_DEPTH = 2.5, 6.0, 4, 6.0
 # The plane is fitted without the points that may belong to the pit, so many metres round it.
 _PIT = 2.0
-_PLACES_A_PART = 2048
 # A cell of an even surface is at most so many metres off the median of the 3 x 3 cells round it.
 _EVEN = 0.3
 
@@ -107,9 +105,8 @@ def under_canopy(
         return found
     margin = math.ceil(max(_ROUGH_REACH / cells.size, _ROUGH_CELLS))
     grids = LowestOfCells.of(points, cells, margin, lowest)
-    places, rough = grids.places(pits), []
-    for part in parts_of(len(places), _PLACES_A_PART):
-        around = grids.around(places[part], _PIT)
+    rough = []
+    for around in grids.around(grids.places(pits), _PIT):
         plane, above = around.plane()
         distance = around.median(np.abs(above))
         rough.append((distance > _ROUGH) & (plane[:, 2] <= _ROUGH_DEPTH * distance))

@@ -5,11 +5,12 @@ The plane follows the lower ones where roofs or crowns stand among them.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Iterator, NamedTuple
 
 import numpy as np
 
 from ...core.points import Points
+from ...core.threads import parts_of
 from ...grids.cells import Cells
 from ...grids.gradient import gradient
 from ...grids.inpaint import inpaint
@@ -23,6 +24,8 @@ _ROUNDS, _WIDE_ROUNDS, _WIDE, _NARROW = 6, 2, 3.0, 2.0
 _EXACT = 0.1
 # Side in cells of the squares over which the slope of the terrain is averaged.
 _SLOPE_CELLS = 5
+# Places that are looked at together.
+_PLACES_A_PART = 2048
 # Share of the known heights below which the fit of the plane starts: under roofs and crowns.
 _START = 0.3
 
@@ -178,15 +181,21 @@ class LowestOfCells(NamedTuple):
         )
         return np.nan_to_num(east * x + north * y)
 
-    def around(self, places: np.ndarray, width: float) -> Surroundings:
-        """Return the lowest points round some cells, but for those nearer than a width in metres.
+    def around(self, places: np.ndarray, width: float) -> Iterator[Surroundings]:
+        """Yield the lowest points round cells, some at a time, but for those nearer than a width.
 
-        `places` are indices of cells in the flattened grids, as `pits` returns them.
+        `places` are indices of cells in the flattened grids, as `pits` returns them; the width is
+        in metres.
         """
         steps = np.arange(-self.margin, self.margin + 1)
         row, column = (axis.ravel() for axis in np.meshgrid(steps, steps, indexing="ij"))
         disc = (row**2 + column**2 <= self.margin**2) & ((row != 0) | (column != 0))
-        there = places[:, None] + (row * self.z.shape[1] + column)[disc]
+        offsets = (row * self.z.shape[1] + column)[disc]
+        for part in parts_of(len(places), _PLACES_A_PART):
+            yield self._around(places[part], offsets, width)
+
+    def _around(self, places: np.ndarray, offsets: np.ndarray, width: float) -> Surroundings:
+        there = places[:, None] + offsets
         centre = tuple(grid.ravel()[places] for grid in (self.x, self.y, self.z))
         x, y, z = (
             (grid.ravel()[there] - at[:, None]).astype(np.float32)
