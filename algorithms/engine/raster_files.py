@@ -100,7 +100,7 @@ def _sure(
 
 def _picture(heights: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.ndarray:
     """Return the heights that pictures of the relief show."""
-    return without_noise(heights, grid.cell_metres) if model.smooths else heights
+    return without_noise(heights, grid.cell_metres) if model.relief.smooths else heights
 
 
 def _shade(heights: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.ndarray:
@@ -111,7 +111,7 @@ def _shade(heights: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.nda
 
 
 def _shade_margin(grid: RasterGrid, model: TerrainModel) -> int:
-    return 1 + (smoothing_reach(grid.cell_metres) if model.smooths else 0)
+    return 1 + (smoothing_reach(grid.cell_metres) if model.relief.smooths else 0)
 
 
 def _relief(heights: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.ndarray:
@@ -120,7 +120,7 @@ def _relief(heights: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.nd
 
 
 def _relief_margin(grid: RasterGrid, model: TerrainModel) -> int:
-    return relief_reach(grid.cell_metres, model.relief_radius, model.smooths)
+    return relief_reach(grid.cell_metres, model.relief_radius, model.relief.smooths)
 
 
 RASTERS = {

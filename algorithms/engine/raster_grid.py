@@ -16,6 +16,7 @@ from ..grids.cell_window import CellWindow
 from ..products.terrain_model import TerrainModel
 from ..rasters.geotiff import RasterGrid
 from ..rasters.given_grid import GivenGrid, read_grid
+from ..survey.area import Area
 
 MOST_CELLS = 4_000_000_000
 # A corner of a given raster so near a multiple of the cell size, as a share of it, is one.
@@ -210,9 +211,5 @@ def _check(cells: CellGrid, window: CellWindow, box: Box | None, crs: Crs) -> No
             f" {unit_symbol(crs.horizontal_unit)}. Choose a larger cell size, or a smaller extent."
         )
     covered = box_of(grid)
-    if box is not None and not _overlap(covered, box):
+    if box is not None and not Area(covered).may_touch(box):
         raise no_points(covered, box)
-
-
-def _overlap(one: Box, other: Box) -> bool:
-    return one[0] <= other[2] and one[2] >= other[0] and one[1] <= other[3] and one[3] >= other[1]

@@ -81,9 +81,9 @@ class TerrainModel(ParameterSet):
     relief_radius: float = parameter_of(LocalRelief, "relief_radius")
 
     @property
-    def smooths(self) -> bool:
-        """Whether heights are smoothed for pictures."""
-        return self.relief_smoothing == "automatic"
+    def relief(self) -> LocalRelief:
+        """The parameters of pictures of the relief."""
+        return LocalRelief(self.relief_radius, self.relief_smoothing)
 
     def cell_metres(self, unit: float) -> float:
         """Return the side of a cell in metres, given the metres in a unit of the CRS."""
