@@ -53,7 +53,7 @@ class RowsOfRaster(NamedTuple):
         return cls(source, content.shape, content.geotransform, frame, unit, epsg)
 
     def read(self, start: int, end: int) -> np.ndarray:
-        """Return rows up to `end`, or the last one, as heights: float32, NaN where there is none."""
+        """Return rows up to `end` or the last one as heights; float32, NaN where there is none."""
         rows, columns = self.shape
         window = 0, start, columns, min(end, rows) - start
         return read_raster(self.source, window=window).heights

@@ -82,9 +82,7 @@ class LowGroups:
         grids = LowestOfCells.of(points, cells, math.ceil(max(self.ring / size, self.ring_cells)))
         places = grids.pits(cells, 0.5 * self.depth, math.ceil(self.width / size))
         groups = [
-            found
-            for around in grids.around(places, self.width)
-            for found in self._groups(around)
+            found for around in grids.around(places, self.width) for found in self._groups(around)
         ]
         return self._members(points, cells, groups)
 
