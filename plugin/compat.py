@@ -78,6 +78,11 @@ def is_null(value: Any) -> bool:
     return value is None or value == NULL
 
 
+def is_empty(value: Any) -> bool:
+    """Return whether a field is empty."""
+    return is_null(value) or value == ""
+
+
 def can_load(path: str) -> bool:
     """Return whether this build of QGIS can show a point cloud file, or a .vpc, as a layer."""
     providers = QgsProviderRegistry.instance().providerList()

@@ -21,7 +21,7 @@ from ..i18n import mark
 from .constraints import add_constraints, constraints_of
 from .corrections import add_corrections, corrections_of
 from .feedback import Refusal
-from .inputs import CloudCrs, features_of, is_empty, polygons_of
+from .inputs import CloudCrs, box_of, features_of, polygons_of
 from .raster_target import add_raster_target, raster_target_of
 
 # Name, label and help of the fields of an area.
@@ -97,14 +97,13 @@ def area_of(
     BareEarthError
         If the boundary has no polygon, or the cloud cannot be read.
     """
-    given = [name for name in _AREA_FIELDS if not is_empty(parameters.get(name))]
+    given = [name for name in _AREA_FIELDS if not compat.is_empty(parameters.get(name))]
     if not given:
         return None
     box = None
     polygons: tuple[Polygon, ...] = ()
     if "EXTENT" in given:
-        extent = algorithm.parameterAsExtent(parameters, "EXTENT", context, crs.value)
-        box = extent.xMinimum(), extent.yMinimum(), extent.xMaximum(), extent.yMaximum()
+        box = box_of(algorithm, parameters, "EXTENT", context, crs)
     if "BOUNDARY" in given:
         source = algorithm.parameterAsSource(parameters, "BOUNDARY", context)
         features = features_of(source, _AREA_FIELDS["BOUNDARY"][0], crs.value, context)
@@ -116,7 +115,7 @@ def area_of(
 
 def check_area_only(parameters: dict[str, Any], chosen: Sequence[ParameterSet]) -> None:
     """Refuse to write only the points in the area if there is no area."""
-    is_given = not all(is_empty(parameters.get(name)) for name in _AREA_FIELDS)
+    is_given = not all(compat.is_empty(parameters.get(name)) for name in _AREA_FIELDS)
     for each in chosen:
         if isinstance(each, Output):
             each.check_area(is_given)

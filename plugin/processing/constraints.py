@@ -15,7 +15,7 @@ from qgis.core import (
 from ...algorithms.core.progress import Progress
 from ...algorithms.engine.constraints import Constraints
 from .. import compat
-from .inputs import CloudCrs, features_of, is_empty, polygons_of
+from .inputs import CloudCrs, features_of, polygons_of
 
 # Name, label, kind of the layer and help of each field.
 _FIELDS = {
@@ -71,7 +71,7 @@ def constraints_of(
     BareEarthError
         If a layer cannot be read.
     """
-    given = [name for name in _FIELDS if not is_empty(parameters.get(name))]
+    given = [name for name in _FIELDS if not compat.is_empty(parameters.get(name))]
     if not given:
         return Constraints()
     found = {}

@@ -16,7 +16,7 @@ from ...algorithms.survey.corrections import CLASS_FIELD, NO_CORRECTIONS, Correc
 from .. import compat
 from ..i18n import mark
 from .feedback import Refusal
-from .inputs import CloudCrs, features_of, is_empty, polygons_of
+from .inputs import CloudCrs, features_of, polygons_of
 
 _LAYER, _FIELD = "CORRECTIONS", "CORRECTIONS_FIELD"
 # Label and help of each field.
@@ -63,7 +63,7 @@ def corrections_of(
     BareEarthError
         If the layer cannot be read, or a polygon has no class.
     """
-    if is_empty(parameters.get(_LAYER)):
+    if compat.is_empty(parameters.get(_LAYER)):
         return NO_CORRECTIONS
     name = algorithm.parameterAsString(parameters, _FIELD, context) or CLASS_FIELD
     source = algorithm.parameterAsSource(parameters, _LAYER, context)

@@ -10,9 +10,9 @@ from qgis.core import (
     QgsProcessingParameterRasterLayer,
 )
 
+from .. import compat
 from ..i18n import mark
-from .feedback import Refusal
-from .inputs import is_empty
+from .inputs import raster_of
 
 DTM = "DTM"
 
@@ -36,9 +36,7 @@ def terrain_of(
     BareEarthError
         If the layer is not a file.
     """
-    if is_empty(parameters.get(DTM)):
+    if compat.is_empty(parameters.get(DTM)):
         return ""
-    layer = algorithm.parameterAsRasterLayer(parameters, DTM, context)
-    if layer is None or layer.providerType() != "gdal":
-        raise Refusal(mark("The terrain model is not a file. Export it as GeoTIFF first."))
-    return layer.source()
+    text = mark("The terrain model is not a file. Export it as GeoTIFF first.")
+    return raster_of(algorithm, parameters, DTM, context, text).source()

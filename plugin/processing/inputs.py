@@ -23,11 +23,13 @@ from qgis.core import (
     QgsProcessingParameterPointCloudLayer,
     QgsProcessingUtils,
     QgsProviderRegistry,
+    QgsRasterLayer,
 )
 from qgis.PyQt.QtCore import QUrl
 
 from ...algorithms.core.errors import BareEarthError
 from ...algorithms.core.files import split_name
+from ...algorithms.core.points import Box
 from ...algorithms.crs.system import Crs
 from ...algorithms.las.crs_records import read_crs
 from ...algorithms.las.opening import open_las
@@ -158,7 +160,7 @@ def survey_of(
         If there is no input, or one does not exist.
     """
     paths = []
-    if not is_empty(parameters.get("INPUT")):
+    if not compat.is_empty(parameters.get("INPUT")):
         paths.append(source_path(algorithm, parameters, "INPUT", context))
     folder = algorithm.parameterAsString(parameters, "INPUT_FOLDER", context)
     if folder and not Path(folder).is_dir():
@@ -224,11 +226,6 @@ def ignored_filter(
     return filter_of(layer)
 
 
-def is_empty(value: Any) -> bool:
-    """Return whether a field is empty."""
-    return compat.is_null(value) or value == ""
-
-
 class CloudCrs:
     """The CRS of the point clouds of a run, read when it is first needed.
 
@@ -291,6 +288,32 @@ def features_of(
     request = QgsFeatureRequest().setSubsetOfAttributes(attributes, source.fields())
     request.setDestinationCrs(crs, context.transformContext())
     yield from source.getFeatures(request)
+
+
+def box_of(
+    algorithm: QgsProcessingAlgorithm,
+    parameters: dict[str, Any],
+    name: str,
+    context: QgsProcessingContext,
+    crs: CloudCrs,
+) -> Box:
+    """Return the rectangle in a field, in the CRS of the points."""
+    box = algorithm.parameterAsExtent(parameters, name, context, crs.value)
+    return box.xMinimum(), box.yMinimum(), box.xMaximum(), box.yMaximum()
+
+
+def raster_of(
+    algorithm: QgsProcessingAlgorithm,
+    parameters: dict[str, Any],
+    name: str,
+    context: QgsProcessingContext,
+    refusal: str,
+) -> QgsRasterLayer:
+    """Return the raster layer in a field; raise `refusal`, in `mark`, if it is not a file."""
+    layer = algorithm.parameterAsRasterLayer(parameters, name, context)
+    if layer is None or layer.providerType() != "gdal":
+        raise Refusal(refusal)
+    return layer
 
 
 def polygons_of(geometry: QgsGeometry) -> Iterator[Polygon]:

@@ -28,7 +28,7 @@ from .base import BareEarthAlgorithm, errors_for_qgis
 from .choices import ChoiceParameter, with_labels
 from .feedback import tell_of_unknown
 from .fields import help_of
-from .inputs import is_empty, name_of
+from .inputs import name_of
 from .output_checks import check_outputs
 from .outputs import do_not_load, places_of
 from .search_words import words_of
@@ -145,7 +145,7 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         tell_of_unknown(self, parameters, feedback)
         given = {**defaults, **parameters}
         for each in self._needed:
-            given[each] = defaults[each] if is_empty(given[each]) else given[each]
+            given[each] = defaults[each] if compat.is_empty(given[each]) else given[each]
         results: dict[str, Any] = {}
         try:
             results = super().processAlgorithm(given, context, feedback)

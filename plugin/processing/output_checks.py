@@ -6,13 +6,10 @@ from pathlib import Path
 from typing import Any, Callable, Sequence
 
 from qgis.core import (
-    QgsProcessing,
     QgsProcessingAlgorithm,
     QgsProcessingContext,
-    QgsProcessingOutputLayerDefinition,
     QgsProcessingParameterDefinition,
     QgsProcessingParameterFolderDestination,
-    QgsProperty,
 )
 
 from ...algorithms.core.files import check_output
@@ -23,7 +20,7 @@ from ...algorithms.products.page import check_page
 from ...algorithms.rasters.writing import check_raster_output
 from ...algorithms.survey.files import is_one_file
 from ...algorithms.survey.vpc import SUFFIX, check_vpc
-from .inputs import is_empty
+from .outputs import given_path
 
 Check = Callable[[Path, "tuple[Path, ...]"], None]
 
@@ -53,20 +50,9 @@ def check_outputs(
         With the text that the run would give.
     """
     for output in algorithm.destinationParameterDefinitions():
-        path = _path_of(parameters.get(output.name()), context)
+        path = given_path(parameters.get(output.name()), context)
         if path is not None:
             _check_of(output)(path, tuple(sources))
-
-
-def _path_of(value: Any, context: QgsProcessingContext) -> Path | None:
-    """Return the path that the user gave for an output; None if QGIS makes one up, or for none."""
-    if isinstance(value, QgsProcessingOutputLayerDefinition):
-        value = value.sink
-    if isinstance(value, QgsProperty):
-        value, _ = value.valueAsString(context.expressionContext(), "")
-    if is_empty(value) or value == QgsProcessing.TEMPORARY_OUTPUT:
-        return None
-    return Path(value) if isinstance(value, (str, Path)) else None
 
 
 def _check_of(output: QgsProcessingParameterDefinition) -> Check:

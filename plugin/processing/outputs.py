@@ -107,6 +107,17 @@ def raster_paths(
     return paths
 
 
+def given_path(value: Any, context: QgsProcessingContext) -> Path | None:
+    """Return the path that the user gave for an output; None if QGIS makes one up, or for none."""
+    if isinstance(value, QgsProcessingOutputLayerDefinition):
+        value = value.sink
+    if isinstance(value, QgsProperty):
+        value, _ = value.valueAsString(context.expressionContext(), "")
+    if compat.is_empty(value) or value == QgsProcessing.TEMPORARY_OUTPUT:
+        return None
+    return Path(value) if isinstance(value, (str, Path)) else None
+
+
 def places_of(
     algorithm: QgsProcessingAlgorithm,
     parameters: dict[str, Any],
@@ -115,13 +126,8 @@ def places_of(
     """Return the files and folders that the user chose for outputs, and what is made of them."""
     places = []
     for each in algorithm.destinationParameterDefinitions():
-        value = parameters.get(each.name())
-        if isinstance(value, QgsProcessingOutputLayerDefinition):
-            value = value.sink
-        if isinstance(value, QgsProperty):
-            value = value.valueAsString(context.expressionContext(), "")[0]
-        if value and str(value) != QgsProcessing.TEMPORARY_OUTPUT:
-            path = Path(str(value))
+        path = given_path(parameters.get(each.name()), context)
+        if path is not None:
             # Many files become a folder, and a virtual raster.
             places += [path, virtual_of(path), path.with_name(split_name(path)[0])]
             places.append(class_raster_of(path))

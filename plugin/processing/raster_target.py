@@ -14,8 +14,7 @@ from qgis.core import (
 from ...algorithms.engine.raster_grid import RasterTarget
 from .. import compat
 from ..i18n import mark
-from .feedback import Refusal
-from .inputs import CloudCrs, is_empty
+from .inputs import CloudCrs, box_of, raster_of
 
 _LIKE, _EXTENT = "LIKE", "RASTER_EXTENT"
 _LIKE_HELP = (
@@ -51,14 +50,9 @@ def raster_target_of(
         If the raster is not a file, or the cloud cannot be read.
     """
     like = extent = None
-    if not is_empty(parameters.get(_LIKE)):
-        layer = algorithm.parameterAsRasterLayer(parameters, _LIKE, context)
-        if layer is None or layer.providerType() != "gdal":
-            raise Refusal(
-                mark("The raster with the grid to use is not a file. Export it as GeoTIFF first.")
-            )
-        like = layer.source()
-    if not is_empty(parameters.get(_EXTENT)):
-        box = algorithm.parameterAsExtent(parameters, _EXTENT, context, crs.value)
-        extent = box.xMinimum(), box.yMinimum(), box.xMaximum(), box.yMaximum()
+    if not compat.is_empty(parameters.get(_LIKE)):
+        text = mark("The raster with the grid to use is not a file. Export it as GeoTIFF first.")
+        like = raster_of(algorithm, parameters, _LIKE, context, text).source()
+    if not compat.is_empty(parameters.get(_EXTENT)):
+        extent = box_of(algorithm, parameters, _EXTENT, context, crs)
     return RasterTarget(like, extent)

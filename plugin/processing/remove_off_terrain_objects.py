@@ -14,7 +14,7 @@ from ...algorithms.products.off_terrain import OffTerrain, remove_objects_file
 from ..i18n import mark
 from ..styles import layers
 from .base import BareEarthAlgorithm, command_line
-from .feedback import Refusal
+from .inputs import raster_of
 
 
 class RemoveOffTerrainObjectsAlgorithm(BareEarthAlgorithm):
@@ -53,9 +53,8 @@ class RemoveOffTerrainObjectsAlgorithm(BareEarthAlgorithm):
 
     def find_inputs(self, parameters, context):
         """Find the input file."""
-        layer = self.parameterAsRasterLayer(parameters, "INPUT", context)
-        if layer is None or layer.providerType() != "gdal":
-            raise Refusal(mark("The elevation raster is not a file. Export it as GeoTIFF first."))
+        text = mark("The elevation raster is not a file. Export it as GeoTIFF first.")
+        layer = raster_of(self, parameters, "INPUT", context, text)
         self._source, self.subject = layer.source(), layer.name()
         self.inputs = [Path(self._source)]
 

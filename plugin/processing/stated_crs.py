@@ -40,7 +40,7 @@ def stated_crs_of(
     BareEarthError
         If it is not known.
     """
-    if algorithm.parameterDefinition(_NAME) is None or _is_empty(parameters.get(_NAME)):
+    if algorithm.parameterDefinition(_NAME) is None or compat.is_empty(parameters.get(_NAME)):
         return None
     crs = algorithm.parameterAsCrs(parameters, _NAME, context)
     if not crs.isValid():
@@ -48,10 +48,6 @@ def stated_crs_of(
     if crs.authid().startswith("EPSG:"):
         return crs.authid()
     return crs.toWkt(compat.WKT)
-
-
-def _is_empty(value: Any) -> bool:
-    return compat.is_null(value) or value == ""
 
 
 def crs_of_text(text: str) -> QgsCoordinateReferenceSystem:
