@@ -48,17 +48,14 @@ class Allowance:
     border_height : float
         Such a region is no terrain if its mean height above the ground, in metres, is larger: it
         may be a building cut by the border of the survey.
-    island_area : float
-        A patch within a region and level with it belongs to the region if it has at most so many
-        square metres: an opening cuts off most of a wide roof on a slope, but not all.
-    rock_area, ramp_area, link_area : float
-        A region of at least so many square metres is terrain as well if it has the shape of a rock,
-        of a long ramp, or of a ramp between two levels.
+    rock_area, ramp_area : float
+        A region of at least so many square metres is terrain as well if it has the shape of a rock
+        or of a long ramp.
     follows_slopes : bool
         Whether a step between cells is no edge if the steps before or after it are as high (a steep
-        slope, or a cliff with points on its face), or if the trend of the terrain rises as much.
-    slopes_taken : int
-        How often the slope of the terrain is computed, each time from cells that are not cut off.
+        slope, or a cliff with points on its face).
+    knows_ditches : bool
+        Whether even land between narrow ditches is terrain, although it drops on all sides.
     judges_gaps : bool
         Whether cells without a point are judged as well. They are raised if their filled height is,
         and outside the survey they are no border.
@@ -78,13 +75,11 @@ class Allowance:
     hall_per_slope: float = 0.1
     border_area: float = 800.0
     border_height: float = 4.5
-    island_area: float = 200.0
     rock_area: float = 200.0
     ramp_area: float = 100.0
-    link_area: float = 40.0
     rise_counts: bool = True
     follows_slopes: bool = True
-    slopes_taken: int = 2
+    knows_ditches: bool = True
     judges_gaps: bool = True
 
     def for_cells(self, size: float) -> Allowance:
@@ -98,12 +93,10 @@ CLASSIC = Allowance(
     wide_share=0.5,
     usual_window=1e9,
     border_area=np.inf,
-    island_area=0.0,
     rock_area=np.inf,
     ramp_area=np.inf,
-    link_area=np.inf,
     rise_counts=False,
     follows_slopes=False,
-    slopes_taken=1,
+    knows_ditches=False,
     judges_gaps=False,
 )

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from ...grids.morphology import within_square
-from .enclosed import is_even
 
 # The largest width and depth of a ditch in metres, and the least area (m2) and width (m) of the
 # land between ditches.
@@ -16,6 +15,8 @@ _LEAST_AREA, _LEAST_WIDTH = 100.0, 2.5
 _DITCH_SHARE, _BEYOND = 0.5, 0.35
 # Least share of its cells that are even; plants are not even.
 _EVEN_SHARE = 0.6
+# A cell is even within so many metres of the mean of two opposite neighbours.
+_BEND = 0.15
 
 
 def between_ditches(
@@ -58,6 +59,14 @@ def between_ditches(
             border += np.bincount(of, minlength=count + 1)
             into_ditch += np.bincount(of, is_ditch, count + 1)
     fits &= (into_ditch >= _DITCH_SHARE * border) & (2.0 * cells_of * size >= _LEAST_WIDTH * border)
-    even = np.bincount(number[is_even(filled)], minlength=count + 1)
+    even = np.bincount(number[_is_even(filled)], minlength=count + 1)
     fits &= even >= _EVEN_SHARE * cells_of
     return fits[number]
+
+
+def _is_even(filled: np.ndarray) -> np.ndarray:
+    """Return which cells are about as high as the mean of two opposite neighbours."""
+    even = np.zeros(filled.shape, dtype=bool)
+    for to, z in ((even, filled), (even.T, filled.T)):
+        to[1:-1] |= np.abs(z[2:] + z[:-2] - 2.0 * z[1:-1]) <= 2.0 * _BEND
+    return even

@@ -9,7 +9,6 @@ from __future__ import annotations
 import numpy as np
 
 from ...grids.inpaint import First
-from ...grids.trend import Trend
 from .allowance import Allowance
 from .landforms import RaisedCells, landforms
 from .slopes import on_slope
@@ -18,8 +17,6 @@ from .slopes import on_slope
 _JOINING_PASSES = 4
 # Metres over which the surface is smoothed for the terrain's own rise, which is no step.
 _TREND_SMOOTHING = 2.0
-# A trend is that of the terrain if the ground round about rises by at least this share of it.
-_LEAST_OF_TREND = 0.25
 # If more than this share of a large region's border is the border of the survey, too little is
 # known of the region. The share is less than half, because the sides of cells make a slanted edge
 # longer than it is.
@@ -27,9 +24,6 @@ _OPEN_SHARE = 0.45
 # A region may be a house if it is smaller (m2) and higher (m) than this. Then at least this share
 # of its border must be gentle: on a slope one side of a roof may be level with the ground.
 _HOUSE_AREA, _HOUSE_HEIGHT, _HOUSE_SHARE = 400.0, 2.5, 0.5
-# A region of at least this area (m2), with at least this share on a mountain, is part of the
-# mountain: it has cliffs beside it, and trees are smaller.
-_MOUNTAIN_AREA, _MOUNTAIN_SHARE = 100.0, 0.3
 
 
 def gentle_regions(
@@ -38,17 +32,15 @@ def gentle_regions(
     surveyed: np.ndarray,
     raised: np.ndarray,
     surface: np.ndarray,
-    trend: Trend | None,
     size: float,
     allowance: Allowance,
     first: First = (0, 0),
-    mountains: np.ndarray | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Find the raised cells whose region passes into the ground without an edge.
 
     A region is a group of raised cells without steps between them. Its border is gentle where it
-    touches the ground without a step, and sharp where it drops. Rocks, ramps and mountains are
-    ground with any border.
+    touches the ground without a step, and sharp where it drops. Rocks and ramps are ground with
+    any border.
 
     Parameters
     ----------
@@ -62,16 +54,12 @@ def gentle_regions(
         Cells that are judged.
     surface : numpy.ndarray of float, shape (rows, columns)
         Heights of the ground in metres, gaps filled.
-    trend : Trend or None
-        Trend of the heights: where much is raised, the surface does not show the slope.
     size : float
         Side of a cell in metres.
     allowance : Allowance
         What is an edge, and how much of the border must be gentle.
     first : tuple of int
         Row and column of the first cell in the grid of the CRS.
-    mountains : numpy.ndarray of bool, shape (rows, columns), optional
-        Cells of landforms with cliffs all round.
 
     Returns
     -------
@@ -85,8 +73,7 @@ def gentle_regions(
         raised = raised | (~known & (filled - surface > allowance.gentle_step))
     smooth = smoothed(surface, size, _TREND_SMOOTHING)
     sides = [
-        _steps(filled, known, raised, smooth, trend, axis, size, allowance, first)
-        for axis in (0, 1)
+        _steps(filled, known, raised, smooth, axis, size, allowance, first) for axis in (0, 1)
     ]
     one, other, sign = (np.concatenate(each) for each in zip(*sides))
     if allowance.judges_gaps:
@@ -110,11 +97,7 @@ def gentle_regions(
     feet = np.searchsorted(cells, feet[seen[feet]])
     special = landforms(up_cells, feet, size, allowance)
     above = np.bincount(number, above, count) * size**2 / area
-    terrain = special
-    if mountains is not None:
-        on_mountains = np.bincount(number, mountains.ravel()[cells], count) * size**2
-        terrain = special | ((area >= _MOUNTAIN_AREA) & (on_mountains >= _MOUNTAIN_SHARE * area))
-    joined = _joined(borders, area, above, open_, terrain, allowance)
+    joined = _joined(borders, area, above, open_, special, allowance)
     result = np.zeros((2, up.size), dtype=bool)
     for which, grid in zip((joined, special), result):
         grid[cells] = which[number]
@@ -242,7 +225,6 @@ def _steps(
     known: np.ndarray,
     raised: np.ndarray,
     smooth: np.ndarray,
-    trend: Trend | None,
     axis: int,
     size: float,
     allowance: Allowance,
@@ -268,14 +250,6 @@ def _steps(
     allowed = allowance.gentle_step + np.abs(usual)
     rise -= usual
     sign = (rise > allowed).astype(np.int8) - (rise < -allowed).astype(np.int8)
-    if trend is not None:
-        stepped = np.flatnonzero(sign)
-        rises, usual = trend.at(*np.divmod(one[stepped], filled.shape[1])), usual[stepped]
-        along = rises.east if axis else rises.north
-        alike = np.abs(rise[stepped] + usual - along) <= allowance.gentle_step + rises.steepest
-        # A building makes a trend of its own, although the ground round it does not rise.
-        alike &= usual * np.sign(along) >= _LEAST_OF_TREND * np.abs(along)
-        sign[stepped[alike]] = 0
     if allowance.follows_slopes:
         stepped = np.flatnonzero(sign)
         sign[stepped[on_slope(filled, known, one[stepped], axis, size, first)]] = 0

@@ -20,13 +20,10 @@ import numpy as np
 from ...core.progress import SILENT, Progress
 from ...grids.inpaint import First, inpaint
 from ...grids.morphology import in_steps, opening, within_square
-from ...grids.trend import Trend
 from .allowance import Allowance
 from .between_ditches import between_ditches
-from .enclosed import courtyards, islands, pits_in_roofs
 from .gentle_regions import gentle_regions, slope_at, smoothed
 from .objects import Objects, covered
-from .roofs import flat_roofs
 
 # A first, strict opening (rise over run) gives the surface from which the terrain's slope is taken.
 _FIRST_SLOPE = 0.12
@@ -38,8 +35,6 @@ _RADII = ((1, 1, 24), (2, 26, 48), (4, 52, 10_000))
 _SLOPE_SMOOTHING, _LARGEST_SLOPE = 5.0, 0.6
 # All of a plateau is cut off if openings cut off at least this share: its uphill side is low.
 _CUT_SHARE = 0.3
-# A pit in a roof is no ground if it is more than so many metres above the ground round it.
-_PIT_HEIGHT = 0.5
 
 
 def ground_cells(
@@ -61,8 +56,7 @@ def ground_cells(
     size : float
         Side of a cell in metres.
     objects : Objects
-        Objects with drops all round. A plateau is an object if openings cut off part of it. A
-        mountain is ground even if openings cut it off.
+        Objects with drops all round. A plateau is an object if openings cut off part of it.
     largest_window : float
         Radius in metres of the largest window.
     allowance : Allowance
@@ -93,36 +87,23 @@ def ground_cells(
     strict, limit = (each[south:, west:].copy() for each in found)
     which, raised = np.flatnonzero(limit > 0.0), strict | objects.raised
     numbers = ndimage.label(objects.plateaus)[0]
-    for part in progress.part(0.5, 0.8).shares(*[1.0] * allowance.slopes_taken):
-        # A rim of a roof that is left makes a slope of its own, until the cells round it are
-        # removed.
-        surface = inpaint(np.where(known & ~raised, heights, np.nan), first=first)
-        smooth = smoothed(surface, size, _SLOPE_SMOOTHING)
-        slope = np.hypot(*(slope_at(smooth, axis, which, size) for axis in (0, 1)))
-        raised = objects.raised.copy()
-        raised.ravel()[which] |= np.minimum(slope, _LARGEST_SLOPE) < limit.ravel()[which]
-        if suspects is not None:
-            raised |= suspects & known
-        raised |= _of_cut_plateaus(numbers, raised)
-        part(1.0)
-    if allowance.island_area:
-        raised |= known & islands(filled, raised, surveyed, size, allowance.for_cells(size))
-        raised |= known & flat_roofs(filled, raised, surveyed, size)
+    surface = inpaint(np.where(known & ~raised, heights, np.nan), first=first)
+    smooth = smoothed(surface, size, _SLOPE_SMOOTHING)
+    slope = np.hypot(*(slope_at(smooth, axis, which, size) for axis in (0, 1)))
+    raised = objects.raised.copy()
+    raised.ravel()[which] |= np.minimum(slope, _LARGEST_SLOPE) < limit.ravel()[which]
+    if suspects is not None:
+        raised |= suspects & known
+    raised |= _of_cut_plateaus(numbers, raised)
+    progress(0.8)
     surface = inpaint(np.where(known & ~raised, heights, np.nan), first=first)
     progress(0.85)
-    trend = Trend(filled, size, first) if allowance.follows_slopes else None
     gentle, landforms = gentle_regions(
-        filled, known, surveyed, raised, surface, trend, size, allowance, first, objects.mountains
+        filled, known, surveyed, raised, surface, size, allowance, first
     )
     raised &= ~landforms & (objects.raised | ~gentle)
-    if allowance.island_area:
-        raised &= ~courtyards(filled, raised, surface, size)
+    if allowance.knows_ditches:
         raised &= ~between_ditches(filled, raised, surface, size)
-        # Last, because the drops to pits show that there is a roof round them.
-        pits = known & pits_in_roofs(filled, raised, surveyed)
-        if pits.any():
-            surface = inpaint(np.where(known & ~raised & ~pits, heights, np.nan), first=first)
-            raised |= pits & (heights > surface + _PIT_HEIGHT)
     progress(1.0)
     return known & ~raised
 

@@ -17,12 +17,6 @@ _RAMP_LENGTH, _RAMP_RISE, _RAMP_SHARE = 4.0, 2.0, 0.9
 # It begins at the height of the ground, within this share of its rise, and is level with the ground
 # along at least this share of its width.
 _RAMP_START, _RAMP_FOOT = 0.25, 0.5
-# A ramp between two levels has at least this slope (rise over run) and this rise in metres. At
-# least this share of its cells lies within so many metres of a plane. Within this share of its
-# length from each end, it is level with the ground along at least this share of its width.
-_LINK_SLOPE, _LINK_RISE = 0.06, 1.0
-_LINK_EVEN, _LINK_BAND = 0.8, 0.3
-_LINK_END, _LINK_FOOT = 0.3, 0.35
 
 
 class RaisedCells(NamedTuple):
@@ -67,7 +61,7 @@ def landforms(
     """
     area = np.bincount(cells.region) * size**2
     result = np.zeros(len(area), dtype=bool)
-    least = allowance.rock_area, allowance.ramp_area, allowance.link_area
+    least = allowance.rock_area, allowance.ramp_area
     large = np.flatnonzero(area >= min(least))
     if not len(large):
         return result
@@ -78,7 +72,7 @@ def landforms(
     feet = feet[cells.region[feet] >= 0]
     inside, level = (RaisedCells(*(each[which] for each in cells)) for which in (here, feet))
     regions = _Regions(inside, level, area[large], size)
-    found = (regions.rocks, regions.ramps, regions.links)
+    found = (regions.rocks, regions.ramps)
     result[large] = np.any([find(smallest) for find, smallest in zip(found, least)], axis=0)
     return result
 
@@ -147,34 +141,3 @@ class _Regions:
         is_ramp &= common**2 >= _RAMP_SHARE * along * self._mean(self._centred(above) * above)
         foot = np.bincount(self._feet.region, minlength=len(self._area)) * self._size
         return is_ramp & (np.abs(start) <= _RAMP_START * rise) & (foot >= _RAMP_FOOT * width)
-
-    def links(self, least_area: float) -> np.ndarray:
-        """Return which regions are even slopes that lead from the ground to higher ground.
-
-        Examples are a ramp or a flight of stairs between two levels. A roof on a slope drops at
-        least at one end, and a bridge is level.
-        """
-        cells, feet = self._cells, self._feet
-        y, x, z = (self._centred(each) for each in (cells.north, cells.east, cells.heights))
-        pairs = ((y, y), (y, x), (x, x), (y, z), (x, z))
-        yy, xy, xx, yz, xz = (self._mean(one * other) for one, other in pairs)
-        determinant = np.maximum(yy * xx - xy**2, 1e-9)
-        north, east = (yz * xx - xz * xy) / determinant, (xz * yy - yz * xy) / determinant
-        is_even = np.abs(z - north[cells.region] * y - east[cells.region] * x) <= _LINK_BAND
-        slope = np.maximum(np.hypot(north, east), 1e-9)
-        # Metres along the slope, from the lowest cell on.
-        along, along_feet = (
-            (north[at] * to_north + east[at] * to_east) / slope[at]
-            for at, to_north, to_east, *_ in (cells, feet)
-        )
-        start, end = np.full((2, len(slope)), [[np.inf], [-np.inf]])
-        np.minimum.at(start, cells.region, along)
-        np.maximum.at(end, cells.region, along)
-        length = end - start + self._size
-        share = (along_feet - start[feet.region]) / length[feet.region]
-        is_link = (self._area >= least_area) & (slope >= _LINK_SLOPE)
-        is_link &= (slope * length >= _LINK_RISE) & (self._mean(is_even) >= _LINK_EVEN)
-        for at_end in (share <= _LINK_END, share >= 1.0 - _LINK_END):
-            foot = np.bincount(feet.region[at_end], minlength=len(slope)) * self._size
-            is_link &= foot >= _LINK_FOOT * self._area / length
-        return is_link

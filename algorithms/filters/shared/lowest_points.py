@@ -13,6 +13,10 @@ from .outliers import lone_points, low_outliers, under_canopy
 
 # A pit with steeper sides (rise over run) is a low outlier: no terrain is so steep.
 _OUTLIER_SLOPE = 5.0
+# Where points are closer than the second number of metres, objects are searched on cells of the
+# first: in narrower ones gaps in crowns and roofs break the rims, in wider ones plazas and terraces
+# become plateaus. Where points are farther apart, cells as wide as their spacing do.
+_WIDE, _DENSE, _LEAST_SPACING = 2.0, 0.8, 0.01
 # Heights in metres of the drops that bound an object, the tall ones first.
 _OBJECT_HEIGHTS = (5.0, 4.5, 2.0)
 
@@ -79,31 +83,24 @@ class LowestPoints:
     def objects(self, max_size: float, progress: Progress) -> Objects:
         """Return which of `cells` belong to objects or plateaus, with drops all round.
 
-        Plateaus are searched on cells twice as wide as well. Narrow cells see no drop where the rim
-        of a roof has a gap, or where little of the drop lies between two of them.
+        The presets of other programs use `cells` themselves, and no rule for plateaus.
         """
         cells, heights = self._wide()
-        part, classic = progress.part(0.0, 0.7), self._classic
-        found = raised_objects(
-            heights, cells.size, _OBJECT_HEIGHTS, max_size, part, cells.first, classic
-        )
-        if not classic:
-            blocks = CellBlocks.over(cells, 2.0 * cells.size)
+        if self._classic:
+            found = raised_objects(
+                heights, cells.size, _OBJECT_HEIGHTS, max_size, progress, cells.first, True
+            )
+        else:
+            is_dense = spacing(self._points, _LEAST_SPACING) < _DENSE
+            blocks = CellBlocks.over(cells, _WIDE if is_dense else cells.size, 1)
             on_blocks = raised_objects(
                 blocks.lowest(heights),
                 blocks.size,
                 _OBJECT_HEIGHTS,
                 max_size,
-                progress.part(0.7, 1.0),
+                progress,
                 blocks.first_block,
                 plateau_height=PLATEAU_HEIGHT,
             )
-            wide = Objects(*(blocks.repeated(each, heights.shape) for each in on_blocks))
-            raised = found.raised | wide.halls
-            found = Objects(
-                raised,
-                (found.plateaus | wide.raised | wide.plateaus) & ~raised,
-                (found.mountains | wide.mountains) & ~raised,
-                wide.halls,
-            )
+            found = Objects(*(blocks.repeated(each, heights.shape) for each in on_blocks))
         return Objects(*(cells.resampled(each, self.cells) for each in found))

@@ -33,15 +33,12 @@ class Objects(NamedTuple):
     plateaus : numpy.ndarray of bool
         Cells of regions that are too low for their width to be objects for certain: a roof, or a
         mound.
-    mountains : numpy.ndarray of bool
-        Cells of landforms with cliffs all round: a table mountain, or a stack in the sea.
     halls : numpy.ndarray of bool
         Cells of objects that are large halls.
     """
 
     raised: np.ndarray
     plateaus: np.ndarray
-    mountains: np.ndarray
     halls: np.ndarray
 
 
@@ -84,13 +81,12 @@ def raised_objects(
     """
     inside = covered(np.isfinite(heights))
     rest = heights.copy()
-    objects, plateaus, mountains, found = np.zeros((4, *heights.shape), dtype=bool)
+    objects, plateaus, found = np.zeros((3, *heights.shape), dtype=bool)
     for done, threshold in enumerate(thresholds):
         regions = HeightSteps(rest, size, inside, first).regions(threshold)
         found = regions.raised(max_size, classic)
         if not classic:
             plateaus |= regions.plateaus(max_size)
-            mountains |= regions.mountains(max_size)
         rest[found] = np.nan
         objects |= found
         progress((done + 1) / len(thresholds))
@@ -99,7 +95,7 @@ def raised_objects(
         plateaus |= steps.regions(plateau_height).plateaus(max_size)
         found = halls(steps, heights, objects | plateaus, max_size, size, first)
         objects |= found
-    return Objects(objects, plateaus & ~objects, mountains & ~objects, found)
+    return Objects(objects, plateaus & ~objects, found)
 
 
 def covered(known: np.ndarray) -> np.ndarray:

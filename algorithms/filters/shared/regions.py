@@ -19,11 +19,6 @@ _LEAST_STEEPNESS = 0.15
 # face of a cliff. The share is lower for wide regions: few plants hide the walls of a large
 # building.
 _FACE_WIDTHS, _FACE_SHARES = (10.0, 25.0), (0.4, 0.25)
-# With at least this share they are table mountains or stacks, if faces are known for at least the
-# second share of the drops.
-_MOUNTAIN_SHARE, _TOLD_SHARE = 0.4, 0.5
-# Their faces are steeper than steep roofs: least slope (rise over run) by their width in metres.
-_MOUNTAIN_WIDTHS, _MOUNTAIN_SLOPES = (20.0, 40.0), (2.0, 1.2)
 # Rounds in which regions that others hid are tested again.
 _ROUNDS = 3
 
@@ -60,21 +55,12 @@ class Border(NamedTuple):
         # Each cell of a straight border has three neighbours beyond it.
         return self._total(all_, all_) / 3.0
 
-    def faces(self, slope: np.ndarray | float = 0.0) -> tuple[np.ndarray, np.ndarray]:
-        """Return the share of each region's drops on steep faces, and the share that is known.
-
-        Steep faces are steeper than `slope`, which may have a value for each region. The first
-        share is among the drops whose faces are known; the second is the share of these among all
-        drops.
-        """
-        slopes = np.broadcast_to(slope, self.regions)
+    def faces(self) -> np.ndarray:
+        """Return the share of each region's drops that are part of a face, where this is known."""
         first, second = (self.sign == sign for sign in (-1, 1))
-        told = ~np.isnan(self.face)
-        known = self._total(first & told, second & told)
-        on_face = self._total(
-            first & (self.face > slopes[self.first]), second & (self.face > slopes[self.second])
-        )
-        return on_face / np.maximum(known, 1), known / np.maximum(self._total(first, second), 1)
+        known = self._total(first & ~np.isnan(self.face), second & ~np.isnan(self.face))
+        on_face = self._total(first & (self.face > 0.0), second & (self.face > 0.0))
+        return on_face / np.maximum(known, 1)
 
     def drops(
         self, removed: np.ndarray, sign: int
@@ -153,15 +139,7 @@ class Regions:
     def _is_no_cliff(self) -> np.ndarray:
         """Return which regions are narrow, or have no faces round them."""
         most = np.interp(self.width, _FACE_WIDTHS, _FACE_SHARES)
-        return (self.width < _FACE_WIDTHS[0]) | (self._border.faces()[0] < most)
-
-    def mountains(self, max_size: float) -> np.ndarray:
-        """Return the cells of the regions with drops all round, on faces of cliffs."""
-        slope = np.interp(self.width, _MOUNTAIN_WIDTHS, _MOUNTAIN_SLOPES)
-        on_face, told = self._border.faces(slope)
-        fits = (self.width >= _FACE_WIDTHS[0]) & (told >= _TOLD_SHARE)
-        fits &= on_face >= _MOUNTAIN_SHARE
-        return self._bounded(max_size, 1, _OBJECT_SHARE, _WHOLE_SHARE, 0.0, fits)
+        return (self.width < _FACE_WIDTHS[0]) | (self._border.faces() < most)
 
     def sunken(self, max_size: float) -> np.ndarray:
         """Return the cells of pits: regions whose border is a rise nearly all round."""
