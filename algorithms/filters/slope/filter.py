@@ -30,9 +30,8 @@ from ..shared.ground_cells import ground_cells
 from ..shared.ground_limits import Tolerance
 from ..shared.lowest_points import LowestPoints
 from ..shared.near_ground import Candidates, near_ground
-from .cell_bounds import Rule
+from ..whitebox import Rule, stands_above
 from .low_clusters import low_clusters
-from .standing_above import stands_above
 
 # Radii grow by this factor from scale to scale: the area of the disc doubles.
 _SCALE_STEP = math.sqrt(2.0)
