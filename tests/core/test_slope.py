@@ -9,11 +9,10 @@ from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.core.threads import may_use
+from bare_earth.algorithms.filters import whitebox
 from bare_earth.algorithms.filters.slope import METHOD, SlopeFilter
 from bare_earth.algorithms.filters.stages.outliers import WidePits
-from bare_earth.algorithms.filters.whitebox import standing_above
-from bare_earth.algorithms.filters.whitebox.cell_bounds import CellBounds
-from bare_earth.algorithms.filters.whitebox.neighbourhood import Neighbourhood
+from bare_earth.algorithms.filters.whitebox import Neighbours, stands_above
 from bare_earth.algorithms.grids.height_grid import HeightGrid
 from benchmarks.scenes.simple import error, scatter, surveyed, village
 
@@ -96,14 +95,14 @@ def test_the_classic_filter_gives_the_same_in_blocks_and_in_threads(radius, monk
     parameters = dataclasses.replace(CLASSIC.resolve(points), search_radius=radius)
     whole = classify(points, parameters)
     assert 0.5 < whole.mean() < 0.99
-    built = []
+    built, strip = [], whitebox._Strip
 
     def counted(*arguments):
         built.append(arguments)
-        return CellBounds(*arguments)
+        return strip(*arguments)
 
-    monkeypatch.setattr(standing_above, "_POINTS_A_BLOCK", 500)
-    monkeypatch.setattr(standing_above, "CellBounds", counted)
+    monkeypatch.setattr(whitebox, "_POINTS_A_STRIP", 500)
+    monkeypatch.setattr(whitebox, "_Strip", counted)
     assert np.array_equal(classify(points, parameters), whole)
     assert len(built) >= 9
     with may_use(3):
@@ -147,9 +146,15 @@ def test_the_higher_of_two_points_at_one_place_is_not_ground():
 
 def test_a_neighbourhood_with_too_few_points_grows_until_it_has_them():
     x = np.array([0.0, 5.0, 9.0, 30.0])
-    neighbourhood = Neighbourhood(Points(x, 0.0 * x, 0.0 * x), 2.0, at_least=2)
-    assert neighbourhood.minimum(x).tolist() == [0.0, 0.0, 0.0, 5.0]
-    assert neighbourhood.maximum(x).tolist() == [9.0, 9.0, 9.0, 30.0]
+    points, rule = Points(x, 0.0 * x, x), Neighbours(2.0, 1.0, 0.0, False)
+    assert not stands_above(points, rule).any()
+    assert stands_above(points, rule, at_least=1).tolist() == [False, False, True, True]
+    # The lowest of the two nearest is 0, 0, 0 and 5: the last rises by 25.
+    rule = rule._replace(height=24.5)
+    assert stands_above(points, rule, at_least=2).tolist() == [False, False, False, True]
+    rule = rule._replace(height=25.5)
+    assert not stands_above(points, rule, at_least=2).any()
+    assert stands_above(points, rule, at_least=3).tolist() == [False, False, False, True]
 
 
 def test_the_preset_whitebox_stands_for_the_values_of_the_tool():
