@@ -20,7 +20,6 @@ from ..grids.cells import Cells
 from .method import Method, Toolbox
 from .pipeline import Pipeline
 from .stages.accept import NearSurface
-from .stages.banks import Banks
 from .stages.breaks import LevelSeeds, Plants
 from .stages.ditches import BetweenDitches
 from .stages.low_groups import LowGroups
@@ -76,12 +75,12 @@ class Preset(NamedTuple):
 
 
 PRESETS = {
-    "automatic": Preset("Automatic", 1.0, (5.0, 4.5, 2.0), 0.3, 100.0),
-    "flat": Preset("Flat land, fields", 1.0, (5.0, 4.5, 2.0), 0.25, 40.0),
-    "hilly": Preset("Hilly land, forest", 2.0, (5.0, 4.5, 2.0), 0.3, 25.0),
-    "steep": Preset("Steep or rugged terrain", 1.0, (5.0, 4.5, 2.0), 0.5, 25.0),
-    "town": Preset("Town", 1.0, (5.0, 4.5, 2.0), 0.3, 60.0),
-    "city": Preset("City, large halls", 1.0, (5.0, 4.5, 2.0), 0.3, 120.0),
+    "automatic": Preset("Automatic", 1.0, (5.0, 2.0), 0.3, 100.0),
+    "flat": Preset("Flat land, fields", 1.0, (5.0, 2.0), 0.25, 40.0),
+    "hilly": Preset("Hilly land, forest", 2.0, (5.0, 2.0), 0.3, 25.0),
+    "steep": Preset("Steep or rugged terrain", 1.0, (5.0, 2.0), 0.5, 25.0),
+    "town": Preset("Town", 1.0, (5.0, 2.0), 0.3, 60.0),
+    "city": Preset("City, large halls", 1.0, (5.0, 2.0), 0.3, 120.0),
     CLASSIC: Preset("The paper's values", 0.5, (5.0, 4.5, 2.0), 0.3, 40.0, 0.4, 0.6),
 }
 
@@ -254,7 +253,6 @@ def pipeline(points: Points, parameters: GridMinimum, progress: Progress) -> Pip
             LevelSeeds(),
             ToleranceSurface(resolved.ground_tolerance, resolved.slope_tolerance),
             NearSurface(),
-            Banks(),
         )
     )
 

@@ -21,7 +21,6 @@ from ..grids.cells import spacing
 from .method import Method, Toolbox
 from .pipeline import Pipeline
 from .stages.accept import NearSurface
-from .stages.banks import Banks
 from .stages.breaks import LevelSeeds, Plants
 from .stages.ditches import BetweenDitches
 from .stages.low_groups import LowGroups
@@ -293,7 +292,6 @@ def pipeline(points: Points, parameters: SlopeFilter, progress: Progress) -> Pip
             LevelSeeds(),
             ToleranceSurface(resolved.ground_tolerance, resolved.slope_tolerance),
             NearSurface(),
-            Banks(),
         )
     )
 

@@ -21,7 +21,6 @@ from ..grids.model_key_points import ModelKeyPoints
 from .method import Method, Toolbox
 from .pipeline import Pipeline
 from .stages.accept import NearSurface, OnlyKeyPoints
-from .stages.banks import Banks
 from .stages.breaks import LevelSeeds, Plants
 from .stages.densify import Densification
 from .stages.ditches import BetweenDitches
@@ -269,7 +268,6 @@ def pipeline(points: Points, parameters: TinDensification, progress: Progress) -
                 resolved.ground_tolerance_below,
             ),
             NearSurface(),
-            Banks(),
             *_key_points(resolved),
         )
     )
@@ -280,6 +278,7 @@ def _classic(resolved: TinDensification) -> Pipeline:
     size, pits = resolved.max_building_size, NarrowPits(corroborated=None, under_canopy=None)
     objects = RaisedObjects(
         size,
+        heights=(5.0, 4.5, 2.0),
         whole_share=0.4,
         wide=None,
         cliff_faces=None,

@@ -106,6 +106,49 @@ class Ramps(Rule):
         return large.spread(is_ramp)
 
 
+@dataclass(frozen=True)
+class LowBanks(Rule):
+    """A low, narrow and even strip is a bank of a field, a dyke or the rim of a ditch.
+
+    Of a hedge or a wall, cells have points on the ground beside it; of a row of cars, they are not
+    even.
+
+    Attributes
+    ----------
+    area : float
+        Least area in square metres.
+    height : float
+        Largest mean height above the ground in metres.
+    width : float
+        Largest mean width in metres.
+    even_share : float
+        Least share of the cells that are even.
+    bend : float
+        A cell is even within so many metres of the mean of two opposite neighbours.
+    """
+
+    stage: ClassVar = Stage.TERRAIN
+
+    area: float = 20.0
+    height: float = 1.2
+    width: float = 6.0
+    even_share: float = 0.7
+    bend: float = 0.15
+
+    def fits(self, regions: RaisedRegions) -> np.ndarray:
+        """Return which regions are banks; boolean, shape (regions,)."""
+        count = len(regions.area)
+        sides = np.zeros(count)
+        for kinds in regions.borders:
+            for region, _ in kinds:
+                sides += np.bincount(region, minlength=count)
+        width = 2.0 * regions.area / np.maximum(sides * regions.size, regions.size)
+        even = regions.even(self.bend)
+        share = np.bincount(regions.cells.region, even, count) * regions.size**2 / regions.area
+        is_bank = (regions.area >= self.area) & (width <= self.width)
+        return is_bank & (regions.above <= self.height) & (share >= self.even_share)
+
+
 class _Large:
     """The regions of at least some square metres, numbered from 0."""
 

@@ -78,9 +78,9 @@ class LargeBuildings(Rule):
 
     Attributes
     ----------
-    drops : tuple of float
-        Least heights in metres of the drops that bound a roof, one for each pass. Where a roof is
-        only so high above the ground, higher ones would leave a gap in its rim.
+    drop : float
+        Least height in metres of the drops that bound a roof. Where a roof is only so high above
+        the ground, higher ones would leave a gap in its rim.
     neck : int
         A roof is cut off from the ground or from another roof where fewer cells than this join
         them.
@@ -98,7 +98,7 @@ class LargeBuildings(Rule):
 
     stage: ClassVar = Stage.OBJECTS
 
-    drops: tuple[float, ...] = (0.5, 0.2)
+    drop: float = 0.2
     neck: int = 3
     least_width: float = 25.0
     areas: tuple[float, float] = (2000.0, 8000.0)
@@ -120,10 +120,8 @@ class LargeBuildings(Rule):
         """
         from scipy import ndimage
 
-        raised = raised.copy()
-        for drop in self.drops:
-            regions = steps.regions(drop, self.neck)
-            raised |= objects.plateaus_of(regions, max_size, self.least_width)
+        regions = steps.regions(self.drop, self.neck)
+        raised = raised | objects.plateaus_of(regions, max_size, self.least_width)
         number, _ = ndimage.label(raised)
         area = np.bincount(number.ravel()) * grid.size**2
         is_large = area >= self.areas[0]
@@ -188,7 +186,7 @@ class RaisedObjects(GridRule):
     writes: ClassVar = ("objects", "plateaus", "large_buildings", "raised")
 
     max_size: float
-    heights: tuple[float, ...] = (5.0, 4.5, 2.0)
+    heights: tuple[float, ...] = (5.0, 2.0)
     share: float = 0.65
     whole_share: float = 0.55
     steepness: float = 0.15

@@ -56,6 +56,8 @@ class RaisedRegions(NamedTuple):
     area, above, open : numpy.ndarray of float64, shape (regions,)
         Square metres; mean height above the ground in metres; sides of cells at the border of the
         survey.
+    filled : numpy.ndarray of float32, shape (rows, columns)
+        Heights of all cells in metres, without NaN.
     borders : list
         Pairs of regions between which there are level steps, drops and rises, for two directions.
     """
@@ -69,6 +71,14 @@ class RaisedRegions(NamedTuple):
     above: np.ndarray
     open: np.ndarray
     borders: list[list[_Pairs]]
+    filled: np.ndarray
+
+    def even(self, bend: float) -> np.ndarray:
+        """Return which raised cells are within some metres of the mean of opposite neighbours."""
+        even = np.zeros(self.shape, dtype=bool)
+        for to, z in ((even, self.filled), (even.T, self.filled.T)):
+            to[1:-1] |= np.abs(z[2:] + z[:-2] - 2.0 * z[1:-1]) <= 2.0 * bend
+        return even.ravel()[self.which]
 
     def spread(self, regions: np.ndarray) -> np.ndarray:
         """Return the cells of some regions (boolean, one each) as a mask (rows, columns)."""
@@ -117,6 +127,7 @@ def raised_regions(
         np.bincount(number, above, count) * size**2 / area,
         np.bincount(number, _unsurveyed(grid.surveyed).ravel()[cells], count),
         _borders(region, up, steps, seen),
+        grid.filled,
     )
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from ...core.progress import SILENT, Progress
 from ..pipeline import GridRule, Rule, Stage
 from ..state import GridState
-from .landforms import Ramps, Rocks
+from .landforms import LowBanks, Ramps, Rocks
 from .raised_regions import RaisedRegions, raised_regions
 from .slopes import OnSlope
 
@@ -176,12 +176,13 @@ class GentleRegions(GridRule):
     open_border: OpenBorder | None = OpenBorder()
     rocks: Rocks | None = Rocks()
     ramps: Ramps | None = Ramps()
+    low_banks: LowBanks | None = LowBanks()
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
         """Let regions be ground that are terrain; objects only where they are landforms."""
         regions = self.regions(grid)
         landforms = np.zeros(len(regions.area), dtype=bool)
-        for rule in (self.rocks, self.ramps):
+        for rule in (self.rocks, self.ramps, self.low_banks):
             if rule:
                 landforms |= rule.fits(regions)
         terrain = self._joined(regions, landforms)
