@@ -98,7 +98,7 @@ def test_a_pipeline_works_without_any_of_its_rules(method):
 
 def test_a_rule_that_is_not_there_cannot_be_left_out():
     with pytest.raises(ValueError, match="No rule is called wings"):
-        pipeline_of("slope", "automatic", village()).without("banks", "wings")
+        pipeline_of("slope", "automatic", village()).without("plants", "wings")
 
 
 def test_an_exception_is_left_out_wherever_it_is_a_field():
