@@ -59,6 +59,11 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
         " replaces the result of the filter (files as for --boundary, but no WKT)",
     )  # fmt: skip
     parser.add_argument(
+        "--explain", metavar="FILE", type=Path,
+        help="of one file: write a GeoTIFF of the rule that decided each cell; its band lists the"
+        " rules",
+    )  # fmt: skip
+    parser.add_argument(
         "--vpc", metavar="FILE", type=Path,
         help="with many files: the virtual point cloud that lists the results (default:"
         " classified.vpc in the output folder)",
@@ -103,7 +108,7 @@ def _classify(options: argparse.Namespace) -> int:
     with contours_after(options, sets) as (rasters, rest):
         request = ClassifyRequest.of(
             rest, rasters=rasters, area=area, corrections=corrections, constraints=known,
-            crs=options.crs, raster_target=raster_target_of(options),
+            crs=options.crs, raster_target=raster_target_of(options), explain=options.explain,
         )  # fmt: skip
         return _classified(options, request)
 

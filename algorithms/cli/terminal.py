@@ -23,6 +23,7 @@ class Terminal(Progress):
 
     def __init__(self, verbose: bool) -> None:
         self._talks = verbose or sys.stderr.isatty()
+        self._seconds: dict[str, float] | None = {} if verbose else None
         self._bar = _progress_bar() if sys.stderr.isatty() else None
 
     def report(self, fraction: float) -> None:
@@ -39,6 +40,11 @@ class Terminal(Progress):
         """Show a warning, in any case."""
         self._write(f"Warning: {text}")
 
+    def took(self, stage: str, seconds: float) -> None:
+        """Add up how long a stage took; the sums are shown at the end, if the user asked for it."""
+        if self._seconds is not None:
+            self._seconds[stage] = self._seconds.get(stage, 0.0) + seconds
+
     def _write(self, text: str) -> None:
         if self._bar is not None:
             self._bar.clear()
@@ -50,6 +56,9 @@ class Terminal(Progress):
     def __exit__(self, *exception: object) -> None:
         if self._bar is not None:
             self._bar.close()
+        if self._seconds and exception[0] is None:
+            stages = ", ".join(f"{name} {took:.2f}" for name, took in self._seconds.items())
+            print(f"Seconds by stage: {stages}.", file=sys.stderr)
 
 
 def _progress_bar() -> Any:

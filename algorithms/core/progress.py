@@ -42,6 +42,9 @@ class Progress:
     def warning(self, text: str) -> None:
         """Tell the user something that may make the result worse than expected."""
 
+    def took(self, stage: str, seconds: float) -> None:
+        """Tell how long a stage of the computation took."""
+
     def part(self, start: float, end: float) -> Progress:
         """Return the progress of a part: its 0 to 1 is `start` to `end` of this one."""
         return _Part(self, start, end)
@@ -74,6 +77,9 @@ class _Part(Progress):
     def warning(self, text: str) -> None:
         self._whole.warning(text)
 
+    def took(self, stage: str, seconds: float) -> None:
+        self._whole.took(stage, seconds)
+
 
 class _Quiet(Progress):
     def __init__(self, whole: Progress) -> None:
@@ -81,6 +87,9 @@ class _Quiet(Progress):
 
     def report(self, fraction: float) -> None:
         self._whole(fraction)
+
+    def took(self, stage: str, seconds: float) -> None:
+        self._whole.took(stage, seconds)
 
 
 class Notes(Progress):
@@ -90,10 +99,13 @@ class Notes(Progress):
     ----------
     messages : list of tuple of str
         Kind (the name of the called method) and text of each message.
+    seconds : dict of str to float
+        How long each stage took, in the order in which they ended first.
     """
 
     def __init__(self) -> None:
         self.messages: list[tuple[str, str]] = []
+        self.seconds: dict[str, float] = {}
 
     def info(self, text: str) -> None:
         """Store a message."""
@@ -106,6 +118,10 @@ class Notes(Progress):
     def warning(self, text: str) -> None:
         """Store a warning."""
         self.keep("warning", text)
+
+    def took(self, stage: str, seconds: float) -> None:
+        """Add up how long a stage took."""
+        self.seconds[stage] = self.seconds.get(stage, 0.0) + seconds
 
     def keep(self, kind: str, text: str) -> None:
         """Store a message of any kind."""

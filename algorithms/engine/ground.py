@@ -15,10 +15,12 @@ from ..filters import method_of
 from ..filters.below_ground import below_ground
 from ..filters.bridges.decks import bridge_decks
 from ..filters.high_groups import HighGroups
+from ..filters.method import Decisions
 from ..filters.warnings import warn_of_extent, warn_of_little_ground
 from ..grids.cells import apart
 from ..survey.selection import Selection
 from .blocks import BRIDGE, GROUND, HIGH, LOW, Block, BlockPoints, Blocks, Corner, Store
+from .explanation import ExplainedCells, Explanation
 from .memory import Resources, give_back
 from .scheduling import run_jobs
 
@@ -28,8 +30,8 @@ _MUCH = 100_000_000
 _BRIDGES_SHARE, _LOW_SHARE = 0.15, 0.1
 
 
-# A function that labels the points of a window.
-_Label = Callable[[BlockPoints, Progress], np.ndarray]
+# A function that labels the points of a window, and tells which rules decided.
+_Label = Callable[[BlockPoints, Progress], "tuple[np.ndarray, Decisions | None]"]
 
 
 class _Labelled(NamedTuple):
@@ -38,6 +40,7 @@ class _Labelled(NamedTuple):
     positions: np.ndarray
     labels: np.ndarray
     notes: _Notes
+    cells: ExplainedCells | None = None
 
 
 def blocks_of(parameters: ParameterSet) -> Blocks:
@@ -52,6 +55,7 @@ def label_ground(
     selection: Selection = Selection(),
     resources: Resources = Resources(),
     progress: Progress = SILENT,
+    explanation: Explanation | None = None,
 ) -> None:
     """Label every wanted point of a store with `GROUND`, `LOW`, `BRIDGE`, `HIGH` or 0.
 
@@ -69,6 +73,8 @@ def label_ground(
         Threads, and the memory for the blocks.
     progress : Progress
         Used in the calling thread only.
+    explanation : Explanation, optional
+        Receives which rule decided each cell.
 
     Raises
     ------
@@ -83,10 +89,14 @@ def label_ground(
             f"{method.label} does not start from known ground; it only keeps these"
             " points as ground."
         )
-    work = partial(_labelled, store, blocks, partial(_label, parameters, selection))
+    work = partial(
+        _labelled, store, blocks, partial(_label, parameters, selection, explanation is not None)
+    )
     notes = {}
     for number, result in over_blocks(store, blocks, work, resources, progress):
         store.put(result.positions, result.labels)
+        if explanation is not None and result.cells is not None:
+            explanation.add(result.cells)
         if result.notes.count:
             notes[number] = result.notes
     _tell(progress, [notes[number] for number in sorted(notes)])
@@ -164,9 +174,13 @@ def _at_once(number: int, largest: int, resources: Resources) -> int:
 
 
 def _label(
-    parameters: ParameterSet, selection: Selection, contents: BlockPoints, progress: Progress
-) -> np.ndarray:
-    """Return the label of each point of a window."""
+    parameters: ParameterSet,
+    selection: Selection,
+    explains: bool,
+    contents: BlockPoints,
+    progress: Progress,
+) -> tuple[np.ndarray, Decisions | None]:
+    """Return the label of each point of a window, and the rules that decided if they are wanted."""
     method, finds_low = method_of(parameters), selection.low_noise_class
     end = 1.0 - _LOW_SHARE if finds_low else 1.0
     finds_bridges = selection.bridges == "find" or (
@@ -176,9 +190,11 @@ def _label(
     points, known = contents.points, contents.known
     if points.count == 1:
         # One point cannot be compared with others, and such groups can be many.
-        return np.array([GROUND], dtype=np.uint8)
+        return np.array([GROUND], dtype=np.uint8), None
     warn_of_extent(points, *method.largest(parameters), progress)
-    ground, outliers = method.ground(points, parameters, part, known, contents.multi_return)
+    ground, outliers, decided = method.ground(
+        points, parameters, part, known, contents.multi_return, explains
+    )
     ground |= known
     warn_of_little_ground(points, ground, progress)
     labels = ground.astype(np.uint8)
@@ -195,7 +211,7 @@ def _label(
     if selection.high_noise_class:
         high = HighGroups(height=selection.high_noise_height).find(points)
         labels[high & (labels == 0)] = HIGH
-    return labels
+    return labels, decided
 
 
 def _labelled(
@@ -206,19 +222,24 @@ def _labelled(
     core = blocks.core(block, contents, is_only)
     positions = contents.positions if core.all() else contents.positions[core]
     notes = _Notes(progress.part(0.15, 1.0), len(positions), is_only)
-    labels = np.zeros(len(positions), dtype=np.uint8)
+    labels, cells = np.zeros(len(positions), dtype=np.uint8), None
     if notes.count:
         try:
-            labels = _labels(contents, core, label, blocks.buffer, notes)[core]
+            found, decided = _labels(contents, core, label, blocks.buffer, notes)
+            labels = found[core]
+            if decided is not None:
+                some = contents.points.take(core)
+                decided = decided._replace(codes=decided.codes[core])
+                cells = ExplainedCells.of(some.x, some.y, decided, blocks.corner(block))
         except BareEarthError as error:
             notes.failure = error
-    return _Labelled(positions, labels, notes)
+    return _Labelled(positions, labels, notes, cells)
 
 
 def _labels(
     contents: BlockPoints, wanted: np.ndarray, label: _Label, reach: float, progress: Progress
-) -> np.ndarray:
-    """Return the label of each wanted point of a window.
+) -> tuple[np.ndarray, Decisions | None]:
+    """Return the label of each wanted point of a window, and the rules that decided.
 
     Groups of points that are farther apart than the reach of the filter do not affect each other,
     and are filtered separately. Otherwise a stray point would extend the grid of all others.
@@ -229,20 +250,23 @@ def _labels(
     if count == 1:
         return label(contents, progress)
     sizes = np.bincount(groups, minlength=count)
-    labels, failures, done = np.zeros(len(groups), dtype=np.uint8), [], 0
+    labels, codes = np.zeros((2, len(groups)), dtype=np.uint8)
+    decided, failures, done = None, [], 0
     needed = np.flatnonzero(np.bincount(groups[wanted], minlength=count))
     for group in needed[np.argsort(-sizes[needed], kind="stable")].tolist():
         which, end = np.flatnonzero(groups == group), done + int(sizes[group])
         part = progress.part(done / len(groups), end / len(groups))
         try:
             # Messages are those of the largest group.
-            labels[which] = label(contents.take(which), part.quiet() if done else part)
+            labels[which], found = label(contents.take(which), part.quiet() if done else part)
+            if found is not None:
+                decided, codes[which] = found, found.codes
         except BareEarthError as error:
             failures.append(error)
         done = end
     if len(failures) == len(needed):
         raise failures[0]
-    return labels
+    return labels, None if decided is None else decided._replace(codes=codes)
 
 
 class _Notes(Notes):
@@ -277,6 +301,9 @@ def _tell(progress: Progress, blocks: list[_Notes]) -> None:
     if failed and len(failed) == len(blocks):
         raise failed[0].failure
     messages = collections.Counter(m for each in blocks for m in dict.fromkeys(each.messages))
+    for each in blocks:
+        for stage, seconds in each.seconds.items():
+            progress.took(stage, seconds)
     for (kind, text), count in messages.items():
         if count < len(blocks):
             text = f"{text.rstrip('.')} (in {count} of {len(blocks)} blocks)."

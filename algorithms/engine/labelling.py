@@ -24,6 +24,7 @@ from ..survey.point_chooser import PointChooser
 from ..survey.selection import Selection
 from ..survey.tally import Tally, count_classes
 from .blocks import BRIDGE, GROUND, HIGH, LOW, Blocks, Store
+from .explanation import Explanation
 from .ground import blocks_of, label_ground
 from .memory import Resources
 from .output import Output, height_dimension
@@ -90,6 +91,8 @@ class LabelGround(PointStep):
         The blocks, if they are not those of the method.
     corrections : Corrections
         Corrections by hand, beside those that the files remember.
+    explanation : Explanation or None
+        Receives which rule decided each cell.
     """
 
     parameters: ParameterSet
@@ -98,6 +101,7 @@ class LabelGround(PointStep):
     output: Output = field(default_factory=Output)
     cut: Blocks | None = None
     corrections: Corrections = NO_CORRECTIONS
+    explanation: Explanation | None = field(default=None, compare=False)
 
     tally = Tally
     summary_type = ClassifiedSummary
@@ -167,7 +171,15 @@ class LabelGround(PointStep):
 
     def work(self, store: Store, resources: Resources, progress: Progress) -> None:
         """Label the points."""
-        label_ground(store, self.parameters, self.blocks, self.selection, resources, progress)
+        label_ground(
+            store,
+            self.parameters,
+            self.blocks,
+            self.selection,
+            resources,
+            progress,
+            self.explanation,
+        )
 
     def result(self, path: Path, room: Room) -> ClassifiedPoints:
         """Return an object that turns the labels of a file into classes."""

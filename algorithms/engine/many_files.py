@@ -111,6 +111,8 @@ def classify_files(
     Cancelled
         If the user asked to stop. Finished files stay, and no file is incomplete.
     """
+    if request.explain is not None:
+        raise BareEarthError("The raster of rules (explain) is made of one file, not of many.")
     steps: list[PointStep] = [replace(request.step, cut=blocks)]
     if request.output.height_above_ground:
         heights = replace(request.height_step, ground_only=request.output.ground_only)

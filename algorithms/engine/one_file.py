@@ -20,6 +20,7 @@ from ..las.extrabytes import remembers
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..las.writing import check_writable, layers_kept, write_changed
+from ..rasters.writing import check_raster_output, replacing_raster
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.selection import Selection
@@ -138,6 +139,8 @@ def classify_file(
     """
     las, resources = _checked(source, target, request.resources, request.stated)
     request.rasters.check((source, target))
+    if request.explain is not None:
+        check_raster_output(request.explain, (source, target))
     step, products = request.step, _products(request, las, progress)
     tally = step.tally()
     # Shares of the progress bar.
@@ -154,6 +157,10 @@ def classify_file(
         products = dict(zip(products, more))
         result, stores = points.find(step, tally, finding, list(products.values()))
         result.tell(progress)
+        if request.explain is not None and step.explanation is not None:
+            explained = outputs.enter_context(replacing_raster(request.explain))
+            frame = survey_frame(points.cloud.crs)
+            step.explanation.write(explained, frame, progress)
         waiting, heights = dict(zip(products, stores)), None
         # All outputs or none: the rasters get their names after the cloud is written.
         if "rasters" in products:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any, Iterable, TypeVar
 
 from ..core.errors import BareEarthError
@@ -19,6 +20,7 @@ from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
 from .constraints import NO_CONSTRAINTS, Constraints
+from .explanation import Explanation
 from .heights import HeightOutput, MeasureHeights
 from .key_points import FindKeyPoints, KeyPointMark
 from .labelling import LabelGround
@@ -112,6 +114,8 @@ class ClassifyRequest(Request):
         Whether each of many files gets its own rasters.
     raster_target : RasterTarget
         A raster whose grid the rasters get, and their extent.
+    explain : Path or None
+        Raster of the rule that decided each cell, for one file.
     """
 
     parameters: ParameterSet = field(default_factory=METHODS[DEFAULT_METHOD].parameters)
@@ -125,6 +129,7 @@ class ClassifyRequest(Request):
     constraints: Constraints = NO_CONSTRAINTS
     raster_output: RasterOutput = field(default_factory=RasterOutput)
     raster_target: RasterTarget = ANYWHERE
+    explain: Path | None = None
 
     def __post_init__(self) -> None:
         self.output.check_area(self.area is not None)
@@ -138,7 +143,12 @@ class ClassifyRequest(Request):
     def step(self) -> LabelGround:
         """The step that finds the ground."""
         return LabelGround(
-            self.parameters, self.selection, self.area, self.output, corrections=self.corrections
+            self.parameters,
+            self.selection,
+            self.area,
+            self.output,
+            corrections=self.corrections,
+            explanation=None if self.explain is None else Explanation(),
         )
 
     @property

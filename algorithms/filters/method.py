@@ -12,6 +12,8 @@ from ..core.progress import SILENT, Progress
 from .pipeline import Pipeline
 from .state import State
 
+# Added to the number of the rule in a cell that is not ground.
+NOT_GROUND = 100
 # Usual width in metres of the largest building; few are wider.
 _USUAL_OBJECT = 50.0
 
@@ -25,10 +27,32 @@ class Found(NamedTuple):
         Which points are ground.
     low : numpy.ndarray of bool, shape (n,), or None
         Which points were left out as low outliers; None for none.
+    decided : Decisions or None
+        Which rule decided the cell of each point, if that was asked for.
     """
 
     ground: np.ndarray
     low: np.ndarray | None
+    decided: Decisions | None = None
+
+
+class Decisions(NamedTuple):
+    """Which rule decided the cell of each point.
+
+    Attributes
+    ----------
+    codes : numpy.ndarray of uint8, shape (n,)
+        Number of the rule, from 1; `NOT_GROUND` is added where the cell is not ground. 0 if no rule
+        works on cells.
+    size : float
+        Side of a cell in metres.
+    rules : tuple of str
+        Names of the rules; the first has number 1.
+    """
+
+    codes: np.ndarray
+    size: float
+    rules: tuple[str, ...]
 
 
 class Toolbox(NamedTuple):
@@ -118,6 +142,7 @@ class Method(NamedTuple):
         progress: Progress = SILENT,
         known: np.ndarray | None = None,
         multi_return: np.ndarray | None = None,
+        explains: bool = False,
     ) -> Found:
         """Return which points are ground. Low noise is left out, except by a classic preset.
 
@@ -133,9 +158,16 @@ class Method(NamedTuple):
             Points that are known to be ground.
         multi_return : numpy.ndarray of bool, shape (n,), optional
             Points of pulses with several returns, as they are many under trees.
+        explains : bool
+            Whether to tell which rule decided.
         """
-        state = self.run(points, parameters, progress, known, multi_return)
-        return Found(state.ground, state.low_noise)
+        pipeline = self.pipeline(points, parameters, progress)
+        state = pipeline.run(points, progress, known, multi_return, explains)
+        decided = None
+        if explains:
+            rules = tuple(rule.name for rule in pipeline.rules)
+            decided = Decisions(*state.codes(NOT_GROUND), rules)
+        return Found(state.ground, state.low_noise, decided)
 
     def classify(
         self,

@@ -174,7 +174,9 @@ class Pipeline:
             elif isinstance(rule, PointRule):
                 state.progress = part
                 rule.apply(state)
-            state.times.append(RuleTime(rule.stage.value, rule.name, time.perf_counter() - begun))
+            seconds = time.perf_counter() - begun
+            state.times.append(RuleTime(rule.stage.value, rule.name, seconds))
+            progress.took(rule.stage.value, seconds)
             if explains:
                 state.note(number)
             part(1.0)

@@ -214,6 +214,17 @@ class State:
         for grid in self.grids:
             grid.take_again(self.points, found)
 
+    def codes(self, not_ground: int) -> tuple[np.ndarray, float]:
+        """Return the number of the rule that decided the cell of each point, and the cell size.
+
+        `not_ground` is added where the cell is not ground.
+        """
+        if self.decided is None:
+            return np.zeros(self.points.count, dtype=np.uint8), 1.0
+        cells = self.grids[0].cells
+        codes = np.where(self.decided < 0, not_ground - self.decided, self.decided)
+        return codes.astype(np.uint8).ravel()[cells.index], cells.size
+
     def note(self, rule: int) -> None:
         """Note that a rule decided the cells that have changed since the rule before."""
         if not self.grids:

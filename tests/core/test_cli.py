@@ -391,3 +391,39 @@ def test_the_list_of_commands_loads_nothing_slow():
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     assert "classify-tiles" in done.stdout
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_raster_tells_which_rule_decided_each_cell(method, file, out, scene, capsys):
+    rasterio = pytest.importorskip("rasterio")
+    rules = out.with_name("rules.tif")
+    assert run("classify", file, out, "--method", method, "--explain", rules, "--verbose") == 0
+    assert "Seconds by stage: lowest points" in capsys.readouterr().err
+    with rasterio.open(rules) as raster:
+        codes, west, north = raster.read(1), raster.bounds.left, raster.bounds.top
+        names = dict(
+            reversed(entry.split()) for entry in raster.descriptions[0].split(": ")[2].split(", ")
+        )
+    row, column = (north - NORTH - scene[0].y).astype(int), (scene[0].x + EAST - west).astype(int)
+    code = codes[row, column]
+    assert (code > 0).all()
+    ground = classes_of(out) == 2
+    assert (code[ground] < 100).all()
+    # A house of the village is an object, and most of the ground was never in doubt.
+    assert (
+        codes
+        == 100 + int(names["raised-objects"] if method != "grid-minimum" else names["tall-objects"])
+    ).any()
+    assert np.mean(code[ground] == int(names["lowest-points"])) > 0.8
+
+
+def test_a_raster_of_rules_is_refused_where_it_cannot_be_made(file, out, capsys):
+    rules = out.with_name("rules.tif")
+    words = "classify", file, out, "--explain", rules
+    assert run(*words, "--method", "slope", "--preset", "whitebox") == 1
+    assert "decides points, not cells" in capsys.readouterr().err
+    assert not rules.exists() and not out.exists()
+    (out.parent / "in").mkdir()
+    file.rename(out.parent / "in" / "in.las")
+    assert run("classify", out.parent / "in", out.parent / "many", "--explain", rules) == 1
+    assert "of one file" in capsys.readouterr().err

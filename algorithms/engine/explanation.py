@@ -1,0 +1,91 @@
+"""Collects which rule of a filter decided each cell, and writes it as a raster."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.points import Frame
+from ..core.progress import Progress
+from ..filters.method import NOT_GROUND, Decisions
+from ..rasters.geotiff import RasterGrid
+from ..rasters.writing import write_geotiff
+from .blocks import Corner
+
+
+class ExplainedCells(NamedTuple):
+    """The cells of some points; arrays of shape (cells,).
+
+    Attributes
+    ----------
+    row, column : numpy.ndarray of int64
+        Counted from (0, 0) of the frame, in cells.
+    code : numpy.ndarray of uint8
+        As in `Decisions`.
+    size : float
+        Side of a cell in metres.
+    rules : tuple of str
+        Names of the rules.
+    """
+
+    row: np.ndarray
+    column: np.ndarray
+    code: np.ndarray
+    size: float
+    rules: tuple[str, ...]
+
+    @classmethod
+    def of(cls, x: np.ndarray, y: np.ndarray, decided: Decisions, corner: Corner) -> ExplainedCells:
+        """Return the cells that hold points, given in metres from a corner."""
+        size = decided.size
+        column, row = (
+            np.floor((places + start) / size).astype(np.int64)
+            for places, start in zip((x, y), corner)
+        )
+        cells, first = np.unique(np.stack((row, column)), axis=1, return_index=True)
+        return cls(*cells, decided.codes[first], size, decided.rules)
+
+
+class Explanation:
+    """The cells of the blocks of a run."""
+
+    def __init__(self) -> None:
+        self._parts: list[ExplainedCells] = []
+
+    def add(self, cells: ExplainedCells) -> None:
+        """Add the cells of a block."""
+        self._parts.append(cells)
+
+    def write(self, path: Path, frame: Frame, progress: Progress) -> None:
+        """Write the codes of all cells as a raster; its band lists the names of the rules.
+
+        Raises
+        ------
+        BareEarthError
+            If no rule works on cells, or the file cannot be written.
+        """
+        parts = [part for part in self._parts if part.code.any()]
+        if not parts:
+            raise BareEarthError(
+                "This preset decides points, not cells: there is nothing to explain. Choose another"
+                " preset, or leave out the raster of rules."
+            )
+        size, rules = parts[0].size, parts[0].rules
+        row, column, code = (
+            np.concatenate(values) for values in zip(*(part[:3] for part in parts))
+        )
+        west, north = int(column.min()), int(row.max()) + 1
+        shape = north - int(row.min()), int(column.max()) + 1 - west
+        cells = np.zeros(shape, dtype=np.uint8)
+        cells[north - 1 - row, column - west] = code
+        unit = frame.horizontal_unit
+        east, up = (
+            start + number * size / unit for start, number in zip(frame.origin, (west, north))
+        )
+        grid = RasterGrid(east, up, size / unit, shape[1], shape[0], frame)
+        names = ", ".join(f"{number} {name}" for number, name in enumerate(rules, start=1))
+        text = f"rule that decided (+{NOT_GROUND}: not ground): {names}"
+        write_geotiff(path, cells, grid, 0.0, progress, text)
