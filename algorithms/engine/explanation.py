@@ -45,8 +45,8 @@ class ExplainedCells(NamedTuple):
             np.floor((places + start) / size).astype(np.int64)
             for places, start in zip((x, y), corner)
         )
-        cells, first = np.unique(np.stack((row, column)), axis=1, return_index=True)
-        return cls(*cells, decided.codes[first], size, decided.rules)
+        (row, column), first = np.unique(np.stack((row, column)), axis=1, return_index=True)
+        return cls(row, column, decided.codes[first], size, decided.rules)
 
 
 class Explanation:
