@@ -15,7 +15,7 @@ from .results import Results, spread
 TIMES_THE_FLOOR = {"grid-minimum": 1.4, "slope": 2.0, "tin-densification": 2.0}
 LEAST_POINTS, DENSITIES = 3_000_000, (4.0, 20.0)
 PEERS = {"cloth": "CSF", "morphological": "pysmrf"}
-TIMES_FASTER, TIMES_FASTER_THAN_WHITEBOX = 5.0, 10.0
+TIMES_FASTER, TIMES_FASTER_THAN_WHITEBOX = 5.0, 3.0
 EXPONENT, LEAST_FOR_GROWTH = 1.05, 1_000_000
 # Below this the interpreter and its libraries count more than the points.
 LEAST_FOR_MEMORY = 1_000_000

@@ -228,7 +228,7 @@ def test_peer_that_never_ends_took_at_least_its_time():
     reached = goal(found, "Whitebox, 18 m")
     assert (reached.reached, reached.where) == (30.0, "1 million, at least")
     assert reached.verdict == "yes"
-    found.runs[-1] = found.runs[-1]._replace(cost=cost._replace(wall=10.0))
+    found.runs[-1] = found.runs[-1]._replace(cost=cost._replace(wall=4.0))
     assert goal(found, "Whitebox, 18 m").verdict == "open"
     failed = found.runs.pop()._replace(cost=cost._replace(problem="no licence"))
     found.runs.append(failed)
