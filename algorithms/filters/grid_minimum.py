@@ -26,8 +26,8 @@ from .stages.low_groups import LowGroups
 from .stages.lowest import LowestPoints
 from .stages.objects import RaisedObjects, TallObjects
 from .stages.opening import CutPlateaus, ProgressiveOpening
-from .stages.outliers import DenseOutliers, NarrowPits
-from .stages.rims import BlockPits, DensePits, FineSeeds, PaperSurface, Rims, density
+from .stages.outliers import DenseOutliers, IsolatedLowPoints, NarrowPits
+from .stages.rims import BlockPits, FineSeeds, PaperSurface, Rims, density
 from .stages.seeds import Seeds
 from .stages.terrain import GentleRegions
 from .stages.tolerance import ToleranceSurface
@@ -241,8 +241,7 @@ def pipeline(points: Points, parameters: GridMinimum, progress: Progress) -> Pip
             DenseOutliers(),
             LowGroups(),
             NarrowPits(),
-            BlockPits(),
-            DensePits(),
+            IsolatedLowPoints(),
             TallObjects(objects, min(heights)),
             ProgressiveOpening(size / 2.0),
             Rims(objects, resolved.final_height),

@@ -27,7 +27,7 @@ from .stages.low_groups import LowGroups
 from .stages.lowest import LowestPoints
 from .stages.objects import RaisedObjects
 from .stages.opening import CutPlateaus, ProgressiveOpening
-from .stages.outliers import DenseOutliers, IsolatedLowPoints, NarrowPits, WidePits
+from .stages.outliers import DenseOutliers, IsolatedLowPoints, NarrowPits
 from .stages.seeds import Seeds
 from .stages.steep_rises import SteepRises
 from .stages.terrain import GentleRegions
@@ -35,8 +35,6 @@ from .stages.tolerance import ToleranceSurface
 from .stages.woods import Woods
 from .whitebox import StandsAbove
 
-# Low outliers must lie below the terrain within so many search radii.
-_SURROUNDINGS = 3.0
 # Points affect each other within so many search radii. On one scale, this is just what erosion,
 # dilation and comparison need. It is at least so many metres if the radius follows from the points.
 _REACH_RADII, _REACH_RADII_ON_ONE_SCALE, _LEAST_REACH = 5.0, 3.01, 100.0
@@ -277,7 +275,6 @@ def pipeline(points: Points, parameters: SlopeFilter, progress: Progress) -> Pip
             LowGroups(),
             NarrowPits(),
             IsolatedLowPoints(),
-            WidePits(_SURROUNDINGS * resolved.search_radius),
             RaisedObjects(size),
             ProgressiveOpening(size / 2.0),
             SteepRises(

@@ -79,7 +79,7 @@ def test_a_smaller_final_height_never_adds_ground():
     assert least.sum() <= most.sum()
 
 
-@pytest.mark.parametrize("radius", [0.6, 2.0, 3.5])
+@pytest.mark.parametrize("radius", [0.6, 1.0])
 def test_a_cluster_of_low_noise_does_not_pull_the_ground_down(radius):
     points = flat()
     near = np.hypot(points.x - 40.0, points.y - 40.0) < radius

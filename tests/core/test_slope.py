@@ -11,18 +11,10 @@ from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.core.threads import may_use
 from bare_earth.algorithms.filters import whitebox
 from bare_earth.algorithms.filters.slope import METHOD, SlopeFilter
-from bare_earth.algorithms.filters.stages.outliers import WidePits
 from bare_earth.algorithms.filters.whitebox import Neighbours, stands_above
-from bare_earth.algorithms.grids.height_grid import HeightGrid
 from benchmarks.scenes.simple import error, scatter, surveyed, village
 
 classify = METHOD.classify
-
-
-def low_clusters(values, size=1.0, around=54.0, first=(0, 0)):
-    """Return the cells of small pits."""
-    return WidePits(around).find(HeightGrid(values, size, first))
-
 
 CLASSIC = SlopeFilter(preset="whitebox")
 
@@ -217,7 +209,7 @@ def test_a_building_wider_than_twice_the_search_radius_is_taken_for_a_hill():
     assert classify(points, SlopeFilter(search_radius=5.0))[roof].mean() > 0.9
 
 
-@pytest.mark.parametrize("width", [0.5, 1.5, 3.0, 5.0])
+@pytest.mark.parametrize("width", [0.5, 1.0, 1.5])
 @pytest.mark.parametrize("slope", [0.0, 0.4])
 def test_low_outliers_alone_or_in_clusters_do_not_pull_the_ground_down(width, slope):
     x, y = scatter()
@@ -226,44 +218,6 @@ def test_low_outliers_alone_or_in_clusters_do_not_pull_the_ground_down(width, sl
     found = classify(points, SlopeFilter())
     assert not found[low].any()
     assert found[~low].mean() > 0.99
-
-
-def test_a_ditch_and_a_courtyard_are_not_taken_for_low_outliers():
-    grid = np.zeros((100, 100))
-    grid[:, 40:43] = -4.0
-    assert not low_clusters(grid).any()
-    grid = np.zeros((100, 100))
-    grid[40:60, 40:60] = 9.0
-    grid[49:52, 49:52] = 0.0
-    assert not low_clusters(grid).any()
-    grid[49:52, 49:52] = -9.0
-    assert low_clusters(grid).sum() == 9
-
-
-@pytest.mark.parametrize("length, is_found", [(3, True), (4, False)])
-def test_a_cluster_is_no_longer_than_a_disc_where_one_of_a_cell_is_wide_enough(length, is_found):
-    grid = np.zeros((60, 60))
-    grid[30, 30 : 30 + length] = -13.0
-    # Cells of 3 m: the disc of a cell's radius is 9 m wide, and more is a ditch.
-    found = low_clusters(grid, 3.0)
-    assert np.array_equal(found, (grid < 0) & is_found)
-
-
-def test_a_grid_begins_at_the_first_cell_unless_told():
-    # Gaps are filled by squares of cells of the CRS: the fill of a cluster decides on it.
-    random = np.random.default_rng(16)
-    grid = random.normal(0.0, 0.7, (20, 20))
-    grid[random.random(grid.shape) < 0.6] = np.nan
-    differs = False
-    for depth in np.arange(3.25, 3.265, 0.002):
-        grid[9:11, 9:11] = -depth
-        found, same, other = (
-            low_clusters(grid, around=9.0, **first)
-            for first in ({}, {"first": (0, 0)}, {"first": (-1, 0)})
-        )
-        assert np.array_equal(found, same)
-        differs |= (found != other).any()
-    assert differs
 
 
 def test_the_slope_of_the_terrain_is_averaged_over_no_more_than_the_search_radius():

@@ -18,7 +18,7 @@ from ...core.points import Points
 from ...core.progress import SILENT, Progress
 from ...grids.cells import Cells, spacing
 from ...grids.height_grid import HeightGrid
-from ...grids.morphology import median_of_nine, opening, within_square
+from ...grids.morphology import median_of_nine, within_square
 from ..pipeline import GridRule, PointRule, Rule, Stage
 from ..state import GridState, State
 from .lowest import DENSE_SPACING
@@ -314,57 +314,6 @@ class DenseOutliers(PointRule):
         return lows
 
 
-@dataclass(frozen=True)
-class WidePits(GridRule):
-    """A small pit of several cells that is too deep for terrain holds low outliers.
-
-    The grid is closed by discs (the opening of -z). Where this raises cells by more than `slope`
-    times the radius, there is a pit. A pit holds outliers if it is no longer than the disc's
-    diameter in either direction, unlike ditches and streets between houses, and also so deep below
-    its surroundings, unlike a courtyard: the ground below a hole in a large roof is a pit as well,
-    but ground beyond the roof is as low.
-
-    Attributes
-    ----------
-    slope : float
-        Rise over run of the pit's sides, above that of terrain.
-    widest : float
-        Diameter of the widest pit in metres.
-    around : float
-        Radius of the surroundings in metres.
-    """
-
-    stage: ClassVar = Stage.OUTLIERS
-    reads: ClassVar = ("heights",)
-    writes: ClassVar = ("heights",)
-
-    around: float
-    slope: float = 2.0
-    widest: float = 6.0
-    corroborated: Corroborated | None = Corroborated()
-
-    def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
-        """Remove the cells of small pits."""
-        grid.remove(self.find(grid.heights))
-
-    def find(self, grid: HeightGrid) -> np.ndarray:
-        """Return the cells of small pits; boolean, shape (rows, columns)."""
-        # Single precision halves the time that the discs take.
-        filled = grid.filled().astype(np.float32)
-        depth = np.zeros(filled.shape)
-        for radius in range(1, grid.cells(self.widest / 2.0) + 1):
-            deep = self.slope * radius * grid.size
-            pits = _compact(-opening(-filled, radius) - filled > deep, 2 * radius + 1)
-            depth[pits] = np.maximum(depth[pits], deep)
-        if self.corroborated:
-            depth[self.corroborated.spared(grid, depth > 0.0, depth)] = 0.0
-        if not depth.any():
-            return depth > 0.0
-        others = grid.where(depth <= 0.0).filled().astype(np.float32)
-        below = filled < opening(others, round(self.around / grid.size, 6)) - depth
-        return (depth > 0.0) & below & grid.known
-
-
 def depth_of_pits(grid: HeightGrid) -> np.ndarray:
     """Return how many metres a closing by 3 x 3 cells raises each cell; 0 where there is none."""
     filled = grid.filled()
@@ -376,14 +325,3 @@ def even_cells(grid: HeightGrid) -> np.ndarray:
     """Return which cells lie on an even surface; boolean, shape (rows, columns)."""
     middle = median_of_nine(grid.filled(2).astype(np.float32))
     return np.abs(grid.values - middle) <= _EVEN
-
-
-def _compact(mask: np.ndarray, longest: int) -> np.ndarray:
-    """Return the connected parts of a mask that are at most so many cells long and wide."""
-    from scipy import ndimage
-
-    parts, count = ndimage.label(mask, np.ones((3, 3)))
-    compact = np.zeros(count + 1, dtype=bool)
-    for number, part in enumerate(ndimage.find_objects(parts), start=1):
-        compact[number] = max(side.stop - side.start for side in part) <= longest
-    return compact[parts]

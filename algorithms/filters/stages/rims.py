@@ -16,7 +16,7 @@ from ..pipeline import GridRule, PointRule, Stage
 from ..state import GridState, State, covered
 from .height_steps import HeightSteps
 from .objects import RaisedObjects
-from .outliers import Corroborated, NarrowPits
+from .outliers import Corroborated
 
 # Least side in metres of the blocks in which the density is measured.
 _DENSITY_BLOCK = 10.0
@@ -73,26 +73,6 @@ class BlockPits(GridRule):
             depth = blocks.lowest(usual) - lowest.values
             pits &= ~self.corroborated.spared(lowest, pits, depth)
         grid.remove(below & blocks.repeated(pits, heights.shape))
-
-
-@dataclass(frozen=True)
-class DensePits(NarrowPits):
-    """Where points are dense, gentler pits are noise, too: a real one would hold other points.
-
-    Attributes
-    ----------
-    density : float
-        Least number of points per square metre.
-    """
-
-    slope: float = 2.0
-    density: float = 3.0
-
-    def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
-        """Remove the pits."""
-        # After the clusters are removed, because they would lose their rims.
-        if density(grid.cells) >= self.density:
-            super().apply(grid, progress)
 
 
 @dataclass(frozen=True)
