@@ -53,7 +53,10 @@ def add_rasters(
 
 
 def add_explanation(algorithm: QgsProcessingAlgorithm) -> None:
-    """Add the advanced field of a raster that tells which rule decided each cell."""
+    """Add the advanced field of a raster that tells which rule decided each cell.
+
+    QGIS shows it below the other outputs: it folds only inputs away.
+    """
     label = "Rule that decided each cell"
     field = QgsProcessingParameterRasterDestination("EXPLANATION", label, None, True, False)
     field.setFlags(field.flags() | compat.ADVANCED)

@@ -28,6 +28,7 @@ GROUND = {
     "densification": Verdict(mark("densification"), "#8a5a2b"),
     "near-surface": Verdict(mark("points near the surface"), "#b5cf8a"),
 }
+# No grey, which a hillshade below would show as well.
 OTHER = {
     "raised-objects": Verdict(mark("raised objects"), "#c8322f"),
     "tall-objects": Verdict(mark("tall objects"), "#c8322f"),
@@ -36,10 +37,10 @@ OTHER = {
     "steep-rises": Verdict(mark("steep rises"), "#f6cf3f"),
     "rims": Verdict(mark("rims of low objects"), "#8a4fb0"),
     "plants": Verdict(mark("plants or outliers"), "#e07ac0"),
-    "seeds": Verdict(mark("ground on one grid only"), "#9aa3ad"),
-    "fine-seeds": Verdict(mark("finer cells away from the surface"), "#c2c8ce"),
-    "near-surface": Verdict(mark("no point near the surface"), "#56606b"),
-    "only-key-points": Verdict(mark("no key point"), "#c9ced4"),
+    "seeds": Verdict(mark("ground on one grid only"), "#7a6a9e"),
+    "fine-seeds": Verdict(mark("finer cells away from the surface"), "#b9a6e0"),
+    "near-surface": Verdict(mark("no point near the surface"), "#464a6e"),
+    "only-key-points": Verdict(mark("no key point"), "#9db2e6"),
     "narrow-pits": Verdict(mark("narrow pits"), "#2f6fc0"),
     "wide-pits": Verdict(mark("wide pits"), "#1b3f8a"),
     "block-pits": Verdict(mark("pits in blocks"), "#1b3f8a"),
@@ -51,7 +52,7 @@ OTHER = {
 # Rules that change no cell, but what other rules see.
 UNSEEN = ("woods", "tolerance-surface", "plain-surface", "paper-surface")
 # For rules that rarely decide so.
-_RARE_GROUND, _RARE_OTHER = "#5f5236", "#b9a6d9"
+_RARE_GROUND, _RARE_OTHER = "#5f5236", "#ffa6b8"
 
 
 def categories_of(codes: Iterable[int], rules: Mapping[int, str]) -> dict[int, tuple[str, QColor]]:
