@@ -14,6 +14,7 @@ from qgis.core import (
     QgsPointCloudLayer,
     QgsPointXY,
     QgsProcessingOutputLayerDefinition,
+    QgsProcessingParameterDefinition,
     QgsProject,
     QgsRasterLayer,
     QgsRectangle,
@@ -371,7 +372,8 @@ def test_rules_are_not_told_by_default(registry, scene, tmp_path, context, log, 
 
     algorithm = registry.createAlgorithmById(f"bareearth:{name}")
     field = algorithm.parameterDefinition("EXPLANATION")
-    assert field.flags() & field.Flag.FlagAdvanced and field.flags() & field.Flag.FlagOptional
+    flag = QgsProcessingParameterDefinition.Flag
+    assert field.flags() & flag.FlagAdvanced and field.flags() & flag.FlagOptional
     assert not field.createByDefault()
     dialog = AlgorithmDialog(algorithm.create())
     assert dialog.mainWidget().wrappers["EXPLANATION"].parameterValue() is None
