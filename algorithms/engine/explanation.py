@@ -15,6 +15,26 @@ from ..rasters.geotiff import RasterGrid
 from ..rasters.writing import write_geotiff
 from .blocks import Corner
 
+# What the description of the band begins with; a list of the rules follows.
+_MEANING = f"rule that decided (+{NOT_GROUND}: not ground): "
+
+
+def described(rules: tuple[str, ...]) -> str:
+    """Return the description of the band: what it shows, and the rules with their numbers."""
+    names = (f"{number} {name}" for number, name in enumerate(rules, start=1))
+    return _MEANING + ", ".join(names)
+
+
+def rules_in(description: str) -> dict[int, str]:
+    """Return the names of the rules in the description of a band, by their numbers.
+
+    It is empty for bands of other rasters.
+    """
+    if not description.startswith(_MEANING):
+        return {}
+    rules = (rule.split(" ", 1) for rule in description[len(_MEANING) :].split(", "))
+    return {int(number): name for number, name in rules}
+
 
 class ExplainedCells(NamedTuple):
     """The cells of some points; arrays of shape (cells,).
@@ -48,6 +68,25 @@ class ExplainedCells(NamedTuple):
         (row, column), first = np.unique(np.stack((row, column)), axis=1, return_index=True)
         return cls(row, column, decided.codes[first], size, decided.rules)
 
+    def in_cells_of(self, size: float) -> ExplainedCells:
+        """Return the same in smaller cells; each gets the code of the cell that holds its centre.
+
+        Sparse parts of a survey have larger cells than others.
+        """
+        if size == self.size:
+            return self
+        start = np.stack((self.row, self.column)) * self.size / size
+        # The first centre that is not before the cell, and so many more.
+        first = np.ceil(start - 0.5).astype(np.int64)
+        end = np.ceil(start + self.size / size - 0.5).astype(np.int64)
+        parts = []
+        for offset in np.ndindex(*(end - first).max(axis=1)):
+            places = first + np.reshape(offset, (2, 1))
+            held = (places < end).all(axis=0)
+            parts.append((*places[:, held], self.code[held]))
+        row, column, code = (np.concatenate(values) for values in zip(*parts))
+        return ExplainedCells(row, column, code, size, self.rules)
+
 
 class Explanation:
     """The cells of the blocks of a run."""
@@ -73,10 +112,9 @@ class Explanation:
                 "This preset decides points, not cells: there is nothing to explain. Choose another"
                 " preset, or leave out the raster of rules."
             )
-        size, rules = parts[0].size, parts[0].rules
-        row, column, code = (
-            np.concatenate(values) for values in zip(*(part[:3] for part in parts))
-        )
+        size, rules = min(part.size for part in parts), parts[0].rules
+        finest = (part.in_cells_of(size)[:3] for part in parts)
+        row, column, code = (np.concatenate(values) for values in zip(*finest))
         west, north = int(column.min()), int(row.max()) + 1
         shape = north - int(row.min()), int(column.max()) + 1 - west
         cells = np.zeros(shape, dtype=np.uint8)
@@ -86,6 +124,4 @@ class Explanation:
             start + number * size / unit for start, number in zip(frame.origin, (west, north))
         )
         grid = RasterGrid(east, up, size / unit, shape[1], shape[0], frame)
-        names = ", ".join(f"{number} {name}" for number, name in enumerate(rules, start=1))
-        text = f"rule that decided (+{NOT_GROUND}: not ground): {names}"
-        write_geotiff(path, cells, grid, 0.0, progress, text)
+        write_geotiff(path, cells, grid, 0.0, progress, described(rules))

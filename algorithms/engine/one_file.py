@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..core.files import check_output
+from ..core.files import check_distinct, check_output
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
 from ..core.threads import may_use
@@ -141,6 +141,7 @@ def classify_file(
     request.rasters.check((source, target))
     if request.explain is not None:
         check_raster_output(request.explain, (source, target))
+        check_distinct([*request.rasters.wanted.values(), request.explain])
     step, products = request.step, _products(request, las, progress)
     tally = step.tally()
     # Shares of the progress bar.

@@ -191,6 +191,7 @@ class State:
     times: list[RuleTime] = field(default_factory=list)
     decided: np.ndarray | None = None
     _was_ground: np.ndarray | None = None
+    _noted: Cells | None = None
 
     @cached_property
     def spacing(self) -> float:
@@ -236,9 +237,17 @@ class State:
             is_ground = grid.cells.holding(self.seeds)
         else:
             is_ground = grid.is_ground
-        if self.decided is None:
+        if self.decided is None or self._noted is None:
             self.decided = np.zeros(grid.cells.shape, dtype=np.int16)
             self._was_ground = ~grid.cells.occupied
+        elif self._noted is not grid.cells:
+            # A rule has made a finer grid. Its cells are decided as those that held their points.
+            wide, index = self.decided.ravel(), self._noted.index
+            self.decided = np.zeros(grid.cells.shape, dtype=np.int16)
+            self.decided.ravel()[grid.cells.index] = wide[index]
+            self.decided.ravel()[grid.cells.index[grid.lowest]] = wide[index[grid.lowest]]
+            self._was_ground = self.decided > 0
+        self._noted = grid.cells
         changed = grid.cells.occupied & (is_ground != self._was_ground)
         self.decided[changed] = np.where(is_ground[changed], rule + 1, -rule - 1)
         self._was_ground = is_ground

@@ -68,6 +68,10 @@
         <translation>Ein Punkt, der im Suchradius weniger Nachbarn hat, wird mit so vielen nächsten verglichen. Nur für die Voreinstellung Whitebox.</translation>
     </message>
     <message>
+        <source>A raster that tells why a place is ground or not: the rule of the filter that decided the cell. Its legend names the rules. Presets that decide points, not cells, cannot make it.</source>
+        <translation>Ein Raster, das sagt, warum eine Stelle Boden ist oder nicht: die Regel des Filters, die über die Zelle entschied. Seine Legende nennt die Regeln. Voreinstellungen, die über Punkte statt über Zellen entscheiden, können es nicht erstellen.</translation>
+    </message>
+    <message>
         <source>A raw .las, .laz or .copc.laz file.</source>
         <translation>Eine rohe Datei .las, .laz oder .copc.laz.</translation>
     </message>
@@ -410,6 +414,10 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
         <translation>Zerschneidet jedes Raster vieler Dateien in ein GeoTIFF je Datei. Sie bekommen die Namen der Dateien, in einem Ordner mit dem Namen des Rasters. Ein virtuelles Raster (.vrt) neben diesem Ordner zeigt sie als eines.</translation>
     </message>
     <message>
+        <source>Deciding rules</source>
+        <translation>Entscheidende Regeln</translation>
+    </message>
+    <message>
         <source>Depth of low outliers</source>
         <translation>Tiefe tiefer Ausreißer</translation>
     </message>
@@ -656,6 +664,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>Ground tolerance on slopes</source>
         <translation>Bodentoleranz am Hang</translation>
+    </message>
+    <message>
+        <source>Ground: {}</source>
+        <translation>Boden: {}</translation>
     </message>
     <message>
         <source>HTML files (*.html)</source>
@@ -980,6 +992,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Kein Boden, außer mit einer klassischen Voreinstellung</translation>
     </message>
     <message>
+        <source>Not ground: {}</source>
+        <translation>Kein Boden: {}</translation>
+    </message>
+    <message>
         <source>Not installed yet: .laz and .copc.laz files cannot be read or written.</source>
         <translation>Noch nicht installiert: Dateien .laz und .copc.laz lassen sich weder lesen noch schreiben.</translation>
     </message>
@@ -1222,6 +1238,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Rivers</source>
         <translation>Flüsse</translation>
+    </message>
+    <message>
+        <source>Rule that decided each cell</source>
+        <translation>Regel, die über jede Zelle entschied</translation>
     </message>
     <message>
         <source>Search radius</source>
@@ -1740,6 +1760,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Boden,Oberfläche,Gebäude,Bäume,Vegetation,Objekte,oto,whitebox,lindsay,top-hat</translation>
     </message>
     <message>
+        <source>between ditches</source>
+        <translation>zwischen Gräben</translation>
+    </message>
+    <message>
         <source>chm,ndsm,canopy,vegetation,vegetation height,normalize,normalise,hag,lasheight</source>
         <translation>chm,ndom,Kronenhöhe,Kronenhöhenmodell,Vegetation,Vegetationshöhe,normalisieren,Höhe über Grund</translation>
     </message>
@@ -1752,8 +1776,28 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Höhenlinien,Isolinien,Arbeitsablauf</translation>
     </message>
     <message>
+        <source>cut off by openings</source>
+        <translation>durch Öffnungen abgeschnitten</translation>
+    </message>
+    <message>
+        <source>densification</source>
+        <translation>Verdichtung</translation>
+    </message>
+    <message>
+        <source>finer cells away from the surface</source>
+        <translation>feinere Zellen abseits der Oberfläche</translation>
+    </message>
+    <message>
+        <source>gentle regions</source>
+        <translation>sanfte Bereiche</translation>
+    </message>
+    <message>
         <source>grid,raster,rasterize,interpolate</source>
         <translation>Raster,Gitter,rastern,interpolieren</translation>
+    </message>
+    <message>
+        <source>ground on one grid only</source>
+        <translation>Boden nur in einem Gitter</translation>
     </message>
     <message>
         <source>ground,accuracy,quality,error,validation,kappa,confusion matrix,reference</source>
@@ -1768,12 +1812,20 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Boden,ausdünnen,Ausdünnung,Generalisierung,Schlüsselpunkte,Höhenlinien</translation>
     </message>
     <message>
+        <source>groups of low points</source>
+        <translation>Gruppen tiefer Punkte</translation>
+    </message>
+    <message>
         <source>height,extra bytes</source>
         <translation>Höhe,Zusatzdimension</translation>
     </message>
     <message>
         <source>key points</source>
         <translation>Schlüsselpunkte</translation>
+    </message>
+    <message>
+        <source>known ground</source>
+        <translation>bekannter Boden</translation>
     </message>
     <message>
         <source>lazrs could not be installed: {}</source>
@@ -1784,8 +1836,20 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>lazrs ließ sich nicht speichern: {}.</translation>
     </message>
     <message>
+        <source>level with seeds beside</source>
+        <translation>auf der Höhe von Startpunkten daneben</translation>
+    </message>
+    <message>
         <source>lidar,laser scanning,als,uav,drone,las,laz,copc,point cloud</source>
         <translation>Lidar,Laserscanning,Airborne Laserscanning,Drohne,las,laz,copc,Punktwolke</translation>
+    </message>
+    <message>
+        <source>low outliers in dense points</source>
+        <translation>tiefe Ausreißer in dichten Punkten</translation>
+    </message>
+    <message>
+        <source>lowest points, never in doubt</source>
+        <translation>tiefste Punkte, nie bezweifelt</translation>
     </message>
     <message>
         <source>lowest,minimum</source>
@@ -1800,6 +1864,18 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>m oder ft</translation>
     </message>
     <message>
+        <source>narrow pits</source>
+        <translation>schmale Gruben</translation>
+    </message>
+    <message>
+        <source>no key point</source>
+        <translation>kein Schlüsselpunkt</translation>
+    </message>
+    <message>
+        <source>no point near the surface</source>
+        <translation>kein Punkt nahe der Oberfläche</translation>
+    </message>
+    <message>
         <source>pip cannot work through the SOCKS proxy of QGIS's settings: choose a wheel file.</source>
         <translation>pip kann nicht über den SOCKS-Proxy der QGIS-Einstellungen arbeiten: Wählen Sie eine Wheel-Datei.</translation>
     </message>
@@ -1808,8 +1884,28 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>pip nannte keinen Grund</translation>
     </message>
     <message>
+        <source>pits in blocks</source>
+        <translation>Gruben in Blöcken</translation>
+    </message>
+    <message>
+        <source>pits in dense points</source>
+        <translation>Gruben in dichten Punkten</translation>
+    </message>
+    <message>
+        <source>plants or outliers</source>
+        <translation>Pflanzen oder Ausreißer</translation>
+    </message>
+    <message>
+        <source>plateaus cut by openings</source>
+        <translation>von Öffnungen angeschnittene Plateaus</translation>
+    </message>
+    <message>
         <source>points</source>
         <translation>Punkte</translation>
+    </message>
+    <message>
+        <source>points near the surface</source>
+        <translation>Punkte nahe der Oberfläche</translation>
     </message>
     <message>
         <source>preview,try,test,preset,parameters,compare,profile</source>
@@ -1820,8 +1916,36 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>ptd,axelsson,Verdichtung</translation>
     </message>
     <message>
+        <source>raised objects</source>
+        <translation>erhöhte Objekte</translation>
+    </message>
+    <message>
+        <source>rims of low objects</source>
+        <translation>Ränder niedriger Objekte</translation>
+    </message>
+    <message>
+        <source>seeds</source>
+        <translation>Startpunkte</translation>
+    </message>
+    <message>
+        <source>seeds of finer cells</source>
+        <translation>Startpunkte feinerer Zellen</translation>
+    </message>
+    <message>
+        <source>single low points</source>
+        <translation>einzelne tiefe Punkte</translation>
+    </message>
+    <message>
         <source>slope,vosselman,whitebox,top-hat</source>
         <translation>Neigung,Hangneigung,vosselman,whitebox,top-hat</translation>
+    </message>
+    <message>
+        <source>steep rises</source>
+        <translation>steile Anstiege</translation>
+    </message>
+    <message>
+        <source>tall objects</source>
+        <translation>hohe Objekte</translation>
     </message>
     <message>
         <source>terrain</source>
@@ -1862,6 +1986,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>vpc,tiles,batch,survey,folder,many files</source>
         <translation>vpc,Kacheln,Stapel,Befliegung,Ordner,viele Dateien</translation>
+    </message>
+    <message>
+        <source>wide pits</source>
+        <translation>weite Gruben</translation>
     </message>
     <message>
         <source>you have no permission to write into the folder of the profile.</source>

@@ -68,6 +68,10 @@
         <translation>Un point qui a moins de voisins dans le rayon de recherche est comparé à ce nombre de points les plus proches. Pour le préréglage Whitebox seulement.</translation>
     </message>
     <message>
+        <source>A raster that tells why a place is ground or not: the rule of the filter that decided the cell. Its legend names the rules. Presets that decide points, not cells, cannot make it.</source>
+        <translation>Un raster qui dit pourquoi un endroit est sol ou non : la règle du filtre qui a décidé de la cellule. Sa légende nomme les règles. Les préréglages qui décident des points, et non des cellules, ne peuvent pas le créer.</translation>
+    </message>
+    <message>
         <source>A raw .las, .laz or .copc.laz file.</source>
         <translation>Un fichier brut .las, .laz ou .copc.laz.</translation>
     </message>
@@ -410,6 +414,10 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
         <translation>Découpe chaque raster de plusieurs fichiers en un GeoTIFF par fichier. Ils portent les noms des fichiers, dans un dossier au nom du raster. Un raster virtuel (.vrt) à côté de ce dossier les montre comme un seul.</translation>
     </message>
     <message>
+        <source>Deciding rules</source>
+        <translation>Règles décisives</translation>
+    </message>
+    <message>
         <source>Depth of low outliers</source>
         <translation>Profondeur des points aberrants bas</translation>
     </message>
@@ -656,6 +664,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>Ground tolerance on slopes</source>
         <translation>Tolérance du sol en pente</translation>
+    </message>
+    <message>
+        <source>Ground: {}</source>
+        <translation>Sol : {}</translation>
     </message>
     <message>
         <source>HTML files (*.html)</source>
@@ -980,6 +992,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Pas du sol, sauf avec un préréglage classique</translation>
     </message>
     <message>
+        <source>Not ground: {}</source>
+        <translation>Non-sol : {}</translation>
+    </message>
+    <message>
         <source>Not installed yet: .laz and .copc.laz files cannot be read or written.</source>
         <translation>Pas encore installé : les fichiers .laz et .copc.laz ne peuvent être ni lus ni écrits.</translation>
     </message>
@@ -1222,6 +1238,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Rivers</source>
         <translation>Rivières</translation>
+    </message>
+    <message>
+        <source>Rule that decided each cell</source>
+        <translation>Règle qui a décidé de chaque cellule</translation>
     </message>
     <message>
         <source>Search radius</source>
@@ -1740,6 +1760,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>sol nu,surface,bâtiments,arbres,végétation,sursol,objets,oto,whitebox,lindsay,top-hat</translation>
     </message>
     <message>
+        <source>between ditches</source>
+        <translation>entre des fossés</translation>
+    </message>
+    <message>
         <source>chm,ndsm,canopy,vegetation,vegetation height,normalize,normalise,hag,lasheight</source>
         <translation>mhc,chm,canopée,modèle de hauteur de canopée,végétation,hauteur de végétation,normaliser</translation>
     </message>
@@ -1752,8 +1776,28 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>courbes de niveau,chaîne de traitement</translation>
     </message>
     <message>
+        <source>cut off by openings</source>
+        <translation>coupé par des ouvertures</translation>
+    </message>
+    <message>
+        <source>densification</source>
+        <translation>densification</translation>
+    </message>
+    <message>
+        <source>finer cells away from the surface</source>
+        <translation>cellules plus fines loin de la surface</translation>
+    </message>
+    <message>
+        <source>gentle regions</source>
+        <translation>zones douces</translation>
+    </message>
+    <message>
         <source>grid,raster,rasterize,interpolate</source>
         <translation>grille,raster,rastériser,interpoler</translation>
+    </message>
+    <message>
+        <source>ground on one grid only</source>
+        <translation>sol sur une seule grille</translation>
     </message>
     <message>
         <source>ground,accuracy,quality,error,validation,kappa,confusion matrix,reference</source>
@@ -1768,12 +1812,20 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>sol,éclaircir,généraliser,points clés,courbes de niveau</translation>
     </message>
     <message>
+        <source>groups of low points</source>
+        <translation>groupes de points bas</translation>
+    </message>
+    <message>
         <source>height,extra bytes</source>
         <translation>hauteur,dimension supplémentaire</translation>
     </message>
     <message>
         <source>key points</source>
         <translation>points clés</translation>
+    </message>
+    <message>
+        <source>known ground</source>
+        <translation>sol connu</translation>
     </message>
     <message>
         <source>lazrs could not be installed: {}</source>
@@ -1784,8 +1836,20 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>lazrs n'a pas pu être enregistré : {}.</translation>
     </message>
     <message>
+        <source>level with seeds beside</source>
+        <translation>au niveau de points de départ voisins</translation>
+    </message>
+    <message>
         <source>lidar,laser scanning,als,uav,drone,las,laz,copc,point cloud</source>
         <translation>lidar,laser aéroporté,drone,las,laz,copc,nuage de points</translation>
+    </message>
+    <message>
+        <source>low outliers in dense points</source>
+        <translation>points aberrants bas dans des points denses</translation>
+    </message>
+    <message>
+        <source>lowest points, never in doubt</source>
+        <translation>points les plus bas, jamais mis en doute</translation>
     </message>
     <message>
         <source>lowest,minimum</source>
@@ -1800,6 +1864,18 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>m ou ft</translation>
     </message>
     <message>
+        <source>narrow pits</source>
+        <translation>fosses étroites</translation>
+    </message>
+    <message>
+        <source>no key point</source>
+        <translation>aucun point clé</translation>
+    </message>
+    <message>
+        <source>no point near the surface</source>
+        <translation>aucun point près de la surface</translation>
+    </message>
+    <message>
         <source>pip cannot work through the SOCKS proxy of QGIS's settings: choose a wheel file.</source>
         <translation>pip ne peut pas passer par le proxy SOCKS des préférences de QGIS : choisissez un fichier wheel.</translation>
     </message>
@@ -1808,8 +1884,28 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>pip n'a donné aucune raison</translation>
     </message>
     <message>
+        <source>pits in blocks</source>
+        <translation>fosses dans des blocs</translation>
+    </message>
+    <message>
+        <source>pits in dense points</source>
+        <translation>fosses dans des points denses</translation>
+    </message>
+    <message>
+        <source>plants or outliers</source>
+        <translation>plantes ou points aberrants</translation>
+    </message>
+    <message>
+        <source>plateaus cut by openings</source>
+        <translation>plateaux entamés par des ouvertures</translation>
+    </message>
+    <message>
         <source>points</source>
         <translation>points</translation>
+    </message>
+    <message>
+        <source>points near the surface</source>
+        <translation>points près de la surface</translation>
     </message>
     <message>
         <source>preview,try,test,preset,parameters,compare,profile</source>
@@ -1820,8 +1916,36 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>ptd,axelsson,densification</translation>
     </message>
     <message>
+        <source>raised objects</source>
+        <translation>objets surélevés</translation>
+    </message>
+    <message>
+        <source>rims of low objects</source>
+        <translation>bords d'objets bas</translation>
+    </message>
+    <message>
+        <source>seeds</source>
+        <translation>points de départ</translation>
+    </message>
+    <message>
+        <source>seeds of finer cells</source>
+        <translation>points de départ de cellules plus fines</translation>
+    </message>
+    <message>
+        <source>single low points</source>
+        <translation>points bas isolés</translation>
+    </message>
+    <message>
         <source>slope,vosselman,whitebox,top-hat</source>
         <translation>pente,vosselman,whitebox,top-hat</translation>
+    </message>
+    <message>
+        <source>steep rises</source>
+        <translation>montées raides</translation>
+    </message>
+    <message>
+        <source>tall objects</source>
+        <translation>objets hauts</translation>
     </message>
     <message>
         <source>terrain</source>
@@ -1862,6 +1986,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>vpc,tiles,batch,survey,folder,many files</source>
         <translation>vpc,dalles,lot,levé,dossier,nombreux fichiers</translation>
+    </message>
+    <message>
+        <source>wide pits</source>
+        <translation>fosses larges</translation>
     </message>
     <message>
         <source>you have no permission to write into the folder of the profile.</source>

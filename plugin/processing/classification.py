@@ -27,6 +27,7 @@ from .inputs import (
 )
 from .outputs import (
     add_cloud,
+    add_explanation,
     add_rasters,
     raster_files,
     raster_paths,
@@ -71,6 +72,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         add_limits(self)
         add_cloud(self)
         add_rasters(self, ("DTM", "HILLSHADE"))
+        add_explanation(self)
         self.addOutput(QgsProcessingOutputNumber("POINT_COUNT", "Points"))
         self.addOutput(QgsProcessingOutputNumber("AREA_COUNT", "Points in the area"))
         self.addOutput(QgsProcessingOutputNumber("SELECTED_COUNT", "Points that took part"))
@@ -108,10 +110,19 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         chosen = self.chosen(parameters, context)
         output = self.point_cloud_destination(parameters, "OUTPUT", context)
         paths = raster_paths(self, parameters, context)
+        explanation = self.parameterAsOutputLayer(parameters, "EXPLANATION", context)
         options = {"method": self.method, **given_options(**self._limits), **paths}
+        options["explain"] = explanation
         command = command_line("classify", [str(self._source), output], chosen, options)
         progress.command(" ".join([command, *area_options(self._limits["area"], progress)]))
-        request = ClassifyRequest.of(chosen, rasters=raster_files(paths), **self._limits)
+        request = ClassifyRequest.of(
+            chosen,
+            rasters=raster_files(paths),
+            explain=Path(explanation) if explanation else None,
+            **self._limits,
+        )
+        if explanation:
+            paths["EXPLANATION"] = explanation
         summary = classify_file(self._source, Path(output), request, progress)
         counts = summary.area_ground_count, summary.area_count
         progress.share(*counts, in_area=bool(self._limits["area"]))

@@ -52,6 +52,21 @@ def add_rasters(
         )
 
 
+def add_explanation(algorithm: QgsProcessingAlgorithm) -> None:
+    """Add the advanced field of a raster that tells which rule decided each cell.
+
+    QGIS shows it below the other outputs: it folds only inputs away.
+    """
+    label = "Rule that decided each cell"
+    field = QgsProcessingParameterRasterDestination("EXPLANATION", label, None, True, False)
+    field.setFlags(field.flags() | compat.ADVANCED)
+    algorithm.addParameter(
+        field,
+        "A raster that tells why a place is ground or not: the rule of the filter that decided the"
+        " cell. Its legend names the rules. Presets that decide points, not cells, cannot make it.",
+    )
+
+
 def add_cloud(
     algorithm: QgsProcessingAlgorithm,
     label: str = "Classified point cloud",

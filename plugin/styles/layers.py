@@ -75,10 +75,12 @@ SURFACE = Look(mark("Surface model"), 2, rasters.surface, 1)
 CANOPY = Look(mark("Canopy height"), 3, rasters.canopy, 3)
 RELIEF = Look(mark("Local relief"), 4, rasters.local_relief, 2)
 CONFIDENCE = Look(mark("Confidence"), 5, rasters.confidence, 1)
+RULES = Look(mark("Deciding rules"), 6, rasters.rules, 1)
 ERRORS = Look(mark("Errors"), 6, rasters.errors, 1)
 RASTERS = {
     "DTM": TERRAIN, "DSM": SURFACE, "CHM": CANOPY, "HILLSHADE": HILLSHADE,
     "CONFIDENCE": CONFIDENCE, "RELIEF": RELIEF, "ERROR_MAP": ERRORS,
+    "EXPLANATION": RULES,
 }  # fmt: skip
 
 

@@ -20,9 +20,11 @@ from qgis.core import (
 )
 from qgis.PyQt.QtGui import QColor, QPainter
 
+from ...algorithms.engine.explanation import rules_in
 from .. import compat
 from ..i18n import mark, tr
 from . import clouds, ramps
+from .rules import categories_of
 
 _MULTIPLY = QPainter.CompositionMode.CompositionMode_Multiply
 # Colours spread between these quantiles of a sample with at most so many rows and columns.
@@ -31,6 +33,8 @@ _LOW, _HIGH, _SAMPLE = 0.02, 0.98, 600
 # it look as in the legend.
 _DARK, _BRIGHT = 20.0, 210.0
 _LEAST_RANGE = 0.5
+# Values of a byte, and rows of bytes that are read at a time.
+_CODES, _ROWS = 256, 512
 # Colours of lines in profiles, which QGIS would choose at random.
 _TERRAIN_LINE, _SURFACE_LINE = "#6e4824", "#2a9d8f"
 # Parts of the descriptions of bands, except units.
@@ -45,6 +49,8 @@ def shown_by(layer: QgsRasterLayer) -> str:
     """Return the description of the band in the user's language; empty if there is none."""
     raster = gdal.Open(layer.source())
     said = raster.GetRasterBand(1).GetDescription()
+    if rules_in(said):
+        return tr("Rule that decided each cell")
     return ", ".join(tr(each) if each in SHOWN else each for each in said.split(", "))
 
 
@@ -118,6 +124,18 @@ def classes(categories: Mapping[int, tuple[str, QColor]]) -> Callable[[QgsRaster
         clouds.show_through(layer)
 
     return dress
+
+
+def rules(layer: QgsRasterLayer) -> None:
+    """Give each rule that decided cells its name and colour."""
+    raster = gdal.Open(layer.source())  # it holds the band
+    band = raster.GetRasterBand(1)
+    counts = np.zeros(_CODES, dtype=np.int64)
+    for row in range(0, band.YSize, _ROWS):
+        rows = band.ReadAsArray(0, row, band.XSize, min(_ROWS, band.YSize - row))
+        counts += np.bincount(rows.ravel(), minlength=_CODES)
+    codes = np.flatnonzero(counts).tolist()
+    classes(categories_of(codes, rules_in(band.GetDescription())))(layer)
 
 
 def _cut(layer: QgsRasterLayer) -> tuple[float, float]:

@@ -12,6 +12,7 @@ from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.core.parameters import ParameterSet
 from bare_earth.algorithms.engine import one_file
+from bare_earth.algorithms.engine.explanation import ExplainedCells, described, rules_in
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.products.terrain_model import TerrainModel
 from bare_earth.algorithms.survey.selection import Selection
@@ -427,3 +428,30 @@ def test_a_raster_of_rules_is_refused_where_it_cannot_be_made(file, out, capsys)
     file.rename(out.parent / "in" / "in.las")
     assert run("classify", out.parent / "in", out.parent / "many", "--explain", rules) == 1
     assert "of one file" in capsys.readouterr().err
+
+
+def test_rules_of_sparse_and_dense_parts_are_in_the_same_cells():
+    codes, names = np.array([1, 102], dtype=np.uint8), ("lowest-points", "woods")
+    sparse = ExplainedCells(np.array([0, -2]), np.array([1, 2]), codes, 1.5, names)
+    assert sparse.in_cells_of(1.5) is sparse
+    fine = sparse.in_cells_of(0.5)
+    found = set(zip(fine.row.tolist(), fine.column.tolist(), fine.code.tolist()))
+    blocks = {1: (range(3), range(3, 6)), 102: (range(-6, -3), range(6, 9))}
+    assert found == {(r, c, code) for code, (rs, cs) in blocks.items() for r in rs for c in cs}
+    assert len(fine.row) == 18
+    # A cell belongs to the wider one that holds its centre.
+    whole = sparse.in_cells_of(1.0)
+    found = zip(whole.row.tolist(), whole.column.tolist(), whole.code.tolist())
+    assert sorted(found) == [(-3, 3, 102), (0, 1, 1), (0, 2, 1)]
+
+
+def test_the_description_of_the_raster_of_rules_is_read_back():
+    assert rules_in(described(("lowest-points", "woods"))) == {1: "lowest-points", 2: "woods"}
+    assert rules_in("Height, m") == rules_in("") == {}
+
+
+def test_the_raster_of_rules_is_no_other_output(file, out, capsys):
+    rules = out.with_name("rules.tif")
+    assert run("classify", file, out, "--dtm", rules, "--explain", rules) == 1
+    assert "rules.tif" in capsys.readouterr().err
+    assert not rules.exists() and not out.exists()

@@ -120,6 +120,18 @@ def test_times_and_decisions_are_noted():
     assert {"lowest-points", "raised-objects", "near-surface"} <= names
 
 
+def test_decisions_go_over_to_finer_cells():
+    """Where points are sparse, the minimum-Z grid filter goes on with finer cells."""
+    points = make("sparse_village", seed=11, density=0.3, size=80.0).points
+    pipeline = pipeline_of("grid-minimum", "automatic", points)
+    assert pipeline.through(Stage.OPENING).run(points).grids[0].cells.size > 1.0
+    state = pipeline.run(points, explains=True)
+    cells = state.grids[0].cells
+    assert cells.size == 1.0
+    assert np.array_equal(state.decided != 0, cells.occupied)
+    assert np.array_equal(state.decided > 0, cells.holding(state.ground))
+
+
 def test_a_name_follows_from_the_class():
     class SteepThing(Rule):
         stage = Stage.OPENING
