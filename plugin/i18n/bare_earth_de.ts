@@ -1888,10 +1888,6 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Gruben in Blöcken</translation>
     </message>
     <message>
-        <source>pits in dense points</source>
-        <translation>Gruben in dichten Punkten</translation>
-    </message>
-    <message>
         <source>plants or outliers</source>
         <translation>Pflanzen oder Ausreißer</translation>
     </message>
@@ -1986,10 +1982,6 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>vpc,tiles,batch,survey,folder,many files</source>
         <translation>vpc,Kacheln,Stapel,Befliegung,Ordner,viele Dateien</translation>
-    </message>
-    <message>
-        <source>wide pits</source>
-        <translation>weite Gruben</translation>
     </message>
     <message>
         <source>you have no permission to write into the folder of the profile.</source>

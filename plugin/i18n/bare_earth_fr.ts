@@ -1888,10 +1888,6 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>fosses dans des blocs</translation>
     </message>
     <message>
-        <source>pits in dense points</source>
-        <translation>fosses dans des points denses</translation>
-    </message>
-    <message>
         <source>plants or outliers</source>
         <translation>plantes ou points aberrants</translation>
     </message>
@@ -1986,10 +1982,6 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>vpc,tiles,batch,survey,folder,many files</source>
         <translation>vpc,dalles,lot,levé,dossier,nombreux fichiers</translation>
-    </message>
-    <message>
-        <source>wide pits</source>
-        <translation>fosses larges</translation>
     </message>
     <message>
         <source>you have no permission to write into the folder of the profile.</source>
