@@ -10,6 +10,7 @@ import numpy as np
 from bare_earth.algorithms.filters import METHODS
 
 from . import tables
+from .phases import Range
 from .rules import GROUPS, RULES
 from .scenes import KINDS
 
@@ -83,6 +84,10 @@ def _by_phase(results: Places, name: str) -> np.ndarray:
             phase = title.split(" ", 2)[2]
             totals.setdefault(phase, []).append(by_variant[name]["total"])
     return np.array([np.mean(each) for each in totals.values()])
+
+
+def _mean(values: list[float], digits: int) -> str:
+    return f"{np.mean(values):.{digits}f}" if values else tables.NONE
 
 
 def _signed(value: float, digits: int) -> str:
@@ -191,9 +196,9 @@ def _bases(results: Results) -> list[str]:
         rows.append(
             [
                 METHODS[method].label,
-                f"{phases.mean():.2f} ({phases.min():.2f} to {phases.max():.2f})",
-                f"{np.mean(totals):.2f}",
-                *(f"{np.mean([each[key] for each in forests]):.3f}" for key in ("rmse", "bias")),
+                tables.ranged(Range.of(phases)) if len(phases) else tables.NONE,
+                _mean(totals, 2),
+                *(_mean([each[key] for each in forests], 3) for key in ("rmse", "bias")),
             ]
         )
     head = ["All rules", "ISPRS total error, %", "tiles with labels, %", "forests: RMSE, m", "bias"]
