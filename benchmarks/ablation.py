@@ -150,10 +150,10 @@ class _Scorer:
     def figures(self, off: tuple[str, ...]) -> page.Figures:
         """Return the figures without some rules; those of the base where none of them acts."""
         found = self._base
-        serving = [name for name in off if RULES[name].serves(self._method)]
-        if not off or self._acting.intersection(serving):
-            found = self._measured(tuple(serving))
-        seconds = [self._seconds(tuple(serving)) for _ in range(_TIMES if self._is_timed else 0)]
+        serving = tuple(name for name in off if RULES[name].serves(self._method))
+        if self._acting.intersection(serving):
+            found = self._measured(serving)
+        seconds = [self._seconds(serving) for _ in range(_TIMES if self._is_timed else 0)]
         return {**found, "cpu": min(seconds)} if seconds else found
 
     def _ground(self, off: tuple[str, ...]) -> np.ndarray:

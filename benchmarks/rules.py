@@ -12,7 +12,7 @@ from bare_earth.algorithms.filters.shared.allowance import Allowance
 from bare_earth.algorithms.filters.shared.lowest_points import _OBJECT_HEIGHTS, CellBlocks
 from bare_earth.algorithms.filters.shared.objects import PLATEAU_HEIGHT, Objects, raised_objects
 
-from .switches import Change, Rule, module_named, watched, without
+from .switches import NO_CODE, Change, Rule, module_named, watched, without
 
 
 def _nothing(places: str | Sequence[str], shape: Callable[..., Any]) -> tuple[Change, ...]:
@@ -40,6 +40,15 @@ def _allowing(**fields: object) -> tuple[Change, ...]:
         return changed
 
     return tuple(Change(place, by) for place in _GROUND_CELLS)
+
+
+def _judging(**fields: object) -> tuple[Change, ...]:
+    """Return a change by which the borders of regions are judged with another allowance."""
+
+    def by(found: Callable[..., np.ndarray]) -> Callable[..., np.ndarray]:
+        return lambda *given: found(*given[:-1], replace(given[-1], **fields))
+
+    return (Change(f"{_GENTLE}:_joined", by, True),)
 
 
 def _small_windows(found: Callable[..., np.ndarray]) -> Callable[..., np.ndarray]:
@@ -189,9 +198,9 @@ _ALL = (
         for name in ("rocks", "ramps", "links")
     ),
     Rule("house share", _is(f"{_GENTLE}:_HOUSE_SHARE", 0.0)),
-    Rule("wide share", _allowing(wide_share=Allowance.gentle_share)),
-    Rule("rising borders", _allowing(rise_counts=False)),
-    Rule("border of the survey", _allowing(border_area=np.inf)),
+    Rule("wide share", _judging(wide_share=Allowance.gentle_share), NO_CODE),
+    Rule("rising borders", _judging(rise_counts=False), NO_CODE),
+    Rule("border of the survey", _judging(border_area=np.inf), NO_CODE),
     Rule("on slopes", _nothing(f"{_GENTLE}:on_slope", lambda _, __, one, *___: len(one)),
          ("shared.slopes",)),
     Rule("trend of edges", _is(f"{_CELLS}:Trend", lambda *_: None)),
@@ -211,8 +220,8 @@ _ALL = (
     Rule("openness", _OPEN, ("shared.openness",)),
     Rule("densification", _returns(f"{_SEEDS}:densified", lambda *_: np.zeros(0, np.intp)),
          ("tin_densification.densification",)),
-    Rule("level neighbour", _is(f"{_SEEDS}:_LEVEL", None),
-         ("tin_densification.densification:_has_level_neighbour",)),
+    Rule("level neighbour", _returns("tin_densification.densification:_has_level_neighbour",
+         lambda above, _: np.ones(above.shape, bool))),
     Rule("tolerance of noise", _NO_NOISE, ("shared.noise",)),
     Rule("tolerance at breaks", _is(f"{_LIMITS}:_BREAK_FACTOR", 0.0)),
     Rule("even ground", _NOT_EVEN),

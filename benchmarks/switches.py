@@ -17,6 +17,8 @@ import numpy as np
 
 from bare_earth.algorithms import filters
 
+# The code of a rule that is less than a function.
+NO_CODE = ("",)
 # The folder of each method; what lies there is used by this method alone.
 FOLDERS = {name: name.replace("-", "_") for name in filters.METHODS}
 
@@ -37,14 +39,14 @@ class Change:
         one.
     by : callable
         Takes what is there and returns what replaces it.
-    finds_nothing : bool
-        Whether the replacement is a function that finds nothing. The rule does not act where the
-        function itself returns the same.
+    is_of_function : bool
+        Whether it is a function that can be called beside what is there. The rule does not act
+        where both return the same.
     """
 
     place: str
     by: Callable[[Any], Any]
-    finds_nothing: bool = False
+    is_of_function: bool = False
 
     def owner(self) -> tuple[Any, str]:
         """Return the module or class that holds it, and its name there."""
@@ -87,7 +89,8 @@ class Rule:
     def lines(self) -> int:
         """Return how many lines of code the rule has; 0 if it is less than a function."""
         total = 0
-        for place in self.code or [each.place for each in self.changes if each.finds_nothing]:
+        replaced = [each.place for each in self.changes if each.is_of_function]
+        for place in filter(None, self.code or replaced):
             module, _, name = place.partition(":")
             part: Any = module_named(module)
             part = functools.reduce(getattr, filter(None, name.split(".")), part)
@@ -127,29 +130,30 @@ def watched(rules: Iterable[Rule]) -> Iterator[set[str]]:
     are no functions of their own always count as acting.
     """
     acted: set[str] = set()
-    places: dict[str, tuple[Change, set[str]]] = {}
+    places: dict[str, list[tuple[str, Change]]] = {}
     for rule in rules:
-        if not all(each.finds_nothing for each in rule.changes):
+        if not all(each.is_of_function for each in rule.changes):
             acted.add(rule.name)
             continue
         for change in rule.changes:
-            places.setdefault(change.place, (change, set()))[1].add(rule.name)
+            places.setdefault(change.place, []).append((rule.name, change))
 
-    def watch(change: Change, names: set[str], found: Callable[..., Any]) -> Callable[..., Any]:
-        nothing = change.by(found)
+    def watch(found: Callable[..., Any], changes: list[tuple[str, Change]]) -> Callable[..., Any]:
+        others = [(name, change.by(found)) for name, change in changes]
 
         def run(*given: Any, **named: Any) -> Any:
             result = found(*given, **named)
-            if not names <= acted and not _same(result, nothing(*given, **named)):
-                acted.update(names)
+            for name, other in others:
+                if name not in acted and not _same(result, other(*given, **named)):
+                    acted.add(name)
             return result
 
         return run
 
     def changes() -> Iterator[tuple[Any, str, Any]]:
-        for change, names in places.values():
-            owner, name = change.owner()
-            yield owner, name, watch(change, names, getattr(owner, name))
+        for at_place in places.values():
+            owner, name = at_place[0][1].owner()
+            yield owner, name, watch(getattr(owner, name), at_place)
 
     with _replaced(changes()):
         yield acted
