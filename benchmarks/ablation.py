@@ -38,11 +38,10 @@ from .scenes import KINDS, Scene, make
 
 # Seeds of scenes that nobody tuned with, and shares of the density of a kind.
 SEEDS, DENSITIES = (101, 103), (1.0, 0.25)
-# Tiles that the quick form leaves out, and the one on which time is measured in each form.
+# Tiles that the quick form leaves out, the tile on which time is measured, and how often: the least
+# counts.
 _LONG = ("hawaii_forest", "nrw_rural", "wires_single_return")
-_TIMED = {True: "ahn3_urban", False: "nrw_rural"}
-# How often time is measured; the least counts.
-_TIMES = 3
+_TIMED, _TIMES = "ahn3_urban", 3
 _ALGORITHMS = Path(__file__).parents[1] / "algorithms"
 
 
@@ -52,7 +51,7 @@ class Place(NamedTuple):
     Attributes
     ----------
     kind : str
-        ``isprs``, ``real`` or ``scene``.
+        One of `ablation_page.KINDS`.
     name : str
         Of the sample, the tile or the kind of scene.
     at : tuple of float
@@ -231,11 +230,15 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--method", nargs="+", type=method_name, default=list(METHODS))
     parser.add_argument("--quick", action="store_true", help="fewer phases, tiles and scenes")
     parser.add_argument("--rules", nargs="+", choices=names, default=[], metavar="NAME")
+    parser.add_argument(
+        "--on", nargs="+", choices=page.KINDS, default=page.KINDS, help="some kinds of places"
+    )
     parser.add_argument("--kept", action="store_true", help="measure nothing, show what is kept")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write all figures")
     parser.add_argument("--write", action="store_true", help="write docs/rules.md")
     options = parser.parse_args(arguments)
-    everywhere, chosen = places(options.quick), variants(options.rules)
+    chosen = variants(options.rules)
+    everywhere = [each for each in places(options.quick) if each.kind in options.on]
     results: page.Results = {}
     for method in options.method:
         of_method = {
@@ -244,8 +247,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
             if not off or any(RULES[each].serves(method) for each in off)
         }
         jobs = [
-            Job(method, each, of_method, each.name == _TIMED[options.quick], options.kept)
-            for each in everywhere
+            Job(method, each, of_method, each.name == _TIMED, options.kept) for each in everywhere
         ]
         results[method] = {job.place.title: found for job, found in measure(jobs)}
         print("", *page.table(results[method], method), sep="\n", flush=True)

@@ -12,9 +12,11 @@ from bare_earth.algorithms.filters import METHODS
 from . import tables
 from .phases import Range
 from .rules import GROUPS, RULES
-from .scenes import KINDS
+from .scenes import KINDS as KINDS_OF_SCENES
 
 BASE = "base"
+# Kinds of places where rules are measured.
+KINDS = "isprs", "real", "scene"
 PAGE = Path(__file__).parents[1] / "docs" / "rules.md"
 COMMENTS = Path(__file__).parent / "rules_comments.md"
 # Tiles on which the terrain below trees is looked at.
@@ -237,7 +239,7 @@ def write(results: Results, is_quick: bool, page: Path | None = None) -> None:
             labels=", ".join(_titles(results, "real", "total")),
             models=", ".join(models),
             forests=", ".join(each for each in FORESTS if each in models),
-            scenes=f"{len(_titles(results, 'scene'))} of {len(KINDS)} kinds",
+            scenes=f"{len(_titles(results, 'scene'))} of {len(KINDS_OF_SCENES)} kinds",
             form="its quick form, `--quick`" if is_quick else "its full form",
         ),
         *_bases(results),
