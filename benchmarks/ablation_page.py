@@ -139,9 +139,9 @@ def _of_scenes(results: Places, name: str) -> list[str]:
 
 def _saved(results: Places, name: str) -> str:
     for by_variant in results.values():
-        base, other = (by_variant.get(each, {}).get("cpu") for each in (BASE, name))
-        if base and other:
-            return f"{100.0 * (1.0 - other / base):.0f}"
+        found = by_variant.get(name, {})
+        if "cpu" in found:
+            return f"{100.0 * (1.0 - found['cpu'] / found['cpu_base']):.0f}"
     return tables.NONE
 
 
