@@ -33,7 +33,7 @@ def _allowing(**fields: object) -> tuple[Change, ...]:
     """Return changes by which cells of the ground are found with another allowance."""
 
     def by(found: Callable[..., np.ndarray]) -> Callable[..., np.ndarray]:
-        def changed(heights, size, objects, window, allowance=Allowance(), *rest, **named):  # type: ignore[no-untyped-def]
+        def changed(heights, size, objects, window, allowance=Allowance(), *rest, **named):
             allowance = replace(allowance, **fields)
             return found(heights, size, objects, window, allowance, *rest, **named)
 
@@ -52,7 +52,7 @@ def _judging(**fields: object) -> tuple[Change, ...]:
 
 
 def _small_windows(found: Callable[..., np.ndarray]) -> Callable[..., np.ndarray]:
-    def changed(heights, size, objects, window, *rest, **named):  # type: ignore[no-untyped-def]
+    def changed(heights, size, objects, window, *rest, **named):
         return found(heights, size, objects, min(window, Allowance.usual_window), *rest, **named)
 
     return changed
