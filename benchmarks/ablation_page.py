@@ -201,9 +201,11 @@ def _bases(results: Results) -> list[str]:
                 tables.ranged(Range.of(phases)) if len(phases) else tables.NONE,
                 _mean(totals, 2),
                 *(_mean([each[key] for each in forests], 3) for key in ("rmse", "bias")),
+                *(str(len(_titles({method: of_method}, kind))) for kind in KINDS),
             ]
         )
     head = ["All rules", "ISPRS total error, %", "tiles with labels, %", "forests: RMSE, m", "bias"]
+    head += ["samples and phases", "tiles", "scenes"]
     return tables.table(head, rows)
 
 
@@ -211,7 +213,8 @@ def _titles(results: Results, kind: str, figure: str = "") -> list[str]:
     """Return the places of a kind that were measured, and have a figure."""
     found = {}
     for title, by_variant in (each for places in results.values() for each in places.items()):
-        if title.startswith(f"{kind} ") and (not figure or figure in by_variant.get(BASE, {})):
+        base = by_variant.get(BASE)
+        if title.startswith(f"{kind} ") and base and (not figure or figure in base):
             found[title.split(" ", 1)[1]] = None
     return list(found)
 
