@@ -37,9 +37,9 @@ if TYPE_CHECKING:
     from .engine.runs import terrain as terrain
     from .engine.trial import compare_settings as compare_settings
     from .engine.trial_options import TrialOptions as TrialOptions
-    from .filters.grid_minimum.filter import GridMinimum as GridMinimum
-    from .filters.slope.filter import SlopeFilter as SlopeFilter
-    from .filters.tin_densification.filter import TinDensification as TinDensification
+    from .filters.grid_minimum import GridMinimum as GridMinimum
+    from .filters.slope import SlopeFilter as SlopeFilter
+    from .filters.tin import TinDensification as TinDensification
     from .grids.model_key_points import ModelKeyPoints as ModelKeyPoints
     from .products.assessment import assess_files as assess  # noqa: F401
     from .products.contours import Contours as Contours
@@ -83,9 +83,9 @@ _MODULES = {
     "terrain": "engine.runs",
     "compare_settings": "engine.trial",
     "TrialOptions": "engine.trial_options",
-    "GridMinimum": "filters.grid_minimum.filter",
-    "SlopeFilter": "filters.slope.filter",
-    "TinDensification": "filters.tin_densification.filter",
+    "GridMinimum": "filters.grid_minimum",
+    "SlopeFilter": "filters.slope",
+    "TinDensification": "filters.tin",
     "ModelKeyPoints": "grids.model_key_points",
     "assess": "products.assessment:assess_files",
     "Contours": "products.contours",

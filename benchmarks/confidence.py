@@ -17,7 +17,7 @@ import numpy as np
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.shared.confidence import (
+from bare_earth.algorithms.filters.confidence import (
     CELL,
     RISE_SHARE,
     TOLERANCE,

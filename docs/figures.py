@@ -39,7 +39,7 @@ from bare_earth.algorithms import (
     classify,
     terrain,
 )
-from bare_earth.algorithms.filters.tin_densification.filter import PRESETS
+from bare_earth.algorithms.filters.tin import PRESETS
 from bare_earth.algorithms.grids.cells import Cells
 from bare_earth.algorithms.grids.inpaint import inpaint
 from bare_earth.algorithms.grids.relief_smoothing import without_noise

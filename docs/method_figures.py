@@ -12,26 +12,24 @@ from matplotlib import pyplot
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
+from bare_earth.algorithms.core.parameters import ParameterSet
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.progress import SILENT
-from bare_earth.algorithms.filters.grid_minimum import filter as grid_minimum
-from bare_earth.algorithms.filters.shared.breaks import checked_seeds
-from bare_earth.algorithms.filters.shared.ground_limits import Tolerance, ground_limits
-from bare_earth.algorithms.filters.shared.height_steps import HeightSteps
-from bare_earth.algorithms.filters.shared.lowest_points import LowestPoints
-from bare_earth.algorithms.filters.shared.objects import covered, raised_objects
-from bare_earth.algorithms.filters.slope import filter as slope_filter
-from bare_earth.algorithms.filters.tin_densification import filter as tin_densification
-from bare_earth.algorithms.filters.tin_densification.densification import (
-    densified,
-    with_lower,
-)
-from bare_earth.algorithms.filters.tin_densification.seeds import seeds_of_two_grids
+from bare_earth.algorithms.filters import grid_minimum
+from bare_earth.algorithms.filters import slope as slope_filter
+from bare_earth.algorithms.filters import tin as tin_densification
+from bare_earth.algorithms.filters.method import Method
+from bare_earth.algorithms.filters.pipeline import Stage
+from bare_earth.algorithms.filters.stages.height_steps import HeightSteps
+from bare_earth.algorithms.filters.stages.objects import RaisedObjects
+from bare_earth.algorithms.filters.state import State, covered
 from bare_earth.algorithms.grids.inpaint import inpaint
 from bare_earth.algorithms.grids.morphology import erosion
 from benchmarks.scenes import Scene, make
 
 Value = TypeVar("Value")
+# The stages after which the seeds, and the vertices and their limits, are known.
+LAST_STAGES = Stage.SEEDS, Stage.ACCEPTED
 
 
 def chosen(value: Value | None) -> Value:
@@ -78,29 +76,26 @@ class Strip:
         return x, np.full(count, self.northing)
 
 
+def of_stage(method: Method, points: Points, parameters: ParameterSet, stage: Stage) -> State:
+    """Return what a method has found out about points after a stage."""
+    return method.pipeline(points, parameters, SILENT).through(stage).run(points)
+
+
 def tin_densification_steps() -> None:
     """Draw lowest points, seeds and their TIN, the TIN that has grown, and the labels."""
     strip = Strip(make("dense_canopy", 1), 94.0, (20.0, 100.0), 2.5)
     points = strip.points
-    parameters = tin_densification.TinDensification().resolve(points)
-    survey = LowestPoints(points, 1.0)
-    cells, apart = survey.cells, survey.spacing
-    grids = survey, LowestPoints(points, 1.0, shift=0.5)
-    size = chosen(parameters.max_building_size)
-    found = seeds_of_two_grids(points.count, grids, size, SILENT)
-    seeds, waiting = checked_seeds(points, *found, cells, apart)
-    heights = with_lower(np.full(cells.shape, np.nan), cells, points, seeds)
-    rules = tin_densification.densification_rules(parameters)
-    joined = densified(points, seeds, waiting, heights, cells, apart, rules, SILENT)
-    vertices = np.append(seeds, joined)
-    tolerance = Tolerance(parameters.ground_tolerance, parameters.slope_tolerance)
-    limits = ground_limits(points, vertices, cells, apart, tolerance)
-    ground = tin_densification.classify(points, parameters)
+    method, parameters = tin_densification.METHOD, tin_densification.TinDensification()
+    before, after = (of_stage(method, points, parameters, stage) for stage in LAST_STAGES)
+    (grid,) = after.grids
+    seeds, waiting, vertices = before.seeds, before.waiting, after.seeds
+    joined, limits, cells = np.setdiff1d(vertices, seeds), after.limits, grid.cells
+    ground = method.classify(points, parameters)
 
     figure, axes = pyplot.subplots(4, 1, figsize=(8.2, 8.6), layout="constrained", sharex=True)
     everything = np.arange(points.count)
     strip.draw(axes[0], everything, OTHER)
-    strip.draw(axes[0], survey.lowest, LINE, 5)
+    strip.draw(axes[0], grid.lowest, LINE, 5)
     strip.frame(axes[0], "Lowest point of each cell", others=OTHER, lowest=LINE)
     for panel, some in ((axes[1], seeds), (axes[2], vertices)):
         strip.draw(panel, waiting, OTHER)
@@ -145,21 +140,20 @@ def slope_filter_steps() -> None:
     strip = Strip(scene, 67.0, (90.0, 215.0), 1.0)
     points = strip.points
     parameters = slope_filter.SlopeFilter().resolve(points)
-    survey = LowestPoints(points, chosen(parameters.cell_size))
-    cells = survey.cells
-    known = np.isfinite(survey.heights)
-    heights = np.where(known, survey.heights, np.inf)
+    (grid,) = of_stage(slope_filter.METHOD, points, parameters, Stage.OUTLIERS).grids
+    cells, known = grid.cells, grid.heights.known
+    heights = np.where(known, grid.heights.values, np.inf)
     radius = chosen(parameters.search_radius) / cells.size
     eroded = erosion(heights, radius)
     opened = -erosion(np.where(np.isfinite(eroded), -eroded, np.inf), radius)
     above = np.where(known, heights - opened, np.inf)
-    ground = slope_filter.classify(points, parameters)
+    ground = slope_filter.METHOD.classify(points, parameters)
 
     figure, axes = pyplot.subplots(3, 1, figsize=(8.2, 6.9), layout="constrained", sharex=True)
     row = int(strip.northing // cells.size) - cells.first_row
     x = (np.arange(cells.columns) + cells.first_column + 0.5) * cells.size - strip.west
     strip.draw(axes[0], np.arange(points.count), OTHER)
-    strip.draw(axes[0], survey.lowest, LINE, 5)
+    strip.draw(axes[0], grid.lowest, LINE, 5)
     axes[0].plot(x, opened[row], color="black", linewidth=1)
     strip.frame(
         axes[0], "Lowest points, and their opening with the search radius (line)",
@@ -197,14 +191,14 @@ def grid_minimum_steps() -> None:
     strip = Strip(scene, 67.0, (90.0, 215.0), 1.0)
     points = strip.points
     parameters = grid_minimum.GridMinimum().resolve(points)
-    survey = LowestPoints(points, chosen(parameters.cell_size))
-    cells, heights = survey.cells, survey.heights
+    (grid,) = of_stage(grid_minimum.METHOD, points, parameters, Stage.OUTLIERS).grids
+    cells, heights = grid.cells, grid.heights.values
     thresholds, largest = chosen(parameters.height_thresholds), chosen(parameters.max_object_size)
     last = thresholds[-1]
-    steps = HeightSteps(heights, cells.size, covered(np.isfinite(heights)), cells.first)
+    steps = HeightSteps(grid.heights, covered(grid.heights.known))
     regions, rims = steps.regions_and_rims(last, 1.0)
-    tall = raised_objects(heights, cells.size, thresholds, largest, first=cells.first).raised
-    ground = grid_minimum.classify(points, parameters)
+    tall = RaisedObjects(largest, thresholds).find(grid.heights).raised
+    ground = grid_minimum.METHOD.classify(points, parameters)
 
     figure = pyplot.figure(figsize=(8.2, 6.2), layout="constrained")
     upper, lower = figure.subfigures(2, 1, squeeze=False, height_ratios=(1.9, 4.0)).ravel()

@@ -35,8 +35,8 @@ RESULTS, COVERAGE, TIMES = (PLACE / name for name in ("results.json", "coverage"
 
 # What is tried, and how many faults of a hundred.
 GROUPS = {
-    "filters": (22, "filters/method.py filters/*_*/*.py filters/slope/*.py"),
-    "shared": (24, "filters/shared/*.py"),
+    "filters": (22, "filters/*.py filters/bridges/*.py"),
+    "stages": (24, "filters/stages/*.py"),
     "grids": (24, "grids/*.py"),
     "classes": (14, " ".join(f"survey/{each}.py" for each in (
         "selection", "tally", "corrections", "ground_classes", "point_chooser",

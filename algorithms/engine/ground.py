@@ -12,10 +12,10 @@ from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Notes, Progress
 from ..filters import method_of
-from ..filters.shared.below_ground import below_ground
-from ..filters.shared.bridges import bridge_decks
-from ..filters.shared.doubts import tell_of_extent, tell_of_little_ground
-from ..filters.shared.high_groups import HighGroups
+from ..filters.below_ground import below_ground
+from ..filters.bridges.decks import bridge_decks
+from ..filters.high_groups import HighGroups
+from ..filters.warnings import warn_of_extent, warn_of_little_ground
 from ..grids.cells import apart
 from ..survey.selection import Selection
 from .blocks import BRIDGE, GROUND, HIGH, LOW, Block, BlockPoints, Blocks, Corner, Store
@@ -177,10 +177,10 @@ def _label(
     if points.count == 1:
         # One point cannot be compared with others, and such groups can be many.
         return np.array([GROUND], dtype=np.uint8)
-    tell_of_extent(points, *method.largest(parameters), progress)
+    warn_of_extent(points, *method.largest(parameters), progress)
     ground, outliers = method.ground(points, parameters, part, known)
     ground |= known
-    tell_of_little_ground(points, ground, progress)
+    warn_of_little_ground(points, ground, progress)
     labels = ground.astype(np.uint8)
     if finds_bridges:
         decks = bridge_decks(points, ground) & ~known

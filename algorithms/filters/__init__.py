@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from ..core.parameters import ParameterSet
-from . import grid_minimum, slope, tin_densification
+from . import grid_minimum, slope, tin
 from .method import Method
 
 # The most accurate one.
 DEFAULT_METHOD = "tin-densification"
-METHODS = {each.METHOD.name: each.METHOD for each in (tin_densification, grid_minimum, slope)}
+METHODS = {each.METHOD.name: each.METHOD for each in (tin, grid_minimum, slope)}
 
 
 def method_of(parameters: ParameterSet) -> Method:

@@ -9,11 +9,9 @@ import numpy as np
 from ..core.parameters import ParameterSet
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
-from .shared.low_groups import LowGroups
-from .shared.scattered import scattered_lows
+from .pipeline import Pipeline
+from .state import State
 
-# If more than this share of the points are scattered low outliers, the log says so.
-_MANY_OUTLIERS = 1e-4
 # Usual width in metres of the largest building; few are wider.
 _USUAL_OBJECT = 50.0
 
@@ -69,8 +67,9 @@ class Method(NamedTuple):
         As in the toolbox.
     parameters : type
         Its `ParameterSet`. It has a field `preset` with a choice ``automatic``.
-    classify : callable
-        ``classify(points, parameters, progress)``, a pure function that returns the ground mask.
+    pipeline : callable
+        ``pipeline(points, parameters, progress)`` returns the rules for some points, and tells the
+        progress which values were chosen.
     reach : callable
         ``reach(parameters)``, the distance in metres within which points affect each other.
     largest_object : callable
@@ -84,14 +83,13 @@ class Method(NamedTuple):
     toolbox : Toolbox
         Its texts in the toolbox.
     takes_known_ground : bool
-        Whether `classify` takes the keyword ``known_ground``, a mask of known ground points, and
-        starts from these.
+        Whether the pipeline starts from points of known ground.
     """
 
     name: str
     label: str
     parameters: type[ParameterSet]
-    classify: Callable[..., np.ndarray]
+    pipeline: Callable[..., Pipeline]
     reach: Callable[..., float]
     largest_object: Callable[..., float]
     size_parameter: str
@@ -100,6 +98,18 @@ class Method(NamedTuple):
     toolbox: Toolbox
     takes_known_ground: bool = False
 
+    def run(
+        self,
+        points: Points,
+        parameters: ParameterSet,
+        progress: Progress = SILENT,
+        known: np.ndarray | None = None,
+        explains: bool = False,
+    ) -> State:
+        """Return what the rules of the method find out about the points; see `Pipeline.run`."""
+        pipeline = self.pipeline(points, parameters, progress)
+        return pipeline.run(points, progress, known, explains)
+
     def ground(
         self,
         points: Points,
@@ -107,7 +117,7 @@ class Method(NamedTuple):
         progress: Progress = SILENT,
         known: np.ndarray | None = None,
     ) -> Found:
-        """Return which points are ground. Low outliers are left out, except by a classic preset.
+        """Return which points are ground. Low noise is left out, except by a classic preset.
 
         Parameters
         ----------
@@ -120,18 +130,18 @@ class Method(NamedTuple):
         known : numpy.ndarray of bool, shape (n,), optional
             Points that are known to be ground.
         """
-        starts = known is not None and known.any() and self.takes_known_ground
+        state = self.run(points, parameters, progress, known)
+        return Found(state.ground, state.low_noise)
 
-        def found(points: Points, known: np.ndarray | None) -> np.ndarray:
-            seeds = {"known_ground": known} if starts else {}
-            return self.classify(points, parameters, progress, **seeds)
-
-        low = None if self.is_classic(parameters) else _low_outliers(points, known, progress)
-        if low is None:
-            return Found(found(points, known), None)
-        left, ground = ~low, np.zeros(points.count, dtype=bool)
-        ground[left] = found(points.take(left), None if known is None else known[left])
-        return Found(ground, low)
+    def classify(
+        self,
+        points: Points,
+        parameters: ParameterSet,
+        progress: Progress = SILENT,
+        known_ground: np.ndarray | None = None,
+    ) -> np.ndarray:
+        """Return which points are ground; boolean, shape (n,)."""
+        return self.ground(points, parameters, progress, known_ground).ground
 
     def is_classic(self, parameters: ParameterSet) -> bool:
         """Return whether the parameters select the classic preset."""
@@ -149,21 +159,3 @@ class Method(NamedTuple):
         ):
             size = min(size, _USUAL_OBJECT)
         return size, labels[self.size_parameter]
-
-
-def _low_outliers(
-    points: Points, known: np.ndarray | None, progress: Progress
-) -> np.ndarray | None:
-    """Return which points are low outliers, scattered or in groups; None if there are none."""
-    low = scattered_lows(points)
-    if np.count_nonzero(low) > _MANY_OUTLIERS * points.count:
-        progress.info(
-            "Low outliers are scattered all over the points. They are left out, and are not ground."
-        )
-    rest = np.flatnonzero(~low) if low.any() else slice(None)
-    groups = LowGroups().find(points.take(rest))
-    if groups.any():
-        low[rest] |= groups
-    if known is not None:
-        low &= ~known
-    return low if low.any() else None

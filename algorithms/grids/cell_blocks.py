@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .cells import Cells
+from .height_grid import HeightGrid
 from .trend import between_blocks
 
 
@@ -37,6 +38,10 @@ class CellBlocks(NamedTuple):
         side = max(round(size / cells.size), least)
         blocks, within = zip(*(divmod(each, side) for each in cells.first))
         return cls(side * cells.size, side, within, blocks)
+
+    def grid(self, heights: HeightGrid) -> HeightGrid:
+        """Return the lowest height in each block."""
+        return HeightGrid(self.lowest(heights.values), self.size, self.first_block)
 
     def lowest(self, heights: np.ndarray) -> np.ndarray:
         """Return the lowest height in each block; NaN where there is none."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-_RELAXATIONS = 12
+RELAXATIONS = 12
 # Share of unknown cells above which it is faster to compute all cells.
 _MANY = 0.15
 _SAMPLES = 1000
@@ -17,7 +17,7 @@ _QUARTER, _THREE_QUARTERS = np.float32(0.25), np.float32(0.75)
 First = tuple[int, int]
 
 
-def inpaint(grid: np.ndarray, relaxations: int = _RELAXATIONS, first: First = (0, 0)) -> np.ndarray:
+def inpaint(grid: np.ndarray, relaxations: int = RELAXATIONS, first: First = (0, 0)) -> np.ndarray:
     """Return `grid` with its NaN cells filled by an approximate membrane.
 
     The known cells are averaged to coarser and coarser grids. These are interpolated back into the

@@ -11,8 +11,8 @@ import numpy as np
 from ..core.points import Box, Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import parts_of
-from ..filters.shared.confidence import confidence
-from ..filters.shared.high_groups import HighGroups
+from ..filters.confidence import confidence
+from ..filters.high_groups import HighGroups
 from ..grids.cell_window import CellWindow
 from ..grids.cells import are_inside, first_of_each
 from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface

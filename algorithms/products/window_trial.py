@@ -8,7 +8,7 @@ from typing import NamedTuple, Sequence
 import numpy as np
 
 from ..core.points import Points
-from ..filters.shared.confidence import confidence
+from ..filters.confidence import confidence
 from ..grids.cells import are_inside
 from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
 from .page import Units

@@ -38,7 +38,7 @@ from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.rasters import RasterFiles
 from bare_earth.algorithms.engine.requests import TerrainRequest
 from bare_earth.algorithms.engine.runs import terrain
-from bare_earth.algorithms.filters.slope.filter import SlopeFilter
+from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.las.edits import Edits
 from bare_earth.algorithms.las.extrabytes import ExtraDimension
 from bare_earth.algorithms.las.opening import open_las

@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.shared.bridges import bridge_decks
-from bare_earth.algorithms.filters.shared.confidence import confidence
+from bare_earth.algorithms.filters.bridges.decks import bridge_decks
+from bare_earth.algorithms.filters.confidence import confidence
 from benchmarks.scenes import make
 
 AGREED = Path(__file__).with_name("label_counts.json")

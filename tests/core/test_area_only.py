@@ -15,7 +15,7 @@ from bare_earth.algorithms.engine.output import HEIGHT_DIMENSION, Output
 from bare_earth.algorithms.engine.raster_files import RasterFiles
 from bare_earth.algorithms.engine.requests import ClassifyRequest
 from bare_earth.algorithms.engine.runs import classify
-from bare_earth.algorithms.filters.slope.filter import SlopeFilter
+from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.corrections import Corrections
 from bare_earth.algorithms.survey.vpc import read_vpc

@@ -22,7 +22,7 @@ from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.rasters import RasterFiles
 from bare_earth.algorithms.engine.requests import TerrainRequest
 from bare_earth.algorithms.engine.runs import terrain
-from bare_earth.algorithms.filters.slope.filter import SlopeFilter
+from bare_earth.algorithms.filters.slope import SlopeFilter
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="open files are locked there")
 METHOD = SlopeFilter(preset="whitebox")

@@ -13,10 +13,11 @@ from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.engine import file_points, ground, labelling, memory_points
 from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
-from bare_earth.algorithms.filters.shared.below_ground import below_ground
-from bare_earth.algorithms.filters.slope.filter import SlopeFilter
-from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
+from bare_earth.algorithms.filters.below_ground import below_ground
+from bare_earth.algorithms.filters.grid_minimum import GridMinimum
+from bare_earth.algorithms.filters.pipeline import Pipeline, PointRule, Stage
+from bare_earth.algorithms.filters.slope import SlopeFilter
+from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.las import cloud as cloud_module
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.survey.area import Area
@@ -96,11 +97,17 @@ def watched(monkeypatch, result=None, takes_known_ground=False):
     """Replace a method; return what it is given."""
     given = {}
 
-    def watch(points, parameters, progress, **known):
-        given.update(points=points, **known)
-        return np.zeros(points.count, bool) if result is None else result(points)
+    class Watch(PointRule):
+        stage = Stage.ACCEPTED
 
-    method = METHODS["slope"]._replace(classify=watch, takes_known_ground=takes_known_ground)
+        def apply(self, state):
+            given.update(points=state.points, known_ground=state.known_ground)
+            none = np.zeros(state.points.count, bool)
+            state.ground = none if result is None else result(state.points)
+
+    method = METHODS["slope"]._replace(
+        pipeline=lambda *_: Pipeline((Watch(),)), takes_known_ground=takes_known_ground
+    )
     for module in (labelling, ground):
         monkeypatch.setattr(module, "method_of", lambda parameters: method)
     return given
@@ -166,14 +173,13 @@ def test_geographic_coordinates_are_told_before_an_area_without_points(scene):
 
 
 def test_known_ground_stays_ground_whatever_the_method_finds(scene, monkeypatch, las):
-    given, heard = watched(monkeypatch), las.Heard()
-    classes = np.ones(scene[0].count, np.uint8)
+    watched(monkeypatch)
+    heard, classes = las.Heard(), np.ones(scene[0].count, np.uint8)
     classes[::7], classes[::9] = 8, 5
     cloud, selection = cloud_of(scene[0], classes), Selection(seed_classes=(8,))
     found, _ = classify_cloud(cloud, SlopeFilter(), selection, heard)
     assert np.array_equal(found == 2, classes == 8)
     assert (found[classes == 5] == 5).all()
-    assert "known_ground" not in given
     count = np.count_nonzero(classes == 8)
     assert f"{count:,} points of class 8 are known ground." in heard.infos
     assert any("does not start from known ground" in each for each in heard.infos)

@@ -15,7 +15,7 @@ from bare_earth.algorithms.engine import file_points as file_points_module
 from bare_earth.algorithms.engine.cloud_cache import CloudCache
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.workers import Threads
-from bare_earth.algorithms.filters.slope.filter import SlopeFilter
+from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.las import records as records_module
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.survey.window import read_window

@@ -16,7 +16,7 @@ from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.rasters import RasterFiles
 from bare_earth.algorithms.engine.requests import ClassifyRequest, TerrainRequest
 from bare_earth.algorithms.engine.runs import classify, terrain
-from bare_earth.algorithms.filters.slope.filter import SlopeFilter
+from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.grids.lines import NearPlaces, along, inside_grid
 from bare_earth.algorithms.survey.vector_files import read_lines
 from benchmarks.scenes.simple import scatter

@@ -22,7 +22,7 @@ from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.crs.provider import to_wgs84
 from bare_earth.algorithms.crs.system import crs_of_wkt
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.filters.slope.filter import SlopeFilter
+from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.las.edits import Edits
 from bare_earth.algorithms.las.extrabytes import ExtraDimension
 from bare_earth.algorithms.las.laszip import Compression

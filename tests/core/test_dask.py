@@ -22,8 +22,8 @@ from bare_earth.algorithms.engine import cluster as cluster_module
 from bare_earth.algorithms.engine import many_files as many_files_module
 from bare_earth.algorithms.engine.cluster import Cluster
 from bare_earth.algorithms.engine.options import TileOutput
-from bare_earth.algorithms.filters.slope.filter import SlopeFilter
-from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
+from bare_earth.algorithms.filters.slope import SlopeFilter
+from bare_earth.algorithms.filters.tin import TinDensification
 
 FAST = SlopeFilter(preset="whitebox")
 KILLS = int(os.environ.get("BARE_EARTH_KILLS", "10"))

@@ -8,20 +8,17 @@ import pytest
 
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.progress import SILENT
-from bare_earth.algorithms.filters.tin_densification.densification import (
-    DensificationRules,
-    densified,
-)
-from bare_earth.algorithms.grids.cells import Cells
+from bare_earth.algorithms.filters.stages.densify import Densification, LevelNeighbour
+from bare_earth.algorithms.filters.state import GridState, State
 
 # Every second row is moved by half a spacing: no four vertices lie on one circle.
 SEEDS = np.array([(10.0 * i + 5.0 * (k % 2), 10.0 * k) for k in range(7) for i in range(7)])
 CORNERS = np.array([(30.0, 20.0), (40.0, 20.0), (35.0, 30.0)])
 INSIDE = np.array([(36.0, 23.5)])
 LONGEST = math.hypot(5.0, 10.0)
-RULES = DensificationRules(
+RULES = Densification(
     iteration_angle=90.0, iteration_distance=50.0, max_terrain_angle=89.0,
-    reduce_angle_edge=None, stop_edge=None, noise_distance=0.0,
+    reduce_angle_edge=None, stop_edge=None, noise_distance=0.0, level_neighbour=None,
 )  # fmt: skip
 
 
@@ -33,13 +30,11 @@ def joining(candidates, heights, surface=plane, **rules):
     """Return which candidates join vertices on a surface."""
     xy, z = np.vstack((SEEDS, candidates)), np.append(surface(SEEDS), heights)
     points, first = Points(*xy.T.copy(), z), np.arange(len(SEEDS))
-    cells = Cells.over(points, 2.0)
     waiting = np.arange(len(SEEDS), len(xy))
-    found = densified(
-        points, first, waiting, cells.minimum(z, first), cells, 10.0,
-        dataclasses.replace(RULES, **rules), SILENT,
-    )  # fmt: skip
-    return np.isin(waiting, found)
+    state = State(points, SILENT, seeds=first, waiting=waiting)
+    state.spacing, state.grids = 10.0, [GridState.of(points, 10.0, 2.0)]
+    dataclasses.replace(RULES, **rules).apply(state)
+    return np.isin(waiting, state.seeds)
 
 
 def joins(height, **rules):
@@ -115,7 +110,7 @@ def test_beyond_a_facet_that_is_too_steep_the_mirror_image_is_judged():
 
 def test_far_from_the_surface_a_point_needs_a_neighbour_at_its_level():
     two = np.array([(33.0, 23.0), (35.0, 23.0)])  # in cells side by side
-    rules = {"level": 0.3, "noise_distance": 0.2}
+    rules = {"level_neighbour": LevelNeighbour(0.3), "noise_distance": 0.2}
     alone = plane(two[:1]) + 1.0
     assert joining(two[:1], alone).all()
     assert not joining(two[:1], alone, **rules).any()

@@ -9,9 +9,9 @@ from bare_earth.algorithms.engine.ground import label_ground
 from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
 from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
-from bare_earth.algorithms.filters.slope.filter import SlopeFilter
-from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
+from bare_earth.algorithms.filters.grid_minimum import GridMinimum
+from bare_earth.algorithms.filters.slope import SlopeFilter
+from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.las.cloud import survey_frame
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())

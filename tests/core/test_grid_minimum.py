@@ -6,8 +6,10 @@ import pytest
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.progress import Progress
-from bare_earth.algorithms.filters.grid_minimum.filter import PRESETS, GridMinimum, classify
+from bare_earth.algorithms.filters.grid_minimum import METHOD, PRESETS, GridMinimum
 from benchmarks.scenes.simple import error, scatter, surveyed, village
+
+classify = METHOD.classify
 
 
 class Log(Progress):

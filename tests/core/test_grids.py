@@ -6,10 +6,11 @@ from scipy import ndimage
 
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.threads import may_use
-from bare_earth.algorithms.filters.shared.outliers import low_outliers
+from bare_earth.algorithms.filters.stages.outliers import NarrowPits
 from bare_earth.algorithms.grids import cells as cells_module
 from bare_earth.algorithms.grids import morphology
 from bare_earth.algorithms.grids.cells import Cells, apart, lower_at, spacing
+from bare_earth.algorithms.grids.height_grid import HeightGrid
 from bare_earth.algorithms.grids.inpaint import inpaint
 from bare_earth.algorithms.grids.morphology import (
     erosion,
@@ -154,7 +155,7 @@ def test_a_pit_is_an_outlier_and_a_ditch_is_not():
     grid = np.zeros((30, 30))
     grid[10, 10] = -8.0
     grid[20] = -3.0
-    found = low_outliers(grid, 1.0, 5.0)
+    found = NarrowPits(under_canopy=None).find(HeightGrid(grid, 1.0), None, None)
     assert np.argwhere(found).tolist() == [[10, 10]]
 
 

@@ -3,21 +3,48 @@
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.filters.shared.allowance import Allowance
-from bare_earth.algorithms.filters.shared.gentle_regions import gentle_regions
-from bare_earth.algorithms.filters.shared.ground_cells import ground_cells
-from bare_earth.algorithms.filters.shared.objects import Objects
-from bare_earth.algorithms.filters.shared.roofs import flat_roofs
+from bare_earth.algorithms.core.progress import SILENT
+from bare_earth.algorithms.filters.stages.ditches import BetweenDitches
+from bare_earth.algorithms.filters.stages.opening import (
+    CutPlateaus,
+    ProgressiveOpening,
+    WideWindows,
+)
+from bare_earth.algorithms.filters.stages.terrain import GentleBorder, GentleRegions
+from bare_earth.algorithms.filters.state import GridState
+from bare_earth.algorithms.grids.cells import Cells
+from bare_earth.algorithms.grids.height_grid import HeightGrid
+
+NOTHING = np.zeros(0, dtype=np.intp)
 
 
-def objects_of(raised):
-    none = np.zeros(raised.shape, dtype=bool)
-    return Objects(raised, none, none, none)
+def grid_of(heights, size=1.0, objects=None, plateaus=None):
+    """Return the state of a grid of which only heights and objects are known."""
+    rows, columns = heights.shape
+    none = np.zeros(heights.shape, dtype=bool)
+    raised = none if objects is None else objects
+    return GridState(
+        None, 1.0, Cells(size, 0, 0, rows, columns, NOTHING), 0.0, NOTHING,
+        HeightGrid(heights, size), raised.copy(), raised,
+        none if plateaus is None else plateaus, none,
+    )  # fmt: skip
 
 
-def _ground(heights, objects=None, window=20.0, **allowance):
-    objects = np.zeros(heights.shape, dtype=bool) if objects is None else objects
-    return ground_cells(heights, 1.0, objects_of(objects), window, Allowance(**allowance))
+def ground_of(grid, window=20.0, opening=None, regions=None):
+    """Return the cells that openings and the rules of regions take for ground."""
+    rules = (
+        opening or ProgressiveOpening(window),
+        CutPlateaus(),
+        regions or GentleRegions(),
+        BetweenDitches(),
+    )
+    for rule in rules:
+        rule.apply(grid, SILENT)
+    return grid.is_ground
+
+
+def _ground(heights, objects=None, window=20.0, **changes):
+    return ground_of(grid_of(heights, objects=objects), window, regions=GentleRegions(**changes))
 
 
 def test_a_slope_is_ground_and_a_house_on_it_is_not():
@@ -44,7 +71,7 @@ def test_a_platform_with_walls_on_three_sides_and_a_ramp_on_the_fourth_is_ground
     ramp = 2.4 * np.clip((74 - rows) / 14.0, 0.0, 1.0)
     heights = np.where((rows >= 50) & (np.abs(columns - 60) < 15), ramp, 0.0)
     assert _ground(heights).all()
-    assert not _ground(heights, gentle_share=1.1).all()
+    assert not _ground(heights, gentle_border=GentleBorder(1.1), level_border=None).all()
 
 
 @pytest.mark.parametrize("width, is_ground", [(12.0, False), (30.0, True)])
@@ -61,7 +88,7 @@ def test_the_uppermost_terrace_in_a_corner_of_the_survey_is_ground():
     rows, columns = np.indices((120, 120))
     heights = 4.0 * (rows + columns < 60)
     assert _ground(heights, window=60.0).all()
-    assert not _ground(heights, window=60.0, border_area=1e9).all()
+    assert not _ground(heights, window=60.0, open_border=None).all()
 
 
 def test_a_building_in_a_corner_of_the_survey_is_not_ground():
@@ -71,54 +98,6 @@ def test_a_building_in_a_corner_of_the_survey_is_not_ground():
     assert not found[roof].any() and found[~roof].all()
 
 
-@pytest.mark.parametrize("size, side", [(0.5, 28), (2.0, 7), (3.0, 4)])
-def test_what_is_left_within_a_roof_goes_with_it_up_to_200_square_metres(size, side):
-    for more in (0, 1):
-        cells = side + more
-        heights = np.zeros((cells + 46, cells + 46))
-        # A gable roof: there is no plane to follow.
-        ridge = np.abs(np.arange(cells + 16) - (cells + 15) / 2.0)
-        heights[15:-15, 15:-15] = 9.0 - 0.1 * size * ridge
-        rest = np.zeros(heights.shape, dtype=bool)
-        rest[23:-23, 23:-23] = True
-        ground = ground_cells(heights, size, objects_of((heights > 0) & ~rest), 3.0 * size)
-        # A window may cut off the ridge.
-        assert ground[rest].mean() > 0.9 if more else not ground[rest].any()
-
-
-def _hall_on_a_slope(uphill=0.0):
-    """Return a slope with a level roof, its cells, and those that an opening cuts off.
-
-    Uphill the ground rises to a step of some height beside the roof, and lies half a metre below
-    it elsewhere: an opening leaves a strip of the roof there.
-    """
-    rows, columns = np.indices((140, 120)).astype(float)
-    roof = (rows >= 30) & (rows < 110) & (columns >= 30) & (columns < 90)
-    heights = 0.1 * rows
-    heights[rows >= 110] += uphill
-    heights[roof] = 11.5
-    return heights, roof, roof & (rows < 90)
-
-
-def test_a_level_roof_goes_on_to_the_ground_uphill():
-    heights, roof, cut_off = _hall_on_a_slope()
-    surveyed = np.ones(roof.shape, dtype=bool)
-    assert (flat_roofs(heights, cut_off, surveyed, 1.0)[roof]).all()
-    # There is no plane to follow on a rough surface, and it may be the tread of a terrace.
-    rough = heights + np.where(roof & (np.indices(roof.shape).sum(axis=0) % 2 > 0), 0.35, 0.0)
-    assert not flat_roofs(rough, cut_off, surveyed, 1.0).any()
-    assert not flat_roofs(*_hall_on_a_slope(uphill=3.0)[:1], cut_off, surveyed, 1.0).any()
-
-
-def test_a_roof_is_not_followed_to_the_border_of_the_survey_or_over_more_than_is_known():
-    heights, roof, cut_off = _hall_on_a_slope()
-    surveyed = np.ones(roof.shape, dtype=bool)
-    surveyed[110:] = False
-    assert not flat_roofs(heights, cut_off, surveyed, 1.0).any()
-    little = roof & (np.indices(roof.shape)[0] < 60)
-    assert not flat_roofs(heights, little, np.ones(roof.shape, dtype=bool), 1.0).any()
-
-
 def test_beyond_the_survey_a_roof_goes_on_where_gaps_are_judged():
     heights = np.zeros((40, 70))
     heights[13:27, 26:40] = 6.0
@@ -126,7 +105,9 @@ def test_beyond_the_survey_a_roof_goes_on_where_gaps_are_judged():
     # A window of 6 m cuts off the corners of what is 14 m wide, but not where it goes on.
     corners = [13, 26], [39, 39]
     assert _ground(heights, window=6.0)[corners].all()
-    assert not _ground(heights, window=6.0, judges_gaps=False)[corners].any()
+    opening = ProgressiveOpening(6.0, level_beyond=False)
+    found = ground_of(grid_of(heights), opening=opening, regions=GentleRegions(judges_gaps=False))
+    assert not found[corners].any()
 
 
 def test_a_rock_with_walls_all_round_is_ground_and_buildings_as_high_are_not():
@@ -134,7 +115,7 @@ def test_a_rock_with_walls_all_round_is_ground_and_buildings_as_high_are_not():
     inside = np.hypot(rows, columns) < 12.0
     rock = np.where(inside, 28.0 + columns, 0.0)
     assert _ground(rock, inside).all()
-    assert not _ground(rock, inside, rock_area=1e9)[inside].any()
+    assert not _ground(rock, inside, rocks=None)[inside].any()
     # Two roofs one above the other, joined by what fills a gap between them.
     stairs = np.interp(columns, (-2.0, 2.0), (8.0, 24.0))
     assert not _ground(np.where(inside, stairs, 0.0), inside)[inside].any()
@@ -148,32 +129,17 @@ def test_a_ramp_with_walls_is_ground_and_a_bridge_as_wide_is_not(angle):
     road = (np.abs(along) < 35.0) & (np.abs(across) < 4.0)
     ramp = np.where(road, 0.09 * (along + 35.0), 0.0)
     assert _ground(ramp).all()
-    assert not _ground(ramp, ramp_area=1e9).all()
+    assert not _ground(ramp, ramps=None).all()
     # It begins on the ground and ends there, and drops on both sides.
     bridge = np.where(road, 6.0 - 6.0 * (along / 35.0) ** 2, 0.0)
     assert not _ground(bridge)[road & (bridge > 3.0)].any()
-
-
-@pytest.mark.parametrize("angle", [0.5, 1.2])
-def test_a_ramp_between_two_levels_is_ground_and_a_roof_that_leans_on_a_wall_is_not(angle):
-    rows, columns = np.indices((120, 120)) - 60.0
-    along = rows * np.cos(angle) + columns * np.sin(angle)
-    across = columns * np.cos(angle) - rows * np.sin(angle)
-    below = (along < 0.0) & (along > -28.0) & (np.abs(across) < 3.6)
-    levels = np.where(along < 0.0, 0.0, 4.5)
-    ramp = np.where(below, 4.5 + 4.5 / 28.0 * along, levels)
-    assert _ground(ramp)[below].mean() > 0.98
-    # As even and as wide, and level with the upper ground, but its lower end is in the air.
-    roof = np.where(below & (along > -14.0), 4.5 + 0.08 * along, levels)
-    assert not _ground(roof)[below & (along > -13.0) & (along < -2.0)].any()
 
 
 def test_a_dam_is_ground_where_cells_are_wide_and_some_of_its_sides_empty():
     rows, columns = np.indices((60, 60)) - 30.0
     dam = np.clip(11.0 - 1.7 * np.abs(columns), 0.0, 6.0)
     dam[np.abs(columns) == 4 + rows % 3] = np.nan
-    none = np.zeros(dam.shape, dtype=bool)
-    ground = ground_cells(dam, 2.4, objects_of(none), 60.0)
+    ground = ground_of(grid_of(dam, 2.4), 60.0)
     assert ground[np.isfinite(dam)].all()
 
 
@@ -184,10 +150,11 @@ def test_what_fills_a_gap_round_a_roof_joins_it_with_no_ground(has_points, is_te
     roof = farthest < 11
     filled = 3.0 * np.clip((16.0 - farthest) / 6.0, 0.0, 1.0)
     known = roof | (farthest >= 16) | has_points
-    every = np.ones(known.shape, dtype=bool)
-    raised, surface = filled > 0.6, np.zeros(filled.shape)
-    terrain, _ = gentle_regions(filled, known, every, raised, surface, None, 2.0, Allowance())
-    assert terrain[roof].all() == is_terrain and terrain[roof].any() == is_terrain
+    grid = grid_of(np.where(known, filled, np.nan), 2.0)
+    grid.filled, grid.surface = filled.astype(np.float32), np.zeros(filled.shape)
+    grid.surveyed, grid.raised = np.ones(known.shape, dtype=bool), filled > 0.6
+    GentleRegions().apply(grid)
+    assert (~grid.raised)[roof].all() == is_terrain and (~grid.raised)[roof].any() == is_terrain
 
 
 def test_a_plateau_goes_as_a_whole_where_a_window_cuts_off_part_of_it():
@@ -195,10 +162,8 @@ def test_a_plateau_goes_as_a_whole_where_a_window_cuts_off_part_of_it():
     roof = np.zeros(heights.shape, dtype=bool)
     roof[40:120, 40:120] = True
     heights[roof] = 0.08 * 120 + 1.5
-    none = np.zeros(heights.shape, dtype=bool)
-    with_plateau, without = (
-        ground_cells(heights, 1.0, Objects(none, each, none, none), 75.0) for each in (roof, none)
-    )
+    with_plateau = ground_of(grid_of(heights, plateaus=roof), 75.0)
+    without = ground_of(grid_of(heights), 75.0)
     assert without[roof].any()
     assert not with_plateau[roof].any()
     assert with_plateau[~roof].mean() > 0.99
@@ -207,9 +172,11 @@ def test_a_plateau_goes_as_a_whole_where_a_window_cuts_off_part_of_it():
 def test_a_spur_is_ground_and_a_hall_on_a_gentle_slope_is_not():
     rows, columns = np.indices((160, 160)) - 80.0
     spur = 0.7 * (columns - 0.5 * np.abs(rows))
-    uncut = _ground(spur, window=75.0, gentle_area=1e9, link_area=np.inf)
+    uncut = _ground(spur, window=75.0, area=1e9, rocks=None, ramps=None)
     assert uncut[20:-20, 20:-20].mean() > 0.99
-    cut = _ground(spur, window=75.0, gentle_area=1e9, link_area=np.inf, hall_per_slope=0.0)
+    opening = ProgressiveOpening(75.0, wide_windows=WideWindows(per_slope=0.0))
+    regions = GentleRegions(area=1e9, rocks=None, ramps=None)
+    cut = ground_of(grid_of(spur), opening=opening, regions=regions)
     assert cut[20:-20, 20:-20].mean() < 0.9
     heights = 0.08 * columns
     hall = (np.abs(rows) < 35) & (np.abs(columns) < 35)
@@ -238,19 +205,3 @@ def test_low_bumps_are_ground_on_a_slope_and_not_in_the_plain():
 
 def test_a_grid_of_one_row_is_classified():
     assert _ground(np.zeros((1, 30))).all()
-
-
-def test_a_mountain_stays_and_a_tree_on_it_goes():
-    heights = np.full((100, 100), 20.0)
-    mountain = np.zeros(heights.shape, dtype=bool)
-    mountain[40:60, 40:60] = True
-    heights[mountain] = 40.0
-    heights[48:52, 48:52] += 12.0
-    none = np.zeros(heights.shape, dtype=bool)
-    found, without = (
-        ground_cells(heights, 1.0, Objects(none, none, each, none), 30.0)
-        for each in (mountain, none)
-    )
-    assert not without[mountain].any()
-    assert not found[48:52, 48:52].any()
-    assert found.sum() == heights.size - 16

@@ -10,8 +10,8 @@ from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.engine.raster_files import RasterFiles
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.shared.high_groups import HighGroups
-from bare_earth.algorithms.filters.shared.low_groups import LowGroups
+from bare_earth.algorithms.filters.high_groups import HighGroups
+from bare_earth.algorithms.filters.stages.low_groups import LowGroups
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.rasters.geotiff import read_raster
 from bare_earth.algorithms.survey.selection import Selection

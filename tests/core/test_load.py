@@ -13,7 +13,7 @@ from runs import classify_file, classify_tiles, write_height_above_ground
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.slope.filter import SlopeFilter
+from bare_earth.algorithms.filters.slope import SlopeFilter
 
 METHOD = SlopeFilter(preset="whitebox")
 

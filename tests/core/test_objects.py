@@ -3,9 +3,14 @@
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.filters.shared.height_steps import HeightSteps
-from bare_earth.algorithms.filters.shared.objects import covered, raised_objects
+from bare_earth.algorithms.filters.stages.height_steps import HeightSteps
+from bare_earth.algorithms.filters.stages.objects import Plateaus, RaisedObjects
+from bare_earth.algorithms.filters.state import covered
+from bare_earth.algorithms.grids.height_grid import HeightGrid
 from bare_earth.algorithms.grids.trend import Trend, between_blocks
+
+# Low drops are not searched, nor what they bound.
+PLATEAUS = Plateaus(height=np.inf, large_buildings=None)
 
 
 def plain(side: int = 60, slope: float = 0.0) -> np.ndarray:
@@ -15,7 +20,13 @@ def plain(side: int = 60, slope: float = 0.0) -> np.ndarray:
 
 
 def steps(heights: np.ndarray) -> HeightSteps:
-    return HeightSteps(heights, 1.0, covered(np.isfinite(heights)))
+    return HeightSteps(HeightGrid(heights, 1.0), covered(np.isfinite(heights)))
+
+
+def raised_objects(heights, size, thresholds, max_size, **values):
+    """Return the objects on a grid; plateaus only of the drops given."""
+    rule = RaisedObjects(max_size, thresholds, **{"plateaus": PLATEAUS, **values})
+    return rule.find(HeightGrid(heights, size))
 
 
 @pytest.mark.parametrize("slope", [0.0, 0.5])
@@ -60,7 +71,9 @@ def test_a_stack_with_points_on_its_face_is_terrain_and_a_tower_is_an_object():
     stack = plain() + 20.0 * np.clip((14.0 - out) / 4.0, 0.0, 1.0)
     tower = plain() + 20.0 * (out < 12.0)
     assert not raised_objects(stack, 1.0, (5.0, 2.0), 60.0).raised.any()
-    assert raised_objects(stack, 1.0, (5.0, 2.0), 60.0, classic=True).raised.any()
+    assert raised_objects(
+        stack, 1.0, (5.0, 2.0), 60.0, whole_share=0.4, cliff_faces=None
+    ).raised.any()
     assert np.array_equal(raised_objects(tower, 1.0, (5.0, 2.0), 60.0).raised, out < 12.0)
 
 

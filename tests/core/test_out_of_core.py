@@ -18,9 +18,9 @@ from bare_earth.algorithms.engine.heights import HeightOutput
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.output import Output
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
-from bare_earth.algorithms.filters.slope.filter import SlopeFilter
-from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
+from bare_earth.algorithms.filters.grid_minimum import GridMinimum
+from bare_earth.algorithms.filters.slope import SlopeFilter
+from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.las import copc, copc_octree, copc_points, reading
 from bare_earth.algorithms.las.reading import inspect
 from bare_earth.algorithms.las.writing import write_classified

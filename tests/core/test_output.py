@@ -10,7 +10,7 @@ from runs import classify_file, write_height_above_ground
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.engine.output import HEIGHT_DIMENSION, Output
-from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
+from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.las.edits import Edits
 from bare_earth.algorithms.las.extrabytes import ExtraDimension
 from bare_earth.algorithms.las.writing import write_changed

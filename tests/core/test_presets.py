@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
-from bare_earth.algorithms.filters.slope.filter import SlopeFilter
-from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
+from bare_earth.algorithms.filters.grid_minimum import GridMinimum
+from bare_earth.algorithms.filters.slope import SlopeFilter
+from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
 from bare_earth.algorithms.products.off_terrain import OffTerrain
 from bare_earth.algorithms.survey.ground_classes import GroundClasses

@@ -22,7 +22,7 @@ from bare_earth.algorithms.engine.raster_files import RASTERS, RasterFiles
 from bare_earth.algorithms.engine.raster_jobs import RasterJob
 from bare_earth.algorithms.engine.rasters import MakeRasters, write_rasters
 from bare_earth.algorithms.engine.workers import Processes, Threads
-from bare_earth.algorithms.filters.slope.filter import SlopeFilter
+from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.grids.tin import Tin, hull_corners
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.products.raster_block import LAYERS

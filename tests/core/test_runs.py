@@ -27,7 +27,7 @@ from bare_earth.algorithms.engine.requests import (
     KeyPointRequest,
     TerrainRequest,
 )
-from bare_earth.algorithms.filters.slope.filter import SlopeFilter
+from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection

@@ -9,12 +9,20 @@ from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.core.threads import may_use
-from bare_earth.algorithms.filters.slope import standing_above
-from bare_earth.algorithms.filters.slope.cell_bounds import CellBounds
-from bare_earth.algorithms.filters.slope.filter import SlopeFilter, classify
-from bare_earth.algorithms.filters.slope.low_clusters import low_clusters
-from bare_earth.algorithms.filters.slope.neighbourhood import Neighbourhood
+from bare_earth.algorithms.filters import whitebox
+from bare_earth.algorithms.filters.slope import METHOD, SlopeFilter
+from bare_earth.algorithms.filters.stages.outliers import WidePits
+from bare_earth.algorithms.filters.whitebox import Neighbours, stands_above
+from bare_earth.algorithms.grids.height_grid import HeightGrid
 from benchmarks.scenes.simple import error, scatter, surveyed, village
+
+classify = METHOD.classify
+
+
+def low_clusters(values, size=1.0, around=54.0, first=(0, 0)):
+    """Return the cells of small pits."""
+    return WidePits(around).find(HeightGrid(values, size, first))
+
 
 CLASSIC = SlopeFilter(preset="whitebox")
 
@@ -87,14 +95,14 @@ def test_the_classic_filter_gives_the_same_in_blocks_and_in_threads(radius, monk
     parameters = dataclasses.replace(CLASSIC.resolve(points), search_radius=radius)
     whole = classify(points, parameters)
     assert 0.5 < whole.mean() < 0.99
-    built = []
+    built, strip = [], whitebox._Strip
 
     def counted(*arguments):
         built.append(arguments)
-        return CellBounds(*arguments)
+        return strip(*arguments)
 
-    monkeypatch.setattr(standing_above, "_POINTS_A_BLOCK", 500)
-    monkeypatch.setattr(standing_above, "CellBounds", counted)
+    monkeypatch.setattr(whitebox, "_POINTS_A_STRIP", 500)
+    monkeypatch.setattr(whitebox, "_Strip", counted)
     assert np.array_equal(classify(points, parameters), whole)
     assert len(built) >= 9
     with may_use(3):
@@ -138,9 +146,15 @@ def test_the_higher_of_two_points_at_one_place_is_not_ground():
 
 def test_a_neighbourhood_with_too_few_points_grows_until_it_has_them():
     x = np.array([0.0, 5.0, 9.0, 30.0])
-    neighbourhood = Neighbourhood(Points(x, 0.0 * x, 0.0 * x), 2.0, at_least=2)
-    assert neighbourhood.minimum(x).tolist() == [0.0, 0.0, 0.0, 5.0]
-    assert neighbourhood.maximum(x).tolist() == [9.0, 9.0, 9.0, 30.0]
+    points, rule = Points(x, 0.0 * x, x), Neighbours(2.0, 1.0, 0.0, False)
+    assert not stands_above(points, rule).any()
+    assert stands_above(points, rule, at_least=1).tolist() == [False, False, True, True]
+    # The lowest of the two nearest is 0, 0, 0 and 5: the last rises by 25.
+    rule = rule._replace(height=24.5)
+    assert stands_above(points, rule, at_least=2).tolist() == [False, False, False, True]
+    rule = rule._replace(height=25.5)
+    assert not stands_above(points, rule, at_least=2).any()
+    assert stands_above(points, rule, at_least=3).tolist() == [False, False, False, True]
 
 
 def test_the_preset_whitebox_stands_for_the_values_of_the_tool():
@@ -217,13 +231,13 @@ def test_low_outliers_alone_or_in_clusters_do_not_pull_the_ground_down(width, sl
 def test_a_ditch_and_a_courtyard_are_not_taken_for_low_outliers():
     grid = np.zeros((100, 100))
     grid[:, 40:43] = -4.0
-    assert not low_clusters(grid, 1.0, 2.0, 6.0, 54.0).any()
+    assert not low_clusters(grid).any()
     grid = np.zeros((100, 100))
     grid[40:60, 40:60] = 9.0
     grid[49:52, 49:52] = 0.0
-    assert not low_clusters(grid, 1.0, 2.0, 6.0, 54.0).any()
+    assert not low_clusters(grid).any()
     grid[49:52, 49:52] = -9.0
-    assert low_clusters(grid, 1.0, 2.0, 6.0, 54.0).sum() == 9
+    assert low_clusters(grid).sum() == 9
 
 
 @pytest.mark.parametrize("length, is_found", [(3, True), (4, False)])
@@ -231,7 +245,7 @@ def test_a_cluster_is_no_longer_than_a_disc_where_one_of_a_cell_is_wide_enough(l
     grid = np.zeros((60, 60))
     grid[30, 30 : 30 + length] = -13.0
     # Cells of 3 m: the disc of a cell's radius is 9 m wide, and more is a ditch.
-    found = low_clusters(grid, 3.0, 2.0, 6.0, 54.0)
+    found = low_clusters(grid, 3.0)
     assert np.array_equal(found, (grid < 0) & is_found)
 
 
@@ -244,7 +258,7 @@ def test_a_grid_begins_at_the_first_cell_unless_told():
     for depth in np.arange(3.25, 3.265, 0.002):
         grid[9:11, 9:11] = -depth
         found, same, other = (
-            low_clusters(grid, 1.0, 2.0, 6.0, 9.0, **first)
+            low_clusters(grid, around=9.0, **first)
             for first in ({}, {"first": (0, 0)}, {"first": (-1, 0)})
         )
         assert np.array_equal(found, same)

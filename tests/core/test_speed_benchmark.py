@@ -241,7 +241,7 @@ def test_profile_tells_parts_and_functions():
         f"{main};read (bare_earth/algorithms/las/reading.py:25);fill (laspy/a.py:3) 30",
         f"{main};write (bare_earth/algorithms/las/writing.py:53);"
         "chunks (bare_earth/algorithms/las/reading.py:9) 20",
-        f"{main};slope (bare_earth/algorithms/filters/slope/filter.py:1);wait (threading.py:3) 40",
+        f"{main};slope (bare_earth/algorithms/filters/slope.py:1);wait (threading.py:3) 40",
         f"{main};_find_and_load (<frozen importlib._bootstrap>:1);<module> (numpy/a.py:1) 10",
         "thread (8): Worker;run (x.py:1);erosion (bare_earth/algorithms/grids/m.py:8) 70",
     ]

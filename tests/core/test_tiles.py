@@ -33,9 +33,9 @@ from bare_earth.algorithms.engine.output import Output
 from bare_earth.algorithms.engine.raster_files import RasterFiles
 from bare_earth.algorithms.engine.workers import Local, Processes, Threads
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
-from bare_earth.algorithms.filters.slope.filter import SlopeFilter
-from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
+from bare_earth.algorithms.filters.grid_minimum import GridMinimum
+from bare_earth.algorithms.filters.slope import SlopeFilter
+from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.las import copc as copc_module
 from bare_earth.algorithms.las import copc_octree
 from bare_earth.algorithms.las import reading as reading_module

@@ -20,9 +20,10 @@ from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
 from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.engine.scheduling import run_jobs
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.grid_minimum.filter import GridMinimum
-from bare_earth.algorithms.filters.slope.filter import SlopeFilter
-from bare_earth.algorithms.filters.tin_densification.filter import TinDensification
+from bare_earth.algorithms.filters.grid_minimum import GridMinimum
+from bare_earth.algorithms.filters.pipeline import Pipeline, PointRule, Stage
+from bare_earth.algorithms.filters.slope import SlopeFilter
+from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.survey.selection import Selection
@@ -243,8 +244,14 @@ def test_a_stray_point_far_away_changes_nothing_else(parameters):
 
 
 def watched(monkeypatch, function, reach=20.0):
+    class Watched(PointRule):
+        stage = Stage.ACCEPTED
+
+        def apply(self, state):
+            state.ground = function(state.points, state.progress)
+
     method = METHODS["slope"]._replace(
-        classify=lambda points, parameters, progress: function(points, progress),
+        pipeline=lambda *_: Pipeline((Watched(),)),
         reach=lambda parameters: reach,
     )
     monkeypatch.setattr(ground_module, "method_of", lambda parameters: method)

@@ -6,9 +6,11 @@ import pytest
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.progress import Progress
-from bare_earth.algorithms.filters.tin_densification.filter import TinDensification, classify
+from bare_earth.algorithms.filters.tin import METHOD, TinDensification
 from bare_earth.algorithms.grids.tin import Tin
 from benchmarks.scenes.simple import error, scatter, surveyed, village
+
+classify = METHOD.classify
 
 
 def test_houses_trees_and_low_noise_are_told_from_the_slope_they_stand_on():

@@ -5,10 +5,13 @@ import pytest
 from realdata import real
 
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.filters.shared.breaks import checked_seeds
-from bare_earth.algorithms.filters.shared.openness import openness
-from bare_earth.algorithms.filters.shared.outliers import low_outliers, under_canopy
+from bare_earth.algorithms.core.progress import SILENT
+from bare_earth.algorithms.filters.stages.breaks import LevelSeeds, Plants
+from bare_earth.algorithms.filters.stages.openness import openness
+from bare_earth.algorithms.filters.stages.outliers import NarrowPits, UnderCanopy
+from bare_earth.algorithms.filters.state import GridState, State
 from bare_earth.algorithms.grids.cells import Cells
+from bare_earth.algorithms.grids.height_grid import HeightGrid
 from benchmarks import data
 from benchmarks.measure import Filter, ReferenceModel
 
@@ -25,16 +28,16 @@ def seen_through_gaps(rough, side=60.0, density=6.0, seed=0):
 
 def pits_of(points):
     cells = Cells.over(points, 1.0)
-    heights = cells.minimum(points.z)
+    heights = HeightGrid(cells.minimum(points.z), 1.0, cells.first)
     # As where hardly any other pit is as low.
-    pits = low_outliers(heights, 1.0, 5.0, cells.first, spares_supported=False)
-    return pits, cells
+    rule = NarrowPits(corroborated=None, under_canopy=None)
+    return rule.find(heights, points, cells), cells
 
 
 def test_pits_in_a_rough_canopy_are_ground():
     points, ground = seen_through_gaps(rough=12.0, density=1.5)
     pits, cells = pits_of(points)
-    spared = pits & under_canopy(pits, points, cells)
+    spared = pits & UnderCanopy().spared(pits, points, cells)
     of_ground = cells.holding(ground)
     assert (pits & of_ground).sum() > 10 and spared[pits & of_ground].mean() > 0.8
 
@@ -43,13 +46,13 @@ def test_pits_in_an_even_surface_are_outliers_however_deep():
     points, _ = seen_through_gaps(rough=0.1)
     pits, cells = pits_of(points)
     assert pits.sum() > 50
-    assert not under_canopy(pits, points, cells).any()
+    assert not UnderCanopy().spared(pits, points, cells).any()
 
 
 def test_nothing_is_spared_where_there_is_no_pit():
     points, _ = seen_through_gaps(rough=0.1)
     cells = Cells.over(points, 1.0)
-    assert not under_canopy(np.zeros(cells.shape, dtype=bool), points, cells).any()
+    assert not UnderCanopy().spared(np.zeros(cells.shape, dtype=bool), points, cells).any()
 
 
 @pytest.mark.parametrize("slope", [0.1, 2.0])
@@ -80,8 +83,11 @@ def test_points_join_at_a_break_only_where_it_is_open(thick, joins):
     lowest = cells.lowest_points(points)
     edge = (points.x[lowest] > 20.0) & (points.x[lowest] < 22.0) & ~crown[lowest]
     seeds, waiting = lowest[~edge & ~crown[lowest]], lowest[edge]
-    found, _ = checked_seeds(points, seeds, waiting, cells, 1.0)
-    assert np.isin(waiting, found).mean() == pytest.approx(float(joins), abs=0.1)
+    state = State(points, SILENT, seeds=seeds, waiting=waiting)
+    state.grids = [GridState.of(points, 1.0, 1.0)]
+    for rule in (Plants(), LevelSeeds()):
+        rule.apply(state)
+    assert np.isin(waiting, state.seeds).mean() == pytest.approx(float(joins), abs=0.1)
 
 
 @pytest.mark.parametrize(

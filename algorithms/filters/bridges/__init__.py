@@ -1,0 +1,1 @@
+"""Bridge decks, told from the ground by their cross-sections."""

@@ -1,0 +1,191 @@
+"""The confidence of a terrain model: the probability that it is right, for each cell.
+
+It follows from labelled points alone, labelled by any method. The weights are fitted by ``python -m
+benchmarks.confidence``, which also prints how often the terrain is right at each level of
+confidence; docs/confidence.md has the figures.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple, Sequence
+
+import numpy as np
+
+from ..core.points import Points
+from ..grids.cells import Cells
+from ..grids.gradient import steepness
+from ..grids.inpaint import inpaint
+
+# Side of the cells in metres. All values below were fitted with it.
+CELL = 1.0
+# The terrain of a cell is right within so many metres, plus this share of the terrain's rise over
+# the cell, because the height is that of the middle of the cell.
+TOLERANCE, RISE_SHARE = 0.3, 0.5
+# Cells up to so many to each side are near a cell, and up to so many are round it.
+_NEAR, _AROUND = 2, 8
+# Weight of the cells round a cell, where the weight of those near it is 1.
+_AROUND_SHARE = 0.05
+# A rejected point up to so many metres above the ground may be ground.
+_DOUBTFUL_HEIGHT = 1.0
+_RELAXATIONS = 2
+# Largest roughness (m) and steepest step (rise over run) that count.
+_ROUGHEST, _STEEPEST = 2.0, 8.0
+_TINY = 1e-6
+
+
+class Weights(NamedTuple):
+    """The weight of each piece of `Evidence` in the logit of the confidence.
+
+    Attributes
+    ----------
+    level : float
+        The logit on smooth ground without a gap.
+    holes, roughness, gap, gap_at_step, doubtful : float
+        Factors of the pieces of evidence of these names.
+    """
+
+    level: float = 5.7
+    holes: float = -2.4
+    roughness: float = -4.2
+    gap: float = -0.33
+    gap_at_step: float = -0.43
+    doubtful: float = -10.0
+
+
+class Evidence(NamedTuple):
+    """The evidence for the confidence of each cell; grids of float32, shape (rows, columns).
+
+    Attributes
+    ----------
+    holes : numpy.ndarray
+        Share of the cells with points within 2 m that have no ground.
+    roughness : numpy.ndarray
+        Mean distance in metres of the ground near the cell from the mean of the 3 x 3 cells round
+        it.
+    gap : numpy.ndarray
+        Square of log(1 + d), where d is the distance in metres to the nearest cell with ground.
+    gap_at_step : numpy.ndarray
+        log(1 + d) times the steepest rise over run of the ground within 8 m.
+    doubtful : numpy.ndarray
+        Share of the cells with points within 8 m whose lowest point is not ground, although it lies
+        below the ground or at most 1 m above it.
+    """
+
+    holes: np.ndarray
+    roughness: np.ndarray
+    gap: np.ndarray
+    gap_at_step: np.ndarray
+    doubtful: np.ndarray
+
+
+class Confidence(NamedTuple):
+    """The confidence of a terrain model.
+
+    Attributes
+    ----------
+    cells : Cells
+        Cells of 1 m over all points.
+    values : numpy.ndarray of float32, shape (rows, columns)
+        Probability from 0 to 1.
+    """
+
+    cells: Cells
+    values: np.ndarray
+
+
+def confidence(points: Points, ground: np.ndarray) -> Confidence:
+    """Return the probability that the terrain made of ground points is right, for cells of 1 m.
+
+    It is right if the TIN of the ground points, at the middle of a cell, differs from the true
+    terrain by at most 0.3 m plus half of the terrain's rise over the cell.
+
+    Parameters
+    ----------
+    points : Points
+        All points that took part, at least one.
+    ground : numpy.ndarray of bool, shape (n,)
+        Which points were taken for ground, by any method.
+
+    Returns
+    -------
+    Confidence
+        0 everywhere if there is no ground.
+
+    Raises
+    ------
+    BareEarthError
+        If the points spread too far for a grid.
+    """
+    cells = Cells.over(points, CELL)
+    if not ground.any():
+        return Confidence(cells, np.zeros(cells.shape, dtype=np.float32))
+    return Confidence(cells, probability(evidence(cells, points.z, ground)))
+
+
+def probability(pieces: Sequence[np.ndarray], weights: Weights = Weights()) -> np.ndarray:
+    """Return the confidence from pieces of evidence, in the order of `Evidence`.
+
+    Parameters
+    ----------
+    pieces : sequence of numpy.ndarray of float
+        All of the same shape.
+    weights : Weights
+        By default the fitted weights.
+
+    Returns
+    -------
+    numpy.ndarray of float32
+        The logistic function of the weighted sum, in the same shape.
+    """
+    logit = np.full(pieces[0].shape, weights.level, dtype=np.float32)
+    for weight, values in zip(weights[1:], pieces):
+        logit += np.float32(weight) * values
+    return 1.0 / (1.0 + np.exp(-logit))
+
+
+def evidence(cells: Cells, z: np.ndarray, ground: np.ndarray) -> Evidence:
+    """Return the evidence for the confidence of each cell.
+
+    Parameters
+    ----------
+    cells : Cells
+        Cells of 1 m over all points.
+    z : numpy.ndarray of float, shape (n,)
+        Their heights in metres.
+    ground : numpy.ndarray of bool, shape (n,)
+        Which are ground, at least one.
+    """
+    from scipy import ndimage
+
+    lowest, heights = cells.minimum(z), cells.minimum(np.where(ground, z, np.inf))
+    occupied, has_ground = np.isfinite(lowest), np.isfinite(heights)
+    surface = inpaint(heights, _RELAXATIONS, cells.first).astype(np.float32)
+    doubtful = occupied & ~has_ground & (lowest - surface < _DOUBTFUL_HEIGHT)
+    gap = np.log1p(ndimage.distance_transform_edt(~has_ground) * cells.size).astype(np.float32)
+    rise = np.minimum(steepness(surface, cells.size), np.float32(_STEEPEST))
+    near, around = (_mean(occupied, reach) for reach in (_NEAR, _AROUND))
+    return Evidence(
+        np.clip(1.0 - _mean(has_ground, _NEAR) / np.maximum(near, _TINY), 0.0, 1.0),
+        _roughness(surface, has_ground),
+        gap**2,
+        gap * ndimage.maximum_filter(rise, 2 * _AROUND + 1, mode="nearest"),
+        _mean(doubtful, _AROUND) / np.maximum(around, _TINY),
+    )
+
+
+def _roughness(surface: np.ndarray, has_ground: np.ndarray) -> np.ndarray:
+    """Return how far the ground near each cell, or else round it, is from a smoothed surface."""
+    from scipy import ndimage
+
+    apart = np.abs(surface - ndimage.uniform_filter(surface, 3, mode="nearest"))
+    apart = np.where(has_ground, np.minimum(apart, np.float32(_ROUGHEST)), np.float32(0.0))
+    total = _mean(apart, _NEAR) + np.float32(_AROUND_SHARE) * _mean(apart, _AROUND)
+    count = _mean(has_ground, _NEAR) + np.float32(_AROUND_SHARE) * _mean(has_ground, _AROUND)
+    return total / np.maximum(count, np.float32(_TINY))
+
+
+def _mean(values: np.ndarray, reach: int) -> np.ndarray:
+    """Return the mean of the cells up to `reach` to each side; cells beyond the grid are 0."""
+    from scipy import ndimage
+
+    return ndimage.uniform_filter(values.astype(np.float32), 2 * reach + 1, mode="constant")

@@ -1,0 +1,334 @@
+"""Rule-based minimum-Z grid filter.
+
+References
+----------
+Prabhath, Perera and Arachchige: a rule-based minimum-Z grid filter. Only its abstract is public.
+The rest is ours, see docs/grid-minimum.md.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from ..core.errors import BareEarthError
+from ..core.parameters import ParameterSet, parameter
+from ..core.points import Points
+from ..core.progress import Progress
+from ..grids.cells import Cells
+from .method import Method, Toolbox
+from .pipeline import Pipeline
+from .stages.accept import NearSurface
+from .stages.breaks import LevelSeeds, Plants
+from .stages.ditches import BetweenDitches
+from .stages.low_groups import LowGroups
+from .stages.lowest import LowestPoints
+from .stages.objects import RaisedObjects, TallObjects
+from .stages.opening import CutPlateaus, ProgressiveOpening
+from .stages.outliers import DenseOutliers, NarrowPits
+from .stages.rims import BlockPits, DensePits, FineSeeds, PaperSurface, Rims, density
+from .stages.seeds import Seeds
+from .stages.terrain import GentleRegions
+from .stages.tolerance import ToleranceSurface
+
+# Points that a cell should hold on average: with fewer, gaps break the rims.
+_POINTS_PER_CELL = 1.0
+# Where points are sparse, the side of a cell is a multiple of this, in metres.
+_CELL_STEP = 0.5
+# Cells are not enlarged if they are too small by less than this share of their side.
+_NEARLY = 0.05
+# Least side in metres of the cells in which points are counted if those of the filter are too many.
+_DENSITY_BLOCK = 10.0
+# Points affect each other within so many times the largest object, and within at least so many
+# metres.
+_REACH_OBJECTS, _LEAST_REACH = 2.0, 100.0
+
+# The preset with the rules of the paper.
+CLASSIC = "paper"
+
+
+class Preset(NamedTuple):
+    """The values of a preset.
+
+    Attributes
+    ----------
+    label : str
+        As in the dialog.
+    cell_size : float
+        Least cell size in metres. It grows where points are sparse, except in the paper's preset.
+    height_thresholds : tuple of float
+        In metres.
+    final_height, max_object_size : float
+        In metres.
+    ground_tolerance, slope_tolerance : float
+        In metres, and as a share of the rise.
+    """
+
+    label: str
+    cell_size: float
+    height_thresholds: tuple[float, ...]
+    final_height: float
+    max_object_size: float
+    ground_tolerance: float = 0.18
+    slope_tolerance: float = 1.4
+
+
+PRESETS = {
+    "automatic": Preset("Automatic", 1.0, (5.0, 2.0), 0.3, 100.0),
+    "flat": Preset("Flat land, fields", 1.0, (5.0, 2.0), 0.25, 40.0),
+    "hilly": Preset("Hilly land, forest", 2.0, (5.0, 2.0), 0.3, 25.0),
+    "steep": Preset("Steep or rugged terrain", 1.0, (5.0, 2.0), 0.5, 25.0),
+    "town": Preset("Town", 1.0, (5.0, 2.0), 0.3, 60.0),
+    "city": Preset("City, large halls", 1.0, (5.0, 2.0), 0.3, 120.0),
+    CLASSIC: Preset("The paper's values", 0.5, (5.0, 4.5, 2.0), 0.3, 40.0, 0.4, 0.6),
+}
+
+
+@dataclass(frozen=True)
+class GridMinimum(ParameterSet):
+    """Parameters of the minimum-Z grid filter.
+
+    `resolve` fills empty ones from the preset.
+    """
+
+    preset: str = parameter(
+        "automatic",
+        label="Preset",
+        choices={name: preset.label for name, preset in PRESETS.items()},
+        help="Sets the fields that are left empty, to values that suit most land (automatic) or a"
+        " kind of terrain. The log says which values were used.",
+    )
+    cell_size: float | None = parameter(
+        None,
+        label="Cell size",
+        unit="m",
+        minimum=0.01,
+        maximum=100.0,
+        kind="number",
+        empty="automatic",
+        help="Side of the square cells whose lowest points are compared. Smaller cells follow"
+        " finer terrain if they hold at least one point, but have more rims at low plants. Empty:"
+        " from the preset, or larger if points are too sparse for it.",
+    )
+    height_thresholds: tuple[float, ...] | None = parameter(
+        None,
+        label="Height thresholds",
+        unit="m",
+        minimum=0.05,
+        maximum=1000.0,
+        kind="numbers",
+        empty="automatic",
+        help="One pass for each threshold, the largest first. If two neighbouring cells differ by"
+        " more than the threshold, the higher one is the rim of an object. Empty: from the preset.",
+    )
+    final_height: float | None = parameter(
+        None,
+        label="Final height",
+        unit="m",
+        minimum=0.01,
+        maximum=100.0,
+        kind="number",
+        empty="automatic",
+        help="The last pass removes whatever stands this far above the ground beside it: bushes,"
+        " cars, walls. A larger value keeps more of rough ground. Empty: from the preset.",
+    )
+    max_object_size: float | None = parameter(
+        None,
+        label="Maximum object size",
+        unit="m",
+        minimum=0.1,
+        maximum=1000.0,
+        kind="number",
+        empty="automatic",
+        help="Shorter side of the largest building. Anything wider is terrain. Empty: from the"
+        " preset.",
+    )
+    ground_tolerance: float | None = parameter(
+        None,
+        label="Ground tolerance",
+        unit="m",
+        minimum=0.0,
+        maximum=10.0,
+        kind="number",
+        empty="automatic",
+        advanced=True,
+        help="In level terrain, points up to this height above the surface of the ground are"
+        " ground. Empty: from the preset.",
+    )
+    slope_tolerance: float | None = parameter(
+        None,
+        label="Ground tolerance on slopes",
+        minimum=0.0,
+        maximum=10.0,
+        kind="number",
+        empty="automatic",
+        advanced=True,
+        help="This share of the rise of the ground from point to point, over at most a metre, is"
+        " added to the ground tolerance. In the paper's preset it is a share of the rise over one"
+        " cell. Empty: from the preset.",
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        heights = self.height_thresholds
+        if heights is None:
+            return
+        if not heights or any(low > high for high, low in zip(heights, heights[1:])):
+            given = ", ".join(f"{each:g}" for each in heights) or "nothing"
+            raise BareEarthError(
+                f"Height thresholds must be a list from the largest to the smallest, not {given}."
+            )
+
+    def resolve(self, points: Points) -> GridMinimum:
+        """Return the parameters with values in place of empty ones.
+
+        Parameters
+        ----------
+        points : Points
+            All points of the survey, because all its blocks must be classified with the same
+            values.
+
+        Returns
+        -------
+        GridMinimum
+            Equal to this one if nothing was empty.
+        """
+        return self._resolved(_counting_cells(points, self))
+
+    def _resolved(self, cells: Cells) -> GridMinimum:
+        preset = PRESETS[self.preset]
+        if self.cell_size is None and self.preset != CLASSIC:
+            large_enough = _CELL_STEP * _multiple(density(cells), _CELL_STEP)
+            preset = preset._replace(cell_size=max(preset.cell_size, large_enough))
+        return self.filled(preset._asdict())
+
+
+def largest_object(parameters: GridMinimum) -> float:
+    """Return the width in metres of the largest building that is searched."""
+    return parameters.max_object_size or PRESETS[parameters.preset].max_object_size
+
+
+def reach(parameters: GridMinimum) -> float:
+    """Return the distance in metres within which points affect each other."""
+    return max(_LEAST_REACH, _REACH_OBJECTS * largest_object(parameters))
+
+
+def pipeline(points: Points, parameters: GridMinimum, progress: Progress) -> Pipeline:
+    """Return the rules for some points, and tell which values were chosen.
+
+    First noise is removed from the grid of lowest points. Then objects are removed, the tall ones
+    first, and last the rims that are left. Removed cells grow back if they are level with the
+    ground beside them. Openings find objects without a rim on all sides, and regions that continue
+    gently into the ground come back. Every point close to the surface through the remaining lowest
+    points is ground.
+    """
+    cells = _counting_cells(points, parameters)
+    resolved = parameters._resolved(cells)
+    if resolved != parameters:
+        progress.choice(_in_words(resolved))
+    if parameters.cell_size is not None or parameters.preset == CLASSIC:
+        _tell_of_gaps(density(cells), resolved, progress)
+    size, heights = resolved.max_object_size, resolved.height_thresholds
+    if resolved.preset == CLASSIC:
+        return _classic(resolved)
+    objects = RaisedObjects(size, heights)
+    return Pipeline(
+        (
+            LowestPoints(size=resolved.cell_size),
+            DenseOutliers(),
+            LowGroups(),
+            NarrowPits(),
+            BlockPits(),
+            DensePits(),
+            TallObjects(objects, min(heights)),
+            ProgressiveOpening(size / 2.0),
+            Rims(objects, resolved.final_height),
+            CutPlateaus(),
+            GentleRegions(),
+            BetweenDitches(),
+            Seeds(objects_wait=True),
+            FineSeeds(resolved.final_height),
+            Plants(where_dense=False),
+            LevelSeeds(),
+            ToleranceSurface(resolved.ground_tolerance, resolved.slope_tolerance),
+            NearSurface(),
+        )
+    )
+
+
+def _classic(resolved: GridMinimum) -> Pipeline:
+    """Return the rules of the paper's preset."""
+    heights = resolved.height_thresholds
+    objects = RaisedObjects(
+        resolved.max_object_size, heights, whole_share=0.4, cliff_faces=None, plateaus=None
+    )
+    return Pipeline(
+        (
+            LowestPoints(size=resolved.cell_size),
+            BlockPits(corroborated=None),
+            TallObjects(objects, min(heights)),
+            Rims(objects, resolved.final_height, objects_grow_back=True),
+            PaperSurface(resolved.ground_tolerance, resolved.slope_tolerance),
+            NearSurface(),
+        )
+    )
+
+
+def _in_words(parameters: GridMinimum) -> str:
+    names = "preset", "cell_size", "height_thresholds", "final_height", "max_object_size"
+    return f"Grid minimum: {parameters.in_words(*names)}."
+
+
+def _tell_of_gaps(density: float, parameters: GridMinimum, progress: Progress) -> None:
+    """Warn if cells are too small for the number of points per square metre."""
+    size = parameters.cell_size
+    multiple = _multiple(density, size)
+    if multiple > 1:
+        progress.warning(
+            f"{density:.2g} points/m2 are too few for cells of {size:g} m: the rims of objects"
+            f" have gaps. Give a cell size of {multiple * size:g} m, or choose another preset."
+        )
+
+
+def _multiple(density: float, size: float) -> int:
+    """Return by how many times cells must be enlarged to hold about one point."""
+    return max(math.ceil(math.sqrt(_POINTS_PER_CELL / density) / size - _NEARLY), 1)
+
+
+def _counting_cells(points: Points, parameters: GridMinimum) -> Cells:
+    """Return cells to count the points in: those of the filter, unless they are far too small."""
+    size = parameters.cell_size or PRESETS[parameters.preset].cell_size
+    if math.prod(points.sides) > size**2 * points.count:
+        size = max(_DENSITY_BLOCK, 4.0 * size)
+    return Cells.over(points, size)
+
+
+_SUMMARY = "Finds the ground points of a lidar point cloud by rules on the lowest points of cells."
+_ABOUT = (
+    "Finds the ground points of airborne or drone lidar on a grid of lowest points, and writes a"
+    " point cloud with the new classes; nothing else in it changes. Steps between neighbouring"
+    " cells are the rims of objects. What such rims enclose is removed, tall objects first. The"
+    " method is fast, and needs only heights, no return numbers.\n"
+    "Lengths are metres and angles degrees, whatever the unit of the CRS. The terrain model and"
+    " its hillshade are GeoTIFFs."
+)
+METHOD = Method(
+    "grid-minimum",
+    "Grid minimum",
+    GridMinimum,
+    pipeline,
+    reach,
+    largest_object,
+    "max_object_size",
+    CLASSIC,
+    PRESETS,
+    Toolbox(
+        "gridminimum",
+        "Classify ground (grid minimum)",
+        _SUMMARY,
+        _ABOUT,
+        "grid-minimum",
+        ("grid,raster,rasterize,interpolate", "lowest,minimum"),
+    ),
+)

@@ -1,0 +1,138 @@
+"""Small groups of points far above everything round them: birds, clouds, faults of the sensor."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..core.points import Points
+from ..grids.cells import Cells, lower_at, spacing
+from ..grids.morphology import within_square
+
+# Least side of a cell as a multiple of the usual distance between points.
+_SPACINGS = 5.0
+# Metres by which groups of a row may differ in height, however near.
+_ROW_RISE = 2.0
+# Largest number of groups above one another in one place.
+_MOST_ROUNDS = 8
+
+
+@dataclass(frozen=True)
+class HighGroups:
+    """The rule for points that hang in the air.
+
+    Trees, masts and towers have points further down. Wires do not, but there are more of them in a
+    row.
+
+    Attributes
+    ----------
+    height : float
+        Least height in metres above all other points of the place, and between the groups of a
+        place.
+    points : int
+        Largest number of points of a group.
+    width : float
+        Largest width of a group in metres.
+    reach : float
+        The place reaches at least so many metres from the group.
+    row, row_climb : float
+        Groups may belong to one row, such as a wire, if they are at most so many metres apart, and
+        one is higher by at most 2 m and `row_climb` times their distance.
+    row_share : float
+        Largest width of a row as a share of its length, both as standard deviations.
+    most : int
+        A row of more groups is an object.
+    """
+
+    height: float = 10.0
+    points: int = 20
+    width: float = 5.0
+    reach: float = 10.0
+    row: float = 25.0
+    row_climb: float = 0.2
+    row_share: float = 0.35
+    most: int = 3
+
+    def find(self, points: Points) -> np.ndarray:
+        """Return which points belong to a group far above all others of their place.
+
+        Parameters
+        ----------
+        points : Points
+            At least one point.
+
+        Returns
+        -------
+        numpy.ndarray of bool, shape (n,)
+        """
+        cells = Cells.over(points, max(self.reach, _SPACINGS * spacing(points)))
+        found = np.zeros(points.count, dtype=bool)
+        left = np.arange(points.count)
+        for _ in range(_MOST_ROUNDS):
+            hanging = left[self._hanging(cells, cells.index[left], points.z[left])]
+            if not len(hanging):
+                break
+            found[hanging] = True
+            left = left[~found[left]]
+        which = np.flatnonzero(found)
+        found[which] = self._are_small(points.take(which))
+        return found
+
+    def _hanging(self, cells: Cells, cell: np.ndarray, z: np.ndarray) -> np.ndarray:
+        """Return the few topmost points of cells that lie far above all others round them."""
+        top = self._highest(cells, cell, z)
+        # The topmost points of a cell, and the highest of the others.
+        is_topmost = z > (top - self.height).ravel()[cell]
+        count = np.bincount(cell[is_topmost], minlength=top.size).reshape(top.shape)
+        lowest = np.full(top.size, np.inf)
+        lower_at(lowest, cell[is_topmost], z[is_topmost])
+        bottom = lowest.reshape(top.shape)
+        below = self._highest(cells, cell[~is_topmost], z[~is_topmost])
+        few = (count > 0) & (count <= self.points) & (bottom - below >= self.height)
+        # A group can lie in several cells.
+        around = within_square(np.maximum, np.where(few, below, top), 1)
+        few &= np.isfinite(around) & (bottom - around >= self.height)
+        return np.flatnonzero(is_topmost & few.ravel()[cell])
+
+    def _highest(self, cells: Cells, cell: np.ndarray, z: np.ndarray) -> np.ndarray:
+        """Return the greatest height in each cell; minus infinity where there is none."""
+        lowest = np.full(cells.rows * cells.columns, np.inf)
+        lower_at(lowest, cell, -z)
+        return -lowest.reshape(cells.shape)
+
+    def _are_small(self, points: Points) -> np.ndarray:
+        """Return which points belong to small groups that are no parts of longer objects."""
+        from scipy.sparse import coo_matrix
+        from scipy.sparse.csgraph import connected_components
+        from scipy.spatial import cKDTree
+
+        if not points.count:
+            return np.zeros(0, dtype=bool)
+
+        def linked(places: np.ndarray, distance: float, rise: float, climb: float) -> np.ndarray:
+            first, second = (
+                cKDTree(places[:, :2]).query_pairs(distance, output_type="ndarray").reshape(-1, 2).T
+            )
+            steps = places[first] - places[second]
+            along = np.hypot(steps[:, 0], steps[:, 1])
+            near = np.abs(steps[:, 2]) <= rise + climb * along
+            shape = (len(places),) * 2
+            links = coo_matrix((np.ones(near.sum()), (first[near], second[near])), shape=shape)
+            return connected_components(links, directed=False)[1]
+
+        places = np.column_stack(points)
+        group = linked(places, self.width, self.width, 0.0)
+        sizes = np.bincount(group)
+        low, high = (np.full((len(sizes), 2), np.inf) for _ in range(2))
+        for axis in (0, 1):
+            lower_at(low[:, axis], group, places[:, axis])
+            lower_at(high[:, axis], group, -places[:, axis])
+        small = (sizes <= self.points) & ((-high - low).max(axis=1) <= self.width)
+        middles = np.column_stack([np.bincount(group, axis) / sizes for axis in places.T])
+        row = linked(middles, self.row, _ROW_RISE, self.row_climb)
+        for number in np.flatnonzero(np.bincount(row) > self.most):
+            of_row = row == number
+            across, along = np.linalg.eigvalsh(np.cov(middles[of_row, :2].T))
+            small[of_row] &= across > self.row_share**2 * along
+        return small[group]

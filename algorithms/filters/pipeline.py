@@ -1,0 +1,197 @@
+"""Rules, and the pipelines of rules that a ground filter is.
+
+A rule decides something about the cells or the points that earlier rules have left open. A pipeline
+runs its rules in the order of their stages. Each rule can be left out by its name.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+import threading
+import time
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any, ClassVar, Iterator
+
+import numpy as np
+
+from ..core.points import Points
+from ..core.progress import SILENT, Progress
+from ..core.threads import in_threads
+from .state import GridState, RuleTime, State
+from .warnings import warn_of_outliers
+
+
+class Stage(Enum):
+    """The stages of a pipeline, in their order."""
+
+    LOWEST = "lowest points"
+    LOW_NOISE = "low noise"
+    OUTLIERS = "outliers"
+    OBJECTS = "objects"
+    OPENING = "opening"
+    TERRAIN = "terrain"
+    SEEDS = "seeds"
+    SURFACE = "surface"
+    ACCEPTED = "accepted points"
+
+
+@dataclass(frozen=True)
+class Rule:
+    """One rule of a filter: named values, and what it does with them.
+
+    A rule can have other rules as fields: its exceptions, for example. If such a field is None, the
+    rule works without it.
+
+    Attributes
+    ----------
+    stage : Stage
+        When the rule is applied.
+    reads, writes : tuple of str
+        Fields of the state that the rule uses and changes.
+    """
+
+    stage: ClassVar[Stage]
+    reads: ClassVar[tuple[str, ...]] = ()
+    writes: ClassVar[tuple[str, ...]] = ()
+    name: ClassVar[str]
+
+    def __init_subclass__(cls, **keywords: Any) -> None:
+        super().__init_subclass__(**keywords)
+        cls.name = re.sub(r"(?<!^)(?=[A-Z])", "-", cls.__name__).lower()
+
+    def parts(self) -> Iterator[Rule]:
+        """Yield this rule and the rules that are fields of it."""
+        yield self
+        for field in dataclasses.fields(self):
+            value = getattr(self, field.name)
+            if isinstance(value, Rule):
+                yield from value.parts()
+
+    def without(self, names: frozenset[str]) -> Rule:
+        """Return this rule without those of its fields that have these names."""
+        changes = {}
+        for field in dataclasses.fields(self):
+            value = getattr(self, field.name)
+            if isinstance(value, Rule):
+                changes[field.name] = None if value.name in names else value.without(names)
+        return dataclasses.replace(self, **changes)
+
+
+@dataclass(frozen=True)
+class PointRule(Rule):
+    """A rule for the points."""
+
+    def apply(self, state: State) -> None:
+        """Change the state by this rule."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class GridRule(Rule):
+    """A rule for the cells of a grid. If there are several grids, it is applied to each of them."""
+
+    def apply(self, grid: GridState, progress: Progress) -> None:
+        """Change the state of one grid by this rule."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class Pipeline:
+    """The rules of a ground filter, in the order of their stages.
+
+    Attributes
+    ----------
+    rules : tuple of Rule
+        Applied one after another.
+    """
+
+    rules: tuple[Rule, ...]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of all rules, also of those that are fields of others."""
+        return tuple(dict.fromkeys(part.name for rule in self.rules for part in rule.parts()))
+
+    def without(self, *names: str) -> Pipeline:
+        """Return a pipeline without the rules of these names.
+
+        Raises
+        ------
+        ValueError
+            If there is no rule with such a name.
+        """
+        unknown = set(names) - set(self.names)
+        if unknown:
+            raise ValueError(f"No rule is called {', '.join(sorted(unknown))}.")
+        left_out = frozenset(names)
+        rules = (rule for rule in self.rules if rule.name not in left_out)
+        return Pipeline(tuple(rule.without(left_out) for rule in rules))
+
+    def through(self, stage: Stage) -> Pipeline:
+        """Return a pipeline of the rules of the stages up to and including one."""
+        stages = list(Stage)
+        last = stages.index(stage)
+        return Pipeline(tuple(rule for rule in self.rules if stages.index(rule.stage) <= last))
+
+    def run(
+        self,
+        points: Points,
+        progress: Progress = SILENT,
+        known_ground: np.ndarray | None = None,
+        explains: bool = False,
+    ) -> State:
+        """Return what the rules find out about the points.
+
+        Parameters
+        ----------
+        points : Points
+            All points that take part.
+        progress : Progress
+            Receives progress and messages.
+        known_ground : numpy.ndarray of bool, shape (n,), optional
+            Points of known ground.
+        explains : bool
+            Whether to note which rule decided each cell (`State.decided`).
+
+        Raises
+        ------
+        BareEarthError
+            If the points spread too far for a grid, or no ground is found.
+        Cancelled
+            If the user asked to stop.
+        """
+        state = State(points, progress, known_ground, explains)
+        for number, rule in enumerate(self.rules):
+            part = progress.part(number / len(self.rules), (number + 1) / len(self.rules))
+            begun = time.perf_counter()
+            if isinstance(rule, GridRule):
+                _apply_to_grids(rule, state, part)
+            elif isinstance(rule, PointRule):
+                state.progress = part
+                rule.apply(state)
+            state.times.append(RuleTime(rule.stage.value, rule.name, time.perf_counter() - begun))
+            if explains:
+                state.note(number)
+            part(1.0)
+            if rule.stage is Stage.OUTLIERS:
+                last_outliers = all(
+                    later.stage is not Stage.OUTLIERS for later in self.rules[number + 1 :]
+                )
+                if last_outliers:
+                    grid = state.grids[0]
+                    warn_of_outliers(len(grid.lowest), grid.heights.values, progress)
+        return state
+
+
+def _apply_to_grids(rule: GridRule, state: State, progress: Progress) -> None:
+    caller, count = threading.get_ident(), len(state.grids)
+
+    def apply(number: int) -> None:
+        # Progress is for the calling thread only.
+        is_caller = threading.get_ident() == caller
+        part = progress.part(number / count, (number + 1) / count) if is_caller else SILENT
+        rule.apply(state.grids[number], part)
+
+    in_threads(apply, range(count))

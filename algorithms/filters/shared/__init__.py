@@ -1,1 +1,0 @@
-"""What the ground filters share."""

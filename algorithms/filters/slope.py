@@ -1,0 +1,333 @@
+"""Slope filter, exact on one scale or on many.
+
+References
+----------
+Vosselman, G. (2000): Slope based filtering of laser altimetry data. International Archives of
+Photogrammetry and Remote Sensing 33 (B3), 935-942.
+Lindsay, J. (2025): WhiteboxTools, LidarGroundPointFilter. https://www.whiteboxgeo.com/manual/
+Pingel, T., Clarke, K., McBride, W. (2013): An improved simple morphological filter for the terrain
+classification of airborne LIDAR data. ISPRS Journal 77, 21-30.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from ..core.parameters import ParameterSet, parameter
+from ..core.points import Points
+from ..core.progress import Progress
+from ..grids.cells import spacing
+from .method import Method, Toolbox
+from .pipeline import Pipeline
+from .stages.accept import NearSurface
+from .stages.breaks import LevelSeeds, Plants
+from .stages.ditches import BetweenDitches
+from .stages.low_groups import LowGroups
+from .stages.lowest import LowestPoints
+from .stages.objects import RaisedObjects
+from .stages.opening import CutPlateaus, ProgressiveOpening
+from .stages.outliers import DenseOutliers, IsolatedLowPoints, NarrowPits, WidePits
+from .stages.seeds import Seeds
+from .stages.steep_rises import SteepRises
+from .stages.terrain import GentleRegions
+from .stages.tolerance import ToleranceSurface
+from .whitebox import StandsAbove
+
+# Low outliers must lie below the terrain within so many search radii.
+_SURROUNDINGS = 3.0
+# Points affect each other within so many search radii. On one scale, this is just what erosion,
+# dilation and comparison need. It is at least so many metres if the radius follows from the points.
+_REACH_RADII, _REACH_RADII_ON_ONE_SCALE, _LEAST_REACH = 5.0, 3.01, 100.0
+# The same, as a multiple of the largest building.
+_REACH_BUILDINGS = 2.0
+_WHITEBOX_RADIUS = 2.0
+# The preset with the rules of Whitebox's filter.
+CLASSIC = "whitebox"
+# If the search radius is given, the largest building is so many times as wide.
+_WIDEST = 2.0
+
+
+class ManyScales(NamedTuple):
+    """The values of a preset that compares on many scales.
+
+    Attributes
+    ----------
+    search_radius : float
+        Least search radius in metres.
+    slope_threshold : float
+        In degrees.
+    height_threshold, max_building_size : float
+        In metres.
+    """
+
+    search_radius: float
+    slope_threshold: float
+    height_threshold: float
+    max_building_size: float
+
+
+MANY_SCALES = {
+    "automatic": ManyScales(18.0, 15.0, 0.5, 100.0),
+    "flat": ManyScales(24.0, 15.0, 0.4, 100.0),
+    "hilly": ManyScales(15.0, 15.0, 0.5, 30.0),
+    "steep": ManyScales(12.0, 20.0, 0.5, 24.0),
+    "town": ManyScales(24.0, 15.0, 0.5, 100.0),
+    "city": ManyScales(50.0, 15.0, 0.5, 150.0),
+}
+
+
+@dataclass(frozen=True)
+class SlopeFilter(ParameterSet):
+    """Parameters of the slope filter, named as in Whitebox's *LidarGroundPointFilter*.
+
+    `resolve` fills empty ones from the preset.
+    """
+
+    preset: str = parameter(
+        "automatic",
+        label="Preset",
+        choices={
+            "automatic": "Automatic (many scales, follows the terrain)",
+            "flat": "Flat land, fields",
+            "hilly": "Hilly land, forest",
+            "steep": "Steep or rugged terrain",
+            "town": "Town",
+            "city": "City, large halls",
+            CLASSIC: "Whitebox (one scale, 2 m, 45 deg, 1 m)",
+        },
+        help="Sets the fields that are left empty. Automatic and the kinds of terrain remove"
+        " buildings as well as shrubs. Whitebox is the classic filter with the values of"
+        " WhiteboxTools: within its radius of 2 m it cannot find a building.",
+    )
+    search_radius: float | None = parameter(
+        None,
+        label="Search radius",
+        unit="m",
+        minimum=0.1,
+        maximum=500.0,
+        kind="number",
+        empty="automatic",
+        help="Points are compared with their neighbours up to this distance. Choose at least half"
+        " the shorter side of the largest building. Empty: from the preset, 18 m in the automatic"
+        " one (more if points are sparse), 2 m in Whitebox.",
+    )
+    min_neighbours: int = parameter(
+        0,
+        label="Minimum number of neighbours",
+        unit="points",
+        minimum=0,
+        maximum=10_000,
+        help="A point with fewer neighbours within the search radius is compared with this many"
+        " nearest points. Only for the preset Whitebox.",
+    )
+    slope_threshold: float | None = parameter(
+        None,
+        label="Slope threshold",
+        unit="deg",
+        minimum=0.0,
+        maximum=88.0,
+        kind="number",
+        empty="automatic",
+        help="A point is not ground if it stands above a neighbour at a steeper slope than this."
+        " In all presets but Whitebox, the slope of the terrain around the point is added to it."
+        " Empty: from the preset, 15 deg in most, 45 deg in Whitebox.",
+    )
+    height_threshold: float | None = parameter(
+        None,
+        label="Height threshold",
+        unit="m",
+        minimum=0.0,
+        maximum=100.0,
+        kind="number",
+        empty="automatic",
+        help="A point is not ground only if it stands at least this high above a neighbour. Empty:"
+        " from the preset, 0.5 m in most, 1 m in Whitebox.",
+    )
+    slope_norm: bool = parameter(
+        True,
+        label="Slope normalisation",
+        help="Compares heights above a surface that follows the terrain (white top-hat), not"
+        " elevations, so that ground on slopes is not lost.",
+    )
+    cell_size: float | None = parameter(
+        None,
+        label="Cell size",
+        unit="m",
+        minimum=0.05,
+        maximum=50.0,
+        kind="number",
+        empty="automatic",
+        advanced=True,
+        help="Side of the cells whose lowest points are compared. Not used with the preset"
+        " Whitebox. Empty: the usual distance between points, at least 1 m.",
+    )
+    max_building_size: float | None = parameter(
+        None,
+        label="Maximum building size",
+        unit="m",
+        minimum=0.1,
+        maximum=500.0,
+        kind="number",
+        empty="automatic",
+        help="Shorter side of the largest building. Buildings wider than two search radii are"
+        " found by the drop on all their sides. Empty: from the preset, or two search radii if the"
+        " search radius is given. Not used with the preset Whitebox.",
+    )
+    ground_tolerance: float = parameter(
+        0.18,
+        label="Ground tolerance",
+        unit="m",
+        minimum=0.0,
+        maximum=10.0,
+        advanced=True,
+        help="In level terrain, points up to this height above the surface through the ground are"
+        " ground. Not used with the preset Whitebox.",
+    )
+    slope_tolerance: float = parameter(
+        1.4,
+        label="Ground tolerance on slopes",
+        unit="m",
+        minimum=0.0,
+        maximum=10.0,
+        advanced=True,
+        help="Added to the ground tolerance on a slope of 45 degrees, if points are a metre apart."
+        " Less is added, in proportion, on gentler slopes and if points are closer.",
+    )
+
+    def resolve(self, points: Points) -> SlopeFilter:
+        """Return the parameters with values in place of empty ones.
+
+        Parameters
+        ----------
+        points : Points
+            All points of the survey, because all its blocks must be classified with the same
+            values.
+
+        Returns
+        -------
+        SlopeFilter
+            Equal to this one if nothing was empty.
+        """
+        if self.preset == CLASSIC:
+            chosen = {
+                "search_radius": _WHITEBOX_RADIUS,
+                "slope_threshold": 45.0,
+                "height_threshold": 1.0,
+            }
+        else:
+            preset = MANY_SCALES[self.preset]
+            chosen = preset._asdict()
+            if self.search_radius is not None:
+                chosen["max_building_size"] = _WIDEST * self.search_radius
+            if self.search_radius is None or self.cell_size is None:
+                apart = spacing(points)
+                chosen["search_radius"] = max(preset.search_radius, round(4.0 * apart, 1))
+                chosen["cell_size"] = apart
+        return self.filled(chosen)
+
+
+def largest_object(parameters: SlopeFilter) -> float:
+    """Return the width in metres of the largest building that is searched."""
+    given = parameters.search_radius
+    if parameters.preset == CLASSIC:
+        return _WIDEST * (given or _WHITEBOX_RADIUS)
+    if parameters.max_building_size is not None:
+        return parameters.max_building_size
+    return MANY_SCALES[parameters.preset].max_building_size if given is None else _WIDEST * given
+
+
+def reach(parameters: SlopeFilter) -> float:
+    """Return the distance in metres within which points affect each other."""
+    if parameters.preset == CLASSIC:
+        metres = _REACH_RADII_ON_ONE_SCALE * (parameters.search_radius or _WHITEBOX_RADIUS)
+        return max(_LEAST_REACH, metres) if parameters.min_neighbours else metres
+    preset = MANY_SCALES[parameters.preset]
+    radius = parameters.search_radius or preset.search_radius
+    size = largest_object(parameters)
+    return max(_LEAST_REACH, _REACH_RADII * radius, _REACH_BUILDINGS * size)
+
+
+def pipeline(points: Points, parameters: SlopeFilter, progress: Progress) -> Pipeline:
+    """Return the rules for some points, and tell which values were chosen.
+
+    A point is not ground if it stands above a neighbour by at least the height threshold and at a
+    slope above the slope threshold (Vosselman 2000, section 2). The preset of Whitebox compares
+    points on one scale, all others lowest points of cells on many scales.
+    """
+    resolved = parameters.resolve(points)
+    if resolved != parameters:
+        progress.choice(_in_words(resolved))
+    if resolved.preset == CLASSIC:
+        rule = StandsAbove(
+            resolved.search_radius,
+            resolved.slope_threshold,
+            resolved.height_threshold,
+            resolved.slope_norm,
+            resolved.min_neighbours,
+        )
+        return Pipeline((rule,))
+    size = resolved.max_building_size
+    return Pipeline(
+        (
+            LowestPoints(size=resolved.cell_size),
+            DenseOutliers(),
+            LowGroups(),
+            NarrowPits(),
+            IsolatedLowPoints(),
+            WidePits(_SURROUNDINGS * resolved.search_radius),
+            RaisedObjects(size),
+            ProgressiveOpening(size / 2.0),
+            SteepRises(
+                resolved.search_radius,
+                resolved.slope_threshold,
+                resolved.height_threshold,
+                resolved.slope_norm,
+            ),
+            CutPlateaus(),
+            GentleRegions(),
+            BetweenDitches(),
+            Seeds(hint="Check the thresholds and the selection of points."),
+            Plants(where_dense=False),
+            LevelSeeds(),
+            ToleranceSurface(resolved.ground_tolerance, resolved.slope_tolerance),
+            NearSurface(),
+        )
+    )
+
+
+def _in_words(parameters: SlopeFilter) -> str:
+    names = ["preset", "search_radius", "slope_threshold", "height_threshold"]
+    if parameters.preset == CLASSIC:
+        neighbours = f"minimum number of neighbours {parameters.min_neighbours}"
+        return f"Slope filter: {parameters.in_words(*names)}, {neighbours}."
+    return f"Slope filter: {parameters.in_words(*names, 'cell_size', 'max_building_size')}."
+
+
+_ABOUT = (
+    "Finds the ground points of airborne or drone lidar by slopes, and writes a point cloud with"
+    " the new classes; nothing else in it changes. A point is not ground if it stands higher above"
+    " a neighbour than terrain can. The preset Automatic compares points on many scales and"
+    " follows the terrain; the preset Whitebox repeats WhiteboxTools' LidarGroundPointFilter.\n"
+    "Lengths are metres and angles degrees, whatever the unit of the CRS. The terrain model and"
+    " its hillshade are GeoTIFFs."
+)
+METHOD = Method(
+    "slope",
+    "Slope filter",
+    SlopeFilter,
+    pipeline,
+    reach,
+    largest_object,
+    "max_building_size",
+    CLASSIC,
+    MANY_SCALES,
+    Toolbox(
+        "slopefilter",
+        "Classify ground (slope filter)",
+        "Finds the ground points of a lidar point cloud by the slopes between neighbouring points.",
+        _ABOUT,
+        "slope-filter",
+        ("slope,vosselman,whitebox,top-hat",),
+    ),
+)

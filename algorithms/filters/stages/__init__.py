@@ -1,0 +1,1 @@
+"""The rules of the filters, one file for each stage."""

@@ -1,0 +1,299 @@
+"""Progressive densification of a TIN by points that lie close to its facets.
+
+References
+----------
+Axelsson, P. (2000): DEM generation from laser scanner data using adaptive TIN models.
+International Archives of Photogrammetry and Remote Sensing 33 (B4), section 3.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass
+from typing import ClassVar, NamedTuple
+
+import numpy as np
+
+from ...core.points import Points
+from ...core.progress import Progress
+from ...grids.cells import Cells, first_of_each
+from ...grids.inpaint import inpaint
+from ...grids.morphology import within_square
+from ...grids.tin import Tin
+from ..pipeline import PointRule, Rule, Stage
+from ..state import State
+
+# Metres between the virtual points round the survey.
+_RING_SPACING = 5.0
+# A candidate lies within so many iteration distances of the seeds' smooth surface. No facet would
+# come close to a candidate farther away.
+_REACHABLE = 3.0
+# If the 3 x 3 cells round a candidate hold more vertices, its triangle is too small to take it.
+_MOST_VERTICES_ROUND = 4
+
+# Most rounds. In each place they end when no point is added: rounds far away must not matter.
+_MOST_ROUNDS = 8
+
+
+@dataclass(frozen=True)
+class LevelNeighbour(Rule):
+    """A condition: one of the eight cells round a candidate is level with it.
+
+    Ground continues, but bushes below trees have points at any height.
+
+    Attributes
+    ----------
+    level : float
+        Metres, apart from the rise of the seeds' surface.
+    """
+
+    stage: ClassVar = Stage.SURFACE
+
+    level: float = 0.3
+
+
+@dataclass(frozen=True)
+class Densification(PointRule):
+    """A waiting point that lies close to the facets of the TIN becomes a vertex, round by round.
+
+    Axelsson (2000), section 3. Distances are metres, angles degrees.
+
+    Attributes
+    ----------
+    iteration_angle : float
+        Largest angle between the facet and the line from one of its corners to the point.
+    iteration_distance : float
+        Largest distance from the facet.
+    max_terrain_angle : float
+        On steeper facets the mirror image of the point beyond the nearest corner is tested instead.
+    reduce_angle_edge : float or None
+        In triangles whose longest edge is shorter the angle is reduced in proportion.
+    stop_edge : float or None
+        Triangles whose longest edge is shorter take no point.
+    noise_distance : float
+        A point so close to the facet is taken at any angle.
+    """
+
+    stage: ClassVar = Stage.SURFACE
+    reads: ClassVar = ("points", "grids", "seeds", "waiting")
+    writes: ClassVar = ("seeds", "waiting")
+
+    iteration_angle: float = 15.0
+    iteration_distance: float = 1.4
+    max_terrain_angle: float = 88.0
+    reduce_angle_edge: float | None = 5.0
+    stop_edge: float | None = 2.0
+    noise_distance: float = 0.3
+    level_neighbour: LevelNeighbour | None = LevelNeighbour()
+
+    def apply(self, state: State) -> None:
+        """Let waiting points join the seeds.
+
+        Only candidates in gaps between vertices are tested. Only vertices that may bound a triangle
+        with a candidate are triangulated.
+        """
+        points, cells, waiting = state.points, state.grids[0].cells, state.waiting
+        heights = cells.minimum(points.z, state.seeds)
+        surface, holding = inpaint(heights, first=cells.first), np.isfinite(heights)
+        may_join = _counts_round(holding) <= _MOST_VERTICES_ROUND
+        if self.level_neighbour:
+            above = with_lower(heights, cells, points, waiting) - surface
+            may_join &= _has_level_neighbour(above, self.level_neighbour.level) | (
+                np.abs(above) <= self.noise_distance
+            )
+        waiting = waiting[may_join.ravel()[cells.index[waiting]]]
+        candidates = points.take(waiting)
+        distance = np.abs(candidates.z - cells.at(surface, candidates.x, candidates.y))
+        slope = _steepness_at(cells, surface, candidates)
+        reachable = distance <= _REACHABLE * self.iteration_distance * np.hypot(1.0, slope)
+        state.progress(0.1)
+        reach = math.ceil(max(max(state.spacing, 1.0) / cells.size, 1.0))
+        survey = _Survey(points, cells, _ring(cells, surface), reach)
+        part = state.progress.part(0.1, 1.0)
+        joined = _joined(survey, state.seeds, waiting[reachable], self, part)
+        state.seeds, state.waiting = np.append(state.seeds, joined), waiting[:0]
+
+
+def with_lower(heights: np.ndarray, cells: Cells, points: Points, which: np.ndarray) -> np.ndarray:
+    """Return a grid of lowest heights (NaN where there is none) with some more points."""
+    lowest = heights.ravel().copy()
+    np.fmin.at(lowest, cells.index[which], points.z[which])
+    return lowest.reshape(heights.shape)
+
+
+def _steepness_at(cells: Cells, surface: np.ndarray, points: Points) -> np.ndarray:
+    """Return the steepness of a surface over cells at some points, rise over run."""
+    step, (x, y, _) = cells.size, points
+    north = cells.at(surface, x, y + step) - cells.at(surface, x, y - step)
+    east = cells.at(surface, x + step, y) - cells.at(surface, x - step, y)
+    return np.hypot(north, east) / (2.0 * step)
+
+
+class _Survey(NamedTuple):
+    """The data for the TIN of each round.
+
+    `ring` are vertices round all cells (see `_ring`). Vertices within `reach` cells are next to
+    each other.
+    """
+
+    points: Points
+    cells: Cells
+    ring: Points
+    reach: int
+
+    def tin_round(self, vertices: np.ndarray, waiting: np.ndarray) -> Tin:
+        """Return the TIN of the vertices that may bound triangles in which candidates lie."""
+        holding = map(self.cells.holding, (vertices, waiting))
+        needed = _bounding(*holding, self.reach).ravel()
+        bounding = self.points.take(vertices[needed[self.cells.index[vertices]]])
+        return Tin(*bounding.and_also(self.ring))
+
+
+def _counts_round(mask: np.ndarray) -> np.ndarray:
+    """Return how many of the 3 x 3 cells round each cell a mask holds."""
+    padded = np.pad(mask.astype(np.int8), 1)
+    rows = padded[:-2] + padded[1:-1] + padded[2:]
+    return rows[:, :-2] + rows[:, 1:-1] + rows[:, 2:]
+
+
+def _has_level_neighbour(above: np.ndarray, level: float) -> np.ndarray:
+    """Return which cells have one of their eight neighbours within some metres of their height."""
+    rows, columns = above.shape
+    padded = np.pad(above, 1, constant_values=np.nan)
+    found = np.zeros(above.shape, dtype=bool)
+    for row, column in itertools.product(range(3), repeat=2):
+        if (row, column) != (1, 1):
+            near = padded[row : row + rows, column : column + columns]
+            found |= np.abs(near - above) <= level
+    return found
+
+
+def _ring(cells: Cells, surface: np.ndarray) -> Points:
+    """Return virtual points round all cells, at multiples of their spacing in the frame.
+
+    Without them, ground outside the hull of the seeds would have no triangle.
+    """
+    (south, north), (west, east) = (
+        (first * cells.size, (first + count) * cells.size)
+        for first, count in zip(cells.first, cells.shape)
+    )
+    x, y = _multiples(west, east), _multiples(south, north)
+    ring_x = np.concatenate((x, x, np.full(len(y), west), np.full(len(y), east)))
+    ring_y = np.concatenate((np.full(len(x), south), np.full(len(x), north), y, y))
+    return Points(ring_x, ring_y, cells.at(surface, ring_x, ring_y))
+
+
+def _multiples(start: float, end: float) -> np.ndarray:
+    """Return both ends of a line and the multiples of the ring's spacing between them."""
+    first, last = math.ceil(start / _RING_SPACING), math.floor(end / _RING_SPACING)
+    return np.unique(np.r_[start, np.arange(first, last + 1) * _RING_SPACING, end])
+
+
+def _joined(
+    survey: _Survey,
+    first: np.ndarray,
+    waiting: np.ndarray,
+    rules: Densification,
+    progress: Progress,
+) -> np.ndarray:
+    """Return the indices of the candidates that join the first vertices, round by round."""
+    vertices = first
+    for round_ in range(_MOST_ROUNDS):
+        tin = survey.tin_round(vertices, waiting)
+        progress(1.0 - 0.5 ** (round_ + 0.5))  # each round has less to do than the one before
+        triangle = tin.locate(survey.points.x[waiting], survey.points.y[waiting])
+        waiting, triangle = waiting[triangle >= 0], triangle[triangle >= 0]
+        candidates = survey.points.take(waiting)
+        new, mirrored = _round(tin, triangle, candidates, rules)
+        vertices = np.concatenate((vertices, waiting[new]))
+        if not len(new):
+            break
+        # The others lie in the same triangle as before, which did not take them.
+        changed = mirrored | tin.lost(triangle, candidates.x[new], candidates.y[new])
+        changed[new] = False
+        waiting = waiting[changed]
+        progress(1.0 - 0.5 ** (round_ + 1.0))
+    return vertices[len(first) :]
+
+
+def _bounding(vertices: np.ndarray, waiting: np.ndarray, reach: int) -> np.ndarray:
+    """Return the cells whose vertices may bound a triangle in which a candidate lies.
+
+    A triangulation of these vertices alone has the same triangles near candidates, and round the
+    gaps in which candidates lie. All other vertices, by far the most, would only cost time. Cells
+    farther than `reach` cells from all vertices are a gap.
+    """
+    from scipy import ndimage
+
+    gaps, count = ndimage.label(~within_square(np.maximum, vertices, reach), np.ones((3, 3)))
+    near = within_square(np.maximum, waiting, reach + 1)
+    wanted = np.zeros(count + 1, dtype=bool)
+    wanted[gaps[near]] = True
+    wanted[0] = False
+    round_gaps = within_square(np.maximum, wanted[gaps], 3 * reach)
+    return vertices & (within_square(np.maximum, waiting, 2 * reach) | round_gaps)
+
+
+def _round(
+    tin: Tin, triangle: np.ndarray, points: Points, rules: Densification
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return which candidates to add, at most one in each triangle, and a mask (candidates,).
+
+    The mask marks candidates that were tested in another triangle, because their own is too steep.
+    """
+    distance, angle, longest, mirrored = _distance_and_angle(tin, triangle, points, rules)
+    allowed = np.full(len(triangle), math.radians(rules.iteration_angle))
+    if rules.reduce_angle_edge:
+        allowed *= np.minimum(longest / rules.reduce_angle_edge, 1.0)
+    fits = (distance <= rules.noise_distance) | (
+        (distance <= rules.iteration_distance) & (angle <= allowed)
+    )
+    if rules.stop_edge:
+        fits &= longest >= rules.stop_edge
+    fitting = np.flatnonzero(fits)
+    keys = distance[fitting], points.x[fitting], points.y[fitting]
+    return fitting[first_of_each(triangle[fitting], len(tin.triangles), *keys)], mirrored
+
+
+def _distance_and_angle(
+    tin: Tin, triangle: np.ndarray, points: Points, rules: Densification
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Return distance to the facet, largest angle at its corners (rad), and its longest edge.
+
+    The last array marks the points whose mirror image was tested.
+    """
+    corners = tin.triangles[triangle]
+    x, y, z = tin.x[corners], tin.y[corners], tin.z[corners]
+    normal, longest = _facets(x, y, z)
+    steep = np.arctan(np.hypot(normal[0], normal[1])) > math.radians(rules.max_terrain_angle)
+    px, py, pz = points.x.copy(), points.y.copy(), points.z
+    if steep.any():
+        nearest = np.argmin((x - px[:, None]) ** 2 + (y - py[:, None]) ** 2, axis=1)
+        vertex = corners[np.arange(len(corners)), nearest]
+        px[steep] = 2 * tin.x[vertex[steep]] - px[steep]
+        py[steep] = 2 * tin.y[vertex[steep]] - py[steep]
+        beyond = tin.locate(px[steep], py[steep])
+        inside = np.flatnonzero(steep)[beyond >= 0]
+        corners[inside] = tin.triangles[beyond[beyond >= 0]]
+        x, y, z = tin.x[corners], tin.y[corners], tin.z[corners]
+        normal, _ = _facets(x, y, z)
+    height = pz - (z[:, 0] + normal[0] * (px - x[:, 0]) + normal[1] * (py - y[:, 0]))
+    distance = np.abs(height) / np.sqrt(1.0 + normal[0] ** 2 + normal[1] ** 2)
+    reach = np.sqrt((x - px[:, None]) ** 2 + (y - py[:, None]) ** 2 + (z - pz[:, None]) ** 2).min(
+        axis=1
+    )
+    angle = np.arcsin(np.clip(distance / np.maximum(reach, 1e-9), 0.0, 1.0))
+    return distance, angle, longest, steep
+
+
+def _facets(
+    x: np.ndarray, y: np.ndarray, z: np.ndarray
+) -> tuple[tuple[np.ndarray, np.ndarray], np.ndarray]:
+    """Return the gradient of each facet, in x and y, and its longest edge in the plane."""
+    ux, uy, uz = x[:, 1] - x[:, 0], y[:, 1] - y[:, 0], z[:, 1] - z[:, 0]
+    vx, vy, vz = x[:, 2] - x[:, 0], y[:, 2] - y[:, 0], z[:, 2] - z[:, 0]
+    area = np.maximum(ux * vy - uy * vx, 1e-12)
+    gradient = (uz * vy - uy * vz) / area, (ux * vz - uz * vx) / area
+    edges = ux**2 + uy**2, vx**2 + vy**2, (vx - ux) ** 2 + (vy - uy) ** 2
+    return gradient, np.sqrt(np.maximum.reduce(edges))

@@ -1,0 +1,306 @@
+"""The steps between the cells of a height grid, and the rims and regions that they make."""
+
+from __future__ import annotations
+
+from typing import NamedTuple, Sequence
+
+import numpy as np
+
+from ...core.threads import in_threads
+from ...grids.height_grid import HeightGrid
+from ...grids.trend import Rises, Trend
+from .regions import Border, Regions
+
+# East, north and the two diagonals: with their opposites, the eight neighbours of a cell.
+_DIRECTIONS = ((0, 1), (1, 0), (1, 1), (1, -1))
+# Distance in metres over which heights are compared, unless cells are larger. Over a shorter one, a
+# point half-way up a wall, or a filled gap between roof and ground, makes a staircase of low steps.
+_STEP = 1.0
+# Cells whose steps are computed at a time, so that they stay in the processor's cache.
+_CELLS_A_STRIP = 1 << 15
+# Passes in which rim cells join the region that they are level with.
+_JOINING_PASSES = 2
+# Passes in which cells that are level with the ground grow back.
+_GROWING_PASSES = 4
+# A drop is the face of a cliff if none of five steps across it is more than this share of their
+# sum, and none leads back by more than so many metres. At the wall of a building, one step is
+# nearly all of the drop.
+_LARGEST_STEP, _STEP_BACK = 0.7, 0.3
+# Relaxations of the surface across gaps. Few are enough, because rims bound objects, not the
+# filling.
+_RELAXATIONS = 2
+
+
+class HeightSteps:
+    """The steps of a height grid that the trend of the terrain does not explain.
+
+    Parameters
+    ----------
+    grid : HeightGrid
+        Lowest height of each cell.
+    inside : numpy.ndarray of bool, shape (rows, columns)
+        Cells that were surveyed (see `covered`); nothing is known of the others.
+    """
+
+    def __init__(self, grid: HeightGrid, inside: np.ndarray) -> None:
+        size, surface = grid.size, grid.filled(_RELAXATIONS).astype(np.float32)
+        self._trend = Trend(surface, size, grid.origin)
+        self._size, self._step = size, max(round(_STEP / size), 1)
+        # A frame without heights round the grid, so that each neighbour is at a fixed offset.
+        self._inside = np.pad(inside, self._step)
+        self._heights = np.pad(surface, self._step, constant_values=np.nan).ravel()
+        self._known = np.pad(grid.known, self._step).ravel()
+
+    def regions(self, threshold: float, neck: int = 1) -> Regions:
+        """Return the regions between the rims of a threshold.
+
+        Rim cells belong to the region that they are level with, like the edge of a roof. Rim cells
+        that are level with none, like a thin tree, form regions of their own.
+
+        Parameters
+        ----------
+        threshold : float
+            A cell is a rim if it is higher than one of its eight neighbours by more than so many
+            metres, plus the rise of the terrain between the two and its usual unevenness.
+        neck : int
+            Regions are cut where fewer cells than this odd number join their parts.
+        """
+        (steps,) = self._steps(threshold)
+        return self._regions(steps, neck)
+
+    def regions_and_rims(
+        self, threshold: float, roughness_factor: float
+    ) -> tuple[Regions, np.ndarray]:
+        """Return the `regions`, and which cells are rims if more unevenness is allowed.
+
+        For these rims, the usual unevenness is added `roughness_factor` times.
+        """
+        steps, large = self._steps(threshold, (1.0, roughness_factor))
+        return self._regions(steps), self._unframed(self._rims(large))
+
+    def _regions(self, steps: list[_Steps], neck: int = 1) -> Regions:
+        from scipy import ndimage
+
+        rim = self._rims(steps)
+        if neck > 1:
+            rim = self._inside & ~ndimage.binary_opening(~rim, np.ones((neck, neck)))
+        regions, count = ndimage.label(self._inside & ~rim)
+        flat = regions.ravel()
+        cells = np.flatnonzero(rim)
+        for _ in range(_JOINING_PASSES):
+            self._join(flat, cells, steps)
+            cells = cells[flat[cells] == 0]
+        rest = np.zeros(flat.size, dtype=bool)
+        rest[cells] = True
+        own, more = ndimage.label(rest.reshape(rim.shape), np.ones((3, 3)))
+        flat[cells] = own.ravel()[cells] + count
+        count += more + 1
+        border = self._border(flat, count, steps)
+        return Regions(self._unframed(regions), border, self._size, self._step)
+
+    def pits(self, candidates: np.ndarray, threshold: float, max_size: float) -> np.ndarray:
+        """Return the cells of patches that lie below the cells round them on all sides.
+
+        Parameters
+        ----------
+        candidates : numpy.ndarray of bool, shape (rows, columns)
+            Cells that may be in a pit. Cells that touch are one patch, even if they are uneven.
+        threshold : float
+            Least height in metres of the rise round it (see `regions`).
+        max_size : float
+            Largest width (shorter side) of a pit, in metres.
+
+        Returns
+        -------
+        numpy.ndarray of bool, shape (rows, columns)
+        """
+        from scipy import ndimage
+
+        patches, count = ndimage.label(np.pad(candidates, self._step), np.ones((3, 3)))
+        patches[(patches == 0) & self._inside] = count + 1
+        border = self._border(patches.ravel(), count + 2, *self._steps(threshold))
+        patches = Regions(self._unframed(patches), border, self._size, self._step)
+        return patches.sunken(max_size) & candidates
+
+    def regrown(self, kept: np.ndarray, heights: np.ndarray, threshold: float) -> np.ndarray:
+        """Return the kept ground and the cells beside it that are level with it.
+
+        Parameters
+        ----------
+        kept : numpy.ndarray of bool, shape (rows, columns)
+            Cells of the ground.
+        heights : numpy.ndarray of float, shape (rows, columns)
+            Lowest heights, including cells that may grow back; NaN where there is none.
+        threshold : float
+            As for `regions`; a cell is compared with the mean of its kept neighbours.
+        """
+        kept = np.pad(kept, self._step).ravel()
+        grid = np.pad(heights.astype(np.float32), self._step, constant_values=np.nan).ravel()
+        cells = np.flatnonzero(np.isfinite(grid) & ~kept)
+        trend = self._trend.at(*self._places(cells))
+        for _ in range(_GROWING_PASSES):
+            rises, count = np.zeros(len(cells), np.float32), np.zeros(len(cells), np.float32)
+            for row, column in _DIRECTIONS:
+                offset = row * self._inside.shape[1] + column
+                ahead = row * trend.north + column * trend.east
+                for neighbour, expected in ((cells + offset, ahead), (cells - offset, -ahead)):
+                    rise = grid[neighbour] - grid[cells] - expected
+                    rises += np.where(kept[neighbour], rise, 0)
+                    count += kept[neighbour]
+            allowed = threshold + trend.steepest + trend.roughness
+            level = (count > 0) & (np.abs(rises) <= allowed * count)
+            kept[cells[level]] = True
+            cells = cells[~level]
+            trend = Rises(*(each[~level] for each in trend))
+        return self._unframed(kept.reshape(self._inside.shape))
+
+    def _unframed(self, grid: np.ndarray) -> np.ndarray:
+        return grid[self._step : -self._step, self._step : -self._step]
+
+    def _steps(
+        self, threshold: float, roughness_factors: Sequence[float] = (1.0,)
+    ) -> list[list[_Steps]]:
+        """Return the steps to the neighbours in four directions, for each factor."""
+        width = self._inside.shape[1]
+        directions = [(row * self._step, column * self._step) for row, column in _DIRECTIONS]
+        offsets = [row * width + column for row, column in directions]
+        steps = [
+            [
+                _Steps(*direction, offset, np.empty(self._heights.size - offset, dtype=np.int8))
+                for direction, offset in zip(directions, offsets)
+            ]
+            for _ in roughness_factors
+        ]
+        strip = max(_CELLS_A_STRIP // width, 1)
+
+        def fill(first: int) -> None:
+            trend = self._trend_of_rows(first, min(first + strip, len(self._inside)))
+            for same_direction in zip(*steps):
+                self._compare(same_direction, first * width, trend, threshold, roughness_factors)
+
+        in_threads(fill, range(0, len(self._inside), strip))
+        return steps
+
+    def _compare(
+        self,
+        steps: Sequence[_Steps],
+        start: int,
+        trend: Rises,
+        threshold: float,
+        roughness_factors: Sequence[float],
+    ) -> None:
+        """Fill in the signs of one direction for the cells of a trend, from cell `start` on."""
+        step = steps[0]
+        end = min(start + trend.north.size, step.sign.size)
+        if end <= start:
+            return
+        rise = self._heights[start + step.offset : end + step.offset] - self._heights[start:end]
+        north, east, steepest, roughness = (each[: end - start] for each in trend)
+        if step.row:
+            rise -= np.float32(step.row) * north
+        if step.column:
+            rise -= np.float32(step.column) * east
+        for each, factor in zip(steps, roughness_factors):
+            allowed = steepest + np.float32(factor) * roughness
+            allowed *= np.float32(np.hypot(step.row, step.column))
+            allowed += np.float32(threshold)
+            higher = (rise > allowed).view(np.int8)
+            np.subtract(higher, (rise < -allowed).view(np.int8), out=each.sign[start:end])
+
+    def _trend_of_rows(self, first: int, last: int) -> Rises:
+        """Return the trend at each cell of some rows with their frame, where it is 0."""
+        inner = slice(max(first - self._step, 0), max(last - self._step, 0))
+        rows = self._inside.shape[0] - 2 * self._step
+        rises = self._trend.of_rows(inner.start, min(inner.stop, rows))
+        above = inner.start + self._step - first
+        framed = []
+        for each in rises:
+            grid = np.zeros((last - first, self._inside.shape[1]), dtype=np.float32)
+            height = min(inner.stop, rows) - inner.start
+            if height > 0:
+                grid[above : above + height, self._step : -self._step] = each
+            framed.append(grid.ravel())
+        return Rises(*framed)
+
+    def _places(self, cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return row and column of cells; a cell of the frame has those of the cell beside it."""
+        rows, columns = (side - 2 * self._step for side in self._inside.shape)
+        row, column = np.divmod(cells, self._inside.shape[1])
+        row, column = row - self._step, column - self._step
+        return np.clip(row, 0, rows - 1), np.clip(column, 0, columns - 1)
+
+    def _rise(self, cells: np.ndarray, step: _Steps, backward: bool = False) -> np.ndarray:
+        """Return the rise from some cells to their neighbours in one direction, or its opposite."""
+        first = cells - step.offset if backward else cells
+        rise = self._heights[first + step.offset] - self._heights[first]
+        rise -= self._trend.along(*self._places(first), step.row, step.column)
+        return -rise if backward else rise
+
+    def _rims(self, steps: list[_Steps]) -> np.ndarray:
+        rim = np.zeros(self._inside.size, dtype=bool)
+        for each in steps:
+            rim[: -each.offset] |= each.sign < 0
+            rim[each.offset :] |= each.sign > 0
+        return rim.reshape(self._inside.shape) & self._inside
+
+    def _join(self, regions: np.ndarray, cells: np.ndarray, steps: list[_Steps]) -> None:
+        """Let cells without a region join the region of the neighbour that is nearest in height."""
+        least = np.full(len(cells), np.inf, dtype=np.float32)
+        joined = np.zeros(len(cells), dtype=regions.dtype)
+        for each in steps:
+            for backward in (False, True):
+                neighbour = cells - each.offset if backward else cells + each.offset
+                level = each.sign[neighbour if backward else cells] == 0
+                which = np.flatnonzero(level & (regions[neighbour] > 0))
+                rise = np.abs(self._rise(cells[which], each, backward))
+                better = rise < least[which]
+                which = which[better]
+                least[which] = rise[better]
+                joined[which] = regions[neighbour[which]]
+        regions[cells] = joined
+
+    def _face_slopes(self, cells: np.ndarray, offset: int) -> np.ndarray:
+        """Return the slope of the face that the steps from cells to neighbours are part of.
+
+        As `Border.face`: NaN beside cells without a point.
+        """
+        last = self._heights.size - 1
+        across = [np.clip(cells + k * offset, 0, last) for k in range(-2, 4)]
+        # The filling of cells without a point would make a slope of any wall.
+        z = np.stack([np.where(self._known[at], self._heights[at], np.nan) for at in across])
+        rises = np.diff(z, axis=0)
+        one_way = (rises.min(axis=0) > -_STEP_BACK) | (rises.max(axis=0) < _STEP_BACK)
+        second, largest = np.sort(np.abs(rises), axis=0)[-2:]
+        is_face = one_way & (largest <= _LARGEST_STEP * np.abs(z[-1] - z[0]))
+        slope = np.where(is_face, second / (self._step * self._size), 0.0)
+        return np.where(np.isfinite(z).all(axis=0), slope, np.nan)
+
+    def _border(self, regions: np.ndarray, count: int, steps: list[_Steps]) -> Border:
+        parts = []
+        for each in steps:
+            cells = np.flatnonzero(regions[: -each.offset] != regions[each.offset :])
+            rise, sign = self._rise(cells, each), each.sign[cells]
+            face = np.zeros(len(cells), dtype=np.float32)
+            stepped = np.flatnonzero(sign)
+            face[stepped] = self._face_slopes(cells[stepped], each.offset)
+            parts.append((regions[cells], regions[cells + each.offset], sign, rise, face))
+        return Border(count, *(np.concatenate(each) for each in zip(*parts)))
+
+
+class _Steps(NamedTuple):
+    """The differences between neighbouring cells, in one direction.
+
+    Attributes
+    ----------
+    row, column : int
+        The direction.
+    offset : int
+        From a cell to its neighbour, in the flattened grid.
+    sign : numpy.ndarray of int8
+        1 where the neighbour is higher by more than is allowed, -1 where it is lower, else 0.
+    """
+
+    row: int
+    column: int
+    offset: int
+    sign: np.ndarray

@@ -1,0 +1,315 @@
+"""Objects that stand on the ground, found in a grid of lowest points by the rims round them.
+
+A roof, a tree or a car ends in a drop on all sides; a hill, a terrace or a bank does not. The drop
+is at a *rim*: the higher of two neighbouring cells that differ by more than a threshold. Rims cut
+the grid into *regions*, and a region whose border is mostly a drop is a raised object.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar, NamedTuple
+
+import numpy as np
+
+from ...core.progress import SILENT, Progress
+from ...grids.cell_blocks import CellBlocks
+from ...grids.cells import Cells
+from ...grids.gradient import steepness
+from ...grids.height_grid import HeightGrid
+from ..pipeline import GridRule, Rule, Stage
+from ..state import GridState, covered
+from .height_steps import HeightSteps
+from .outliers import IsolatedLowPoints, NarrowPits
+from .regions import Regions
+
+
+class Objects(NamedTuple):
+    """Cells that stand out on all sides; grids of shape (rows, columns).
+
+    Attributes
+    ----------
+    raised : numpy.ndarray of bool
+        Cells of objects.
+    plateaus : numpy.ndarray of bool
+        Cells of regions that are too low for their width to be objects for certain: a roof, or a
+        mound.
+    large_buildings : numpy.ndarray of bool
+        Cells of objects that are large buildings.
+    """
+
+    raised: np.ndarray
+    plateaus: np.ndarray
+    large_buildings: np.ndarray
+
+
+@dataclass(frozen=True)
+class CliffFaces(Rule):
+    """An exception: regions with faces of cliffs round them are no objects.
+
+    At the wall of a building, one step is nearly all of the drop; on the face of a cliff there are
+    points between.
+
+    Attributes
+    ----------
+    widths, shares : tuple of float
+        A region of at least the first width in metres is terrain if at least the first share of its
+        drops is on a face; from the second width on the second share, in between a share in
+        between. Few plants hide the walls of a large building.
+    """
+
+    stage: ClassVar = Stage.OBJECTS
+
+    widths: tuple[float, float] = (10.0, 25.0)
+    shares: tuple[float, float] = (0.4, 0.25)
+
+    def spared(self, regions: Regions) -> np.ndarray:
+        """Return which regions have faces of cliffs round them."""
+        least = np.interp(regions.width, self.widths, self.shares)
+        return (regions.width >= self.widths[0]) & (regions.face_share() >= least)
+
+
+@dataclass(frozen=True)
+class LargeBuildings(Rule):
+    """Large buildings that are low on one side: on a slope their roofs meet the ground uphill.
+
+    Where a roof is level with the ground, no drop bounds it. Such places are mostly short, so
+    regions are cut at their necks.
+
+    Attributes
+    ----------
+    drop : float
+        Least height in metres of the drops that bound a roof. Where a roof is only so high above
+        the ground, higher ones would leave a gap in its rim.
+    neck : int
+        A roof is cut off from the ground or from another roof where fewer cells than this join
+        them.
+    least_width : float
+        Least width (shorter side) of a roof in metres; the treads of terraces are narrower.
+    areas, heights : tuple of float
+        A group of roofs with the first area, in square metres, stands at least the first height
+        above the ground on average, in metres; with the second area or more, the second height; in
+        between, a height in between. Smaller groups are no large buildings. Raised squares are
+        lower, and few of them are as large.
+    walls : int
+        Cells round a building that are not taken for ground, because their lowest points may lie on
+        its walls.
+    """
+
+    stage: ClassVar = Stage.OBJECTS
+
+    drop: float = 0.2
+    neck: int = 3
+    least_width: float = 25.0
+    areas: tuple[float, float] = (2000.0, 8000.0)
+    heights: tuple[float, float] = (6.5, 3.5)
+    walls: int = 2
+
+    def find(
+        self,
+        steps: HeightSteps,
+        grid: HeightGrid,
+        raised: np.ndarray,
+        max_size: float,
+        objects: RaisedObjects,
+    ) -> np.ndarray:
+        """Return the cells of large buildings; objects and plateaus that touch them are included.
+
+        `steps` are those of the heights without the known objects, and `raised` marks the cells of
+        known objects and plateaus.
+        """
+        from scipy import ndimage
+
+        regions = steps.regions(self.drop, self.neck)
+        raised = raised | objects.plateaus_of(regions, max_size, self.least_width)
+        number, _ = ndimage.label(raised)
+        area = np.bincount(number.ravel()) * grid.size**2
+        is_large = area >= self.areas[0]
+        is_large[0] = False
+        if not is_large.any():
+            return np.zeros(raised.shape, dtype=bool)
+        walls = ndimage.binary_dilation(raised, np.ones((3, 3)), self.walls)
+        ground = grid.where(~walls).filled()
+        inside = grid.known & raised
+        above = np.bincount(number[inside], (grid.values - ground)[inside], len(area))
+        count = np.bincount(number[inside], minlength=len(area))
+        is_large &= above >= np.interp(area, self.areas, self.heights) * count
+        return is_large[number]
+
+
+@dataclass(frozen=True)
+class Plateaus(Rule):
+    """Regions bounded by low drops are plateaus: they are objects if an opening cuts off part.
+
+    Attributes
+    ----------
+    height : float
+        Least height in metres of the drops round a plateau: a hall may be so low above the ground
+        uphill. The cells must be so wide that most points on its walls share a cell with the
+        ground.
+    """
+
+    stage: ClassVar = Stage.OBJECTS
+
+    height: float = 1.2
+    large_buildings: LargeBuildings | None = LargeBuildings()
+
+
+@dataclass(frozen=True)
+class RaisedObjects(GridRule):
+    """A region with drops all round is an object.
+
+    More than half of the border must be a drop, also of the whole border with that of the survey:
+    the one drop of a topmost terrace tread winds, and the survey ends on its other side.
+
+    Attributes
+    ----------
+    max_size : float
+        Largest width (shorter side) of an object in metres.
+    heights : tuple of float
+        Least heights in metres of the drops that bound an object, one for each pass, the largest
+        first. Objects that one pass finds are removed before the next.
+    share, whole_share : float
+        Least share of the known border, and of the whole border, that must be a drop.
+    steepness : float
+        Least mean height of the drop over the width of the region. Lower and wider regions are
+        terrain, or plateaus.
+    wide, dense : float or None
+        Where points are closer than `dense` metres, objects are searched on cells of `wide` metres:
+        in narrower ones gaps in crowns and roofs break the rims, in wider ones plazas and terraces
+        become plateaus. Where points are farther apart, cells as wide as their spacing do. None for
+        the cells of the grid everywhere.
+    """
+
+    stage: ClassVar = Stage.OBJECTS
+    reads: ClassVar = ("points", "heights")
+    writes: ClassVar = ("objects", "plateaus", "large_buildings", "raised")
+
+    max_size: float
+    heights: tuple[float, ...] = (5.0, 2.0)
+    share: float = 0.65
+    whole_share: float = 0.55
+    steepness: float = 0.15
+    wide: float | None = 2.0
+    dense: float = 0.8
+    cliff_faces: CliffFaces | None = CliffFaces()
+    plateaus: Plateaus | None = Plateaus()
+    narrow_pits: NarrowPits | None = NarrowPits()
+    isolated_low_points: IsolatedLowPoints | None = IsolatedLowPoints()
+
+    def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
+        """Find the cells of objects and plateaus."""
+        cells, heights = self._without_gaps(grid)
+        if self.wide is None:
+            found = self.find(heights, progress)
+        else:
+            blocks = CellBlocks.over(
+                cells, self.wide if grid.spacing < self.dense else cells.size, 1
+            )
+            found = self.find(blocks.grid(heights), progress)
+            found = Objects(*(blocks.repeated(mask, heights.values.shape) for mask in found))
+        found = Objects(*(cells.resampled(mask, grid.cells) for mask in found))
+        grid.objects, grid.plateaus, grid.large_buildings = found
+        grid.raised = grid.objects.copy()
+
+    def _without_gaps(self, grid: GridState) -> tuple[Cells, HeightGrid]:
+        """Return cells so wide that hardly one is empty, which would break the rims of objects."""
+        apart = max(grid.spacing, 1.0)
+        if apart <= grid.cells.size:
+            return grid.cells, grid.heights
+        cells = Cells.over(grid.points, apart, grid.shift)
+        wide = HeightGrid(cells.minimum(grid.points.z), cells.size, cells.first)
+        if self.narrow_pits:
+            wide.values[self.narrow_pits.find(wide, grid.points, cells)] = np.nan
+        if self.isolated_low_points:
+            wide.values[self.isolated_low_points.find(wide, cells, grid.points.z)] = np.nan
+        return cells, wide
+
+    def find(self, grid: HeightGrid, progress: Progress = SILENT) -> Objects:
+        """Return the cells of objects on a grid of lowest heights without low outliers."""
+        inside = covered(grid.known)
+        rest = grid._replace(values=grid.values.copy())
+        objects, plateaus, large = np.zeros((3, *grid.values.shape), dtype=bool)
+        for done, height in enumerate(self.heights, start=1):
+            regions = HeightSteps(rest, inside).regions(height)
+            found = self.bounded(regions)
+            if self.plateaus:
+                plateaus |= self.plateaus_of(regions, self.max_size)
+            rest.values[found] = np.nan
+            objects |= found
+            progress(done / len(self.heights))
+        if self.plateaus:
+            steps = HeightSteps(rest, inside)
+            plateaus |= self.plateaus_of(steps.regions(self.plateaus.height), self.max_size)
+            if self.plateaus.large_buildings:
+                known = objects | plateaus
+                large = self.plateaus.large_buildings.find(steps, grid, known, self.max_size, self)
+                objects |= large
+        return Objects(objects, plateaus & ~objects, large)
+
+    def bounded(self, regions: Regions) -> np.ndarray:
+        """Return the cells of the regions that are objects."""
+        return self._bounded(regions, self.max_size, self.steepness)
+
+    def plateaus_of(
+        self, regions: Regions, max_size: float, least_width: float = 0.0
+    ) -> np.ndarray:
+        """Return the cells of the regions that drop all round, also of those that drop little."""
+        return self._bounded(regions, max_size, 0.0, regions.width >= least_width)
+
+    def _bounded(
+        self,
+        regions: Regions,
+        max_size: float,
+        steepness: float,
+        fits: np.ndarray | bool = True,
+    ) -> np.ndarray:
+        if self.cliff_faces:
+            fits = fits & ~self.cliff_faces.spared(regions)
+        return regions.bounded(max_size, self.share, self.whole_share, steepness, fits)
+
+
+@dataclass(frozen=True)
+class TallObjects(GridRule):
+    """Objects are removed by passes over the lowest points of blocks, the tall ones first.
+
+    In blocks, gaps in a tree's crown and points half-way down a wall hide no rim. Single cells far
+    above the ground of their block are objects as well.
+
+    Attributes
+    ----------
+    objects : RaisedObjects
+        The rule for a region.
+    above : float
+        Single cells so many metres above the ground of their block are objects as well.
+    block : float
+        Side of a block in metres; a block has at least 2 x 2 cells.
+    steepest : float
+        Largest slope (rise over run) of the ground that counts.
+    """
+
+    stage: ClassVar = Stage.OBJECTS
+    reads: ClassVar = ("heights",)
+    writes: ClassVar = ("objects", "plateaus", "large_buildings", "raised")
+
+    objects: RaisedObjects
+    above: float
+    block: float = 1.0
+    steepest: float = 5.0
+
+    def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
+        """Find the cells of objects and plateaus."""
+        blocks = CellBlocks.over(grid.cells, self.block)
+        lowest, shape = blocks.grid(grid.heights), grid.cells.shape
+        if self.objects:
+            found = self.objects.find(lowest, progress)
+        else:
+            found = Objects(*np.zeros((3, *lowest.values.shape), dtype=bool))
+        surface = lowest.where(~found.raised).filled(2)
+        rise = lowest.size * np.minimum(steepness(surface, lowest.size), self.steepest)
+        highest = surface + self.above + rise
+        above = grid.heights.values > blocks.interpolated(highest, shape)
+        found = Objects(*(blocks.repeated(mask, shape) for mask in found))
+        grid.objects = above | found.raised
+        grid.plateaus, grid.large_buildings = found.plateaus, found.large_buildings
+        grid.raised = grid.objects.copy()

@@ -1,0 +1,212 @@
+"""Cells that openings cut off: too high above the ground round them for terrain.
+
+References
+----------
+Zhang, K. et al. (2003): A progressive morphological filter for removing nonground measurements
+from airborne LIDAR data. IEEE Transactions on Geoscience and Remote Sensing 41, section II.
+Pingel, T., Clarke, K., McBride, W. (2013): An improved simple morphological filter for the terrain
+classification of airborne LIDAR data. ISPRS Journal 77, section 2.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from ...core.progress import SILENT, Progress
+from ...grids.morphology import in_steps, opening, within_square
+from ..pipeline import GridRule, Rule, Stage
+from ..state import GridState
+from .terrain import slope_at, smoothed
+
+# For large windows cells are taken together in squares, because the objects are large: cells along
+# the side of the largest squares, and for each size the first and the last radius in cells.
+_TOGETHER = 4
+_RADII = ((1, 1, 24), (2, 26, 48), (4, 52, 10_000))
+
+
+@dataclass(frozen=True)
+class WideWindows(Rule):
+    """Windows wider than those for houses cut off halls only.
+
+    Attributes
+    ----------
+    usual_window : float
+        Largest radius in metres of the usual windows.
+    height : float
+        Least height in metres that wider windows cut off.
+    per_slope : float
+        Metres that each metre of their radius adds to it on a slope of 45 degrees: a wide window
+        cuts off a steep slope where its contours bend.
+    """
+
+    stage: ClassVar = Stage.OPENING
+
+    usual_window: float = 24.0
+    height: float = 2.5
+    per_slope: float = 0.1
+
+
+@dataclass(frozen=True)
+class ProgressiveOpening(GridRule):
+    """Openings with growing windows cut off what is narrower than a window and too high above it.
+
+    What is too high grows with the window and with the slope of the terrain.
+
+    Attributes
+    ----------
+    largest_window : float
+        Radius in metres of the largest window.
+    base, per_radius, per_slope : float
+        Allowed height in metres for any window, metres that each metre of the radius adds, and
+        metres that each metre of it adds on a slope of 45 degrees; in proportion on others.
+    most : float
+        The largest allowance in metres.
+    first_slope : float
+        A first, strict opening with this slope (rise over run) gives the surface from which the
+        slope of the terrain is taken.
+    smoothing, steepest : float
+        Metres over which this surface is smoothed, and the largest slope that counts.
+    level_beyond : bool
+        Whether heights beyond the survey are those of its border, not filled smoothly.
+    """
+
+    stage: ClassVar = Stage.OPENING
+    reads: ClassVar = ("heights", "objects")
+    writes: ClassVar = ("filled", "raised")
+
+    largest_window: float
+    base: float = 0.15
+    per_radius: float = 0.04
+    per_slope: float = 0.2
+    most: float = 1.5
+    first_slope: float = 0.12
+    smoothing: float = 5.0
+    steepest: float = 0.6
+    level_beyond: bool = True
+    wide_windows: WideWindows | None = WideWindows()
+
+    def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
+        """Raise the cells that stand out, and the objects."""
+        if not self.level_beyond:
+            grid.filled = grid.heights.filled().astype(np.float32)
+        size, filled = grid.cells.size, grid.filled
+        # Squares of cells begin at multiples of their side, wherever the grid starts.
+        south, west = (start % _TOGETHER for start in grid.heights.origin)
+        padded = np.pad(filled, ((south, 0), (west, 0)), mode="edge")
+        found = self._standing_out(padded, size, progress.part(0.0, 0.8))
+        strict, limit = (mask[south:, west:].copy() for mask in found)
+        surface = grid.heights.where(~(strict | grid.objects)).filled()
+        smooth = smoothed(surface, size, self.smoothing)
+        which = np.flatnonzero(limit > 0.0)
+        slope = np.hypot(*(slope_at(smooth, axis, which, size) for axis in (0, 1)))
+        grid.raised = grid.objects.copy()
+        grid.raised.ravel()[which] |= np.minimum(slope, self.steepest) < limit.ravel()[which]
+
+    def _standing_out(
+        self, filled: np.ndarray, size: float, progress: Progress
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Open the grid with growing windows.
+
+        Returns
+        -------
+        first : numpy.ndarray of bool, shape (rows, columns)
+            Cells that stand out by the strict slope of the first opening.
+        limit : numpy.ndarray of float32, shape (rows, columns)
+            The terrain's slope (rise over run) below which a cell stands out.
+        """
+        first = np.zeros(filled.shape, dtype=bool)
+        limit = np.full(filled.shape, -np.inf, dtype=np.float32)
+        steps, step = in_steps(filled)
+        radii = _radii(self.largest_window / size)
+        last, zoom = steps.copy(), 1
+        for done, (radius, coarse) in enumerate(radii, start=1):
+            if coarse != zoom:
+                last, zoom = _lowest_of_blocks(last, coarse // zoom), coarse
+            opened = opening(last, radius / zoom)
+            last -= opened
+            # As unsigned numbers, differences do not overflow.
+            cut, last = last.view(np.uint16), opened
+            metres = radius * size
+            if zoom > 1:
+                # A block counts for its neighbours as well, because their lowest cell may lie
+                # beside the object.
+                most = _finer(within_square(np.maximum, cut, 1), zoom, filled.shape)
+                own = steps.astype(np.int32) - _finer(opened, zoom, filled.shape)
+                cut = np.clip(own, 0, most)
+            cut = cut.ravel()
+            # Most cells lose too little to stand out on any slope.
+            level = self.base + self.per_radius * metres
+            which = np.flatnonzero(cut > int(min(self.first_slope * metres, level) / step))
+            lost = cut[which] * np.float32(step)
+            first.ravel()[which[lost > self.first_slope * metres]] = True
+            slope = self._limit(lost, metres)
+            limit.ravel()[which] = np.maximum(limit.ravel()[which], slope)
+            progress(done / len(radii))
+        return first, limit
+
+    def _limit(self, lost: np.ndarray, radius: float) -> np.ndarray:
+        """Return the terrain's slope below which cells stand out that lose some metres."""
+        wide = self.wide_windows
+        if wide and radius > wide.usual_window:
+            slope = lost - np.float32(wide.height)
+            slope /= np.float32(max(wide.per_slope * radius, 1e-6))
+            slope[slope <= 0.0] = -np.inf
+            return slope
+        level = self.base + self.per_radius * radius
+        slope = (lost - np.float32(level)) / np.float32(max(self.per_slope * radius, 1e-6))
+        slope[lost > self.most] = np.inf
+        return slope
+
+
+@dataclass(frozen=True)
+class CutPlateaus(GridRule):
+    """All of a plateau is an object if openings cut off a large part: its uphill side is low.
+
+    Attributes
+    ----------
+    share : float
+        Least share of its cells that is cut off.
+    """
+
+    stage: ClassVar = Stage.OPENING
+    reads: ClassVar = ("plateaus", "raised")
+    writes: ClassVar = ("raised",)
+
+    share: float = 0.3
+
+    def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
+        """Raise the plateaus of which a large part is raised."""
+        from scipy import ndimage
+
+        number, _ = ndimage.label(grid.plateaus)
+        total = np.bincount(number.ravel())
+        cut = np.bincount(number[grid.raised], minlength=len(total)) >= self.share * total
+        cut[0] = False
+        grid.raised |= cut[number]
+
+
+def _radii(largest: float) -> list[tuple[int, int]]:
+    """Return the radii of windows in cells, and how many cells are taken together for each."""
+    largest = max(round(largest), 1)
+    return [
+        (radius, together)
+        for together, first, last in _RADII
+        for radius in range(first, min(last, largest) + 1, together)
+    ]
+
+
+def _lowest_of_blocks(grid: np.ndarray, width: int) -> np.ndarray:
+    """Return the lowest value of each square of `width` x `width` cells."""
+    rows, columns = grid.shape
+    padded = np.pad(grid, ((0, -rows % width), (0, -columns % width)), mode="edge")
+    rows = np.minimum.reduce([padded[k::width] for k in range(width)])
+    return np.minimum.reduce([rows[:, k::width] for k in range(width)])
+
+
+def _finer(grid: np.ndarray, zoom: int, shape: tuple[int, int]) -> np.ndarray:
+    """Return a grid of the given shape in which each cell has the value of its square."""
+    fine = np.repeat(np.repeat(grid, zoom, axis=0), zoom, axis=1)
+    return fine[: shape[0], : shape[1]].astype(np.int32)

@@ -1,0 +1,389 @@
+"""Low outliers: points far below everything round them. Multipath, birds under bridges, faults.
+
+References
+----------
+Pingel, T., Clarke, K., McBride, W. (2013): An improved simple morphological filter for the terrain
+classification of airborne LIDAR data. ISPRS Journal 77, section 2.2.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from ...core.points import Points
+from ...core.progress import SILENT, Progress
+from ...grids.cells import Cells, spacing
+from ...grids.height_grid import HeightGrid
+from ...grids.morphology import median_of_nine, opening, within_square
+from ..pipeline import GridRule, PointRule, Rule, Stage
+from ..state import GridState, State
+from .lowest import DENSE_SPACING
+from .surroundings import LowestOfCells
+
+# A cell of an even surface is at most so many metres off the median of the 3 x 3 cells round it.
+_EVEN = 0.3
+
+
+@dataclass(frozen=True)
+class Corroborated(Rule):
+    """An exception: pits that other cells some metres away are as low as are ground.
+
+    Under dense canopy the few cells with ground points are pits, but they lie on one surface.
+    Faults are scattered: hardly any other cell lies at their level, or far fewer than on the even
+    surface above them.
+
+    Attributes
+    ----------
+    nearest, farthest : float
+        Cells between so many metres from a pit are its witnesses; nearer ones may belong to the
+        same fault.
+    apart : float
+        Metres between witnesses.
+    level, level_slope, depth_share : float
+        A witness is as low as a pit if they differ by at most `level` metres, plus `level_slope`
+        for each metre of distance, and by at most this share of the depth of the pit.
+    least, least_share : float
+        Least number of witnesses that are as low, and their least share of the number of witnesses
+        on an even surface above the pit.
+    """
+
+    stage: ClassVar = Stage.OUTLIERS
+
+    nearest: float = 3.0
+    farthest: float = 10.0
+    apart: float = 0.5
+    level: float = 0.5
+    level_slope: float = 0.2
+    depth_share: float = 0.33
+    least: int = 4
+    least_share: float = 0.15
+
+    def spared(
+        self,
+        grid: HeightGrid,
+        pits: np.ndarray,
+        depth: np.ndarray,
+        even: np.ndarray | None = None,
+    ) -> np.ndarray:
+        """Return the pits that are ground; boolean, shape (rows, columns).
+
+        `pits` are cells far below those next to them, `depth` is their depth in metres, and `even`
+        marks the cells that lie on an even surface, if they are known already.
+        """
+        result = np.zeros(pits.shape, dtype=bool)
+        row, column = np.nonzero(pits)
+        if not len(row):
+            return result
+        rows, columns, level = self._witnesses(grid.size)
+        reach = int(np.ceil(self.farthest / grid.size))
+        heights = np.pad(grid.values.astype(np.float32), reach, constant_values=np.nan)
+        even = np.pad(even_cells(grid) if even is None else even, reach)
+        width = heights.shape[1]
+        centre = (row + reach) * width + column + reach
+        own, heights, even = heights.take(centre), heights.ravel(), even.ravel()
+        near, above, below = np.zeros((3, len(row)), dtype=np.int32)
+        most = (self.depth_share * depth[row, column]).astype(np.float32)
+        for offset, at_most in zip((rows * width + columns).tolist(), level.tolist()):
+            allowed = np.minimum(most, np.float32(at_most))
+            there = centre + offset
+            rise = heights.take(there) - own
+            near += np.abs(rise) <= allowed
+            above += (rise > allowed) & even.take(there)
+            below += rise < -allowed
+        enough = np.maximum(self.least, np.maximum(self.least_share * above, below))
+        result[row, column] = near >= enough
+        return result
+
+    def _witnesses(self, size: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return the offsets of witnesses in rows and columns, and how far off they may be."""
+        reach = int(np.ceil(self.farthest / size))
+        # Not all narrow cells, but as many as there are of wide ones.
+        stride = max(round(self.apart / size), 1)
+        steps = np.arange(-(reach // stride), reach // stride + 1) * stride
+        rows, columns = (axis.ravel() for axis in np.meshgrid(steps, steps, indexing="ij"))
+        distance = np.hypot(rows, columns) * size
+        ring = (distance >= self.nearest) & (distance <= self.farthest)
+        return rows[ring], columns[ring], self.level + self.level_slope * distance[ring]
+
+
+@dataclass(frozen=True)
+class UnderCanopy(Rule):
+    """An exception: pits under a canopy are ground, where the lowest points round them are crowns.
+
+    Where hardly a pulse gets through, as in rain forest, hardly any other point is as low, so that
+    the pits are not `Corroborated`. But an outlier lies below a surface, and the lower side of
+    crowns is none.
+
+    Attributes
+    ----------
+    roughness : float
+        The lowest points are those of a canopy if their median distance from a plane is more than
+        so many metres.
+    reach, reach_cells : float
+        They are looked at up to so many metres, and so many cells, away.
+    depth : float
+        A pit that is deeper than so many times this distance is an outlier all the same.
+    pit : float
+        The plane is fitted without the points so many metres round the pit, which may belong to it.
+    """
+
+    stage: ClassVar = Stage.OUTLIERS
+
+    roughness: float = 2.5
+    reach: float = 6.0
+    reach_cells: int = 4
+    depth: float = 6.0
+    pit: float = 2.0
+
+    def spared(
+        self, pits: np.ndarray, points: Points, cells: Cells, lowest: np.ndarray | None = None
+    ) -> np.ndarray:
+        """Return the pits that are ground; `lowest` is the lowest point of each cell, if known."""
+        found = np.zeros(pits.shape, dtype=bool)
+        if not pits.any():
+            return found
+        margin = math.ceil(max(self.reach / cells.size, self.reach_cells))
+        grids = LowestOfCells.of(points, cells, margin, lowest)
+        rough = []
+        for around in grids.around(grids.places(pits), self.pit):
+            plane, above = around.plane()
+            distance = around.median(np.abs(above))
+            rough.append((distance > self.roughness) & (plane[:, 2] <= self.depth * distance))
+        found[pits] = np.concatenate(rough)
+        return found
+
+
+@dataclass(frozen=True)
+class NarrowPits(GridRule):
+    """A cell in a narrow pit that is too deep for terrain is a low outlier.
+
+    The grid is closed by 3 x 3 cells (the opening of -z). Cells that the closing raises by more
+    than `slope` times their size are outliers (Pingel et al. 2013).
+
+    Attributes
+    ----------
+    slope : float
+        Rise over run, far above that of any terrain.
+    """
+
+    stage: ClassVar = Stage.OUTLIERS
+    reads: ClassVar = ("points", "heights")
+    writes: ClassVar = ("heights",)
+
+    slope: float = 5.0
+    corroborated: Corroborated | None = Corroborated()
+    under_canopy: UnderCanopy | None = UnderCanopy()
+
+    def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
+        """Remove the pits."""
+        grid.remove(self.find(grid.heights, grid.points, grid.cells, grid.lowest))
+
+    def find(
+        self, heights: HeightGrid, points: Points, cells: Cells, lowest: np.ndarray | None = None
+    ) -> np.ndarray:
+        """Return the cells of pits; boolean, shape (rows, columns)."""
+        depth = depth_of_pits(heights)
+        pits = depth > self.slope * heights.size
+        if self.corroborated:
+            pits &= ~self.corroborated.spared(heights, pits, depth)
+        if self.under_canopy:
+            pits &= ~self.under_canopy.spared(pits, points, cells, lowest)
+        return pits
+
+
+@dataclass(frozen=True)
+class IsolatedLowPoints(GridRule):
+    """A lone point below an even surface is a low outlier, as in points from images.
+
+    The other points of its cell and most cells next to it lie on the surface. Hardly any other cell
+    some metres away is as low.
+
+    Attributes
+    ----------
+    depth : float
+        Least depth in metres below the cells round it.
+    least_even : int
+        At least so many of the eight cells round it are even.
+    least_points : int
+        Its cell has at least so many points.
+    gap : float
+        The next point of the cell is higher by at least this share of the depth.
+    """
+
+    stage: ClassVar = Stage.OUTLIERS
+    reads: ClassVar = ("points", "heights")
+    writes: ClassVar = ("heights",)
+
+    depth: float = 0.6
+    least_even: int = 6
+    least_points: int = 4
+    gap: float = 0.7
+    corroborated: Corroborated | None = Corroborated()
+
+    def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
+        """Remove the cells of lone points."""
+        grid.remove(self.find(grid.heights, grid.cells, grid.points.z))
+
+    def find(self, grid: HeightGrid, cells: Cells, z: np.ndarray) -> np.ndarray:
+        """Return the cells of lone points; boolean, shape (rows, columns)."""
+        from scipy import ndimage
+
+        depth = depth_of_pits(grid)
+        even = even_cells(grid)
+        around = ndimage.uniform_filter(even.astype(np.float32), 3, mode="nearest")
+        doubtful = (depth > self.depth) & (9.0 * around > self.least_even - 0.5)
+        which = np.flatnonzero(doubtful.ravel()[cells.index])
+        which = which[np.lexsort((z[which], cells.index[which]))]
+        cell, first, count = np.unique(cells.index[which], return_index=True, return_counts=True)
+        several = count >= self.least_points
+        cell, first = cell[several], first[several]
+        gap = z[which[first + 1]] - z[which[first]]
+        pits = np.zeros(depth.shape, dtype=bool)
+        pits.ravel()[cell] = gap >= self.gap * depth.ravel()[cell]
+        if self.corroborated:
+            pits &= ~self.corroborated.spared(grid, pits, depth, even)
+        return pits
+
+
+@dataclass(frozen=True)
+class DenseOutliers(PointRule):
+    """In a dense cloud, points far below all others round them are low noise.
+
+    Most cells of half a metre or a metre may have such a point. Here cells are so narrow that few
+    have one.
+
+    Attributes
+    ----------
+    spacings : float
+        Side of the cells as a multiple of the usual distance between points. With so few points
+        hardly any cell has an outlier, and hardly any is empty.
+    least_spacing : float
+        A smaller distance between points counts as this, in metres.
+    depth : float
+        Least depth in metres below the cells round it.
+    passes : int
+        Of several outliers in one cell, each pass finds the lowest.
+    many : float
+        If more than this share of the points are such outliers, the log says so.
+    """
+
+    stage: ClassVar = Stage.LOW_NOISE
+    reads: ClassVar = ("points", "grids", "known_ground")
+    writes: ClassVar = ("points", "grids", "low_noise")
+
+    spacings: float = 3.0
+    least_spacing: float = 0.02
+    depth: float = 1.0
+    passes: int = 3
+    many: float = 1e-4
+    corroborated: Corroborated | None = Corroborated()
+
+    def apply(self, state: State) -> None:
+        """Add the outliers to the low noise."""
+        found = self.find(state.points)
+        if np.count_nonzero(found) > self.many * state.points.count:
+            state.progress.info(
+                "Low outliers are scattered all over the points. They are left out, and are not"
+                " ground."
+            )
+        state.add_low_noise(found)
+
+    def find(self, points: Points) -> np.ndarray:
+        """Return which points are outliers; all False if points are farther apart than 0.17 m."""
+        lows = np.zeros(points.count, dtype=bool)
+        apart = spacing(points, self.least_spacing)
+        if apart > DENSE_SPACING:
+            return lows
+        cells = Cells.over(points, self.spacings * apart)
+        for number in range(self.passes):
+            heights = cells.minimum(points.z, ~lows if number else slice(None))
+            grid = HeightGrid(heights, cells.size, cells.first)
+            depth = depth_of_pits(grid)
+            pits = depth > self.depth
+            if self.corroborated:
+                pits &= ~self.corroborated.spared(grid, pits, depth)
+            if not pits.any():
+                break
+            # The lower half of the pit.
+            limit = np.where(pits, heights + 0.5 * depth, -np.inf).ravel()
+            lows |= points.z < limit.take(cells.index)
+        return lows
+
+
+@dataclass(frozen=True)
+class WidePits(GridRule):
+    """A small pit of several cells that is too deep for terrain holds low outliers.
+
+    The grid is closed by discs (the opening of -z). Where this raises cells by more than `slope`
+    times the radius, there is a pit. A pit holds outliers if it is no longer than the disc's
+    diameter in either direction, unlike ditches and streets between houses, and also so deep below
+    its surroundings, unlike a courtyard: the ground below a hole in a large roof is a pit as well,
+    but ground beyond the roof is as low.
+
+    Attributes
+    ----------
+    slope : float
+        Rise over run of the pit's sides, above that of terrain.
+    widest : float
+        Diameter of the widest pit in metres.
+    around : float
+        Radius of the surroundings in metres.
+    """
+
+    stage: ClassVar = Stage.OUTLIERS
+    reads: ClassVar = ("heights",)
+    writes: ClassVar = ("heights",)
+
+    around: float
+    slope: float = 2.0
+    widest: float = 6.0
+    corroborated: Corroborated | None = Corroborated()
+
+    def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
+        """Remove the cells of small pits."""
+        grid.remove(self.find(grid.heights))
+
+    def find(self, grid: HeightGrid) -> np.ndarray:
+        """Return the cells of small pits; boolean, shape (rows, columns)."""
+        # Single precision halves the time that the discs take.
+        filled = grid.filled().astype(np.float32)
+        depth = np.zeros(filled.shape)
+        for radius in range(1, grid.cells(self.widest / 2.0) + 1):
+            deep = self.slope * radius * grid.size
+            pits = _compact(-opening(-filled, radius) - filled > deep, 2 * radius + 1)
+            depth[pits] = np.maximum(depth[pits], deep)
+        if self.corroborated:
+            depth[self.corroborated.spared(grid, depth > 0.0, depth)] = 0.0
+        if not depth.any():
+            return depth > 0.0
+        others = grid.where(depth <= 0.0).filled().astype(np.float32)
+        below = filled < opening(others, round(self.around / grid.size, 6)) - depth
+        return (depth > 0.0) & below & grid.known
+
+
+def depth_of_pits(grid: HeightGrid) -> np.ndarray:
+    """Return how many metres a closing by 3 x 3 cells raises each cell; 0 where there is none."""
+    filled = grid.filled()
+    closed = within_square(np.minimum, within_square(np.maximum, filled, 1), 1)
+    return np.where(grid.known, closed - filled, 0.0)
+
+
+def even_cells(grid: HeightGrid) -> np.ndarray:
+    """Return which cells lie on an even surface; boolean, shape (rows, columns)."""
+    middle = median_of_nine(grid.filled(2).astype(np.float32))
+    return np.abs(grid.values - middle) <= _EVEN
+
+
+def _compact(mask: np.ndarray, longest: int) -> np.ndarray:
+    """Return the connected parts of a mask that are at most so many cells long and wide."""
+    from scipy import ndimage
+
+    parts, count = ndimage.label(mask, np.ones((3, 3)))
+    compact = np.zeros(count + 1, dtype=bool)
+    for number, part in enumerate(ndimage.find_objects(parts), start=1):
+        compact[number] = max(side.stop - side.start for side in part) <= longest
+    return compact[parts]

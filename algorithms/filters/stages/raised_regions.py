@@ -1,0 +1,175 @@
+"""The table of raised regions: groups of raised cells without steps between them."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..state import GridState
+
+# Regions of the first and of the second cell of pairs of cells; -1 for cells that are not raised.
+_Pairs = tuple[np.ndarray, np.ndarray]
+# Pairs of cells (indices into the flattened grid), and the sign of the step between them.
+Steps = tuple[np.ndarray, np.ndarray, np.ndarray]
+
+
+class RegionCells(NamedTuple):
+    """Cells of raised regions.
+
+    Attributes
+    ----------
+    region : numpy.ndarray of int64, shape (n,)
+        Region of each cell.
+    north, east : numpy.ndarray of float, shape (n,)
+        Coordinates of each cell in metres.
+    heights, above : numpy.ndarray of float, shape (n,)
+        Height of each, and its height above the ground, in metres.
+    """
+
+    region: np.ndarray
+    north: np.ndarray
+    east: np.ndarray
+    heights: np.ndarray
+    above: np.ndarray
+
+    def take(self, which: np.ndarray) -> RegionCells:
+        """Return some of the cells."""
+        return RegionCells(*(column[which] for column in self))
+
+
+class RaisedRegions(NamedTuple):
+    """The raised regions of a grid, with what rules ask about them.
+
+    Attributes
+    ----------
+    size : float
+        Side of a cell in metres.
+    shape : tuple of int
+        Rows and columns of the grid.
+    which : numpy.ndarray of intp, shape (n,)
+        The raised cells, in the flattened grid.
+    cells : RegionCells
+        The raised cells.
+    feet : RegionCells
+        Those that are level with the ground beside them, once for each such side.
+    area, above, open : numpy.ndarray of float64, shape (regions,)
+        Square metres; mean height above the ground in metres; sides of cells at the border of the
+        survey.
+    filled : numpy.ndarray of float32, shape (rows, columns)
+        Heights of all cells in metres, without NaN.
+    borders : list
+        Pairs of regions between which there are level steps, drops and rises, for two directions.
+    """
+
+    size: float
+    shape: tuple[int, int]
+    which: np.ndarray
+    cells: RegionCells
+    feet: RegionCells
+    area: np.ndarray
+    above: np.ndarray
+    open: np.ndarray
+    borders: list[list[_Pairs]]
+    filled: np.ndarray
+
+    def even(self, bend: float) -> np.ndarray:
+        """Return which raised cells are within some metres of the mean of opposite neighbours."""
+        even = np.zeros(self.shape, dtype=bool)
+        for to, z in ((even, self.filled), (even.T, self.filled.T)):
+            to[1:-1] |= np.abs(z[2:] + z[:-2] - 2.0 * z[1:-1]) <= 2.0 * bend
+        return even.ravel()[self.which]
+
+    def spread(self, regions: np.ndarray) -> np.ndarray:
+        """Return the cells of some regions (boolean, one each) as a mask (rows, columns)."""
+        mask = np.zeros(self.shape, dtype=bool)
+        mask.ravel()[self.which] = regions[self.cells.region]
+        return mask
+
+
+def raised_regions(
+    grid: GridState, raised: np.ndarray, steps: Steps, judges_gaps: bool
+) -> RaisedRegions:
+    """Return the regions of the raised cells between which no step leads up or down.
+
+    Parameters
+    ----------
+    grid : GridState
+        Heights, and the surface of the ground.
+    raised : numpy.ndarray of bool, shape (rows, columns)
+        Cells that are judged.
+    steps : tuple
+        Pairs of neighbouring cells of which at least one is raised, and 1 where the second is
+        higher by a step, -1 where it is lower, else 0.
+    judges_gaps : bool
+        Whether a cell without a point is no evidence of a gentle border.
+    """
+    one, other, sign = steps
+    seen = grid.heights.known.ravel() if judges_gaps else np.ones(raised.size, dtype=bool)
+    up = raised.ravel()
+    inside = (sign == 0) & up[one] & up[other]
+    region, count = _numbered(up, one[inside], other[inside])
+    cells = np.flatnonzero(up)
+    number, size = region[cells], grid.cells.size
+    area = np.bincount(number, minlength=count) * size**2
+    heights = grid.filled.ravel()[cells]
+    above = heights - grid.surface.ravel()[cells]
+    row, column = np.divmod(cells, raised.shape[1])
+    of_regions = RegionCells(number, size * row, size * column, heights, above)
+    feet = np.where(up[one], one, other)[(sign == 0) & (up[one] != up[other])]
+    return RaisedRegions(
+        size,
+        raised.shape,
+        cells,
+        of_regions,
+        of_regions.take(np.searchsorted(cells, feet[seen[feet]])),
+        area,
+        np.bincount(number, above, count) * size**2 / area,
+        np.bincount(number, _unsurveyed(grid.surveyed).ravel()[cells], count),
+        _borders(region, up, steps, seen),
+        grid.filled,
+    )
+
+
+def _numbered(up: np.ndarray, one: np.ndarray, other: np.ndarray) -> tuple[np.ndarray, int]:
+    """Return the region of each cell, -1 where none is raised, and how many there are.
+
+    `one` and `other` are pairs of raised cells without a step between them.
+    """
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    cells = np.flatnonzero(up)
+    region = np.full(up.size, -1, dtype=np.int64)
+    region[cells] = np.arange(len(cells))
+    pairs = region[one], region[other]
+    graph = coo_matrix((np.ones(len(one), dtype=bool), pairs), shape=(len(cells),) * 2)
+    count, region[cells] = connected_components(graph, directed=False)
+    return region, count
+
+
+def _unsurveyed(surveyed: np.ndarray) -> np.ndarray:
+    """Return how many of the four neighbours of each cell lie outside the survey."""
+    beyond = np.pad(~surveyed, 1, constant_values=True).astype(np.int8)
+    rows = beyond[:-2, 1:-1] + beyond[2:, 1:-1]
+    return rows + beyond[1:-1, :-2] + beyond[1:-1, 2:]
+
+
+def _borders(
+    region: np.ndarray, up: np.ndarray, steps: Steps, seen: np.ndarray
+) -> list[list[_Pairs]]:
+    """Return the pairs of regions between which there are level steps, drops and rises.
+
+    The two directions are separate.
+    """
+    one, other, sign = steps
+    borders = []
+    for from_, to, drop in ((one, other, -1), (other, one, 1)):
+        differ = up[from_] & (region[from_] != region[to])
+        kinds = (sign == 0) & seen[from_], sign == drop, sign == -drop
+        pairs = []
+        for kind in kinds:
+            which = differ & kind
+            pairs.append((region[from_[which]], region[to[which]]))
+        borders.append(pairs)
+    return borders

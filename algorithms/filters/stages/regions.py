@@ -1,0 +1,164 @@
+"""Regions of a height grid, judged by how their borders drop or rise."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+# Least share of a pit's border that must be a rise.
+_PIT_SHARE = 0.9
+# Rounds in which regions that others hid are tested again.
+_ROUNDS = 3
+
+
+class Border(NamedTuple):
+    """The pairs of neighbouring cells that lie in different regions.
+
+    Attributes
+    ----------
+    regions : int
+        One more than the largest number of a region.
+    first, second : numpy.ndarray of int32, shape (pairs,)
+        Region of the first and of the second cell; 0 where nothing is known.
+    sign : numpy.ndarray of int8, shape (pairs,)
+        1 where the second is higher by more than is allowed, -1 where it is lower, else 0.
+    rise : numpy.ndarray of float32, shape (pairs,)
+        Height of the second above the first in metres, beyond the trend.
+    face : numpy.ndarray of float32, shape (pairs,)
+        Slope (rise over run) of the face that the step between them is part of. It is the slope of
+        the face's second step, because the first may be a wall below a roof. 0 where there is no
+        face, NaN where this is unknown.
+    """
+
+    regions: int
+    first: np.ndarray
+    second: np.ndarray
+    sign: np.ndarray
+    rise: np.ndarray
+    face: np.ndarray
+
+    def length(self) -> np.ndarray:
+        """Return the length of each region's border in cells, if neighbours are one apart."""
+        all_ = np.ones(len(self.sign), dtype=bool)
+        # Each cell of a straight border has three neighbours beyond it.
+        return self._total(all_, all_) / 3.0
+
+    def faces(self) -> np.ndarray:
+        """Return the share of each region's drops that are part of a face, where this is known."""
+        first, second = (self.sign == sign for sign in (-1, 1))
+        known = self._total(first & ~np.isnan(self.face), second & ~np.isnan(self.face))
+        on_face = self._total(first & (self.face > 0.0), second & (self.face > 0.0))
+        return on_face / np.maximum(known, 1)
+
+    def drops(
+        self, removed: np.ndarray, sign: int
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Count where each region drops (sign 1) or rises (-1) to regions that are not removed.
+
+        Returns, for each region, the number of pairs of cells with a drop, with a known neighbour,
+        and of all pairs; and the mean height of the drops in metres.
+        """
+        pairs = ~(removed[self.first] | removed[self.second])
+        known = pairs & (self.first > 0) & (self.second > 0)
+        down, up = known & (self.sign == -sign), known & (self.sign == sign)
+        drops = self._total(down, up)
+        height = self._total(down, up, np.abs(self.rise)) / np.maximum(drops, 1)
+        return drops, self._total(known, known), self._total(pairs, pairs), height
+
+    def _total(
+        self, first: np.ndarray, second: np.ndarray, weights: np.ndarray | None = None
+    ) -> np.ndarray:
+        """Count pairs, or add up their weights, for the region of each of their cells."""
+        total = np.zeros(self.regions)
+        for region, which in ((self.first, first), (self.second, second)):
+            counted = weights if weights is None else weights[which]
+            total += np.bincount(region[which], counted, self.regions)
+        return total
+
+
+class Regions:
+    """The regions between rims.
+
+    Attributes
+    ----------
+    number : numpy.ndarray of int32, shape (rows, columns)
+        The region of each cell; 0 where nothing is known.
+    width : numpy.ndarray of float, shape (count,)
+        Width (shorter side) of each region in metres.
+    """
+
+    def __init__(self, number: np.ndarray, border: Border, size: float, step: int) -> None:
+        self.number = number
+        self._border = border
+        area = np.bincount(number.ravel(), minlength=border.regions)
+        self.width = _shorter_side(area, border.length() / step) * size
+
+    def bounded(
+        self,
+        max_size: float,
+        share: float,
+        whole_share: float,
+        steepness: float = 0.0,
+        fits: np.ndarray | bool = True,
+    ) -> np.ndarray:
+        """Return the cells of the regions whose border is mostly a drop.
+
+        Parameters
+        ----------
+        max_size : float
+            Largest width (shorter side) in metres.
+        share, whole_share : float
+            Least share of the known border, and of the whole border with that of the survey, that
+            must be a drop.
+        steepness : float
+            Least mean height of the drop over the width of the region.
+        fits : numpy.ndarray of bool, shape (count,)
+            Which regions are considered.
+
+        Returns
+        -------
+        numpy.ndarray of bool, shape (rows, columns)
+        """
+        return self._bounded(max_size, 1, share, whole_share, steepness, fits)
+
+    def face_share(self) -> np.ndarray:
+        """Return the share of each region's drops that is part of a face, where this is known."""
+        return self._border.faces()
+
+    def sunken(self, max_size: float) -> np.ndarray:
+        """Return the cells of pits: regions whose border is a rise nearly all round."""
+        return self._bounded(max_size, -1, _PIT_SHARE, _PIT_SHARE, 0.0, True)
+
+    def _bounded(
+        self,
+        max_size: float,
+        sign: int,
+        share: float,
+        least_share: float,
+        least_steepness: float,
+        fits: np.ndarray | bool,
+    ) -> np.ndarray:
+        """Return the cells of regions bounded by drops (1) or rises (-1).
+
+        Regions that one round finds are unknown in the next, which finds regions that they hid: a
+        roof below a tower, a pit within a pit.
+        """
+        fits = fits & (self.width <= max_size)
+        fits[0] = False
+        found = np.zeros(len(fits), dtype=bool)
+        for _ in range(_ROUNDS):
+            drops, known, pairs, height = self._border.drops(found, sign)
+            new = fits & ~found & (drops > 0) & (height >= least_steepness * self.width)
+            new &= (drops >= share * known) & (drops > least_share * pairs)
+            if not new.any():
+                break
+            found |= new
+        return found[self.number]
+
+
+def _shorter_side(area: np.ndarray, perimeter: np.ndarray) -> np.ndarray:
+    """Return the shorter side of rectangles; for rounder shapes, the side of a square."""
+    quarter = perimeter / 4.0
+    rest = quarter**2 - area
+    return np.where(rest < 0, np.sqrt(area), quarter - np.sqrt(np.maximum(rest, 0.0)))

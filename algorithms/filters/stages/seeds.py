@@ -1,0 +1,116 @@
+"""The first points of the ground: lowest points of cells that are ground."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from ...core.errors import BareEarthError
+from ...grids.cells import Cells
+from ..pipeline import PointRule, Stage
+from ..state import GridState, State
+
+_NO_SEED = "No point can be taken for ground with certainty."
+# States of a point on a grid: not the lowest of its cell; on an object or a low outlier; perhaps
+# ground; ground.
+_HIDDEN, _OBJECT, _OPEN, _GROUND = range(4)
+
+
+@dataclass(frozen=True)
+class Seeds(PointRule):
+    """The lowest points of ground cells are seeds; other lowest points wait.
+
+    A point that is the lowest of its cell on both of two grids must be ground on both; one that is
+    the lowest on only one grid must be ground on that one.
+
+    Attributes
+    ----------
+    objects_wait : bool
+        Whether lowest points on objects may become ground later.
+    hint : str or None
+        What to check if there is no seed; None if others may follow.
+    """
+
+    stage: ClassVar = Stage.SEEDS
+    reads: ClassVar = ("grids",)
+    writes: ClassVar = ("grids", "seeds", "waiting")
+
+    objects_wait: bool = False
+    hint: str | None = None
+
+    def apply(self, state: State) -> None:
+        """Take seeds from the grids; only the first of these is needed from then on.
+
+        Raises
+        ------
+        BareEarthError
+            If there is no seed.
+        """
+        if len(state.grids) == 1:
+            (grid,) = state.grids
+            ground, is_open = self._judged(grid)
+            state.seeds, state.waiting = grid.lowest[ground], grid.lowest[~ground & is_open]
+        else:
+            state.seeds, state.waiting = self._of_both(state)
+            del state.grids[1:]  # four bytes a point
+        if self.hint and not len(state.seeds):
+            raise BareEarthError(f"{_NO_SEED} {self.hint}")
+
+    def _judged(self, grid: GridState) -> tuple[np.ndarray, np.ndarray]:
+        """Return which lowest points are ground, and which may be."""
+        known = grid.heights.known
+        is_open = known if self.objects_wait else known & ~grid.objects
+        return grid.is_ground.ravel()[grid.cell], is_open.ravel()[grid.cell]
+
+    def _of_both(self, state: State) -> tuple[np.ndarray, np.ndarray]:
+        kinds = np.zeros((2, state.points.count), dtype=np.int8)
+        for kind, grid in zip(kinds, state.grids):
+            ground, is_open = self._judged(grid)
+            kind[grid.lowest] = np.where(ground, _GROUND, np.where(is_open, _OPEN, _OBJECT))
+        either = np.flatnonzero(kinds[0] | kinds[1])
+        # A large building that one grid finds is one on both.
+        for grid in state.grids:
+            either = either[~grid.large_buildings.ravel()[grid.cells.index[either]]]
+        one, other = kinds[:, either]
+        ground = (one == _GROUND) & ((other == _GROUND) | (other == _HIDDEN))
+        ground |= (other == _GROUND) & (one == _HIDDEN)
+        is_open = ~ground & ((one >= _OPEN) | (other >= _OPEN))
+        return either[ground], either[is_open]
+
+
+@dataclass(frozen=True)
+class KnownGround(PointRule):
+    """The lowest points of known ground are seeds.
+
+    Attributes
+    ----------
+    cell : float
+        Side in metres of the cells whose lowest known points are taken.
+    """
+
+    stage: ClassVar = Stage.SEEDS
+    reads: ClassVar = ("points", "known_ground")
+    writes: ClassVar = ("seeds",)
+
+    cell: float = 1.0
+
+    def apply(self, state: State) -> None:
+        """Add the known points to the seeds.
+
+        Raises
+        ------
+        BareEarthError
+            If there is no seed.
+        """
+        known = state.known_ground
+        if known is not None and known.any():
+            which = np.flatnonzero(known)
+            some = state.points.take(which)
+            lowest = Cells.over(some, self.cell).lowest_points(some)
+            state.seeds = np.append(state.seeds, which[lowest])
+        if not len(state.seeds):
+            raise BareEarthError(
+                f"{_NO_SEED} Check the maximum building size and the selection of points."
+            )

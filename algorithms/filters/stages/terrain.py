@@ -1,0 +1,292 @@
+"""Raised regions that are terrain after all.
+
+A region that an opening cuts off is terrain if it continues gently into the ground round it (a
+dike, a terrace, a plateau with a ramp), or if it has the shape of a landform.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar, NamedTuple
+
+import numpy as np
+
+from ...core.progress import SILENT, Progress
+from ..pipeline import GridRule, Rule, Stage
+from ..state import GridState
+from .landforms import LowBanks, Ramps, Rocks
+from .raised_regions import RaisedRegions, raised_regions
+from .slopes import OnSlope
+
+
+class Borders(NamedTuple):
+    """How the borders of regions are to the ground, in sides of cells; arrays of shape (regions,).
+
+    Attributes
+    ----------
+    level, rising : numpy.ndarray of float64
+        Sides that are level with the ground, and that rise to it.
+    sharp : numpy.ndarray of float64
+        Sides that drop.
+    """
+
+    level: np.ndarray
+    rising: np.ndarray
+    sharp: np.ndarray
+
+
+@dataclass(frozen=True)
+class SmallBuildings(Rule):
+    """An exception: a house may be level with the ground on one side of its roof, on a slope.
+
+    Attributes
+    ----------
+    area, height : float
+        A region may be a house if it is smaller (m2) and on average higher (m) than this.
+    share : float
+        At least this share of its border must then be gentle.
+    """
+
+    stage: ClassVar = Stage.TERRAIN
+
+    area: float = 400.0
+    height: float = 2.5
+    share: float = 0.5
+
+
+@dataclass(frozen=True)
+class GentleBorder(Rule):
+    """A region is terrain if a large share of its border is gentle.
+
+    Attributes
+    ----------
+    share : float
+        Least share of the border that is level with the ground, or rises to it.
+    rise_counts : bool
+        Whether a border that rises to the ground counts, as at the tread of a terrace.
+    """
+
+    stage: ClassVar = Stage.TERRAIN
+
+    share: float = 0.3
+    rise_counts: bool = True
+    small_buildings: SmallBuildings | None = SmallBuildings()
+
+    def fits(self, regions: RaisedRegions, borders: Borders) -> np.ndarray:
+        """Return which regions are terrain by this rule; boolean, shape (regions,)."""
+        gentle = borders.level + borders.rising if self.rise_counts else borders.level
+        share = np.full(len(regions.area), self.share)
+        if self.small_buildings:
+            house = self.small_buildings
+            is_house = (regions.area < house.area) & (regions.above > house.height)
+            share[is_house] = max(house.share, self.share)
+        return (gentle > 0) & (gentle >= share * (gentle + borders.sharp))
+
+
+@dataclass(frozen=True)
+class LevelBorder(Rule):
+    """A wide region is terrain if some of its border is level: a plateau with a ramp.
+
+    Rises do not count: a roof rises to the next roof.
+
+    Attributes
+    ----------
+    areas, shares : tuple of float
+        A region of the first area (m2) needs the first share of its border; one of the second area
+        the second share. In between the share falls with the logarithm of the area.
+    """
+
+    stage: ClassVar = Stage.TERRAIN
+
+    areas: tuple[float, float] = (400.0, 3000.0)
+    shares: tuple[float, float] = (0.3, 0.05)
+
+    def fits(self, regions: RaisedRegions, borders: Borders) -> np.ndarray:
+        """Return which regions are terrain by this rule; boolean, shape (regions,)."""
+        share = np.interp(np.log(regions.area), np.log(self.areas), self.shares)
+        bounded = borders.level + borders.rising + borders.sharp
+        is_level = (borders.level > 0) & (borders.level >= share * bounded)
+        return is_level & (regions.area >= self.areas[0])
+
+
+@dataclass(frozen=True)
+class OpenBorder(Rule):
+    """A large region is terrain if much of its border is that of the survey: little is known of it.
+
+    Attributes
+    ----------
+    area : float
+        Least area in square metres.
+    height : float
+        Such a region is no terrain if its mean height above the ground, in metres, is larger: it
+        may be a building cut by the border of the survey.
+    share : float
+        More than this share of its border is the border of the survey. It is less than half,
+        because the sides of cells make a slanted edge longer than it is.
+    """
+
+    stage: ClassVar = Stage.TERRAIN
+
+    area: float = 800.0
+    height: float = 4.5
+    share: float = 0.45
+
+    def fits(self, regions: RaisedRegions, borders: Borders) -> np.ndarray:
+        """Return which regions are terrain by this rule; boolean, shape (regions,)."""
+        large = (regions.area >= self.area) & (regions.above <= self.height)
+        bounded = borders.level + borders.rising + borders.sharp
+        return large & (regions.open > self.share * (bounded + regions.open))
+
+
+@dataclass(frozen=True)
+class GentleRegions(GridRule):
+    """A raised region that continues gently into the ground is terrain.
+
+    A region is a group of raised cells without steps between them. Its border is gentle where it
+    touches the ground without a step, and sharp where it drops.
+
+    Attributes
+    ----------
+    step : float
+        Largest step between cells, in metres beyond the terrain's own rise, that is not an edge. It
+        is for cells of up to 1 m, and in proportion larger for larger cells.
+    smoothing : float
+        Metres over which the surface is smoothed for the terrain's own rise, which is no step.
+    area : float
+        Least area of a region in square metres.
+    passes : int
+        Passes in which regions join the ground or regions that have joined it.
+    judges_gaps : bool
+        Whether cells without a point are judged as well. They are raised if their filled height is,
+        and outside the survey they are no border.
+    """
+
+    stage: ClassVar = Stage.TERRAIN
+    reads: ClassVar = ("heights", "filled", "surveyed", "surface", "objects", "raised")
+    writes: ClassVar = ("raised",)
+
+    step: float = 0.3
+    smoothing: float = 2.0
+    area: float = 20.0
+    passes: int = 4
+    judges_gaps: bool = True
+    on_slope: OnSlope | None = OnSlope()
+    gentle_border: GentleBorder | None = GentleBorder()
+    level_border: LevelBorder | None = LevelBorder()
+    open_border: OpenBorder | None = OpenBorder()
+    rocks: Rocks | None = Rocks()
+    ramps: Ramps | None = Ramps()
+    low_banks: LowBanks | None = LowBanks()
+
+    def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
+        """Let regions be ground that are terrain; objects only where they are landforms."""
+        regions = self.regions(grid)
+        landforms = np.zeros(len(regions.area), dtype=bool)
+        for rule in (self.rocks, self.ramps, self.low_banks):
+            if rule:
+                landforms |= rule.fits(regions)
+        terrain = self._joined(regions, landforms)
+        found, special = (regions.spread(which) for which in (terrain, landforms))
+        grid.raised &= ~special & (grid.objects | ~found)
+
+    def regions(self, grid: GridState) -> RaisedRegions:
+        """Return the raised regions of a grid."""
+        smooth = smoothed(grid.surface, grid.cells.size, self.smoothing)
+        raised, step = grid.raised, self.step * max(grid.cells.size, 1.0)
+        if self.judges_gaps:
+            # A gap in a roof must not count as ground beside the roof.
+            raised = raised | (~grid.heights.known & (grid.filled - grid.surface > step))
+        sides = [self._steps(grid, raised, smooth, axis, step) for axis in (0, 1)]
+        one, other, sign = (np.concatenate(parts) for parts in zip(*sides))
+        if self.judges_gaps:
+            # The filling of a gap in the survey, or beside a wall, slopes down gently from any
+            # roof.
+            both = grid.surveyed.ravel()[one] & grid.surveyed.ravel()[other]
+            one, other, sign = one[both], other[both], sign[both]
+        return raised_regions(grid, raised, (one, other, sign), self.judges_gaps)
+
+    def _steps(
+        self, grid: GridState, raised: np.ndarray, smooth: np.ndarray, axis: int, step: float
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Compare neighbouring cells along an axis if at least one of them is raised.
+
+        Returns
+        -------
+        one, other : numpy.ndarray of intp
+            The pairs, as indices into the flattened grid.
+        sign : numpy.ndarray of int8
+            1 where the other is higher by a step, -1 where it is lower, else 0.
+        """
+        filled, size = grid.filled, grid.cells.size
+        ahead = tuple(slice(1, None) if side == axis else slice(None) for side in (0, 1))
+        behind = tuple(slice(None, -1) if side == axis else slice(None) for side in (0, 1))
+        matters = np.zeros(filled.shape, dtype=bool)
+        np.logical_or(raised[ahead], raised[behind], out=matters[behind])
+        one = np.flatnonzero(matters)
+        other = one + (filled.shape[1] if axis == 0 else 1)
+        rise = filled.ravel()[other] - filled.ravel()[one]
+        usual = slope_at(smooth, axis, one, size) * size
+        allowed = step + np.abs(usual)
+        rise -= usual
+        sign = (rise > allowed).astype(np.int8) - (rise < -allowed).astype(np.int8)
+        if self.on_slope:
+            stepped = np.flatnonzero(sign)
+            sign[stepped[self.on_slope.spared(grid.heights, filled, one[stepped], axis)]] = 0
+        return one, other, sign
+
+    def _joined(self, regions: RaisedRegions, landforms: np.ndarray) -> np.ndarray:
+        """Return which regions pass into the ground, or into others that do."""
+        joined, count = landforms.copy(), len(regions.area)
+        rules = [rule for rule in (self.gentle_border, self.level_border, self.open_border) if rule]
+        sharp = np.sum(
+            [np.bincount(drop[0], minlength=count) for _, drop, _ in regions.borders], axis=0
+        )
+        for _ in range(self.passes):
+            ground = np.append(joined, True)  # the last one stands for cells that are not raised
+            level, rising = np.zeros((2, count))
+            for flat, _, rise in regions.borders:
+                level += np.bincount(flat[0][ground[flat[1]]], minlength=count)
+                rising += np.bincount(rise[0][ground[rise[1]]], minlength=count)
+            borders = Borders(level, rising, sharp)
+            new = np.zeros(count, dtype=bool)
+            for rule in rules:
+                new |= rule.fits(regions, borders)
+            new &= regions.area >= self.area
+            if not (new & ~joined).any():
+                break
+            joined |= new
+        return joined
+
+
+def smoothed(surface: np.ndarray, size: float, smoothing: float) -> np.ndarray:
+    """Return a surface smoothed over `smoothing` metres."""
+    from scipy import ndimage
+
+    return ndimage.gaussian_filter(surface, smoothing / size, mode="nearest")
+
+
+def slope_at(surface: np.ndarray, axis: int, cells: np.ndarray, size: float) -> np.ndarray:
+    """Return the slope of a surface along an axis, rise over run, at some cells.
+
+    Parameters
+    ----------
+    surface : numpy.ndarray of float, shape (rows, columns)
+        Heights in metres without NaN.
+    axis : int
+        0 towards north, 1 towards east.
+    cells : numpy.ndarray of intp
+        Indices into the flattened grid.
+    size : float
+        Side of a cell in metres.
+
+    Returns
+    -------
+    numpy.ndarray of float64, shape (cells,)
+        Central differences, one-sided at the border.
+    """
+    place = np.divmod(cells, surface.shape[1])[axis]
+    ahead, back = place < surface.shape[axis] - 1, place > 0
+    offset = surface.shape[1] if axis == 0 else 1
+    flat = surface.ravel()
+    rise = flat[cells + offset * ahead] - flat[cells - offset * back]
+    return rise / (np.maximum(ahead.astype(np.int8) + back, 1) * size)

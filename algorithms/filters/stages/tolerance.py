@@ -1,0 +1,254 @@
+"""How far from the surface through the seeds points are ground."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from ...core.points import Points
+from ...grids.cells import Cells
+from ...grids.gradient import gradient, length, steepness
+from ...grids.inpaint import inpaint
+from ...grids.morphology import within_square
+from ..pipeline import PointRule, Rule, Stage
+from ..state import State
+from .lowest import DENSE_SPACING
+from .noise import below_middle, from_middle, middle_of_noise, noise_of_squares
+
+# Metres over which the surface is smoothed to move vertices along its slope, how often they are
+# moved, and the steepest slope for this (rise over run).
+_SLOPE_SMOOTHING, _MOVES, _STEEPEST = 1.5, 2, 1.5
+# Metres over which the surface is smoothed for the slope that is added to the tolerances.
+_FACET_SMOOTHING = 0.7
+# The tolerance on slopes is proportional to the spacing of the points, between these two spacings
+# in metres.
+_SPARSE, _DENSE = 1.0, 0.25
+# Largest spacing in metres at which the noise is measured in each cell, because the lowest of many
+# points in a cell lies below the ground.
+NOISE_SPACING = 0.36
+
+
+@dataclass(frozen=True)
+class PlainSurface(PointRule):
+    """The surface goes through the lowest vertex of each cell.
+
+    Attributes
+    ----------
+    above, below : float
+        Tolerances in metres in level terrain.
+    on_slopes : float
+        Metres that a slope of 45 degrees adds to both.
+    """
+
+    stage: ClassVar = Stage.ACCEPTED
+    reads: ClassVar = ("points", "grids", "seeds")
+    writes: ClassVar = ("limits",)
+
+    above: float
+    on_slopes: float
+    below: float = 0.6
+
+    def apply(self, state: State) -> None:
+        """Set the limits of the heights of ground points."""
+        cells = state.grids[0].cells
+        surface = inpaint(cells.minimum(state.points.z, state.seeds), first=cells.first)
+        rise = self.on_slopes * _smooth_steepness(surface, cells)
+        lowest, highest = surface - self.below - rise, surface + self.above + rise
+        state.limits = np.stack((lowest, highest), axis=-1)
+
+
+@dataclass(frozen=True)
+class MeasuredNoise(Rule):
+    """The tolerance above grows with the measured noise.
+
+    Where many points lie in a cell, the lowest lies far below the ground, so the surface goes
+    through the middle of their noise.
+
+    Attributes
+    ----------
+    least, factor : float
+        Tolerance in metres above a surface through the middle of the noise, and the multiple of the
+        noise that is added to it.
+    sparse_factor, usual : float
+        The same multiple where few points lie in a cell, and metres that are subtracted: plants
+        lower than the noise cannot be recognised.
+    """
+
+    stage: ClassVar = Stage.ACCEPTED
+
+    least: float = 0.05
+    factor: float = 3.0
+    sparse_factor: float = 2.5
+    usual: float = 0.07
+
+    def applied(
+        self,
+        state: State,
+        surface: np.ndarray,
+        slopes: tuple[np.ndarray, np.ndarray],
+        above: float,
+        on_even: float,
+    ) -> tuple[np.ndarray, float, float]:
+        """Return the surface and the tolerances above that follow the noise of the ground."""
+        points, cells, spacing = state.points, state.grids[0].cells, state.spacing
+        if spacing <= NOISE_SPACING:
+            level, noise = middle_of_noise(points, cells, surface, slopes)
+            surface = surface + level.reshape(surface.shape)
+            on_even = max(on_even, self.least + self.factor * noise)
+            above = on_even if spacing <= DENSE_SPACING else max(above, on_even)
+        elif spacing <= _SPARSE:
+            noise = noise_of_squares(points, cells, surface, slopes)
+            # The surface goes through the lowest point of a cell, which has about so many.
+            number = np.asarray(max(cells.size / spacing, 1.0) ** 2)
+            least = (self.sparse_factor + float(below_middle(number))) * noise - self.usual
+            above, on_even = max(above, least), max(on_even, least)
+        return surface, above, on_even
+
+
+@dataclass(frozen=True)
+class EvenGround(Rule):
+    """On even ground, level or sloping, low plants stand out, so the tolerance above is smaller.
+
+    Attributes
+    ----------
+    less, share : float
+        The tolerance above is smaller by so many metres, but at most by this share.
+    curvature : float
+        Ground is even if its curvature over a cell is at most so many metres.
+    known : float
+        At least this share of the cells round about has vertices.
+    """
+
+    stage: ClassVar = Stage.ACCEPTED
+
+    less: float = 0.07
+    share: float = 0.4
+    curvature: float = 0.45
+    known: float = 0.6
+
+    def unevenness(self, curvature: np.ndarray, known: np.ndarray) -> np.ndarray:
+        """Return the unevenness of the ground round each cell in metres; infinity if too large."""
+        from scipy import ndimage
+
+        between = ndimage.binary_erosion(known, border_value=1)
+        most = within_square(np.maximum, np.where(between, curvature, 0.0), 1)
+        share = ndimage.uniform_filter(between.astype(np.float32), 3, mode="nearest")
+        is_even = (share >= self.known) & (most <= self.curvature)
+        return np.where(is_even, most, np.inf)
+
+
+@dataclass(frozen=True)
+class Breaks(Rule):
+    """At breaks the surface is too smooth, so the tolerances are larger.
+
+    Attributes
+    ----------
+    curvature : float
+        Curvature over a cell, in metres, above which there is a break.
+    factor : float
+        The tolerance that each metre above it adds.
+    """
+
+    stage: ClassVar = Stage.ACCEPTED
+
+    curvature: float = 0.25
+    factor: float = 1.5
+
+
+@dataclass(frozen=True)
+class ToleranceSurface(PointRule):
+    """Points close to the surface through the seeds are ground.
+
+    Each vertex is moved to the middle of its cell along the slope, because the lowest point of a
+    cell lies on its lower side. Where points are dense, the surface between them is known better,
+    so the tolerance on slopes is smaller in proportion.
+
+    Attributes
+    ----------
+    above : float
+        Metres in level terrain.
+    on_slopes : float
+        Metres that a slope of 45 degrees adds, where points are a metre apart or more.
+    below : float
+        Metres in level terrain; more than above, because the surface is smoother than the ground.
+    """
+
+    stage: ClassVar = Stage.ACCEPTED
+    reads: ClassVar = ("points", "grids", "seeds")
+    writes: ClassVar = ("limits",)
+
+    above: float
+    on_slopes: float
+    below: float = 0.6
+    measured_noise: MeasuredNoise | None = MeasuredNoise()
+    even_ground: EvenGround | None = EvenGround()
+    breaks: Breaks | None = Breaks()
+
+    def apply(self, state: State) -> None:
+        """Set the limits of the heights of ground points."""
+        points, cells, spacing = state.points, state.grids[0].cells, state.spacing
+        surface, slopes, known = _centred(points, state.seeds, cells)
+        above, on_even = self.above, self.above
+        if self.even_ground:
+            on_even -= min(self.even_ground.less, self.even_ground.share * above)
+        if self.measured_noise:
+            surface, above, on_even = self.measured_noise.applied(
+                state, surface, slopes, above, on_even
+            )
+        slope, curvature = _smooth_steepness(surface, cells), _curvature(surface)
+        rise = self.on_slopes * min(max(spacing, _DENSE), _SPARSE) / _SPARSE * slope
+        if self.breaks and spacing < _SPARSE:
+            rise += self.breaks.factor * np.maximum(curvature - self.breaks.curvature, 0.0)
+        highest = above + rise
+        if self.even_ground:
+            # On slopes too steep to move vertices along, the middle of a cell is not known well
+            # enough.
+            uneven = self.even_ground.unevenness(curvature, known)
+            uneven = np.where(slope <= _STEEPEST, uneven, np.inf)
+            highest = np.minimum(highest, on_even + uneven)
+        state.limits = np.stack((surface - self.below - rise, surface + highest), axis=-1)
+
+
+def _smooth(surface: np.ndarray, metres: float, cells: Cells) -> np.ndarray:
+    from scipy import ndimage
+
+    return ndimage.gaussian_filter(surface, metres / cells.size, mode="nearest")
+
+
+def _smooth_steepness(surface: np.ndarray, cells: Cells) -> np.ndarray:
+    """Return the slope of the smoothed surface; between single points the slope is too uneven."""
+    return steepness(_smooth(surface, _FACET_SMOOTHING, cells), cells.size)
+
+
+def _curvature(surface: np.ndarray) -> np.ndarray:
+    """Return how many metres each cell lies off the lines between opposite neighbours."""
+    around = np.pad(surface, 1, mode="edge")
+    north = around[2:, 1:-1] + around[:-2, 1:-1]
+    east = around[1:-1, 2:] + around[1:-1, :-2]
+    return np.maximum(np.abs(0.5 * north - surface), np.abs(0.5 * east - surface))
+
+
+def _centred(
+    points: Points, vertices: np.ndarray, cells: Cells
+) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray], np.ndarray]:
+    """Return the surface at the middles of cells, its slopes, and which cells have vertices."""
+    cell, z = cells.index[vertices], points.z[vertices]
+    north, east = from_middle(points.take(vertices), cells, cell)
+    count = np.bincount(cell, minlength=cells.rows * cells.columns)
+    moved = z
+    for _ in range(_MOVES + 1):
+        total = np.bincount(cell, moved, minlength=count.size)
+        heights = np.where(count > 0, total / np.maximum(count, 1), np.nan)
+        surface = inpaint(heights.reshape(cells.shape), first=cells.first)
+        slopes = _slopes(surface, cells)
+        moved = z - slopes[0].ravel()[cell] * north - slopes[1].ravel()[cell] * east
+    return surface, slopes, (count > 0).reshape(cells.shape)
+
+
+def _slopes(surface: np.ndarray, cells: Cells) -> tuple[np.ndarray, np.ndarray]:
+    """Return the slope towards north and east, nowhere steeper than is usual for terrain."""
+    north, east = gradient(_smooth(surface, _SLOPE_SMOOTHING, cells), cells.size)
+    share = _STEEPEST / np.maximum(length(north, east), _STEEPEST)
+    return north * share, east * share

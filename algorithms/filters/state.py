@@ -1,0 +1,238 @@
+"""What a pipeline knows of the points and of the cells so far."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from ..core.points import Points
+from ..core.progress import Progress
+from ..grids.cells import Cells, first_of_each, spacing
+from ..grids.height_grid import HeightGrid
+
+# Least spacing of points in metres; a smaller one counts as this.
+_LEAST_SPACING = 0.01
+# Gaps up to twice this width, in cells, count as surveyed.
+_GAP = 4
+
+
+@dataclass(frozen=True)
+class RuleTime:
+    """How long a rule took.
+
+    Attributes
+    ----------
+    stage, name : str
+        Names of the stage and of the rule.
+    seconds : float
+        Wall-clock time.
+    """
+
+    stage: str
+    name: str
+    seconds: float
+
+
+@dataclass
+class GridState:
+    """The lowest points of a grid of cells, and what is known of the cells.
+
+    Attributes
+    ----------
+    points : Points
+        The points that take part.
+    spacing : float
+        Usual distance between points in metres.
+    cells : Cells
+        The cells.
+    shift : float
+        Metres by which the cells begin farther west and south.
+    lowest : numpy.ndarray of intp, shape (occupied,)
+        The lowest point of each occupied cell.
+    heights : HeightGrid
+        Heights of the lowest points, without low outliers.
+    raised : numpy.ndarray of bool, shape (rows, columns)
+        Cells that stand out of the ground, so far.
+    objects, plateaus, large_buildings : numpy.ndarray of bool, shape (rows, columns)
+        Cells of objects with drops all round; of regions that are too low for their width to be
+        objects for certain; and those of the objects that are large buildings.
+    """
+
+    points: Points
+    spacing: float
+    cells: Cells
+    shift: float
+    lowest: np.ndarray
+    heights: HeightGrid
+    raised: np.ndarray
+    objects: np.ndarray
+    plateaus: np.ndarray
+    large_buildings: np.ndarray
+
+    @classmethod
+    def of(cls, points: Points, spacing: float, size: float, shift: float = 0.0) -> GridState:
+        """Return the state of a grid of which only the lowest points are known."""
+        cells = Cells.over(points, size, shift)
+        lowest = cells.lowest_points(points)
+        heights = np.full(cells.rows * cells.columns, np.nan)
+        heights[cells.index[lowest]] = points.z[lowest]
+        grid = HeightGrid(heights.reshape(cells.shape), cells.size, cells.first)
+        none = (np.zeros(cells.shape, dtype=bool) for _ in range(4))
+        return cls(points, spacing, cells, shift, lowest, grid, *none)
+
+    @property
+    def cell(self) -> np.ndarray:
+        """The cell of each lowest point, in the flattened grid."""
+        return self.cells.index[self.lowest]
+
+    @property
+    def is_ground(self) -> np.ndarray:
+        """Which cells are ground so far; boolean, shape (rows, columns)."""
+        return self.heights.known & ~self.raised
+
+    @cached_property
+    def surveyed(self) -> np.ndarray:
+        """Which cells have a lowest point that is no outlier, or lie in a small gap."""
+        return covered(self.heights.known)
+
+    @cached_property
+    def filled(self) -> np.ndarray:
+        """Heights as float32, with gaps filled smoothly; beyond the survey those of its border.
+
+        Otherwise the filling would make a roof at the border wider than it is.
+        """
+        from scipy import ndimage
+
+        filled = self.heights.filled().astype(np.float32)
+        if self.surveyed.all():
+            return filled
+        nearest = ndimage.distance_transform_edt(
+            ~self.surveyed, return_distances=False, return_indices=True
+        )
+        return filled[tuple(nearest)]
+
+    @cached_property
+    def surface(self) -> np.ndarray:
+        """Heights through the cells that are ground when this is used first, gaps filled."""
+        return self.heights.where(~self.raised).filled()
+
+    def take_again(self, points: Points, changed: np.ndarray) -> None:
+        """Take the lowest points again in cells of which some points have changed."""
+        self.points = points
+        cells = np.zeros(self.cells.rows * self.cells.columns, dtype=bool)
+        cells[self.cells.index[changed]] = True
+        which = np.flatnonzero(cells[self.cells.index])
+        which = which[np.isfinite(points.z[which])]
+        some = points.take(which)
+        first = first_of_each(self.cells.index[which], cells.size, some.z, some.x, some.y)
+        lowest = np.concatenate((self.lowest[~cells[self.cell]], which[first]))
+        self.lowest = lowest[np.argsort(self.cells.index[lowest])]
+        heights = self.heights.values.ravel()
+        heights[cells] = np.nan
+        heights[self.cell] = points.z[self.lowest]
+
+    def remove(self, which: np.ndarray) -> None:
+        """Take the lowest points of some cells for low outliers."""
+        self.heights.values[which] = np.nan
+        self.__dict__.pop("surveyed", None)
+
+
+@dataclass
+class State:
+    """What the rules of a pipeline have found out.
+
+    Attributes
+    ----------
+    points : Points
+        The points that take part; low noise is infinitely high.
+    progress : Progress
+        Receives progress and messages of the rule that is applied.
+    known_ground : numpy.ndarray of bool, or None
+        Which points are known to be ground.
+    explains : bool
+        Whether `decided` is wanted.
+    low_noise : numpy.ndarray of bool, shape (n,), or None
+        Points that are left out as low noise; None for none.
+    grids : list of GridState
+        One or two grids of lowest points.
+    seeds, waiting : numpy.ndarray of intp
+        Indices of the points that are taken for ground, and of others that may join them.
+    rise : numpy.ndarray of float, shape (rows, columns), or None
+        How much the mean surface of the seeds rises over a cell, in metres.
+    limits : numpy.ndarray of float64, shape (rows, columns, 2)
+        Lowest and highest height of ground points on the cells of the first grid.
+    ground : numpy.ndarray of bool, shape (n,)
+        Which of `points` are ground.
+    times : list of RuleTime
+        How long each rule took.
+    decided : numpy.ndarray of int16, shape (rows, columns), or None
+        Number of the rule that decided each cell of the first grid; negative if it is not ground.
+    """
+
+    points: Points
+    progress: Progress
+    known_ground: np.ndarray | None = None
+    explains: bool = False
+    low_noise: np.ndarray | None = None
+    grids: list[GridState] = field(default_factory=list)
+    seeds: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.intp))
+    waiting: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.intp))
+    rise: np.ndarray | None = None
+    limits: np.ndarray = field(default_factory=lambda: np.empty((0, 0, 2)))
+    ground: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=bool))
+    times: list[RuleTime] = field(default_factory=list)
+    decided: np.ndarray | None = None
+    _was_ground: np.ndarray | None = None
+
+    @cached_property
+    def spacing(self) -> float:
+        """Usual distance between points in metres, at least 0.01."""
+        return spacing(self.points, _LEAST_SPACING)
+
+    @property
+    def seed_spacing(self) -> float:
+        """Usual distance between seeds in metres: at least 1, and a cell of the grid."""
+        return max(self.spacing, 1.0, self.grids[0].cells.size)
+
+    def add_low_noise(self, found: np.ndarray) -> None:
+        """Let some points take no part from now on, but known ground."""
+        if self.known_ground is not None:
+            found = found & ~self.known_ground
+        if not found.any():
+            return
+        self.low_noise = found if self.low_noise is None else self.low_noise | found
+        # Infinitely high, they are never the lowest, and not close to any surface.
+        self.points = Points(self.points.x, self.points.y, np.where(found, np.inf, self.points.z))
+        for grid in self.grids:
+            grid.take_again(self.points, found)
+
+    def note(self, rule: int) -> None:
+        """Note that a rule decided the cells that have changed since the rule before."""
+        if not self.grids:
+            return
+        grid = self.grids[0]
+        if len(self.ground):
+            is_ground = grid.cells.holding(self.ground)
+        elif len(self.seeds):
+            is_ground = grid.cells.holding(self.seeds)
+        else:
+            is_ground = grid.is_ground
+        if self.decided is None:
+            self.decided = np.zeros(grid.cells.shape, dtype=np.int16)
+            self._was_ground = ~grid.cells.occupied
+        changed = grid.cells.occupied & (is_ground != self._was_ground)
+        self.decided[changed] = np.where(is_ground[changed], rule + 1, -rule - 1)
+        self._was_ground = is_ground
+
+
+def covered(known: np.ndarray) -> np.ndarray:
+    """Return which cells were surveyed: cells with a height (rows, columns), and small gaps."""
+    from scipy import ndimage
+
+    closed = np.pad(known, _GAP).astype(np.uint8)
+    for extreme in (ndimage.maximum_filter1d, ndimage.minimum_filter1d):
+        for axis in (0, 1):
+            closed = extreme(closed, 2 * _GAP + 1, axis=axis, mode="nearest")
+    return closed[_GAP:-_GAP, _GAP:-_GAP].astype(bool)

@@ -1,0 +1,382 @@
+"""Improved progressive TIN densification.
+
+References
+----------
+Axelsson, P. (2000): DEM generation from laser scanner data using adaptive TIN models.
+International Archives of Photogrammetry and Remote Sensing 33 (B4), 110-117.
+Zhao, X., Guo, Q., Su, Y., Xue, B. (2016): Improved progressive TIN densification filtering
+algorithm for airborne LiDAR data in forested areas. ISPRS Journal 117, 79-91.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+
+from ..core.parameters import ParameterSet, parameter, parameter_of
+from ..core.points import Points
+from ..core.progress import Progress
+from ..grids.cells import spacing
+from ..grids.model_key_points import ModelKeyPoints
+from .method import Method, Toolbox
+from .pipeline import Pipeline
+from .stages.accept import NearSurface, OnlyKeyPoints
+from .stages.breaks import LevelSeeds, Plants
+from .stages.densify import Densification
+from .stages.ditches import BetweenDitches
+from .stages.low_groups import LowGroups
+from .stages.lowest import DENSE_SPACING, LowestPoints
+from .stages.objects import RaisedObjects
+from .stages.opening import CutPlateaus, ProgressiveOpening
+from .stages.outliers import DenseOutliers, IsolatedLowPoints, NarrowPits
+from .stages.seeds import KnownGround, Seeds
+from .stages.terrain import GentleBorder, GentleRegions
+from .stages.tolerance import NOISE_SPACING, PlainSurface, ToleranceSurface
+
+# Side in metres of the cells whose lowest points may become vertices of the TIN, unless points are
+# farther apart. The second is for points so dense that their noise is measured.
+_CELL, _DENSE_CELL = 1.0, 0.5
+# Least spacing of points in metres; a smaller one counts as this.
+_LEAST_SPACING = 0.01
+# Points affect each other within so many times the largest building, and within at least so many
+# metres.
+_REACH_BUILDINGS, _LEAST_REACH = 1.2, 100.0
+# The preset with the rules of another program.
+CLASSIC = "lidar360"
+
+
+@dataclass(frozen=True)
+class Preset:
+    """Values for the parameters that are left empty."""
+
+    label: str
+    max_building_size: float
+    iteration_angle: float
+    iteration_distance: float
+
+
+PRESETS = {
+    "automatic": Preset("Automatic", 150.0, 15.0, 1.4),
+    "flat": Preset("Flat land, fields", 48.0, 8.0, 0.7),
+    "hilly": Preset("Hilly land, forest", 30.0, 15.0, 1.4),
+    "steep": Preset("Steep or rugged terrain", 30.0, 25.0, 2.0),
+    "town": Preset("Town", 60.0, 12.0, 1.4),
+    "city": Preset("City, large halls", 120.0, 12.0, 1.4),
+    CLASSIC: Preset("LiDAR360's values", 20.0, 8.0, 1.4),
+}
+
+
+@dataclass(frozen=True)
+class TinDensification(ParameterSet):
+    """Parameters of improved progressive TIN densification.
+
+    Named as in LiDAR360's *Classify Ground Points* and TerraScan's *Ground*.
+    """
+
+    preset: str = parameter(
+        "automatic",
+        label="Preset",
+        choices={name: preset.label for name, preset in PRESETS.items()},
+        help="Sets the fields that are left empty: from the points (automatic), or to values that"
+        " suit a kind of terrain. The log says which values were used.",
+    )
+    max_building_size: float | None = parameter(
+        None,
+        label="Maximum building size",
+        unit="m",
+        minimum=1.0,
+        maximum=500.0,
+        kind="number",
+        empty="automatic",
+        help="Shorter side of the largest building or other object. Nothing that is narrower and"
+        " stands out from its surroundings can be a seed of the ground. A value that is too large"
+        " takes longer and loses sharp hilltops. Empty: from the preset.",
+    )
+    max_terrain_angle: float = parameter(
+        88.0,
+        label="Maximum terrain angle",
+        unit="deg",
+        minimum=1.0,
+        maximum=89.9,
+        help="Steepest slope of the ground. In steeper triangles, the mirror image of a point"
+        " beyond the nearest vertex is judged in its place.",
+    )
+    iteration_angle: float | None = parameter(
+        None,
+        label="Iteration angle",
+        unit="deg",
+        minimum=0.1,
+        maximum=90.0,
+        kind="number",
+        empty="automatic",
+        help="Largest angle between a triangle and the line from one of its corners to a new"
+        " point. A larger angle follows rugged ground better, a smaller one keeps low objects out:"
+        " 4 deg in flat terrain, 10 deg and more in steep terrain. Empty: from the preset.",
+    )
+    iteration_distance: float | None = parameter(
+        None,
+        label="Iteration distance",
+        unit="m",
+        minimum=0.01,
+        maximum=50.0,
+        kind="number",
+        empty="automatic",
+        help="Largest distance of a new point from its triangle. Empty: from the preset.",
+    )
+    reduce_angle_edge: float | None = parameter(
+        5.0,
+        label="Reduce iteration angle when edges are shorter than",
+        unit="m",
+        minimum=0.0,
+        maximum=100.0,
+        advanced=True,
+        help="In triangles whose longest edge is shorter than this, the iteration angle is reduced"
+        " in proportion. So the TIN does not climb low vegetation step by step. Empty: the angle"
+        " is never reduced.",
+        kind="number",
+        optional=True,
+    )
+    stop_edge: float | None = parameter(
+        2.0,
+        label="Stop triangulation when edges are shorter than",
+        unit="m",
+        minimum=0.0,
+        maximum=100.0,
+        advanced=True,
+        help="Triangles whose longest edge is shorter than this take no more points. Empty: all"
+        " triangles can take points.",
+        kind="number",
+        optional=True,
+    )
+    noise_distance: float = parameter(
+        0.3,
+        label="Noise distance",
+        unit="m",
+        minimum=0.0,
+        maximum=5.0,
+        advanced=True,
+        help="A point that is closer to its triangle than this joins the TIN whatever its angle."
+        " Near a corner, noise alone makes a large angle.",
+    )
+    ground_tolerance: float = parameter(
+        0.18,
+        label="Ground tolerance above",
+        unit="m",
+        minimum=0.0,
+        maximum=10.0,
+        advanced=True,
+        help="In level terrain, points up to this height above the final surface are ground. A"
+        " larger value takes in grass and low bushes.",
+    )
+    ground_tolerance_below: float = parameter(
+        0.6,
+        label="Ground tolerance below",
+        unit="m",
+        minimum=0.0,
+        maximum=10.0,
+        advanced=True,
+        help="In level terrain, points down to this depth below the final surface are ground. The"
+        " surface goes through the lowest points, but is smoother than they are.",
+    )
+    slope_tolerance: float = parameter(
+        1.4,
+        label="Ground tolerance on slopes",
+        unit="m",
+        minimum=0.0,
+        maximum=10.0,
+        advanced=True,
+        help="Added to both ground tolerances on a slope of 45 degrees. On gentler slopes less is"
+        " added, in proportion.",
+    )
+    only_key_points: bool = parameter(
+        False,
+        label="Only key points",
+        advanced=True,
+        help="Only the points that a terrain model needs become ground. Of all other ground"
+        " points, none lies farther from the TIN of these key points than the two tolerances"
+        " below.",
+    )
+    key_point_tolerance_above: float = parameter_of(
+        ModelKeyPoints, "tolerance_above", label="Key points: tolerance above", advanced=True
+    )
+    key_point_tolerance_below: float = parameter_of(
+        ModelKeyPoints, "tolerance_below", label="Key points: tolerance below", advanced=True
+    )
+    key_point_grid_size: float = parameter_of(
+        ModelKeyPoints, "grid_size", label="Key points: grid size", advanced=True
+    )
+
+    def resolve(self, points: Points) -> TinDensification:
+        """Return the parameters with values in place of those left to the preset.
+
+        Parameters
+        ----------
+        points : Points
+            All points of the survey, because all its blocks must be classified with the same
+            values.
+        """
+        return self.filled(vars(PRESETS[self.preset]))
+
+
+def largest_object(parameters: TinDensification) -> float:
+    """Return the width in metres of the largest building that is searched."""
+    return parameters.max_building_size or PRESETS[parameters.preset].max_building_size
+
+
+def reach(parameters: TinDensification) -> float:
+    """Return the distance in metres within which points affect each other."""
+    return max(_LEAST_REACH, _REACH_BUILDINGS * largest_object(parameters))
+
+
+def pipeline(points: Points, parameters: TinDensification, progress: Progress) -> Pipeline:
+    """Return the rules for some points, and tell which values were chosen.
+
+    The cells that morphology takes for ground give the seeds of a TIN (after Zhao et al. 2016,
+    section 2). In rounds, each triangle takes the candidate nearest to it if distance and angle
+    allow it (Axelsson 2000, section 3). Last, every point close to the surface through all vertices
+    is ground.
+    """
+    resolved = parameters.resolve(points)
+    if parameters.preset == CLASSIC:
+        if resolved != parameters:
+            progress.choice(_in_words(resolved, ""))
+        return _classic(resolved)
+    apart = spacing(points, _LEAST_SPACING)
+    if resolved != parameters or apart <= NOISE_SPACING:
+        progress.choice(_in_words(resolved, _of_spacing(apart)))
+    size = resolved.max_building_size
+    return Pipeline(
+        (
+            LowestPoints(least_size=_CELL, dense_size=_DENSE_CELL, grids=2),
+            DenseOutliers(),
+            LowGroups(),
+            NarrowPits(),
+            IsolatedLowPoints(),
+            RaisedObjects(size),
+            ProgressiveOpening(size / 2.0),
+            CutPlateaus(),
+            GentleRegions(),
+            BetweenDitches(),
+            Seeds(),
+            Plants(),
+            LevelSeeds(),
+            KnownGround(),
+            _densification(resolved),
+            ToleranceSurface(
+                resolved.ground_tolerance,
+                resolved.slope_tolerance,
+                resolved.ground_tolerance_below,
+            ),
+            NearSurface(),
+            *_key_points(resolved),
+        )
+    )
+
+
+def _classic(resolved: TinDensification) -> Pipeline:
+    """Return the rules of LiDAR360's preset."""
+    size, pits = resolved.max_building_size, NarrowPits(corroborated=None, under_canopy=None)
+    objects = RaisedObjects(
+        size,
+        heights=(5.0, 4.5, 2.0),
+        whole_share=0.4,
+        wide=None,
+        cliff_faces=None,
+        plateaus=None,
+        narrow_pits=pits,
+        isolated_low_points=None,
+    )
+    return Pipeline(
+        (
+            LowestPoints(size=_CELL),
+            pits,
+            objects,
+            ProgressiveOpening(size / 2.0, level_beyond=False, wide_windows=None),
+            CutPlateaus(),
+            GentleRegions(
+                judges_gaps=False,
+                on_slope=None,
+                gentle_border=GentleBorder(0.5, rise_counts=False, small_buildings=None),
+                level_border=None,
+                open_border=None,
+                rocks=None,
+                ramps=None,
+            ),
+            Seeds(objects_wait=True),
+            KnownGround(),
+            dataclasses.replace(_densification(resolved), level_neighbour=None),
+            PlainSurface(
+                resolved.ground_tolerance,
+                resolved.slope_tolerance,
+                resolved.ground_tolerance_below,
+            ),
+            NearSurface(),
+            *_key_points(resolved),
+        )
+    )
+
+
+def _densification(resolved: TinDensification) -> Densification:
+    return Densification(
+        resolved.iteration_angle,
+        resolved.iteration_distance,
+        resolved.max_terrain_angle,
+        resolved.reduce_angle_edge,
+        resolved.stop_edge,
+        resolved.noise_distance,
+    )
+
+
+def _key_points(resolved: TinDensification) -> tuple[OnlyKeyPoints, ...]:
+    """Return the rule for key points if only they are wanted."""
+    if not resolved.only_key_points:
+        return ()
+    closeness = ModelKeyPoints(
+        resolved.key_point_tolerance_above,
+        resolved.key_point_tolerance_below,
+        resolved.key_point_grid_size,
+    )
+    return (OnlyKeyPoints(closeness),)
+
+
+def _in_words(parameters: TinDensification, of_spacing: str) -> str:
+    names = "preset", "max_building_size", "iteration_angle", "iteration_distance"
+    return f"TIN densification: {parameters.in_words(*names)}{of_spacing}."
+
+
+def _of_spacing(apart: float) -> str:
+    """Return what follows from the spacing of the points, for the log."""
+    text = f", cells of {_DENSE_CELL:g} m" if apart <= DENSE_SPACING else ""
+    if apart <= NOISE_SPACING:
+        text += f", a tolerance that follows the noise, as points lie {apart:.2g} m apart"
+    return text
+
+
+_ABOUT = (
+    "Finds the ground points of airborne or drone lidar by progressive TIN densification, and"
+    " writes a point cloud with the new classes; nothing else in it changes. The filter starts"
+    " from a sparse triangulation (TIN) of points that are surely ground. Round by round it adds"
+    " points that lie close to the TIN.\n"
+    "Lengths are metres and angles degrees, whatever the unit of the CRS. The terrain model and"
+    " its hillshade are GeoTIFFs."
+)
+METHOD = Method(
+    "tin-densification",
+    "TIN densification",
+    TinDensification,
+    pipeline,
+    reach,
+    largest_object,
+    "max_building_size",
+    CLASSIC,
+    PRESETS,
+    Toolbox(
+        "tindensification",
+        "Classify ground (TIN densification)",
+        "Finds the ground points of a lidar point cloud, and makes a terrain model of them.",
+        _ABOUT,
+        "tin-densification",
+        ("tin,triangulation", "ptd,axelsson,densification"),
+    ),
+    takes_known_ground=True,
+)

@@ -1,0 +1,336 @@
+"""The rule of WhiteboxTools' LidarGroundPointFilter: points are compared with their neighbours.
+
+Neighbours are found by cells that hold about one point. An erosion of the lowest heights of cells
+covers those that lie wholly within the radius. Others are searched only if they can change the
+result, from their lowest point upwards.
+"""
+
+from __future__ import annotations
+
+import math
+import threading
+from dataclasses import dataclass
+from typing import Callable, ClassVar, Iterator, NamedTuple
+
+import numpy as np
+
+from ..core.points import Points
+from ..core.progress import SILENT, Progress
+from ..core.threads import in_threads, parts_of
+from ..grids.cells import Cells, lower_at
+from ..grids.morphology import erosion
+from .pipeline import PointRule, Stage
+from .state import State
+
+# Points of a strip: its arrays fit into the processor's cache. It is at least so many radii wide,
+# because the points within a radius of it are read as well.
+_POINTS_A_STRIP, _LEAST_WIDTH = 150_000, 8.0
+# Most cells along a radius; most cells for each point, or in all if that is more.
+_MOST_CELLS_A_RADIUS, _MOST_CELLS_A_POINT, _ALWAYS_ALLOWED = 48, 4, 1_000_000
+# Bounds are widened by this, in cells, metres or radii, so that rounding never decides. Points are
+# compared without it.
+_ROUNDING = 1e-5
+# Pairs of points and their nearest ones that are looked up at once, and points that are grown.
+_PAIRS_A_STEP, _GROWN_A_STEP = 2_000_000, 20_000
+
+
+@dataclass(frozen=True)
+class StandsAbove(PointRule):
+    """A point is ground unless it stands far above a neighbour, on one scale.
+
+    Attributes
+    ----------
+    radius : float
+        Search radius in metres.
+    slope : float
+        Slope threshold in degrees.
+    height : float
+        Height threshold in metres.
+    top_hat : bool
+        Whether heights above a surface that follows the terrain are compared (white top-hat).
+    min_neighbours : int
+        The radius of a point with fewer neighbours grows until it has so many.
+    """
+
+    stage: ClassVar = Stage.ACCEPTED
+    reads: ClassVar = ("points",)
+    writes: ClassVar = ("ground",)
+
+    radius: float
+    slope: float
+    height: float
+    top_hat: bool = True
+    min_neighbours: int = 0
+
+    def apply(self, state: State) -> None:
+        """Accept the points that do not stand above a neighbour."""
+        slope = math.tan(math.radians(self.slope))
+        rule = Neighbours(self.radius, self.height, slope, self.top_hat)
+        above = stands_above(state.points, rule, self.min_neighbours, state.progress)
+        state.ground = ~above
+
+
+class Neighbours(NamedTuple):
+    """When a point stands far above a neighbour.
+
+    Attributes
+    ----------
+    radius : float
+        Metres; points at exactly this distance are neighbours.
+    height : float
+        Least difference in height in metres.
+    slope : float
+        The rise over run must be more than this. The same neighbour must meet height and slope.
+    top_hat : bool
+        Whether heights above the opening are compared (white top-hat). The opening is the highest
+        erosion among the neighbours.
+    """
+
+    radius: float
+    height: float
+    slope: float
+    top_hat: bool
+
+    def is_broken(self, rise: np.ndarray, distance: np.ndarray | float) -> np.ndarray:
+        """Return which rises in metres (k,) are too high for their distance in metres (k,)."""
+        return (rise >= self.height) & (rise > self.slope * distance)
+
+
+def stands_above(
+    points: Points, rule: Neighbours, at_least: int = 0, progress: Progress = SILENT
+) -> np.ndarray:
+    """Return which points stand far above one of their neighbours.
+
+    Parameters
+    ----------
+    points : Points
+        All points.
+    rule : Neighbours
+        When a point stands far above a neighbour.
+    at_least : int
+        A point with fewer neighbours is compared with so many nearest points, and with those that
+        are as near as the last of them.
+    progress : Progress
+        Receives progress.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (n,)
+
+    Raises
+    ------
+    BareEarthError
+        If the points spread too far for a grid.
+    """
+    neighbourhood, heights = _Neighbourhood(points, rule.radius, at_least), points.z
+    if rule.top_hat:
+        eroded = neighbourhood.lowest(heights, 1.0, progress.part(0.0, 0.4))
+        opened = neighbourhood.lowest(eroded, -1.0, progress.part(0.4, 0.8))
+        del eroded
+        # In neighbourhoods that grew, a point need not be a neighbour of its neighbours, so the
+        # opening can be higher than the point.
+        heights = np.subtract(heights, np.minimum(opened, heights, out=opened), out=opened)
+    return neighbourhood.rises(heights, rule, progress.part(0.8, 1.0))
+
+
+class _Neighbourhood:
+    """The points within a radius of each point, or its nearest points if those are too few.
+
+    If a point has fewer than `at_least` other points within the radius, the radius of this point
+    grows until it has so many. Strips (from south to north) bound the memory.
+    """
+
+    def __init__(self, points: Points, radius: float, at_least: int) -> None:
+        self._points, self._radius = points, radius
+        order = np.argsort(points.y)
+        y, self._northwards = points.y[order], order.astype(np.int32)
+        share = _LEAST_WIDTH * radius / max(y[-1] - y[0], radius)
+        most, reach = math.ceil(max(_POINTS_A_STRIP, share * len(y))), radius * (1.0 + _ROUNDING)
+        self._strips = [
+            (part, slice(*np.searchsorted(y, (y[part][0] - reach, y[part][-1] + reach)).tolist()))
+            for part in parts_of(len(y), most)
+        ]
+        self._grown, self._grown_radius = self._find_grown(min(at_least, points.count - 1))
+
+    def lowest(self, values: np.ndarray, sign: float, progress: Progress) -> np.ndarray:
+        """Return the lowest value of a point and its neighbours; the highest if sign is -1."""
+        lowest = np.empty(len(values))
+        self._fill(lowest, lambda strip: strip.lowest(), values, sign, progress)
+        for point, neighbour, _ in self._grown_pairs():
+            lower_at(lowest, point, sign * values[neighbour])
+        return np.multiply(lowest, sign, out=lowest)
+
+    def rises(self, heights: np.ndarray, rule: Neighbours, progress: Progress) -> np.ndarray:
+        """Return which points, with these heights, rise far above a neighbour."""
+        above = np.empty(len(heights), dtype=bool)
+        self._fill(above, lambda strip: strip.rises(rule), heights, 1.0, progress)
+        for point, neighbour, distance in self._grown_pairs():
+            above[point[rule.is_broken(heights[point] - heights[neighbour], distance)]] = True
+        return above
+
+    def _fill(
+        self,
+        result: np.ndarray,
+        find: Callable[[_Strip], np.ndarray],
+        values: np.ndarray,
+        sign: float,
+        progress: Progress,
+    ) -> None:
+        """Find the results (n,) strip by strip, with the values times a sign as heights."""
+        caller = threading.get_ident()
+
+        def call(parts: tuple[slice, slice]) -> None:
+            def alive() -> None:
+                # Progress is for the calling thread only.
+                if threading.get_ident() == caller:
+                    progress(parts[0].start / len(values))
+
+            asked, near = (self._northwards[part] for part in parts)
+            points = Points(self._points.x[near], self._points.y[near], sign * values[near])
+            strip = _Strip(points, self._radius, parts[0].start - parts[1].start, len(asked), alive)
+            result[asked[strip.asked]] = find(strip)
+
+        in_threads(call, self._strips, progress)
+
+    def _find_grown(self, at_least: int) -> tuple[np.ndarray, np.ndarray]:
+        """Return the points with too few neighbours, and the radius of each that has enough."""
+        if at_least < 1:
+            return np.empty(0, dtype=np.intp), np.empty(0)
+        # Imported here, because this takes longer than to classify a million points.
+        from scipy.spatial import cKDTree
+
+        points, doubtful = self._points, np.arange(self._points.count)
+        # Points of one such cell are within the radius of each other.
+        side = self._radius * (1.0 - _ROUNDING) / math.sqrt(2.0)
+        if math.prod(points.sides) < _most_cells(points) * side**2:
+            cells = Cells.over(points, side)
+            doubtful = np.flatnonzero(cells.counts().ravel()[cells.index] <= at_least)
+        radius = np.empty(len(doubtful))
+        if len(doubtful):
+            self._tree = cKDTree(np.column_stack(points[:2]))
+        for part in parts_of(len(doubtful), max(_PAIRS_A_STEP // (at_least + 1), 1)):
+            point = doubtful[part]
+            places = np.column_stack(points.take(point)[:2])
+            nearest = self._tree.query(places, at_least + 1)[1]
+            distance = _distance(points, np.repeat(point, at_least + 1), nearest.ravel())
+            radius[part] = distance.reshape(nearest.shape).max(axis=1)
+        grown = radius > self._radius
+        return doubtful[grown], radius[grown]
+
+    def _grown_pairs(self) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+        """Yield the points whose radius grew, their neighbours, and the distances between, (k,)."""
+        for part in parts_of(len(self._grown), _GROWN_A_STEP):
+            point, radius = self._grown[part], self._grown_radius[part]
+            places = np.column_stack(self._points.take(point)[:2])
+            neighbours = self._tree.query_ball_point(places, radius * (1.0 + _ROUNDING))
+            count = np.fromiter(map(len, neighbours), dtype=np.intp, count=len(point))
+            neighbour = np.concatenate([np.asarray(some, dtype=np.intp) for some in neighbours])
+            point, radius = np.repeat(point, count), np.repeat(radius, count)
+            distance = _distance(self._points, point, neighbour)
+            near = distance <= radius
+            yield point[near], neighbour[near], distance[near]
+
+
+class _Strip:
+    """Points in the order of their cells and, within a cell, of their heights.
+
+    Results are asked of `count` points from `first` on: `asked` (count,) says which of them each
+    result belongs to. `alive` is called several times a second.
+    """
+
+    def __init__(
+        self, points: Points, radius: float, first: int, count: int, alive: Callable[[], None]
+    ) -> None:
+        size = _cell_size(points, radius)
+        cells, reach = Cells.over(points, size), math.ceil(radius / size + _ROUNDING)
+        # With a margin that no offset leaves.
+        shape = cells.rows + 2 * reach, cells.columns + 2 * reach
+        cell = cells.index + reach * (1 + shape[1] + 2 * (cells.index // cells.columns))
+        order = np.lexsort((points.z, cell))
+        self._own = np.flatnonzero((order >= first) & (order < first + count))
+        self.asked = order[self._own] - first
+        self._points, self._radius, self._alive = points.take(order), radius, alive
+        self._cell = cell[order[self._own]]
+        self._start = np.zeros(math.prod(shape) + 1, dtype=np.int64)
+        np.cumsum(np.bincount(cell, minlength=math.prod(shape)), out=self._start[1:])
+        self._heights = np.append(self._points.z, np.inf)
+        is_empty = self._start[:-1] == self._start[1:]
+        self._lowest = np.where(is_empty, np.inf, self._heights[self._start[:-1]])
+        side = np.arange(-reach, reach + 1)
+        row, column = np.repeat(side, len(side)), np.tile(side, len(side))
+        gap = size * np.hypot(np.maximum(np.abs(row) - 1, 0), np.maximum(np.abs(column) - 1, 0))
+        touched = np.argsort(gap, kind="stable")[: np.count_nonzero(gap <= radius + _ROUNDING)]
+        self._gaps, self._offsets = gap[touched], (row * shape[1] + column)[touched]
+        # The lowest of the cells that lie wholly within the radius, and of all that it touches.
+        grid, inner = self._lowest.reshape(shape), radius / size - math.sqrt(2.0) - _ROUNDING
+        self._is_inner = np.hypot(row, column)[touched] <= inner
+        self._inner = self._points.z[self._own]
+        if inner >= 0.0:
+            np.minimum(self._inner, erosion(grid, inner).take(self._cell), out=self._inner)
+        outer = erosion(grid, radius / size + math.sqrt(2.0) + _ROUNDING)
+        self._outer = outer.take(self._cell)
+
+    def lowest(self) -> np.ndarray:
+        """Return the lowest height among each point asked for and its neighbours."""
+        which = np.flatnonzero(self._inner > self._outer)
+        limit, rim = self._inner[which], self._offsets[~self._is_inner]
+        for found, neighbour, _ in self._below(which, limit, rim, np.zeros(len(rim))):
+            limit[found] = self._heights[neighbour]
+        lowest = self._inner.copy()
+        lowest[which] = limit
+        return lowest
+
+    def rises(self, rule: Neighbours) -> np.ndarray:
+        """Return which points asked for rise far above a neighbour."""
+        own = self._points.z[self._own]
+        above = rule.is_broken(own - self._inner, self._radius)
+        which = np.flatnonzero(rule.is_broken(own - self._outer, 0.0) & ~above)
+        own = own[which]
+        limit = own - rule.height + _ROUNDING
+        fall = np.maximum(rule.slope * self._gaps - rule.height, 0.0)
+        for found, neighbour, distance in self._below(which, limit, self._offsets, fall):
+            is_above = rule.is_broken(own[found] - self._heights[neighbour], distance)
+            limit[found[is_above]] = -np.inf
+        above[which] = limit == -np.inf
+        return above
+
+    def _below(
+        self, which: np.ndarray, limit: np.ndarray, offsets: np.ndarray, fall: np.ndarray
+    ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+        """Yield some of `which` (k,), their neighbours that lie below `limit` (k,), and distances.
+
+        The caller lowers the limit as it learns more. A cell is searched if its lowest point lies
+        below the limit by more than the `fall` of its offset.
+        """
+        cell, point = self._cell[which], self._own[which]
+        for offset, least in zip(offsets, fall):
+            self._alive()
+            near = cell + offset
+            found = np.flatnonzero(self._lowest.take(near) < limit - least)
+            neighbour, end = self._start[near[found]], self._start[near[found] + 1]
+            while len(found):
+                distance = _distance(self._points, point[found], neighbour)
+                close = distance <= self._radius
+                yield found[close], neighbour[close], distance[close]
+                neighbour += 1
+                is_below = self._heights[neighbour] < limit[found]
+                left = np.flatnonzero(is_below & (neighbour < end))
+                found, neighbour, end = found[left], neighbour[left], end[left]
+
+
+def _cell_size(points: Points, radius: float) -> float:
+    """Return the side of cells that hold about one point, but are not too many along a radius."""
+    coarse = Cells.over(points, max(radius, 1.0))
+    apart = math.sqrt(np.count_nonzero(coarse.occupied) / points.count) * coarse.size
+    least = math.sqrt(coarse.rows * coarse.columns / _most_cells(points)) * coarse.size
+    return max(min(apart, radius), radius / _MOST_CELLS_A_RADIUS, least)
+
+
+def _most_cells(points: Points) -> int:
+    return max(_MOST_CELLS_A_POINT * points.count, _ALWAYS_ALLOWED)
+
+
+def _distance(points: Points, first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Return the distances of some points (k,) from as many others in the plane, in metres."""
+    x, y = points.x[first] - points.x[second], points.y[first] - points.y[second]
+    return np.sqrt(x * x + y * y)

@@ -1,0 +1,44 @@
+"""Heights on square cells, with their place in the grid of the CRS."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from .inpaint import RELAXATIONS, First, inpaint
+
+
+class HeightGrid(NamedTuple):
+    """Heights on square cells.
+
+    Attributes
+    ----------
+    values : numpy.ndarray of float, shape (rows, columns)
+        Metres; NaN where nothing is known.
+    size : float
+        Side of a cell in metres.
+    origin : tuple of int
+        Row and column of the first cell in the grid of the CRS.
+    """
+
+    values: np.ndarray
+    size: float
+    origin: First = (0, 0)
+
+    @property
+    def known(self) -> np.ndarray:
+        """Which cells have a height; boolean, shape (rows, columns)."""
+        return np.isfinite(self.values)
+
+    def where(self, which: np.ndarray) -> HeightGrid:
+        """Return the heights of some cells only."""
+        return self._replace(values=np.where(which, self.values, np.nan))
+
+    def filled(self, relaxations: int = RELAXATIONS) -> np.ndarray:
+        """Return the heights with gaps filled smoothly; see `inpaint`."""
+        return inpaint(self.values, relaxations, self.origin)
+
+    def cells(self, metres: float) -> int:
+        """Return a length in whole cells, at least 1."""
+        return max(round(metres / self.size), 1)
