@@ -1,12 +1,11 @@
 """Measures what each rule of the filters is worth: `python -m benchmarks.ablation`.
 
-Each rule is switched off, alone and in groups (`benchmarks/rules.py`), on the ISPRS samples in some
-phases of the grid, on the real tiles, and on generated scenes of seeds that nobody tuned with. On
-real tiles whose labels are trusted the labels count, on others the terrain model.
+Each rule is left out of its pipeline, alone and in groups (`benchmarks/rules.py`), on the ISPRS
+samples in some phases of the grid, on the real tiles, and on generated scenes of seeds that nobody
+tuned with. On real tiles whose labels are trusted the labels count, on others the terrain model.
 
 What has been measured is kept in ~/.cache/bare-earth/benchmarks (or $BARE_EARTH_CACHE) until a
-filter, a grid or the data change, so that a run that was stopped goes on where it stopped. If a row
-of `benchmarks/rules.py` changes, delete the folder `ablation` there.
+filter, a grid or the data change, so that a run that was stopped goes on where it stopped.
 """
 
 from __future__ import annotations
@@ -19,7 +18,7 @@ import os
 import sys
 import time
 from pathlib import Path
-from typing import Iterable, Iterator, NamedTuple, Sequence
+from typing import NamedTuple, Sequence
 
 import numpy as np
 
@@ -33,7 +32,7 @@ from .accuracy import method_name, tell
 from .generated import score_scene
 from .measure import Filter, ReferenceModel
 from .phases import PHASES, shifted
-from .rules import GROUPS, RULES, acting, switched_off
+from .rules import BASE, GROUPS, VALUES, switched_off, variants
 from .scenes import KINDS, Scene, make
 
 # Seeds of scenes that nobody tuned with, and shares of the density of a kind.
@@ -54,18 +53,18 @@ class Place(NamedTuple):
         One of `ablation_page.KINDS`.
     name : str
         Of the sample, the tile or the kind of scene.
-    at : tuple of float
+    which : tuple of float
         The phase of a sample; seed and share of the density of a scene.
     """
 
     kind: str
     name: str
-    at: tuple[float, ...] = ()
+    which: tuple[float, ...] = ()
 
     @property
     def title(self) -> str:
         """All of it as text."""
-        return " ".join([self.kind, self.name, *(f"{each:g}" for each in self.at)])
+        return " ".join([self.kind, self.name, *(f"{value:g}" for value in self.which)])
 
     def path(self) -> Path:
         """Return the file of a sample or a tile."""
@@ -75,7 +74,12 @@ class Place(NamedTuple):
 
     def tile(self) -> data.RealTile:
         """Return what is known of a real tile."""
-        return next(each for each in data.REAL if each.title == self.name)
+        return next(tile for tile in data.REAL if tile.title == self.name)
+
+    def scene(self) -> Scene:
+        """Return a generated scene."""
+        seed, share = self.which
+        return make(self.name, int(seed), density=share * KINDS[self.name].defaults.density)
 
 
 def places(is_quick: bool) -> list[Place]:
@@ -88,15 +92,8 @@ def places(is_quick: bool) -> list[Place]:
             found.append(Place("real", tile.title))
     for number, kind in enumerate(KINDS):
         both = list(zip(SEEDS, DENSITIES if number % 2 else DENSITIES[::-1]))
-        found += [Place("scene", kind, each) for each in (both[:1] if is_quick else both)]
+        found += [Place("scene", kind, which) for which in both[: 1 if is_quick else 2]]
     return found
-
-
-def variants(names: Iterable[str] = ()) -> dict[str, tuple[str, ...]]:
-    """Return the rules that each variant switches off, by its name; first the base with none."""
-    chosen = set(names) or {*RULES, *GROUPS}
-    rules = {name: (name,) for name in RULES if name in chosen}
-    return {page.BASE: (), **rules, **{name: GROUPS[name] for name in GROUPS if name in chosen}}
 
 
 class Job(NamedTuple):
@@ -104,25 +101,30 @@ class Job(NamedTuple):
 
     method: str
     place: Place
-    variants: dict[str, tuple[str, ...]]
-    is_timed: bool
+    variants: tuple[str, ...]
     only_kept: bool = False
+
+    @property
+    def is_timed(self) -> bool:
+        """Whether time is measured here."""
+        return self.place.name == _TIMED
 
 
 def run(job: Job) -> dict[str, page.Figures]:
     """Return the figures of the variants, and keep each as soon as it is known."""
     path = cache.FOLDER / "ablation" / f"{_digest(job)}.json"
     kept = json.loads(path.read_text("utf-8")) if path.exists() else {}
-    todo = {name: off for name, off in job.variants.items() if name not in kept}
+    keys = {name: repr(GROUPS.get(name) or VALUES.get(name) or name) for name in job.variants}
+    todo = [name for name, key in keys.items() if key not in kept]
     if todo and not job.only_kept:
         scorer = _Scorer(job)
-        for name, off in {page.BASE: (), **todo}.items():
-            kept[name] = scorer.figures(off)
+        for name in todo:
+            kept[keys[name]] = scorer.figures(name)
             path.parent.mkdir(parents=True, exist_ok=True)
             part = path.with_suffix(f".{os.getpid()}")
             part.write_text(json.dumps(kept), "utf-8")
             part.replace(path)
-    return {name: kept[name] for name in job.variants if name in kept}
+    return {name: kept[key] for name, key in keys.items() if key in kept}
 
 
 class _Scorer:
@@ -130,49 +132,43 @@ class _Scorer:
 
     def __init__(self, job: Job) -> None:
         self._filter, self._place, self._is_timed = Filter(job.method), job.place, job.is_timed
-        self._method = job.method
         self._scene, self._model = None, None
         if job.place.kind == "scene":
-            self._scene = _scene(job.place)
+            self._scene = job.place.scene()
             self._cloud = self._scene.cloud()
-            return
-        cloud, self._reference = data.load(job.place.path())
-        self._cloud = shifted(cloud, *job.place.at) if job.place.at else cloud
-        if job.place.kind == "real" and not job.place.tile().is_trusted:
-            self._model = ReferenceModel(self._cloud, self._reference)
+        else:
+            cloud, self._reference = data.load(job.place.path())
+            self._cloud = shifted(cloud, *job.place.which) if job.place.which else cloud
+            if job.place.kind == "real" and not job.place.tile().is_trusted:
+                self._model = ReferenceModel(self._cloud, self._reference)
+        self._ground = self._found(BASE)
+        self._base = self._measured(self._ground)
 
-    @functools.cached_property
-    def _base(self) -> page.Figures:
-        with acting() as self._acting:
-            return self._measured(())
-
-    def figures(self, off: tuple[str, ...]) -> page.Figures:
-        """Return the figures without some rules; those of the base where none of them acts."""
-        found = self._base
-        serving = tuple(name for name in off if RULES[name].serves(self._method))
-        if self._acting.intersection(serving):
-            found = self._measured(serving)
+    def figures(self, variant: str) -> page.Figures:
+        """Return the figures of a variant; those of the base if it finds the same ground."""
+        ground = self._found(variant)
+        is_same = np.array_equal(ground, self._ground)
+        found = self._base if is_same else self._measured(ground)
         if not self._is_timed:
             return found
         # One after the other, since a machine is not equally fast all the time.
-        pairs = [[self._seconds(each) for each in (serving, ())] for _ in range(_TIMES)]
+        pairs = [[self._seconds(name) for name in (variant, BASE)] for _ in range(_TIMES)]
         cpu, cpu_base = map(min, zip(*pairs))
         return {**found, "cpu": cpu, "cpu_base": cpu_base}
 
-    def _ground(self, off: tuple[str, ...]) -> np.ndarray:
-        with switched_off(off):
+    def _found(self, variant: str) -> np.ndarray:
+        with switched_off(variant):
             try:
                 return self._filter.ground(self._cloud)
             except BareEarthError:  # without any ground all of it is missed
                 return np.zeros(self._cloud.count, dtype=bool)
 
-    def _seconds(self, off: tuple[str, ...]) -> float:
+    def _seconds(self, variant: str) -> float:
         start = time.process_time()
-        self._ground(off)
+        self._found(variant)
         return time.process_time() - start
 
-    def _measured(self, off: tuple[str, ...]) -> page.Figures:
-        ground = self._ground(off)
+    def _measured(self, ground: np.ndarray) -> page.Figures:
         if self._scene is not None:
             score = score_scene(self._scene, ground, with_dtm=False)
             return {"type_1": score.type_1, "type_2": score.type_2}
@@ -182,13 +178,7 @@ class _Scorer:
             return {"rmse": float(np.sqrt(np.mean(known**2))), "bias": float(np.mean(known))}
         left_out = self._place.tile().left_out if self._place.kind == "real" else ()
         found = compare(ground, self._reference, AssessmentOptions(ignored_classes=left_out))
-        figures = "total_error", "type_1_error", "type_2_error"
-        return dict(zip(("total", "type_1", "type_2"), (getattr(found, each) for each in figures)))
-
-
-def _scene(place: Place) -> Scene:
-    seed, share = place.at
-    return make(place.name, int(seed), density=share * KINDS[place.name].defaults.density)
+        return {"total": found.total_error}
 
 
 def _digest(job: Job) -> str:
@@ -215,14 +205,6 @@ def _sources(folder: Path) -> bytes:
     return digest.digest()
 
 
-def measure(jobs: Sequence[Job]) -> Iterator[tuple[Job, dict[str, page.Figures]]]:
-    """Yield the figures of each job."""
-    for done, (job, found) in enumerate(zip(jobs, work.side_by_side(run, jobs)), start=1):
-        if not job.only_kept:
-            tell(f"{done} of {len(jobs)}: {job.method}, {job.place.title}")
-        yield job, found
-
-
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the ablation that the command line asks for."""
     parser = argparse.ArgumentParser(
@@ -230,10 +212,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
         description=__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    names = [*RULES, *GROUPS]
     parser.add_argument("--method", nargs="+", type=method_name, default=list(METHODS))
     parser.add_argument("--quick", action="store_true", help="fewer phases, tiles and scenes")
-    parser.add_argument("--rules", nargs="+", choices=names, default=[], metavar="NAME")
+    parser.add_argument("--rules", nargs="+", default=[], metavar="NAME", help="only these")
     parser.add_argument(
         "--on", nargs="+", choices=page.KINDS, default=page.KINDS, help="some kinds of places"
     )
@@ -241,20 +222,19 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--json", type=Path, metavar="FILE", help="write all figures")
     parser.add_argument("--write", action="store_true", help="write docs/rules.md")
     options = parser.parse_args(arguments)
-    chosen = variants(options.rules)
-    everywhere = [each for each in places(options.quick) if each.kind in options.on]
+    everywhere = [place for place in places(options.quick) if place.kind in options.on]
     results: page.Results = {}
     for method in options.method:
-        of_method = {
-            name: off
-            for name, off in chosen.items()
-            if not off or any(RULES[each].serves(method) for each in off)
-        }
-        jobs = [
-            Job(method, each, of_method, each.name == _TIMED, options.kept) for each in everywhere
-        ]
-        results[method] = {job.place.title: found for job, found in measure(jobs)}
-        print("", *page.table(results[method], method), sep="\n", flush=True)
+        chosen = tuple(
+            name for name in variants(method) if name in (BASE, *(options.rules or [name]))
+        )
+        jobs = [Job(method, place, chosen, options.kept) for place in everywhere]
+        results[method] = {}
+        for job, found in zip(jobs, work.side_by_side(run, jobs)):
+            results[method][job.place.title] = found
+            if not options.kept:
+                tell(f"{len(results[method])} of {len(jobs)}: {method}, {job.place.title}")
+        print("", METHODS[method].label, *page.table(results[method], method), sep="\n")
     if options.json:
         options.json.write_text(json.dumps(results, indent=1), "utf-8")
     if options.write:

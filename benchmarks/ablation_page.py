@@ -11,10 +11,9 @@ from bare_earth.algorithms.filters import METHODS
 
 from . import tables
 from .phases import Range
-from .rules import GROUPS, RULES
+from .rules import BASE, GROUPS, VALUES, lines, variants
 from .scenes import KINDS as KINDS_OF_SCENES
 
-BASE = "base"
 # Kinds of places where rules are measured.
 KINDS = "isprs", "real", "scene"
 PAGE = Path(__file__).parents[1] / "docs" / "rules.md"
@@ -27,16 +26,18 @@ FORESTS = (
 # A scene is worse if its type I or type II error is larger by more than so many points.
 _WORSE = 1.0
 _HEAD = (
-    "Rule that is off", "lines", "CPU saved, %", "ISPRS", "labels: worst", "best", "DTM: worst",
+    "Left out", "lines", "CPU, %", "ISPRS", "labels: worst", "best", "DTM: worst",
     "best", "forests: RMSE", "bias", "scenes worse", "better", "the worst",
 )  # fmt: skip
 _ABOUT = """# What each rule is worth
 
-The filters have many rules. Here each of them is switched off, alone and in groups, and everything
+The filters are pipelines of rules. Here each rule is left out, alone and in groups, and everything
 is measured again. A rule is worth its code if errors get worse without it, above all on real land.
 
-- *lines*: lines of the functions that are there for this rule alone; some rules are a constant.
-- *CPU saved*: share of the time of the whole filter on {timed}, in percent, good to about 5 points.
+- *lines*: lines of the class of the rule, and of those that are exceptions of it alone. Helpers that
+  several rules may use do not count.
+- *CPU*: share of the time of the whole filter on {timed} that is saved, in percent, good to about 5
+  points.
 - *ISPRS*: change of the mean total error of {samples} samples, in percentage points, over {phases}
   positions of the grid. Bold if it is larger than the range of the base over these positions.
 - *labels*: the real tiles on which the total error changes most, in percentage points. Tiles:
@@ -72,9 +73,9 @@ def _changes(results: Places, name: str, kind: str, figure: str) -> list[_Change
     """Return the changes of a figure wherever both the base and the variant are known."""
     found = []
     for title, by_variant in results.items():
-        base, other = by_variant.get(BASE), by_variant.get(name)
-        if title.startswith(f"{kind} ") and base and other and figure in base:
-            found.append(_Change(title.split(" ", 1)[1], other[figure] - base[figure]))
+        base, changed = by_variant.get(BASE), by_variant.get(name)
+        if title.startswith(f"{kind} ") and base and changed and figure in base:
+            found.append(_Change(title.split(" ", 1)[1], changed[figure] - base[figure]))
     return sorted(found, key=lambda each: each.value)
 
 
@@ -97,10 +98,10 @@ def _signed(value: float, digits: int) -> str:
 
 
 def _isprs(results: Places, name: str) -> str:
-    base, other = (_by_phase(results, each) for each in (BASE, name))
-    if not len(other) or len(base) != len(other):
+    base, changed = (_by_phase(results, variant) for variant in (BASE, name))
+    if not len(changed) or len(base) != len(changed):
         return tables.NONE
-    change = float(np.mean(other - base))
+    change = float(np.mean(changed - base))
     text = _signed(change, 2)
     return f"**{text}**" if abs(change) > np.ptp(base) else text
 
@@ -145,11 +146,10 @@ def _saved(results: Places, name: str) -> str:
     return tables.NONE
 
 
-def _row(results: Places, name: str, title: str) -> list[str]:
-    lines = sum(RULES[each].lines() for each in GROUPS.get(name, (name,)))
+def _row(results: Places, method: str, name: str) -> list[str]:
     return [
-        title,
-        str(lines or tables.NONE),
+        name,
+        str(lines(method, name) or tables.NONE),
         _saved(results, name),
         _isprs(results, name),
         *_ends(_changes(results, name, "real", "total"), 2),
@@ -160,27 +160,11 @@ def _row(results: Places, name: str, title: str) -> list[str]:
     ]
 
 
-def _measured(results: Places) -> list[str]:
-    """Return the names of the variants that were measured somewhere."""
+def table(results: Places, method: str) -> list[str]:
+    """Return what each change of a method does: of those that were measured somewhere."""
     known = {name for by_variant in results.values() for name in by_variant}
-    return [name for name in (*RULES, *GROUPS) if name in known]
-
-
-def table(results: Places, method: str, names: list[str] | None = None) -> list[str]:
-    """Return what switching off each rule and each group does to a method."""
-    rows = [_row(results, name, name) for name in names or _measured(results)]
-    return [METHODS[method].label, "", *tables.table(_HEAD, rows)]
-
-
-def _group(results: Results, name: str) -> list[str]:
-    """Return what switching off a group does to each method."""
-    rows = [
-        _row(of_method, name, METHODS[method].label)
-        for method, of_method in results.items()
-        if name in _measured(of_method)
-    ]
-    about = ", ".join(GROUPS[name])
-    return ["", f"### {name}", "", f"Off: {about}.", "", *tables.table(_HEAD, rows)] if rows else []
+    names = [name for name in variants(method) if name in known and name != BASE]
+    return tables.table(_HEAD, [_row(results, method, name) for name in names])
 
 
 def _bases(results: Results) -> list[str]:
@@ -231,10 +215,10 @@ def write(results: Results, is_quick: bool, page: Path | None = None) -> None:
     page : Path, optional
         Where to; docs/rules.md by default.
     """
-    results = {method: each for method, each in results.items() if _measured(each)}
+    results = {method: places for method, places in results.items() if any(places.values())}
     samples = [each.split(" ", 1) for each in _titles(results, "isprs")]
     models = _titles(results, "real", "rmse")
-    lines = [
+    text = [
         _ABOUT.format(
             timed=", ".join(_titles(results, "real", "cpu")) or tables.NONE,
             samples=len({name for name, _ in samples}),
@@ -248,11 +232,12 @@ def write(results: Results, is_quick: bool, page: Path | None = None) -> None:
         *_bases(results),
     ]
     for method, of_method in results.items():
-        rules = [name for name in _measured(of_method) if name in RULES]
-        lines += ["", f"## {METHODS[method].label}", "", *table(of_method, method, rules)[2:]]
-    lines += ["", "## Groups"]
-    for name in GROUPS:
-        lines += _group(results, name)
+        text += ["", f"## {METHODS[method].label}", "", *table(of_method, method)]
+    text += ["", "## Groups and values", ""]
+    text += [f"- *{name}*: {', '.join(GROUPS[name])}." for name in GROUPS]
+    for name, (kind, values) in VALUES.items():
+        given = ", ".join(f"`{field}` {value}" for field, value in values.items())
+        text.append(f"- *{name}*: {kind.name} with {given}.")
     if COMMENTS.exists():
-        lines += ["", COMMENTS.read_text("utf-8").rstrip()]
-    (page or PAGE).write_text("\n".join(lines) + "\n", "utf-8")
+        text += ["", COMMENTS.read_text("utf-8").rstrip()]
+    (page or PAGE).write_text("\n".join(text) + "\n", "utf-8")
