@@ -14,7 +14,6 @@ import argparse
 import functools
 import hashlib
 import json
-import os
 import sys
 import time
 from pathlib import Path
@@ -37,24 +36,18 @@ from .scenes import KINDS, Scene, make
 
 # Seeds of scenes that nobody tuned with, and shares of the density of a kind.
 SEEDS, DENSITIES = (101, 103), (1.0, 0.25)
-# Tiles that the quick form leaves out, the tile on which time is measured, and how often: the least
-# counts.
-_LONG = ("hawaii_forest", "nrw_rural", "wires_single_return")
-_TIMED, _TIMES = "ahn3_urban", 2
+# Tiles that the quick form leaves out, and the tile on which time is measured.
+_LONG, _TIMED = ("hawaii_forest", "nrw_rural", "wires_single_return"), "ahn3_urban"
+# Code that decides what is found.
 _ALGORITHMS = Path(__file__).parents[1] / "algorithms"
+_FILTERS = _ALGORITHMS / "filters", _ALGORITHMS / "grids"
+_SCENES = (Path(scenes.__file__).parent,)
 
 
 class Place(NamedTuple):
-    """A cloud whose ground is known.
+    """A cloud whose ground is known: a sample in a phase, a tile, or a scene.
 
-    Attributes
-    ----------
-    kind : str
-        One of `ablation_page.KINDS`.
-    name : str
-        Of the sample, the tile or the kind of scene.
-    which : tuple of float
-        The phase of a sample; seed and share of the density of a scene.
+    `kind` is one of `ablation_page.KINDS`. `which` is the phase, or seed and share of density.
     """
 
     kind: str
@@ -63,18 +56,20 @@ class Place(NamedTuple):
 
     @property
     def title(self) -> str:
-        """All of it as text."""
-        return " ".join([self.kind, self.name, *(f"{value:g}" for value in self.which)])
+        """Name and numbers as text."""
+        return " ".join([self.name, *(f"{value:g}" for value in self.which)])
+
+    @property
+    def tile(self) -> data.RealTile | None:
+        """What is known of a real tile."""
+        tiles = {tile.title: tile for tile in data.REAL}
+        return tiles[self.name] if self.kind == "real" else None
 
     def path(self) -> Path:
         """Return the file of a sample or a tile."""
-        if self.kind == "isprs":
-            return data.FOLDER / "isprs" / f"{self.name}.laz"
-        return data.real(self.tile().name)
-
-    def tile(self) -> data.RealTile:
-        """Return what is known of a real tile."""
-        return next(tile for tile in data.REAL if tile.title == self.name)
+        if self.tile:
+            return data.real(self.tile.name)
+        return data.FOLDER / "isprs" / f"{self.name}.laz"
 
     def scene(self) -> Scene:
         """Return a generated scene."""
@@ -104,26 +99,18 @@ class Job(NamedTuple):
     variants: tuple[str, ...]
     only_kept: bool = False
 
-    @property
-    def is_timed(self) -> bool:
-        """Whether time is measured here."""
-        return self.place.name == _TIMED
-
 
 def run(job: Job) -> dict[str, page.Figures]:
-    """Return the figures of the variants, and keep each as soon as it is known."""
+    """Return the figures of the variants, and keep them."""
     path = cache.FOLDER / "ablation" / f"{_digest(job)}.json"
     kept = json.loads(path.read_text("utf-8")) if path.exists() else {}
     keys = {name: repr(GROUPS.get(name) or VALUES.get(name) or name) for name in job.variants}
     todo = [name for name, key in keys.items() if key not in kept]
     if todo and not job.only_kept:
-        scorer = _Scorer(job)
-        for name in todo:
-            kept[keys[name]] = scorer.figures(name)
-            path.parent.mkdir(parents=True, exist_ok=True)
-            part = path.with_suffix(f".{os.getpid()}")
-            part.write_text(json.dumps(kept), "utf-8")
-            part.replace(path)
+        figures = _Scorer(job).figures
+        kept.update({keys[name]: figures(name) for name in todo})
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(json.dumps(kept), "utf-8")
     return {name: kept[key] for name, key in keys.items() if key in kept}
 
 
@@ -131,7 +118,7 @@ class _Scorer:
     """Measures variants at one place."""
 
     def __init__(self, job: Job) -> None:
-        self._filter, self._place, self._is_timed = Filter(job.method), job.place, job.is_timed
+        self._filter, self._place = Filter(job.method), job.place
         self._scene, self._model = None, None
         if job.place.kind == "scene":
             self._scene = job.place.scene()
@@ -139,68 +126,57 @@ class _Scorer:
         else:
             cloud, self._reference = data.load(job.place.path())
             self._cloud = shifted(cloud, *job.place.which) if job.place.which else cloud
-            if job.place.kind == "real" and not job.place.tile().is_trusted:
+            if job.place.tile and not job.place.tile.is_trusted:
                 self._model = ReferenceModel(self._cloud, self._reference)
-        self._ground = self._found(BASE)
+        self._ground, _ = self._found(BASE)
         self._base = self._measured(self._ground)
 
     def figures(self, variant: str) -> page.Figures:
         """Return the figures of a variant; those of the base if it finds the same ground."""
-        ground = self._found(variant)
+        ground, seconds = self._found(variant)
         is_same = np.array_equal(ground, self._ground)
         found = self._base if is_same else self._measured(ground)
-        if not self._is_timed:
+        if self._place.name != _TIMED:
             return found
         # One after the other, since a machine is not equally fast all the time.
-        pairs = [[self._seconds(name) for name in (variant, BASE)] for _ in range(_TIMES)]
-        cpu, cpu_base = map(min, zip(*pairs))
-        return {**found, "cpu": cpu, "cpu_base": cpu_base}
+        _, of_base = self._found(BASE)
+        again, base_again = (self._found(name)[1] for name in (variant, BASE))
+        return {**found, "cpu": min(seconds, again), "cpu_base": min(of_base, base_again)}
 
-    def _found(self, variant: str) -> np.ndarray:
+    def _found(self, variant: str) -> tuple[np.ndarray, float]:
+        """Return the ground and the CPU time in seconds."""
+        begun = time.process_time()
         with switched_off(variant):
             try:
-                return self._filter.ground(self._cloud)
+                ground = self._filter.ground(self._cloud)
             except BareEarthError:  # without any ground all of it is missed
-                return np.zeros(self._cloud.count, dtype=bool)
-
-    def _seconds(self, variant: str) -> float:
-        start = time.process_time()
-        self._found(variant)
-        return time.process_time() - start
+                ground = np.zeros(self._cloud.count, dtype=bool)
+        return ground, time.process_time() - begun
 
     def _measured(self, ground: np.ndarray) -> page.Figures:
         if self._scene is not None:
             score = score_scene(self._scene, ground, with_dtm=False)
             return {"type_1": score.type_1, "type_2": score.type_2}
         if self._model is not None:
-            difference = self._model.of(ground) - self._model.heights
-            known = difference[np.isfinite(difference)]
-            return {"rmse": float(np.sqrt(np.mean(known**2))), "bias": float(np.mean(known))}
-        left_out = self._place.tile().left_out if self._place.kind == "real" else ()
+            return {"rmse": self._model.error(ground).rmse}
+        left_out = self._place.tile.left_out if self._place.tile else ()
         found = compare(ground, self._reference, AssessmentOptions(ignored_classes=left_out))
         return {"total": found.total_error}
 
 
 def _digest(job: Job) -> str:
     """Return what tells apart what is kept: the code, the method, the data and the measuring."""
-    place, own = job.place, hashlib.sha256(_code().encode())
-    told = job.method, place, job.is_timed and _TIMES
-    own.update(repr(told).encode())
-    own.update(_sources(Path(scenes.__file__).parent) if place.kind == "scene" else b"")
-    own.update(place.path().read_bytes() if place.kind != "scene" else b"")
+    place, own = job.place, hashlib.sha256(_code(_FILTERS))
+    own.update(repr((job.method, place, 2)).encode())
+    own.update(_code(_SCENES) if place.kind == "scene" else place.path().read_bytes())
     return f"{place.kind}-{place.name}-{own.hexdigest()[:24]}"
 
 
-@functools.lru_cache(maxsize=1)
-def _code() -> str:
-    return (_sources(_ALGORITHMS / "filters") + _sources(_ALGORITHMS / "grids")).hex()
-
-
-@functools.lru_cache(maxsize=4)
-def _sources(folder: Path) -> bytes:
-    """Return a digest of all the code in a folder."""
+@functools.lru_cache(maxsize=2)
+def _code(folders: tuple[Path, ...]) -> bytes:
+    """Return a digest of all the code in some folders."""
     digest = hashlib.sha256()
-    for path in sorted(folder.rglob("*.py")):
+    for path in sorted(path for folder in folders for path in folder.rglob("*.py")):
         digest.update(path.read_bytes())
     return digest.digest()
 
@@ -219,7 +195,6 @@ def main(arguments: Sequence[str] | None = None) -> None:
         "--on", nargs="+", choices=page.KINDS, default=page.KINDS, help="some kinds of places"
     )
     parser.add_argument("--kept", action="store_true", help="measure nothing, show what is kept")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write all figures")
     parser.add_argument("--write", action="store_true", help="write docs/rules.md")
     options = parser.parse_args(arguments)
     everywhere = [place for place in places(options.quick) if place.kind in options.on]
@@ -231,12 +206,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
         jobs = [Job(method, place, chosen, options.kept) for place in everywhere]
         results[method] = {}
         for job, found in zip(jobs, work.side_by_side(run, jobs)):
-            results[method][job.place.title] = found
+            if found:
+                results[method][job.place.kind, job.place.title] = found
             if not options.kept:
-                tell(f"{len(results[method])} of {len(jobs)}: {method}, {job.place.title}")
+                tell(f"{method}, {job.place.kind} {job.place.title}")
         print("", METHODS[method].label, *page.table(results[method], method), sep="\n")
-    if options.json:
-        options.json.write_text(json.dumps(results, indent=1), "utf-8")
     if options.write:
         page.write(results, options.quick)
         print(f"\nWritten: {page.PAGE}", file=sys.stderr)

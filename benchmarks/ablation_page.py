@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 
@@ -18,34 +17,27 @@ from .scenes import KINDS as KINDS_OF_SCENES
 KINDS = "isprs", "real", "scene"
 PAGE = Path(__file__).parents[1] / "docs" / "rules.md"
 COMMENTS = Path(__file__).parent / "rules_comments.md"
-# Tiles on which the terrain below trees is looked at.
-FORESTS = (
-    "megaplot", "forest_topography", "mixed_conifer", "oregon_conifer", "conifer_1", "conifer_2",
-    "mountain_forest", "rainforest_ridge", "hawaii_forest",
-)  # fmt: skip
 # A scene is worse if its type I or type II error is larger by more than so many points.
 _WORSE = 1.0
 _HEAD = (
-    "Left out", "lines", "CPU, %", "ISPRS", "labels: worst", "best", "DTM: worst",
-    "best", "forests: RMSE", "bias", "scenes worse", "better", "the worst",
+    "Left out", "lines", "CPU, %", "ISPRS", "labels: worst", "best", "DTM: worst", "best",
+    "scenes worse", "better", "the worst",
+)  # fmt: skip
+_BASE_HEAD = (
+    "All rules", "ISPRS total error, %", "tiles with labels, %", "DTM: RMSE, m",
+    "samples and phases", "tiles", "scenes",
 )  # fmt: skip
 _ABOUT = """# What each rule is worth
 
 The filters are pipelines of rules. Here each rule is left out, alone and in groups, and everything
 is measured again. A rule is worth its code if errors get worse without it, above all on real land.
 
-- *lines*: lines of the class of the rule, and of those that are exceptions of it alone. Helpers that
-  several rules may use do not count.
-- *CPU*: share of the time of the whole filter on {timed} that is saved, in percent, good to about 5
-  points.
+- *lines*: of the class of the rule, and of the rules that are its fields; helpers do not count.
+- *CPU*: share of the time of the filter on {timed} that is saved, in percent, good to 5 points.
 - *ISPRS*: change of the mean total error of {samples} samples, in percentage points, over {phases}
   positions of the grid. Bold if it is larger than the range of the base over these positions.
-- *labels*: the real tiles on which the total error changes most, in percentage points. Tiles:
-  {labels}.
-- *DTM*: the real tiles on which the RMSE of the terrain model changes most, in metres. Tiles:
-  {models}.
-- *forests*: mean change of RMSE and of bias (the mean signed difference from the reference) of
-  terrain models below trees, in metres. Tiles: {forests}.
+- *labels*: the real tiles on which the total error changes most, in percentage points, of {labels}.
+- *DTM*: the real tiles on which the RMSE of the terrain model changes most, in metres, of {models}.
 - *scenes*: generated scenes ({scenes}) whose type I or type II error gets worse, or better, by more
   than one point without the rule, and the worst of them. Nobody tuned with their seeds.
 
@@ -56,188 +48,133 @@ nothing alone and something in a group, where no other stands in for it. The com
 
 # Figures of a variant at a place, by name.
 Figures = dict[str, float]
-# Title of the place, then name of the variant.
-Places = dict[str, dict[str, Figures]]
+# Kind and name of the place, then name of the variant.
+Places = dict[tuple[str, str], dict[str, Figures]]
 # Name of the method, then as above.
 Results = dict[str, Places]
 
 
-class _Change(NamedTuple):
-    """The change of a figure at a place."""
-
-    place: str
-    value: float
-
-
-def _changes(results: Places, name: str, kind: str, figure: str) -> list[_Change]:
-    """Return the changes of a figure wherever both the base and the variant are known."""
-    found = []
-    for title, by_variant in results.items():
-        base, changed = by_variant.get(BASE), by_variant.get(name)
-        if title.startswith(f"{kind} ") and base and changed and figure in base:
-            found.append(_Change(title.split(" ", 1)[1], changed[figure] - base[figure]))
-    return sorted(found, key=lambda each: each.value)
+def _of(places: Places, name: str, kind: str, figure: str) -> dict[str, float]:
+    """Return a figure of a variant at the places of a kind that have it."""
+    return {
+        place: found[name][figure]
+        for (of_kind, place), found in places.items()
+        if of_kind == kind and figure in found.get(name, ())
+    }
 
 
-def _by_phase(results: Places, name: str) -> np.ndarray:
-    """Return the mean total error over the samples in each phase."""
-    totals: dict[str, list[float]] = {}
-    for title, by_variant in results.items():
-        if title.startswith("isprs ") and {name, BASE} <= by_variant.keys():
-            phase = title.split(" ", 2)[2]
-            totals.setdefault(phase, []).append(by_variant[name]["total"])
-    return np.array([np.mean(each) for each in totals.values()])
-
-
-def _mean(values: list[float], digits: int) -> str:
-    return f"{np.mean(values):.{digits}f}" if values else tables.NONE
+def _changes(places: Places, name: str, kind: str, figure: str) -> dict[str, float]:
+    """Return by how much a figure changes, the best first."""
+    base, found = (_of(places, variant, kind, figure) for variant in (BASE, name))
+    changes = {place: value - base[place] for place, value in found.items()}
+    return dict(sorted(changes.items(), key=lambda change: change[1]))
 
 
 def _signed(value: float, digits: int) -> str:
     return f"{value:+.{digits}f}" if abs(value) >= 0.5 * 10**-digits else "0"
 
 
-def _isprs(results: Places, name: str) -> str:
-    base, changed = (_by_phase(results, variant) for variant in (BASE, name))
-    if not len(changed) or len(base) != len(changed):
-        return tables.NONE
-    change = float(np.mean(changed - base))
-    text = _signed(change, 2)
-    return f"**{text}**" if abs(change) > np.ptp(base) else text
-
-
-def _ends(changes: list[_Change], digits: int) -> list[str]:
-    """Return the worst and the best change as text, each with its tile."""
+def _of_samples(places: Places, name: str) -> str:
+    """Return the mean change on the samples, bold if larger than the range of the phases."""
+    changes = list(_changes(places, name, "isprs", "total").values())
     if not changes:
-        return [tables.NONE] * 2
-    texts = []
-    for each, sign in ((changes[-1], 1.0), (changes[0], -1.0)):
-        text = _signed(each.value, digits)
-        is_none = text == "0" or sign * each.value < 0.0
-        texts.append(tables.NONE if is_none else f"{each.place} {text}")
-    return texts
+        return tables.NONE
+    change, range_ = float(np.mean(changes)), _phases(places)
+    text = _signed(change, 2)
+    return f"**{text}**" if abs(change) > range_.most - range_.least else text
 
 
-def _of_forests(results: Places, name: str, figure: str) -> str:
-    some = [each.value for each in _changes(results, name, "real", figure) if each.place in FORESTS]
-    return _signed(float(np.mean(some)), 3) if some else tables.NONE
+def _phases(places: Places) -> Range:
+    """Return the mean total error of all rules over the samples, with its range over the phases."""
+    totals: dict[str, list[float]] = {}
+    for place, value in _of(places, BASE, "isprs", "total").items():
+        totals.setdefault(place.split(" ", 1)[1], []).append(value)
+    return Range.of(np.array([np.mean(some) for some in totals.values()] or [np.nan]))
 
 
-def _of_scenes(results: Places, name: str) -> list[str]:
+def _ends(changes: dict[str, float], digits: int) -> list[str]:
+    """Return the worst change, if it is a loss, and the best, if it is a gain, as text."""
+    signed = [(place, _signed(value, digits)) for place, value in changes.items()]
+    worst, best = signed[-1:], signed[:1]
+    return [
+        " ".join(*found) if found and found[0][1][0] == sign else tables.NONE
+        for found, sign in ((worst, "+"), (best, "-"))
+    ]
+
+
+def _of_scenes(places: Places, name: str) -> list[str]:
     """Return how many scenes get worse and better, and the worst as text."""
-    worse, better, worst = set(), set(), _Change("", _WORSE)
-    for figure, short in (("type_1", "I"), ("type_2", "II")):
-        for each in _changes(results, name, "scene", figure):
-            if each.value > _WORSE:
-                worse.add(each.place)
-            elif each.value < -_WORSE:
-                better.add(each.place)
-            if each.value > worst.value:
-                worst = _Change(f"{each.place.split()[0]} {short}", each.value)
-    text = f"{worst.place} {worst.value:+.1f}" if worst.place else tables.NONE
+    changes = {
+        (place.split()[0], short): value
+        for figure, short in (("type_1", "I"), ("type_2", "II"))
+        for place, value in _changes(places, name, "scene", figure).items()
+    }
+    worse = {place for (place, _), value in changes.items() if value > _WORSE}
+    better = {place for (place, _), value in changes.items() if value < -_WORSE}
+    worst = max(changes, key=changes.__getitem__, default=())
+    text = " ".join((*worst, f"{changes[worst]:+.1f}")) if worse else tables.NONE
     return [str(len(worse)), str(len(better)), text]
 
 
-def _saved(results: Places, name: str) -> str:
-    for by_variant in results.values():
-        found = by_variant.get(name, {})
-        if "cpu" in found:
-            return f"{100.0 * (1.0 - found['cpu'] / found['cpu_base']):.0f}"
+def _saved(places: Places, name: str) -> str:
+    for place, seconds in _of(places, name, "real", "cpu").items():
+        return f"{100.0 * (1.0 - seconds / _of(places, name, 'real', 'cpu_base')[place]):.0f}"
     return tables.NONE
 
 
-def _row(results: Places, method: str, name: str) -> list[str]:
+def table(places: Places, method: str) -> list[str]:
+    """Return what each change of a method does: of those that were measured somewhere."""
+    known = {name for found in places.values() for name in found}
+    rows = [
+        [
+            name,
+            str(lines(method, name) or tables.NONE),
+            _saved(places, name),
+            _of_samples(places, name),
+            *_ends(_changes(places, name, "real", "total"), 2),
+            *_ends(_changes(places, name, "real", "rmse"), 3),
+            *_of_scenes(places, name),
+        ]
+        for name in variants(method)
+        if name in known and name != BASE
+    ]
+    return tables.table(_HEAD, rows)
+
+
+def _base(method: str, places: Places) -> list[str]:
+    """Return the figures of a method with all rules."""
+    real = (list(_of(places, BASE, "real", figure).values()) for figure in ("total", "rmse"))
     return [
-        name,
-        str(lines(method, name) or tables.NONE),
-        _saved(results, name),
-        _isprs(results, name),
-        *_ends(_changes(results, name, "real", "total"), 2),
-        *_ends(_changes(results, name, "real", "rmse"), 3),
-        _of_forests(results, name, "rmse"),
-        _of_forests(results, name, "bias"),
-        *_of_scenes(results, name),
+        METHODS[method].label,
+        tables.ranged(_phases(places)),
+        *(f"{np.mean(found):.3f}" if found else tables.NONE for found in real),
+        *(str(sum(kind == of_kind for of_kind, _ in places)) for kind in KINDS),
     ]
 
 
-def table(results: Places, method: str) -> list[str]:
-    """Return what each change of a method does: of those that were measured somewhere."""
-    known = {name for by_variant in results.values() for name in by_variant}
-    names = [name for name in variants(method) if name in known and name != BASE]
-    return tables.table(_HEAD, [_row(results, method, name) for name in names])
-
-
-def _bases(results: Results) -> list[str]:
-    """Return the figures of the filters with all rules."""
-    rows = []
-    for method, of_method in results.items():
-        phases = _by_phase(of_method, BASE)
-        real = {
-            title.split(" ", 1)[1]: by_variant[BASE]
-            for title, by_variant in of_method.items()
-            if title.startswith("real ") and BASE in by_variant
-        }
-        forests = [real[each] for each in FORESTS if each in real]
-        totals = [each["total"] for each in real.values() if "total" in each]
-        rows.append(
-            [
-                METHODS[method].label,
-                tables.ranged(Range.of(phases)) if len(phases) else tables.NONE,
-                _mean(totals, 2),
-                *(_mean([each[key] for each in forests], 3) for key in ("rmse", "bias")),
-                *(str(len(_titles({method: of_method}, kind))) for kind in KINDS),
-            ]
-        )
-    head = ["All rules", "ISPRS total error, %", "tiles with labels, %", "forests: RMSE, m", "bias"]
-    head += ["samples and phases", "tiles", "scenes"]
-    return tables.table(head, rows)
-
-
-def _titles(results: Results, kind: str, figure: str = "") -> list[str]:
-    """Return the places of a kind that were measured, and have a figure."""
-    found = {}
-    for title, by_variant in (each for places in results.values() for each in places.items()):
-        base = by_variant.get(BASE)
-        if title.startswith(f"{kind} ") and base and (not figure or figure in base):
-            found[title.split(" ", 1)[1]] = None
-    return list(found)
-
-
-def write(results: Results, is_quick: bool, page: Path | None = None) -> None:
-    """Write the page, with the comments as they stand in their file.
-
-    Parameters
-    ----------
-    results : Results
-        What was measured; a method of which nothing was measured is left out.
-    is_quick : bool
-        Whether it is the quick form.
-    page : Path, optional
-        Where to; docs/rules.md by default.
-    """
-    results = {method: places for method, places in results.items() if any(places.values())}
-    samples = [each.split(" ", 1) for each in _titles(results, "isprs")]
-    models = _titles(results, "real", "rmse")
+def write(results: Results, is_quick: bool) -> None:
+    """Write the page, with the comments as they stand in their file."""
+    everywhere = {place: found for places in results.values() for place, found in places.items()}
+    samples = [place.split(" ", 1) for kind, place in everywhere if kind == "isprs"]
+    scenes = sum(kind == "scene" for kind, _ in everywhere)
     text = [
         _ABOUT.format(
-            timed=", ".join(_titles(results, "real", "cpu")) or tables.NONE,
+            timed=", ".join(_of(everywhere, BASE, "real", "cpu")) or tables.NONE,
             samples=len({name for name, _ in samples}),
             phases=len({phase for _, phase in samples}),
-            labels=", ".join(_titles(results, "real", "total")),
-            models=", ".join(models),
-            forests=", ".join(each for each in FORESTS if each in models),
-            scenes=f"{len(_titles(results, 'scene'))} of {len(KINDS_OF_SCENES)} kinds",
+            labels=", ".join(_of(everywhere, BASE, "real", "total")),
+            models=", ".join(_of(everywhere, BASE, "real", "rmse")),
+            scenes=f"{scenes} of {len(KINDS_OF_SCENES)} kinds",
             form="its quick form, `--quick`" if is_quick else "its full form",
         ),
-        *_bases(results),
+        *tables.table(_BASE_HEAD, [_base(method, places) for method, places in results.items()]),
     ]
-    for method, of_method in results.items():
-        text += ["", f"## {METHODS[method].label}", "", *table(of_method, method)]
-    text += ["", "## Groups and values", ""]
+    for method, places in results.items():
+        text += ["", f"## {METHODS[method].label}", "", *table(places, method)]
+    text += ["", "Groups and values:", ""]
     text += [f"- *{name}*: {', '.join(GROUPS[name])}." for name in GROUPS]
     for name, (kind, values) in VALUES.items():
         given = ", ".join(f"`{field}` {value}" for field, value in values.items())
         text.append(f"- *{name}*: {kind.name} with {given}.")
-    if COMMENTS.exists():
-        text += ["", COMMENTS.read_text("utf-8").rstrip()]
-    (page or PAGE).write_text("\n".join(text) + "\n", "utf-8")
+    text += ["", COMMENTS.read_text("utf-8").rstrip()]
+    PAGE.write_text("\n".join(text) + "\n", "utf-8")
