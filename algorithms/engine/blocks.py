@@ -160,6 +160,8 @@ class BlockPoints(NamedTuple):
         Their indices in the store.
     roads : numpy.ndarray of bool, shape (n,)
         Which are ground where they lie on it.
+    multi_return : numpy.ndarray of bool, shape (n,)
+        Which are of pulses with several returns.
     """
 
     points: Points
@@ -167,13 +169,14 @@ class BlockPoints(NamedTuple):
     wanted: np.ndarray
     positions: np.ndarray
     roads: np.ndarray
+    multi_return: np.ndarray
 
     @classmethod
     def empty(cls, count: int, kind: type) -> BlockPoints:
         """Return uninitialised arrays for `count` points; `kind` is the type of the positions."""
-        known, wanted, roads = (np.zeros(count, dtype=bool) for _ in range(3))
+        known, wanted, roads, several = (np.zeros(count, dtype=bool) for _ in range(4))
         points = Points(*np.empty((3, count)))
-        return cls(points, known, wanted, np.empty(count, dtype=kind), roads)
+        return cls(points, known, wanted, np.empty(count, dtype=kind), roads, several)
 
     def put(self, start: int, some: BlockPoints) -> None:
         """Overwrite points from index `start` on with other points."""

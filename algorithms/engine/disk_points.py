@@ -19,7 +19,7 @@ from .blocks import BlockPoints, Blocks, Corner, Leaves, gathered
 from .leaf_index import LeafIndex, Sorted, smallest_integers
 
 _RECORD = np.dtype([("x", "<i4"), ("y", "<i4"), ("z", "<i4"), ("flags", "u1")])
-_KNOWN, _WANTED, _ROAD = 1, 2, 4
+_KNOWN, _WANTED, _ROAD, _MULTI_RETURN = 1, 2, 4, 8
 # If fewer points than this lie between two labelled ones, one access to the file is cheaper.
 _GAP = 1 << 16
 # Points that are read at a time.
@@ -120,6 +120,7 @@ class DiskPoints:
         for name in ("x", "y", "z"):
             records[name] = getattr(part, name)[which]
         records["flags"] = _KNOWN * known[which] + _WANTED * wanted[which]
+        records["flags"] |= (_MULTI_RETURN * (part.number_of_returns[which] > 1)).astype(np.uint8)
         if roads is not None:
             records["flags"] |= (_ROAD * roads[which]).astype(np.uint8)
         self.has_known |= bool(known[which].any())
@@ -164,8 +165,9 @@ class DiskPoints:
             points = dataclasses.replace(self.cloud, **columns).points(slice(None), frame)
             flags = records["flags"]
             positions = np.arange(start, end, dtype=kind)
-            known, wanted, roads = (flags & each > 0 for each in (_KNOWN, _WANTED, _ROAD))
-            return BlockPoints(points, known, wanted, positions, roads)
+            kinds = _KNOWN, _WANTED, _ROAD, _MULTI_RETURN
+            known, wanted, roads, several = (flags & each > 0 for each in kinds)
+            return BlockPoints(points, known, wanted, positions, roads, several)
 
         return gathered([end - start for start, end in runs], read, box, kind, progress)
 

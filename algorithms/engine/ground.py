@@ -178,7 +178,7 @@ def _label(
         # One point cannot be compared with others, and such groups can be many.
         return np.array([GROUND], dtype=np.uint8)
     warn_of_extent(points, *method.largest(parameters), progress)
-    ground, outliers = method.ground(points, parameters, part, known)
+    ground, outliers = method.ground(points, parameters, part, known, contents.multi_return)
     ground |= known
     warn_of_little_ground(points, ground, progress)
     labels = ground.astype(np.uint8)

@@ -165,7 +165,9 @@ class MemoryPoints:
         wanted = np.ones(len(which), bool) if part.wanted is None else part.wanted[which]
         roads = np.zeros(len(which), bool) if part.roads is None else part.roads[which]
         positions = np.add(which, start, dtype=self._kind)
-        return BlockPoints(part.cloud.points(which, frame), known, wanted, positions, roads)
+        several = part.cloud.number_of_returns[which] > 1
+        points = part.cloud.points(which, frame)
+        return BlockPoints(points, known, wanted, positions, roads, several)
 
     def put(self, positions: np.ndarray, labels: np.ndarray) -> None:
         """Store the labels of points."""

@@ -31,6 +31,7 @@ from .stages.rims import BlockPits, DensePits, FineSeeds, PaperSurface, Rims, de
 from .stages.seeds import Seeds
 from .stages.terrain import GentleRegions
 from .stages.tolerance import ToleranceSurface
+from .stages.woods import Woods
 
 # Points that a cell should hold on average: with fewer, gaps break the rims.
 _POINTS_PER_CELL = 1.0
@@ -236,6 +237,7 @@ def pipeline(points: Points, parameters: GridMinimum, progress: Progress) -> Pip
     return Pipeline(
         (
             LowestPoints(size=resolved.cell_size),
+            Woods(),
             DenseOutliers(),
             LowGroups(),
             NarrowPits(),

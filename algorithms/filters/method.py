@@ -104,11 +104,12 @@ class Method(NamedTuple):
         parameters: ParameterSet,
         progress: Progress = SILENT,
         known: np.ndarray | None = None,
+        multi_return: np.ndarray | None = None,
         explains: bool = False,
     ) -> State:
         """Return what the rules of the method find out about the points; see `Pipeline.run`."""
         pipeline = self.pipeline(points, parameters, progress)
-        return pipeline.run(points, progress, known, explains)
+        return pipeline.run(points, progress, known, multi_return, explains)
 
     def ground(
         self,
@@ -116,6 +117,7 @@ class Method(NamedTuple):
         parameters: ParameterSet,
         progress: Progress = SILENT,
         known: np.ndarray | None = None,
+        multi_return: np.ndarray | None = None,
     ) -> Found:
         """Return which points are ground. Low noise is left out, except by a classic preset.
 
@@ -129,8 +131,10 @@ class Method(NamedTuple):
             Receives progress and messages.
         known : numpy.ndarray of bool, shape (n,), optional
             Points that are known to be ground.
+        multi_return : numpy.ndarray of bool, shape (n,), optional
+            Points of pulses with several returns, as they are many under trees.
         """
-        state = self.run(points, parameters, progress, known)
+        state = self.run(points, parameters, progress, known, multi_return)
         return Found(state.ground, state.low_noise)
 
     def classify(

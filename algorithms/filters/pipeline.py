@@ -140,6 +140,7 @@ class Pipeline:
         points: Points,
         progress: Progress = SILENT,
         known_ground: np.ndarray | None = None,
+        multi_return: np.ndarray | None = None,
         explains: bool = False,
     ) -> State:
         """Return what the rules find out about the points.
@@ -152,6 +153,8 @@ class Pipeline:
             Receives progress and messages.
         known_ground : numpy.ndarray of bool, shape (n,), optional
             Points of known ground.
+        multi_return : numpy.ndarray of bool, shape (n,), optional
+            Points of pulses with several returns.
         explains : bool
             Whether to note which rule decided each cell (`State.decided`).
 
@@ -162,7 +165,7 @@ class Pipeline:
         Cancelled
             If the user asked to stop.
         """
-        state = State(points, progress, known_ground, explains)
+        state = State(points, progress, known_ground, multi_return, explains)
         for number, rule in enumerate(self.rules):
             part = progress.part(number / len(self.rules), (number + 1) / len(self.rules))
             begun = time.perf_counter()

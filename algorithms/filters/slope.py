@@ -32,6 +32,7 @@ from .stages.seeds import Seeds
 from .stages.steep_rises import SteepRises
 from .stages.terrain import GentleRegions
 from .stages.tolerance import ToleranceSurface
+from .stages.woods import Woods
 from .whitebox import StandsAbove
 
 # Low outliers must lie below the terrain within so many search radii.
@@ -271,6 +272,7 @@ def pipeline(points: Points, parameters: SlopeFilter, progress: Progress) -> Pip
     return Pipeline(
         (
             LowestPoints(size=resolved.cell_size),
+            Woods(),
             DenseOutliers(),
             LowGroups(),
             NarrowPits(),

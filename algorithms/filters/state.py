@@ -53,6 +53,8 @@ class GridState:
         The lowest point of each occupied cell.
     heights : HeightGrid
         Heights of the lowest points, without low outliers.
+    woods : numpy.ndarray of bool, shape (rows, columns)
+        Cells under trees.
     raised : numpy.ndarray of bool, shape (rows, columns)
         Cells that stand out of the ground, so far.
     objects, plateaus, large_buildings : numpy.ndarray of bool, shape (rows, columns)
@@ -66,6 +68,7 @@ class GridState:
     shift: float
     lowest: np.ndarray
     heights: HeightGrid
+    woods: np.ndarray
     raised: np.ndarray
     objects: np.ndarray
     plateaus: np.ndarray
@@ -79,7 +82,7 @@ class GridState:
         heights = np.full(cells.rows * cells.columns, np.nan)
         heights[cells.index[lowest]] = points.z[lowest]
         grid = HeightGrid(heights.reshape(cells.shape), cells.size, cells.first)
-        none = (np.zeros(cells.shape, dtype=bool) for _ in range(4))
+        none = (np.zeros(cells.shape, dtype=bool) for _ in range(5))
         return cls(points, spacing, cells, shift, lowest, grid, *none)
 
     @property
@@ -151,6 +154,8 @@ class State:
         Receives progress and messages of the rule that is applied.
     known_ground : numpy.ndarray of bool, or None
         Which points are known to be ground.
+    multi_return : numpy.ndarray of bool, shape (n,), or None
+        Which points are of pulses with several returns.
     explains : bool
         Whether `decided` is wanted.
     low_noise : numpy.ndarray of bool, shape (n,), or None
@@ -174,6 +179,7 @@ class State:
     points: Points
     progress: Progress
     known_ground: np.ndarray | None = None
+    multi_return: np.ndarray | None = None
     explains: bool = False
     low_noise: np.ndarray | None = None
     grids: list[GridState] = field(default_factory=list)

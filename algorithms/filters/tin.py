@@ -32,6 +32,7 @@ from .stages.outliers import DenseOutliers, IsolatedLowPoints, NarrowPits
 from .stages.seeds import KnownGround, Seeds
 from .stages.terrain import GentleBorder, GentleRegions
 from .stages.tolerance import NOISE_SPACING, PlainSurface, ToleranceSurface
+from .stages.woods import Woods
 
 # Side in metres of the cells whose lowest points may become vertices of the TIN, unless points are
 # farther apart. The second is for points so dense that their noise is measured.
@@ -248,6 +249,7 @@ def pipeline(points: Points, parameters: TinDensification, progress: Progress) -
     return Pipeline(
         (
             LowestPoints(least_size=_CELL, dense_size=_DENSE_CELL, grids=2),
+            Woods(),
             DenseOutliers(),
             LowGroups(),
             NarrowPits(),

@@ -25,7 +25,7 @@ def grid_of(heights, size=1.0, objects=None, plateaus=None):
     raised = none if objects is None else objects
     return GridState(
         None, 1.0, Cells(size, 0, 0, rows, columns, NOTHING), 0.0, NOTHING,
-        HeightGrid(heights, size), raised.copy(), raised,
+        HeightGrid(heights, size), none, raised.copy(), raised,
         none if plateaus is None else plateaus, none,
     )  # fmt: skip
 

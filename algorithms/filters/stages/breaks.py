@@ -41,7 +41,8 @@ class Plants(PointRule):
     Attributes
     ----------
     height, depth : float
-        Metres above and below, in addition to the misfit of the plane.
+        Metres above and below. For outliers the misfit of the plane is added; among plants it is
+        large.
     where_dense : bool
         Whether seeds are checked where points are closer than 0.17 m.
     """
@@ -50,7 +51,7 @@ class Plants(PointRule):
     reads: ClassVar = ("points", "grids", "seeds")
     writes: ClassVar = ("seeds", "waiting", "rise")
 
-    height: float = 0.2
+    height: float = 0.1
     depth: float = 0.7
     where_dense: bool = True
 
@@ -86,7 +87,7 @@ class Plants(PointRule):
             points.take(seeds[doubtful]), own=True
         )
         # Seeds without neighbours on any side have no rise, and stay.
-        plant = np.fmin.reduce(rise - misfit, axis=1) > self.height
+        plant = np.fmin.reduce(rise, axis=1) > self.height
         fault = np.fmax.reduce(rise + misfit, axis=1) < -self.depth
         wrong = np.zeros(len(seeds), dtype=bool)
         wrong[doubtful] = plant | fault

@@ -54,6 +54,16 @@ class LevelNeighbour(Rule):
 
 
 @dataclass(frozen=True)
+class OutsideWoods(Rule):
+    """A condition: a candidate does not lie under trees.
+
+    Bush by bush, the TIN would climb what grows there.
+    """
+
+    stage: ClassVar = Stage.SURFACE
+
+
+@dataclass(frozen=True)
 class Densification(PointRule):
     """A waiting point that lies close to the facets of the TIN becomes a vertex, round by round.
 
@@ -86,6 +96,7 @@ class Densification(PointRule):
     stop_edge: float | None = 2.0
     noise_distance: float = 0.3
     level_neighbour: LevelNeighbour | None = LevelNeighbour()
+    outside_woods: OutsideWoods | None = OutsideWoods()
 
     def apply(self, state: State) -> None:
         """Let waiting points join the seeds.
@@ -94,6 +105,8 @@ class Densification(PointRule):
         with a candidate are triangulated.
         """
         points, cells, waiting = state.points, state.grids[0].cells, state.waiting
+        if self.outside_woods:
+            waiting = waiting[~state.grids[0].woods.ravel()[cells.index[waiting]]]
         heights = cells.minimum(points.z, state.seeds)
         surface, holding = inpaint(heights, first=cells.first), np.isfinite(heights)
         may_join = _counts_round(holding) <= _MOST_VERTICES_ROUND

@@ -50,6 +50,30 @@ class WideWindows(Rule):
 
 
 @dataclass(frozen=True)
+class CrownWindows(Rule):
+    """In woods, windows are no larger than crowns.
+
+    Where hardly a pulse reaches the ground, larger windows cut ridges off.
+
+    Attributes
+    ----------
+    radius : float
+        Radius in metres of a large crown.
+    edge : float
+        Within so many metres of the edge of a wood, houses may stand.
+    """
+
+    stage: ClassVar = Stage.OPENING
+
+    radius: float = 11.0
+    edge: float = 5.0
+
+    def where(self, grid: GridState) -> np.ndarray:
+        """Return the cells in which large windows do not count; boolean, shape (rows, columns)."""
+        return within_square(np.minimum, grid.woods, int(np.ceil(self.edge / grid.cells.size)))
+
+
+@dataclass(frozen=True)
 class ProgressiveOpening(GridRule):
     """Openings with growing windows cut off what is narrower than a window and too high above it.
 
@@ -74,7 +98,7 @@ class ProgressiveOpening(GridRule):
     """
 
     stage: ClassVar = Stage.OPENING
-    reads: ClassVar = ("heights", "objects")
+    reads: ClassVar = ("heights", "objects", "woods")
     writes: ClassVar = ("filled", "raised")
 
     largest_window: float
@@ -87,6 +111,7 @@ class ProgressiveOpening(GridRule):
     steepest: float = 0.6
     level_beyond: bool = True
     wide_windows: WideWindows | None = WideWindows()
+    crown_windows: CrownWindows | None = CrownWindows()
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
         """Raise the cells that stand out, and the objects."""
@@ -95,8 +120,11 @@ class ProgressiveOpening(GridRule):
         size, filled = grid.cells.size, grid.filled
         # Squares of cells begin at multiples of their side, wherever the grid starts.
         south, west = (start % _TOGETHER for start in grid.heights.origin)
-        padded = np.pad(filled, ((south, 0), (west, 0)), mode="edge")
-        found = self._standing_out(padded, size, progress.part(0.0, 0.8))
+        within = self.crown_windows.where(grid) if self.crown_windows else grid.woods & False
+        padded, within = (
+            np.pad(cells, ((south, 0), (west, 0)), mode="edge") for cells in (filled, within)
+        )
+        found = self._standing_out(padded, within, size, progress.part(0.0, 0.8))
         strict, limit = (mask[south:, west:].copy() for mask in found)
         surface = grid.heights.where(~(strict | grid.objects)).filled()
         smooth = smoothed(surface, size, self.smoothing)
@@ -106,9 +134,9 @@ class ProgressiveOpening(GridRule):
         grid.raised.ravel()[which] |= np.minimum(slope, self.steepest) < limit.ravel()[which]
 
     def _standing_out(
-        self, filled: np.ndarray, size: float, progress: Progress
+        self, filled: np.ndarray, within: np.ndarray, size: float, progress: Progress
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Open the grid with growing windows.
+        """Open the grid with growing windows; `within` are the cells without large ones.
 
         Returns
         -------
@@ -139,7 +167,10 @@ class ProgressiveOpening(GridRule):
             cut = cut.ravel()
             # Most cells lose too little to stand out on any slope.
             level = self.base + self.per_radius * metres
-            which = np.flatnonzero(cut > int(min(self.first_slope * metres, level) / step))
+            stands_out = cut > int(min(self.first_slope * metres, level) / step)
+            if self.crown_windows and metres > self.crown_windows.radius:
+                stands_out &= ~within.ravel()
+            which = np.flatnonzero(stands_out)
             lost = cut[which] * np.float32(step)
             first.ravel()[which[lost > self.first_slope * metres]] = True
             slope = self._limit(lost, metres)

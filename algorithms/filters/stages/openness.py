@@ -6,6 +6,7 @@ import numpy as np
 
 from ...core.points import Points
 from ...grids.cells import Cells
+from .woods import share_around
 
 # Points up to so many metres above the lowest one of their cell count as near it, and on slopes
 # what the ground rises within the cell.
@@ -33,15 +34,6 @@ def openness(points: Points, cells: Cells, rise: np.ndarray) -> np.ndarray:
     numpy.ndarray of float32, shape (rows, columns)
         0 to 1; 1 where there are no points.
     """
-    from scipy import ndimage
-
     lowest = cells.minimum(points.z).ravel()
     near = points.z <= (lowest + rise.ravel() + _NEAR)[cells.index]
-    counts = cells.counts().astype(np.float32)
-    nearby = np.bincount(cells.index[near], minlength=counts.size).reshape(cells.shape)
-    width = 2 * round(_WIDTH / cells.size / 2.0 - 0.5) + 1
-    total, some = (
-        ndimage.uniform_filter(grid.astype(np.float32), max(width, 1), mode="constant")
-        for grid in (counts, nearby)
-    )
-    return np.where(total > 0.0, some / np.maximum(total, 1e-6), 1.0)
+    return share_around(near, cells, _WIDTH, 1.0)

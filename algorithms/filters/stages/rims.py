@@ -172,6 +172,7 @@ class FineSeeds(PointRule):
         if cells.size <= self.size:
             return
         fine = GridState.of(state.points, state.spacing, self.size)
+        fine.woods = cells.resampled(wide.woods, fine.cells)
         x, y, z = state.points.take(fine.lowest)
         surface = wide.heights.where(~wide.raised).filled(_RELAXATIONS)
         rise = cells.size * np.minimum(steepness(surface, cells.size), _STEEPEST)

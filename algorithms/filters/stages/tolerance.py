@@ -8,7 +8,7 @@ from typing import ClassVar
 import numpy as np
 
 from ...core.points import Points
-from ...grids.cells import Cells
+from ...grids.cells import Cells, lower_at
 from ...grids.gradient import gradient, length, steepness
 from ...grids.inpaint import inpaint
 from ...grids.morphology import within_square
@@ -91,11 +91,12 @@ class MeasuredNoise(Rule):
         above: float,
         on_even: float,
     ) -> tuple[np.ndarray, float, float]:
-        """Return the surface and the tolerances above that follow the noise of the ground."""
+        """Return the rise of the surface to the middle of the noise, and the tolerances above."""
+        level = np.zeros(surface.shape)
         points, cells, spacing = state.points, state.grids[0].cells, state.spacing
         if spacing <= NOISE_SPACING:
             level, noise = middle_of_noise(points, cells, surface, slopes)
-            surface = surface + level.reshape(surface.shape)
+            level = level.reshape(surface.shape)
             on_even = max(on_even, self.least + self.factor * noise)
             above = on_even if spacing <= DENSE_SPACING else max(above, on_even)
         elif spacing <= _SPARSE:
@@ -104,7 +105,7 @@ class MeasuredNoise(Rule):
             number = np.asarray(max(cells.size / spacing, 1.0) ** 2)
             least = (self.sparse_factor + float(below_middle(number))) * noise - self.usual
             above, on_even = max(above, least), max(on_even, least)
-        return surface, above, on_even
+        return level, above, on_even
 
 
 @dataclass(frozen=True)
@@ -158,6 +159,24 @@ class Breaks(Rule):
 
 
 @dataclass(frozen=True)
+class LowPlants(Rule):
+    """Under trees, low plants stand among the points of the ground.
+
+    There the surface goes through the lowest vertices, and the tolerance above grows with no noise
+    and less with the slope.
+
+    Attributes
+    ----------
+    slope_share : float
+        Share of the tolerance on slopes that is left above the surface.
+    """
+
+    stage: ClassVar = Stage.ACCEPTED
+
+    slope_share: float = 0.3
+
+
+@dataclass(frozen=True)
 class ToleranceSurface(PointRule):
     """Points close to the surface through the seeds are ground.
 
@@ -185,29 +204,36 @@ class ToleranceSurface(PointRule):
     measured_noise: MeasuredNoise | None = MeasuredNoise()
     even_ground: EvenGround | None = EvenGround()
     breaks: Breaks | None = Breaks()
+    low_plants: LowPlants | None = LowPlants()
 
     def apply(self, state: State) -> None:
         """Set the limits of the heights of ground points."""
-        points, cells, spacing = state.points, state.grids[0].cells, state.spacing
-        surface, slopes, known = _centred(points, state.seeds, cells)
+        points, grid, spacing = state.points, state.grids[0], state.spacing
+        cells, plants = grid.cells, self.low_plants
+        woods = grid.woods if plants else np.zeros(cells.shape, dtype=bool)
+        surface, slopes, known = _centred(points, state.seeds, cells, woods)
         above, on_even = self.above, self.above
         if self.even_ground:
             on_even -= min(self.even_ground.less, self.even_ground.share * above)
+        of_plants = above, on_even
         if self.measured_noise:
-            surface, above, on_even = self.measured_noise.applied(
+            level, above, on_even = self.measured_noise.applied(
                 state, surface, slopes, above, on_even
             )
+            surface = surface + np.where(woods, 0.0, level)
         slope, curvature = _smooth_steepness(surface, cells), _curvature(surface)
         rise = self.on_slopes * min(max(spacing, _DENSE), _SPARSE) / _SPARSE * slope
+        rise_above = np.where(woods, plants.slope_share, 1.0) * rise if plants else rise
         if self.breaks and spacing < _SPARSE:
-            rise += self.breaks.factor * np.maximum(curvature - self.breaks.curvature, 0.0)
-        highest = above + rise
+            at_break = self.breaks.factor * np.maximum(curvature - self.breaks.curvature, 0.0)
+            rise, rise_above = rise + at_break, rise_above + at_break
+        highest = np.where(woods, of_plants[0], above) + rise_above
         if self.even_ground:
             # On slopes too steep to move vertices along, the middle of a cell is not known well
             # enough.
             uneven = self.even_ground.unevenness(curvature, known)
             uneven = np.where(slope <= _STEEPEST, uneven, np.inf)
-            highest = np.minimum(highest, on_even + uneven)
+            highest = np.minimum(highest, np.where(woods, of_plants[1], on_even) + uneven)
         state.limits = np.stack((surface - self.below - rise, surface + highest), axis=-1)
 
 
@@ -231,16 +257,20 @@ def _curvature(surface: np.ndarray) -> np.ndarray:
 
 
 def _centred(
-    points: Points, vertices: np.ndarray, cells: Cells
+    points: Points, vertices: np.ndarray, cells: Cells, woods: np.ndarray
 ) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray], np.ndarray]:
-    """Return the surface at the middles of cells, its slopes, and which cells have vertices."""
+    """Return the surface at the middles of cells, its slopes, and which cells have vertices.
+
+    It is the mean of the vertices of a cell, and under trees the lowest.
+    """
     cell, z = cells.index[vertices], points.z[vertices]
     north, east = from_middle(points.take(vertices), cells, cell)
     count = np.bincount(cell, minlength=cells.rows * cells.columns)
-    moved = z
+    moved, low = z, np.flatnonzero(woods.ravel()[cell])
     for _ in range(_MOVES + 1):
         total = np.bincount(cell, moved, minlength=count.size)
         heights = np.where(count > 0, total / np.maximum(count, 1), np.nan)
+        lower_at(heights, cell[low], moved[low])
         surface = inpaint(heights.reshape(cells.shape), first=cells.first)
         slopes = _slopes(surface, cells)
         moved = z - slopes[0].ravel()[cell] * north - slopes[1].ravel()[cell] * east

@@ -1,0 +1,73 @@
+"""Where trees stand: their leaves and branches split pulses."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from ...grids.cells import Cells
+from ..pipeline import PointRule, Stage
+from ..state import State
+
+
+@dataclass(frozen=True)
+class Woods(PointRule):
+    """Cells are under trees where many points are of pulses with several returns.
+
+    On roofs, rocks and fields their share is below a tenth, in woods a quarter to all. Where the
+    file has no returns, no cell is known to be under trees.
+
+    Attributes
+    ----------
+    share : float
+        Least share of such points in the surroundings.
+    width : float
+        Side in metres of the square in which they are counted.
+    """
+
+    stage: ClassVar = Stage.LOWEST
+    reads: ClassVar = ("multi_return", "grids")
+    writes: ClassVar = ("grids",)
+
+    share: float = 0.2
+    width: float = 5.0
+
+    def apply(self, state: State) -> None:
+        """Find the cells under trees."""
+        if state.multi_return is None or not state.multi_return.any():
+            return
+        for grid in state.grids:
+            shares = share_around(state.multi_return, grid.cells, self.width, 0.0)
+            grid.woods = shares >= self.share
+
+
+def share_around(which: np.ndarray, cells: Cells, width: float, default: float) -> np.ndarray:
+    """Return the share of some points in the surroundings of each cell.
+
+    Parameters
+    ----------
+    which : numpy.ndarray of bool, shape (n,)
+        The points that are counted.
+    cells : Cells
+        Cells of all points.
+    width : float
+        Side in metres of the square in which they are counted.
+    default : float
+        The share where there are no points.
+
+    Returns
+    -------
+    numpy.ndarray of float32, shape (rows, columns)
+    """
+    from scipy import ndimage
+
+    counts = cells.counts().astype(np.float32)
+    some = np.bincount(cells.index[which], minlength=counts.size).reshape(cells.shape)
+    side = max(2 * round(width / cells.size / 2.0 - 0.5) + 1, 1)
+    total, some = (
+        ndimage.uniform_filter(grid.astype(np.float32), side, mode="constant")
+        for grid in (counts, some)
+    )
+    return np.where(total > 0.0, some / np.maximum(total, 1e-6), default)
