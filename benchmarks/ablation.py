@@ -167,7 +167,7 @@ class _Scorer:
 def _digest(job: Job) -> str:
     """Return what tells apart what is kept: the code, the method, the data and the measuring."""
     place, own = job.place, hashlib.sha256(_code(_FILTERS))
-    own.update(repr((job.method, place, 2)).encode())
+    own.update(repr((job.method, place)).encode())
     own.update(_code(_SCENES) if place.kind == "scene" else place.path().read_bytes())
     return f"{place.kind}-{place.name}-{own.hexdigest()[:24]}"
 
