@@ -89,7 +89,7 @@ def _phases(places: Places) -> Range:
     totals: dict[str, list[float]] = {}
     for place, value in _of(places, BASE, "isprs", "total").items():
         totals.setdefault(place.split(" ", 1)[1], []).append(value)
-    return Range.of(np.array([np.mean(some) for some in totals.values()] or [np.nan]))
+    return Range.of(np.array([sum(some) / len(some) for some in totals.values()] or [np.nan]))
 
 
 def _ends(changes: dict[str, float], digits: int) -> list[str]:
@@ -105,14 +105,16 @@ def _ends(changes: dict[str, float], digits: int) -> list[str]:
 def _of_scenes(places: Places, name: str) -> list[str]:
     """Return how many scenes get worse and better, and the worst as text."""
     changes = {
-        (place.split()[0], short): value
+        f"{place.split()[0]} {short}": value
         for figure, short in (("type_1", "I"), ("type_2", "II"))
         for place, value in _changes(places, name, "scene", figure).items()
     }
-    worse = {place for (place, _), value in changes.items() if value > _WORSE}
-    better = {place for (place, _), value in changes.items() if value < -_WORSE}
-    worst = max(changes, key=changes.__getitem__, default=())
-    text = " ".join((*worst, f"{changes[worst]:+.1f}")) if worse else tables.NONE
+    if not changes:
+        return [tables.NONE] * 3
+    worse = {place.split()[0] for place, value in changes.items() if value > _WORSE}
+    better = {place.split()[0] for place, value in changes.items() if value < -_WORSE}
+    worst = max(changes, key=changes.__getitem__)
+    text = f"{worst} {changes[worst]:+.1f}" if worse else tables.NONE
     return [str(len(worse)), str(len(better)), text]
 
 
