@@ -33,7 +33,8 @@ The filters are pipelines of rules. Here each rule is left out, alone and in gro
 is measured again. A rule is worth its code if errors get worse without it, above all on real land.
 
 - *lines*: of the class of the rule, and of the rules that are its fields; helpers do not count.
-- *CPU*: share of the time of the filter on {timed} that is saved, in percent, good to 5 points.
+- *CPU*: share of the time of the filter on {timed} that is saved, in percent. On a machine
+  with other work up to 15 points are chance.
 - *ISPRS*: change of the mean total error of {samples} samples, in percentage points, over {phases}
   positions of the grid. Bold if it is larger than the range of the base over these positions.
 - *labels*: the real tiles on which the total error changes most, in percentage points, of {labels}.

@@ -34,6 +34,9 @@ GROUPS = {
     "kinds of borders": ("small-buildings", "level-border", "open-border"),
     "checks of seeds": ("plants", "level-seeds"),
     "kinds of tolerance": ("measured-noise", "even-ground", "breaks"),
+    "nothing alone on real land": (
+        "cliff-faces", "large-buildings", "open-border", "ramps", "low-banks", "between-ditches",
+    ),
 }  # fmt: skip
 # Other values of a rule: its class, and the values.
 VALUES: dict[str, tuple[type[Rule], dict[str, Any]]] = {
