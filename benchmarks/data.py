@@ -61,6 +61,11 @@ REAL = (
     RealTile("ign_pf8.las"),
     RealTile("hawaii_forest.laz"),
     RealTile("wires_single_return.laz"),
+    RealTile("conifer_1.laz"),
+    RealTile("conifer_2.laz"),
+    RealTile("mountain_forest.laz"),
+    RealTile("rainforest_ridge.laz"),
+    RealTile("yard_photogrammetry.laz", True),
 )
 
 

@@ -18,8 +18,6 @@ from .sensitivity import SOME, Moved, Sensitivity
 PAGE = Path(__file__).parents[1] / "docs" / "accuracy.md"
 IMAGES = PAGE.parent / "images"
 TEMPLATE = Path(__file__).parent / "accuracy.md"
-# What was tried, written by hand.
-TRIED = Path(__file__).parent / "tried.md"
 WORST_NAME, RELIEF_NAME = "accuracy-worst-", "accuracy-relief-"
 SCENE_NAME = "accuracy-scene-"
 WORST, WORST_SCENES = 3, 5
@@ -28,6 +26,7 @@ RELIEF_TILES = ("hawaii_forest", "ahn3_urban")
 _SITES = {
     "samp11": "a steep slope with houses and low vegetation",
     "samp21": "a bridge, and narrow strips of ground",
+    "samp23": "a town with plazas, terraces and large blocks",
     "samp24": "ramps",
     "samp31": "dense buildings",
     "samp42": "a railway station with very long roofs",
@@ -48,6 +47,11 @@ _TILES = {
     "ign_pf8": "IGN LiDAR HD, 11.5 points/m²",
     "hawaii_forest": "forest on a crater and lava, steep, 19.2 points/m²",
     "wires_single_return": "power lines and forest, 2.1 points/m²",
+    "conifer_1": "dense conifers on rough ground, 12 points/m²",
+    "conifer_2": "the tile beside it, 14 points/m²",
+    "mountain_forest": "forest with shrubs on slopes of 30 to 45°, 2.3 points/m²",
+    "rainforest_ridge": "rain forest on steep ridges, 20 points/m² of which 0.2 reach the ground",
+    "yard_photogrammetry": "trees and yards in points from drone images, 54 points/m²",
 }
 
 
@@ -124,7 +128,6 @@ def write(
         "relief": _pictures(pictures, RELIEF_NAME),
         "scenes": _scenes(scenes),
         "scenes_worst": _pictures(pictures, SCENE_NAME),
-        "tried": TRIED.read_text(encoding="utf-8").strip().splitlines(),
         "sensitivity": _moved(moved, isprs, real),
         "problems": [f"- **What failed**: {each}." for each in tables.problems(real)],
     }

@@ -8,7 +8,7 @@ from concurrent.futures import ProcessPoolExecutor
 from typing import Callable, Iterable, Iterator, TypeVar
 
 Job, Result = TypeVar("Job"), TypeVar("Result")
-PROCESSES = min(2, os.cpu_count() or 1)
+PROCESSES = int(os.environ.get("BARE_EARTH_PROCESSES") or min(2, os.cpu_count() or 1))
 
 
 def side_by_side(function: Callable[[Job], Result], jobs: Iterable[Job]) -> Iterator[Result]:

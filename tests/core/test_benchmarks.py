@@ -98,7 +98,7 @@ def test_the_whole_benchmark_writes_the_page(folder, capsys, monkeypatch):
     assert "| lowest " in page
     assert "PDAL SMRF (quoted)" in page
     assert "$" not in page
-    assert "### What was tried" in page
+    assert "(rules.md)" in page
     assert "| drone_50 " in page and "tuning: I" in page
     assert re.search(r"\*\*Slope filter\*\*.* \d+\.\d\d \(\d+\.\d to \d+\.\d\)", page)
     pictures = "accuracy-worst-1.png", "accuracy-relief-ahn3-urban.png", "accuracy-scene-2.png"

@@ -1,0 +1,183 @@
+"""The tables of what each rule is worth, and docs/rules.md."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from bare_earth.algorithms.filters import METHODS
+
+from . import tables
+from .phases import Range
+from .rules import BASE, GROUPS, VALUES, lines, variants
+from .scenes import KINDS as KINDS_OF_SCENES
+
+# Kinds of places where rules are measured.
+KINDS = "isprs", "real", "scene"
+PAGE = Path(__file__).parents[1] / "docs" / "rules.md"
+COMMENTS = Path(__file__).parent / "rules_comments.md"
+# A scene is worse if its type I or type II error is larger by more than so many points.
+_WORSE = 1.0
+_HEAD = (
+    "Left out", "lines", "CPU, %", "ISPRS", "labels: worst", "best", "DTM: worst", "best",
+    "scenes worse", "better", "the worst",
+)  # fmt: skip
+_BASE_HEAD = (
+    "All rules", "ISPRS total error, %", "tiles with labels, %", "DTM: RMSE, m",
+    "samples and phases", "tiles", "scenes",
+)  # fmt: skip
+_ABOUT = """# What each rule is worth
+
+The filters are pipelines of rules. Here each rule is left out, alone and in groups, and everything
+is measured again. A rule is worth its code if errors get worse without it, above all on real land.
+
+- *lines*: of the class of the rule, and of the rules that are its fields; helpers do not count.
+- *CPU*: share of the time of the filter on {timed} that is saved, in percent. On a machine
+  with other work up to 15 points are chance.
+- *ISPRS*: change of the mean total error of {samples} samples, in percentage points, over {phases}
+  positions of the grid. Bold if it is larger than the range of the base over these positions.
+- *labels*: the real tiles on which the total error changes most, in percentage points, of {labels}.
+- *DTM*: the real tiles on which the RMSE of the terrain model changes most, in metres, of {models}.
+- *scenes*: generated scenes ({scenes}) whose type I or type II error gets worse, or better, by more
+  than one point without the rule, and the worst of them. Nobody tuned with their seeds.
+
+A positive change is a loss without the rule. 0 is less than can be printed. A rule may be worth
+nothing alone and something in a group, where no other stands in for it. The command
+`python -m benchmarks.ablation --write` makes this page; this one is {form}.
+"""
+
+# Figures of a variant at a place, by name.
+Figures = dict[str, float]
+# Kind and name of the place, then name of the variant.
+Places = dict[tuple[str, str], dict[str, Figures]]
+# Name of the method, then as above.
+Results = dict[str, Places]
+
+
+def _of(places: Places, name: str, kind: str, figure: str) -> dict[str, float]:
+    """Return a figure of a variant at the places of a kind that have it."""
+    return {
+        place: found[name][figure]
+        for (of_kind, place), found in places.items()
+        if of_kind == kind and figure in found.get(name, ())
+    }
+
+
+def _changes(places: Places, name: str, kind: str, figure: str) -> dict[str, float]:
+    """Return by how much a figure changes, the best first."""
+    base, found = (_of(places, variant, kind, figure) for variant in (BASE, name))
+    changes = {place: value - base[place] for place, value in found.items()}
+    return dict(sorted(changes.items(), key=lambda change: change[1]))
+
+
+def _signed(value: float, digits: int) -> str:
+    return f"{value:+.{digits}f}" if abs(value) >= 0.5 * 10**-digits else "0"
+
+
+def _of_samples(places: Places, name: str) -> str:
+    """Return the mean change on the samples, bold if larger than the range of the phases."""
+    changes = list(_changes(places, name, "isprs", "total").values())
+    if not changes:
+        return tables.NONE
+    change, range_ = float(np.mean(changes)), _phases(places)
+    text = _signed(change, 2)
+    return f"**{text}**" if abs(change) > range_.most - range_.least else text
+
+
+def _phases(places: Places) -> Range:
+    """Return the mean total error of all rules over the samples, with its range over the phases."""
+    totals: dict[str, list[float]] = {}
+    for place, value in _of(places, BASE, "isprs", "total").items():
+        totals.setdefault(place.split(" ", 1)[1], []).append(value)
+    return Range.of(np.array([sum(some) / len(some) for some in totals.values()] or [np.nan]))
+
+
+def _ends(changes: dict[str, float], digits: int) -> list[str]:
+    """Return the worst change, if it is a loss, and the best, if it is a gain, as text."""
+    signed = [(place, _signed(value, digits)) for place, value in changes.items()]
+    worst, best = signed[-1:], signed[:1]
+    return [
+        " ".join(*found) if found and found[0][1][0] == sign else tables.NONE
+        for found, sign in ((worst, "+"), (best, "-"))
+    ]
+
+
+def _of_scenes(places: Places, name: str) -> list[str]:
+    """Return how many scenes get worse and better, and the worst as text."""
+    changes = {
+        f"{place.split()[0]} {short}": value
+        for figure, short in (("type_1", "I"), ("type_2", "II"))
+        for place, value in _changes(places, name, "scene", figure).items()
+    }
+    if not changes:
+        return [tables.NONE] * 3
+    worse = {place.split()[0] for place, value in changes.items() if value > _WORSE}
+    better = {place.split()[0] for place, value in changes.items() if value < -_WORSE}
+    worst = max(changes, key=changes.__getitem__)
+    text = f"{worst} {changes[worst]:+.1f}" if worse else tables.NONE
+    return [str(len(worse)), str(len(better)), text]
+
+
+def _saved(places: Places, name: str) -> str:
+    for place, seconds in _of(places, name, "real", "cpu").items():
+        return f"{100.0 * (1.0 - seconds / _of(places, name, 'real', 'cpu_base')[place]):.0f}"
+    return tables.NONE
+
+
+def table(places: Places, method: str) -> list[str]:
+    """Return what each change of a method does: of those that were measured somewhere."""
+    known = {name for found in places.values() for name in found}
+    rows = [
+        [
+            name,
+            str(lines(method, name) or tables.NONE),
+            _saved(places, name),
+            _of_samples(places, name),
+            *_ends(_changes(places, name, "real", "total"), 2),
+            *_ends(_changes(places, name, "real", "rmse"), 3),
+            *_of_scenes(places, name),
+        ]
+        for name in variants(method)
+        if name in known and name != BASE
+    ]
+    return tables.table(_HEAD, rows)
+
+
+def _base(method: str, places: Places) -> list[str]:
+    """Return the figures of a method with all rules."""
+    real = (list(_of(places, BASE, "real", figure).values()) for figure in ("total", "rmse"))
+    return [
+        METHODS[method].label,
+        tables.ranged(_phases(places)),
+        *(f"{np.mean(found):.3f}" if found else tables.NONE for found in real),
+        *(str(sum(kind == of_kind for of_kind, _ in places)) for kind in KINDS),
+    ]
+
+
+def write(results: Results, is_quick: bool) -> None:
+    """Write the page, with the comments as they stand in their file."""
+    everywhere = {place: found for places in results.values() for place, found in places.items()}
+    samples = [place.split(" ", 1) for kind, place in everywhere if kind == "isprs"]
+    scenes = sum(kind == "scene" for kind, _ in everywhere)
+    text = [
+        _ABOUT.format(
+            timed=", ".join(_of(everywhere, BASE, "real", "cpu")) or tables.NONE,
+            samples=len({name for name, _ in samples}),
+            phases=len({phase for _, phase in samples}),
+            labels=", ".join(_of(everywhere, BASE, "real", "total")),
+            models=", ".join(_of(everywhere, BASE, "real", "rmse")),
+            scenes=f"{scenes} of {len(KINDS_OF_SCENES)} kinds",
+            form="its quick form, `--quick`" if is_quick else "its full form",
+        ),
+        *tables.table(_BASE_HEAD, [_base(method, places) for method, places in results.items()]),
+    ]
+    for method, places in results.items():
+        text += ["", f"## {METHODS[method].label}", "", *table(places, method)]
+    text += ["", "Groups and values:", ""]
+    text += [f"- *{name}*: {', '.join(GROUPS[name])}." for name in GROUPS]
+    for name, (kind, values) in VALUES.items():
+        given = ", ".join(f"`{field}` {value}" for field, value in values.items())
+        text.append(f"- *{name}*: {kind.name} with {given}.")
+    text += ["", COMMENTS.read_text("utf-8").rstrip()]
+    PAGE.write_text("\n".join(text) + "\n", "utf-8")

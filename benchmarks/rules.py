@@ -1,0 +1,111 @@
+"""The rules of the filters, which their pipelines tell, and what is changed to measure them."""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses
+import inspect
+from typing import Any, Iterator
+
+import numpy as np
+
+from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.core.progress import SILENT
+from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.filters.method import Method
+from bare_earth.algorithms.filters.pipeline import Pipeline, Rule
+from bare_earth.algorithms.filters.stages.lowest import LowestPoints
+from bare_earth.algorithms.filters.stages.objects import RaisedObjects
+from bare_earth.algorithms.filters.stages.opening import ProgressiveOpening
+from bare_earth.algorithms.filters.stages.terrain import GentleBorder, GentleRegions
+
+# The variant with all rules.
+BASE = "base"
+# Nothing works without these, and the last does nothing if no ground is known.
+_LEFT_IN = "lowest-points", "seeds", "tolerance-surface", "near-surface", "known-ground"
+# Rules that are left out together.
+GROUPS = {
+    "low points": (
+        "dense-outliers", "low-groups", "narrow-pits", "isolated-low-points", "wide-pits",
+        "block-pits", "dense-pits",
+    ),
+    "all plateaus": ("plateaus", "cut-plateaus"),
+    "landforms": ("rocks", "ramps", "low-banks", "between-ditches"),
+    "kinds of borders": ("small-buildings", "level-border", "open-border"),
+    "checks of seeds": ("plants", "level-seeds"),
+    "kinds of tolerance": ("measured-noise", "even-ground", "breaks"),
+    "nothing alone on real land": (
+        "cliff-faces", "large-buildings", "open-border", "ramps", "low-banks", "between-ditches",
+    ),
+}  # fmt: skip
+# Other values of a rule: its class, and the values.
+VALUES: dict[str, tuple[type[Rule], dict[str, Any]]] = {
+    "one grid": (LowestPoints, {"grids": 1}),
+    "large cells where points are dense": (LowestPoints, {"dense_size": None}),
+    "objects on the cells of the filter": (RaisedObjects, {"wide": None}),
+    "low and wide objects": (RaisedObjects, {"steepness": 0.0}),
+    "nothing beyond the survey": (ProgressiveOpening, {"level_beyond": False}),
+    "gaps are not judged": (GentleRegions, {"judges_gaps": False}),
+    "rising borders are not gentle": (GentleBorder, {"rise_counts": False}),
+}
+
+
+def pipeline_of(method: str) -> Pipeline:
+    """Return the rules of a method as it runs by default."""
+    parameters = METHODS[method].parameters()
+    return METHODS[method].pipeline(Points(*np.eye(3)), parameters, SILENT)
+
+
+def rules(method: str) -> dict[str, type[Rule]]:
+    """Return the rules of a method that can be left out, by their names."""
+    parts = (part for rule in pipeline_of(method).rules for part in rule.parts())
+    return {part.name: type(part) for part in parts if part.name not in _LEFT_IN}
+
+
+def variants(method: str) -> list[str]:
+    """Return what can be changed in a method: first nothing, then rules, groups and values."""
+    usual = pipeline_of(method)
+    changes = (name for name in (*GROUPS, *VALUES) if changed(usual, name) != usual)
+    return [BASE, *rules(method), *changes]
+
+
+def lines(method: str, variant: str) -> int:
+    """Return how many lines the classes of the rules have that a variant leaves out."""
+    usual = pipeline_of(method)
+    whole, kept = (
+        {type(part) for rule in pipeline.rules for part in rule.parts()}
+        for pipeline in (usual, changed(usual, variant))
+    )
+    return sum(len(inspect.getsource(part).splitlines()) for part in whole - kept)
+
+
+def changed(pipeline: Pipeline, variant: str) -> Pipeline:
+    """Return a pipeline without the rule or the group of this name, or with such values."""
+    if variant in VALUES:
+        return Pipeline(tuple(_with(rule, *VALUES[variant]) for rule in pipeline.rules))
+    names = set(GROUPS.get(variant, (variant,)))
+    return pipeline.without(*names.intersection(pipeline.names))
+
+
+def _with(rule: Rule, kind: type[Rule], values: dict[str, Any]) -> Rule:
+    """Return a rule with values for itself, if it is of a kind, and for the rules in its fields."""
+    fields = {field.name: getattr(rule, field.name) for field in dataclasses.fields(rule)}
+    parts = {
+        name: _with(part, kind, values) for name, part in fields.items() if isinstance(part, Rule)
+    }
+    return dataclasses.replace(rule, **parts, **(values if isinstance(rule, kind) else {}))
+
+
+@contextlib.contextmanager
+def switched_off(variant: str) -> Iterator[None]:
+    """Run the filters as a variant has them."""
+
+    def varied(method: Method) -> Method:
+        return method._replace(pipeline=lambda *given: changed(method.pipeline(*given), variant))
+
+    usual = dict(METHODS)
+    METHODS.update({name: varied(method) for name, method in usual.items()})
+    try:
+        yield
+    finally:
+        METHODS.update(usual)

@@ -1,0 +1,86 @@
+"""What the rules are worth: every rule can be left out, and what was measured is kept."""
+
+import numpy as np
+import pytest
+
+from bare_earth.algorithms.filters import METHODS
+from benchmarks import ablation, ablation_page, cache, data, work
+from benchmarks.measure import Filter
+from benchmarks.rules import GROUPS, VALUES, changed, lines, pipeline_of, switched_off, variants
+from benchmarks.scenes import make
+
+SCENE = "hillside_village"
+
+
+@pytest.fixture
+def kept(tmp_path, monkeypatch):
+    """A cache of its own, no data, and the scene alone."""
+    monkeypatch.setattr(cache, "FOLDER", tmp_path / "cache")
+    monkeypatch.setattr(data, "FOLDER", tmp_path / "data")
+    monkeypatch.setattr(work, "PROCESSES", 1)
+    monkeypatch.setattr(ablation, "KINDS", {SCENE: ablation.KINDS[SCENE]})
+    monkeypatch.setattr(ablation_page, "PAGE", tmp_path / "rules.md")
+    return tmp_path
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_every_variant_but_the_base_changes_the_pipeline(method):
+    usual = pipeline_of(method)
+    base, *changes = variants(method)
+    assert changed(usual, base) == usual
+    assert len(changes) > 20
+    for name in changes:
+        assert changed(usual, name) != usual, name
+        assert (lines(method, name) == 0) == (name in VALUES), name
+
+
+def test_groups_and_values_are_of_rules_that_some_method_has():
+    names = {name for method in METHODS for name in variants(method)}
+    assert set(GROUPS) | set(VALUES) <= names
+    assert {rule for rules in GROUPS.values() for rule in rules} <= names
+
+
+def test_values_are_changed_wherever_the_rule_is_a_field():
+    pipeline = changed(pipeline_of("grid-minimum"), "objects on the cells of the filter")
+    parts = [part for rule in pipeline.rules for part in rule.parts()]
+    assert [part.wide for part in parts if part.name == "raised-objects"] == [None, None]
+
+
+def test_a_rule_is_off_only_within():
+    cloud = make(SCENE, 101, size=60.0, density=1.0).cloud()
+    slope = Filter("slope")
+    before = slope.ground(cloud)
+    with switched_off("progressive-opening"):
+        without = slope.ground(cloud)
+    assert without.sum() > before.sum()
+    with switched_off("rims"):  # of another method
+        np.testing.assert_array_equal(slope.ground(cloud), before)
+    np.testing.assert_array_equal(slope.ground(cloud), before)
+
+
+def test_what_was_measured_is_kept(kept, monkeypatch, capsys):
+    arguments = ["--quick", "--method", "slope", "--rules", "progressive-opening", "rocks"]
+    ablation.main([*arguments, "--write"])
+    printed = capsys.readouterr().out
+    page = (kept / "rules.md").read_text("utf-8")
+    assert "## Slope filter" in page and "| rocks " in page and "Grid minimum" not in page
+    monkeypatch.setattr(ablation, "Filter", None)  # nothing is measured again
+    ablation.main([*arguments, "--kept"])
+    assert capsys.readouterr().out == printed
+    (place,) = ablation.places(True)
+    job = ablation.Job("slope", place, ("base", "progressive-opening", "rocks"))
+    base, without_opening, without_rocks = ablation.run(job).values()
+    assert without_opening["type_2"] > base["type_2"] and without_rocks == base
+
+
+def test_labels_and_terrain_models_are_measured(kept, monkeypatch):
+    scene = make(SCENE, 101, size=60.0, density=1.0)
+    monkeypatch.setattr(data, "load", lambda path: (scene.cloud(), np.where(scene.ground, 2, 1)))
+    tiles = {tile.is_trusted: tile.title for tile in data.REAL}
+    figures = {
+        trusted: ablation._Scorer(
+            ablation.Job("grid-minimum", ablation.Place("real", title), ())
+        ).figures("rims")
+        for trusted, title in tiles.items()
+    }
+    assert figures[True]["total"] > 0.0 and figures[False]["rmse"] >= 0.0
