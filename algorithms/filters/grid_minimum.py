@@ -267,7 +267,7 @@ def _classic(resolved: GridMinimum) -> Pipeline:
     return Pipeline(
         (
             LowestPoints(size=resolved.cell_size),
-            BlockPits(corroborated=None),
+            BlockPits(),
             TallObjects(objects, min(heights)),
             Rims(objects, resolved.final_height, objects_grow_back=True),
             PaperSurface(resolved.ground_tolerance, resolved.slope_tolerance),

@@ -10,7 +10,6 @@ from ..core.parameters import ParameterSet
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from .pipeline import Pipeline
-from .state import State
 
 # Added to the number of the rule in a cell that is not ground.
 NOT_GROUND = 100
@@ -121,19 +120,6 @@ class Method(NamedTuple):
     presets: Mapping[str, Any]
     toolbox: Toolbox
     takes_known_ground: bool = False
-
-    def run(
-        self,
-        points: Points,
-        parameters: ParameterSet,
-        progress: Progress = SILENT,
-        known: np.ndarray | None = None,
-        multi_return: np.ndarray | None = None,
-        explains: bool = False,
-    ) -> State:
-        """Return what the rules of the method find out about the points; see `Pipeline.run`."""
-        pipeline = self.pipeline(points, parameters, progress)
-        return pipeline.run(points, progress, known, multi_return, explains)
 
     def ground(
         self,

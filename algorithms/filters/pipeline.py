@@ -165,7 +165,8 @@ class Pipeline:
         Cancelled
             If the user asked to stop.
         """
-        state = State(points, progress, known_ground, multi_return, explains)
+        state = State(points, progress, known_ground, multi_return)
+        outliers = [n for n, rule in enumerate(self.rules) if rule.stage is Stage.OUTLIERS]
         for number, rule in enumerate(self.rules):
             part = progress.part(number / len(self.rules), (number + 1) / len(self.rules))
             begun = time.perf_counter()
@@ -180,13 +181,9 @@ class Pipeline:
             if explains:
                 state.note(number)
             part(1.0)
-            if rule.stage is Stage.OUTLIERS:
-                last_outliers = all(
-                    later.stage is not Stage.OUTLIERS for later in self.rules[number + 1 :]
-                )
-                if last_outliers:
-                    grid = state.grids[0]
-                    warn_of_outliers(len(grid.lowest), grid.heights.values, progress)
+            if outliers and number == outliers[-1]:
+                grid = state.grids[0]
+                warn_of_outliers(len(grid.lowest), grid.heights.values, progress)
         return state
 
 

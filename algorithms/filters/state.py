@@ -156,8 +156,6 @@ class State:
         Which points are known to be ground.
     multi_return : numpy.ndarray of bool, shape (n,), or None
         Which points are of pulses with several returns.
-    explains : bool
-        Whether `decided` is wanted.
     low_noise : numpy.ndarray of bool, shape (n,), or None
         Points that are left out as low noise; None for none.
     grids : list of GridState
@@ -180,7 +178,6 @@ class State:
     progress: Progress
     known_ground: np.ndarray | None = None
     multi_return: np.ndarray | None = None
-    explains: bool = False
     low_noise: np.ndarray | None = None
     grids: list[GridState] = field(default_factory=list)
     seeds: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.intp))

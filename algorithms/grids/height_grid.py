@@ -38,7 +38,3 @@ class HeightGrid(NamedTuple):
     def filled(self, relaxations: int = RELAXATIONS) -> np.ndarray:
         """Return the heights with gaps filled smoothly; see `inpaint`."""
         return inpaint(self.values, relaxations, self.origin)
-
-    def cells(self, metres: float) -> int:
-        """Return a length in whole cells, at least 1."""
-        return max(round(metres / self.size), 1)

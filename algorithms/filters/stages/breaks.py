@@ -150,7 +150,7 @@ class LevelSeeds(PointRule):
             if state.rise is None:
                 mean = mean_surface(points, state.seeds, cells, spacing)
                 state.rise = steepness(mean, cells.size) * cells.size
-            share = openness(points, cells, state.rise)
+            share = openness(points, cells, state.grids[0].lowest, state.rise)
             is_open = (share >= self.openness.share).ravel()[cells.index[state.waiting]]
             state.waiting, never = state.waiting[is_open], state.waiting[~is_open]
         for _ in range(self.passes):

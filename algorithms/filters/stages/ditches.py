@@ -11,9 +11,7 @@ from ...core.progress import SILENT, Progress
 from ...grids.morphology import within_square
 from ..pipeline import GridRule, Stage
 from ..state import GridState
-
-# A cell is even within so many metres of the mean of two opposite neighbours.
-_BEND = 0.15
+from .raised_regions import even_cells
 
 
 @dataclass(frozen=True)
@@ -71,14 +69,6 @@ class BetweenDitches(GridRule):
         fits &= (into_ditch >= self.share * border) & (
             2.0 * cells_of * size >= self.least_width * border
         )
-        even = np.bincount(number[_is_even(filled)], minlength=count + 1)
+        even = np.bincount(number[even_cells(filled)], minlength=count + 1)
         fits &= even >= self.even_share * cells_of
         grid.raised &= ~fits[number]
-
-
-def _is_even(filled: np.ndarray) -> np.ndarray:
-    """Return which cells are about as high as the mean of two opposite neighbours."""
-    even = np.zeros(filled.shape, dtype=bool)
-    for to, z in ((even, filled), (even.T, filled.T)):
-        to[1:-1] |= np.abs(z[2:] + z[:-2] - 2.0 * z[1:-1]) <= 2.0 * _BEND
-    return even

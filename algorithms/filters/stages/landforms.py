@@ -1,4 +1,4 @@
-"""Landforms with drops on most sides: rocks and ramps."""
+"""Landforms with drops on most sides: rocks, ramps and low banks."""
 
 from __future__ import annotations
 
@@ -123,8 +123,6 @@ class LowBanks(Rule):
         Largest mean width in metres.
     even_share : float
         Least share of the cells that are even.
-    bend : float
-        A cell is even within so many metres of the mean of two opposite neighbours.
     """
 
     stage: ClassVar = Stage.TERRAIN
@@ -133,18 +131,17 @@ class LowBanks(Rule):
     height: float = 1.2
     width: float = 6.0
     even_share: float = 0.7
-    bend: float = 0.15
 
     def fits(self, regions: RaisedRegions) -> np.ndarray:
         """Return which regions are banks; boolean, shape (regions,)."""
         count = len(regions.area)
         sides = np.zeros(count)
         for kinds in regions.borders:
-            for region, _ in kinds:
-                sides += np.bincount(region, minlength=count)
+            for first, _ in kinds:
+                sides += np.bincount(first, minlength=count)
         width = 2.0 * regions.area / np.maximum(sides * regions.size, regions.size)
-        even = regions.even(self.bend)
-        share = np.bincount(regions.cells.region, even, count) * regions.size**2 / regions.area
+        region = regions.cells.region
+        share = np.bincount(region, regions.even, count) / np.bincount(region, minlength=count)
         is_bank = (regions.area >= self.area) & (width <= self.width)
         return is_bank & (regions.above <= self.height) & (share >= self.even_share)
 

@@ -110,7 +110,6 @@ class LargeBuildings(Rule):
         steps: HeightSteps,
         grid: HeightGrid,
         raised: np.ndarray,
-        max_size: float,
         objects: RaisedObjects,
     ) -> np.ndarray:
         """Return the cells of large buildings; objects and plateaus that touch them are included.
@@ -121,7 +120,7 @@ class LargeBuildings(Rule):
         from scipy import ndimage
 
         regions = steps.regions(self.drop, self.neck)
-        raised = raised | objects.plateaus_of(regions, max_size, self.least_width)
+        raised = raised | objects.plateaus_of(regions, self.least_width)
         number, _ = ndimage.label(raised)
         area = np.bincount(number.ravel()) * grid.size**2
         is_large = area >= self.areas[0]
@@ -234,39 +233,33 @@ class RaisedObjects(GridRule):
             regions = HeightSteps(rest, inside).regions(height)
             found = self.bounded(regions)
             if self.plateaus:
-                plateaus |= self.plateaus_of(regions, self.max_size)
+                plateaus |= self.plateaus_of(regions)
             rest.values[found] = np.nan
             objects |= found
             progress(done / len(self.heights))
         if self.plateaus:
             steps = HeightSteps(rest, inside)
-            plateaus |= self.plateaus_of(steps.regions(self.plateaus.height), self.max_size)
+            plateaus |= self.plateaus_of(steps.regions(self.plateaus.height))
             if self.plateaus.large_buildings:
                 known = objects | plateaus
-                large = self.plateaus.large_buildings.find(steps, grid, known, self.max_size, self)
+                large = self.plateaus.large_buildings.find(steps, grid, known, self)
                 objects |= large
         return Objects(objects, plateaus & ~objects, large)
 
     def bounded(self, regions: Regions) -> np.ndarray:
         """Return the cells of the regions that are objects."""
-        return self._bounded(regions, self.max_size, self.steepness)
+        return self._bounded(regions, self.steepness)
 
-    def plateaus_of(
-        self, regions: Regions, max_size: float, least_width: float = 0.0
-    ) -> np.ndarray:
+    def plateaus_of(self, regions: Regions, least_width: float = 0.0) -> np.ndarray:
         """Return the cells of the regions that drop all round, also of those that drop little."""
-        return self._bounded(regions, max_size, 0.0, regions.width >= least_width)
+        return self._bounded(regions, 0.0, regions.width >= least_width)
 
     def _bounded(
-        self,
-        regions: Regions,
-        max_size: float,
-        steepness: float,
-        fits: np.ndarray | bool = True,
+        self, regions: Regions, steepness: float, fits: np.ndarray | bool = True
     ) -> np.ndarray:
         if self.cliff_faces:
             fits = fits & ~self.cliff_faces.spared(regions)
-        return regions.bounded(max_size, self.share, self.whole_share, steepness, fits)
+        return regions.bounded(self.max_size, self.share, self.whole_share, steepness, fits)
 
 
 @dataclass(frozen=True)

@@ -120,7 +120,7 @@ class ProgressiveOpening(GridRule):
         size, filled = grid.cells.size, grid.filled
         # Squares of cells begin at multiples of their side, wherever the grid starts.
         south, west = (start % _TOGETHER for start in grid.heights.origin)
-        within = self.crown_windows.where(grid) if self.crown_windows else grid.woods & False
+        within = self.crown_windows.where(grid) if self.crown_windows else grid.woods
         padded, within = (
             np.pad(cells, ((south, 0), (west, 0)), mode="edge") for cells in (filled, within)
         )

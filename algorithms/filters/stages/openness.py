@@ -15,7 +15,7 @@ _NEAR = 0.6
 _WIDTH = 5.0
 
 
-def openness(points: Points, cells: Cells, rise: np.ndarray) -> np.ndarray:
+def openness(points: Points, cells: Cells, lowest: np.ndarray, rise: np.ndarray) -> np.ndarray:
     """Return the share of points near the lowest one of their cell, in the surroundings of a cell.
 
     It is about 1 on open ground, on roofs and where points are sparse, and 0.2 to 0.6 under trees.
@@ -26,6 +26,8 @@ def openness(points: Points, cells: Cells, rise: np.ndarray) -> np.ndarray:
         All points that take part, mostly last returns.
     cells : Cells
         Their cells.
+    lowest : numpy.ndarray of intp
+        The lowest point of each cell.
     rise : numpy.ndarray of float, shape (rows, columns)
         How much the ground rises from side to side of a cell, in metres.
 
@@ -34,6 +36,7 @@ def openness(points: Points, cells: Cells, rise: np.ndarray) -> np.ndarray:
     numpy.ndarray of float32, shape (rows, columns)
         0 to 1; 1 where there are no points.
     """
-    lowest = cells.minimum(points.z).ravel()
-    near = points.z <= (lowest + rise.ravel() + _NEAR)[cells.index]
+    heights = np.zeros(rise.size)
+    heights[cells.index[lowest]] = points.z[lowest]
+    near = points.z <= (heights + rise.ravel() + _NEAR)[cells.index]
     return share_around(near, cells, _WIDTH, 1.0)

@@ -8,6 +8,8 @@ import numpy as np
 
 from ..state import GridState
 
+# A cell is even within so many metres of the mean of two opposite neighbours.
+_BEND = 0.15
 # Regions of the first and of the second cell of pairs of cells; -1 for cells that are not raised.
 _Pairs = tuple[np.ndarray, np.ndarray]
 # Pairs of cells (indices into the flattened grid), and the sign of the step between them.
@@ -73,12 +75,10 @@ class RaisedRegions(NamedTuple):
     borders: list[list[_Pairs]]
     filled: np.ndarray
 
-    def even(self, bend: float) -> np.ndarray:
-        """Return which raised cells are within some metres of the mean of opposite neighbours."""
-        even = np.zeros(self.shape, dtype=bool)
-        for to, z in ((even, self.filled), (even.T, self.filled.T)):
-            to[1:-1] |= np.abs(z[2:] + z[:-2] - 2.0 * z[1:-1]) <= 2.0 * bend
-        return even.ravel()[self.which]
+    @property
+    def even(self) -> np.ndarray:
+        """Which raised cells are even (`even_cells`); boolean, shape (n,)."""
+        return even_cells(self.filled).ravel()[self.which]
 
     def spread(self, regions: np.ndarray) -> np.ndarray:
         """Return the cells of some regions (boolean, one each) as a mask (rows, columns)."""
@@ -129,6 +129,14 @@ def raised_regions(
         _borders(region, up, steps, seen),
         grid.filled,
     )
+
+
+def even_cells(filled: np.ndarray) -> np.ndarray:
+    """Return which cells (rows, columns) are about as high as the mean of opposite neighbours."""
+    even = np.zeros(filled.shape, dtype=bool)
+    for to, z in ((even, filled), (even.T, filled.T)):
+        to[1:-1] |= np.abs(z[2:] + z[:-2] - 2.0 * z[1:-1]) <= 2.0 * _BEND
+    return even
 
 
 def _numbered(up: np.ndarray, one: np.ndarray, other: np.ndarray) -> tuple[np.ndarray, int]:

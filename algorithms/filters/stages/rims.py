@@ -16,7 +16,6 @@ from ..pipeline import GridRule, PointRule, Stage
 from ..state import GridState, State, covered
 from .height_steps import HeightSteps
 from .objects import RaisedObjects
-from .outliers import Corroborated
 
 # Least side in metres of the blocks in which the density is measured.
 _DENSITY_BLOCK = 10.0
@@ -34,8 +33,8 @@ def density(cells: Cells) -> float:
 class BlockPits(GridRule):
     """A narrow pit far below the usual lowest points around holds low outliers.
 
-    A gap in the canopy, a yard or a street between roofs is a pit too, but others near it are as
-    low. Noise is alone.
+    It is the rule of the paper's preset: a gap in the canopy, a yard or a street between roofs is
+    such a pit, too.
 
     Attributes
     ----------
@@ -52,7 +51,6 @@ class BlockPits(GridRule):
     depth: float = 2.0
     width: float = 10.0
     block: float = 1.0
-    corroborated: Corroborated | None = Corroborated()
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
         """Remove the cells of noise."""
@@ -69,9 +67,6 @@ class BlockPits(GridRule):
         candidates = blocks.grid(grid.heights.where(below)).known
         steps = HeightSteps(lowest, covered(lowest.known))
         pits = steps.pits(candidates, self.depth, self.width)
-        if self.corroborated:
-            depth = blocks.lowest(usual) - lowest.values
-            pits &= ~self.corroborated.spared(lowest, pits, depth)
         grid.remove(below & blocks.repeated(pits, heights.shape))
 
 
