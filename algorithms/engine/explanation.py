@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.points import Frame
+from ..core.points import Frame, Points
 from ..core.progress import Progress
 from ..filters.method import NOT_GROUND, Decisions
 from ..rasters.geotiff import RasterGrid
@@ -104,7 +104,7 @@ class Explanation:
         Raises
         ------
         BareEarthError
-            If no rule works on cells, or the file cannot be written.
+            If no rule works on cells, the cells spread too far, or the file cannot be written.
         """
         parts = [part for part in self._parts if part.code.any()]
         if not parts:
@@ -115,13 +115,8 @@ class Explanation:
         size, rules = min(part.size for part in parts), parts[0].rules
         finest = (part.in_cells_of(size)[:3] for part in parts)
         row, column, code = (np.concatenate(values) for values in zip(*finest))
-        west, north = int(column.min()), int(row.max()) + 1
-        shape = north - int(row.min()), int(column.max()) + 1 - west
-        cells = np.zeros(shape, dtype=np.uint8)
-        cells[north - 1 - row, column - west] = code
-        unit = frame.horizontal_unit
-        east, up = (
-            start + number * size / unit for start, number in zip(frame.origin, (west, north))
-        )
-        grid = RasterGrid(east, up, size / unit, shape[1], shape[0], frame)
+        middles = Points((column + 0.5) * size, (row + 0.5) * size, np.zeros(len(code)))
+        grid = RasterGrid.over(middles, frame, size)
+        cells = np.zeros((grid.rows, grid.columns), dtype=np.uint8)
+        cells[row.max() - row, column - column.min()] = code
         write_geotiff(path, cells, grid, 0.0, progress, described(rules))

@@ -11,8 +11,15 @@ from runs import command, environment
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.core.parameters import ParameterSet
+from bare_earth.algorithms.core.points import Frame
+from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine import one_file
-from bare_earth.algorithms.engine.explanation import ExplainedCells, described, rules_in
+from bare_earth.algorithms.engine.explanation import (
+    ExplainedCells,
+    Explanation,
+    described,
+    rules_in,
+)
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.products.terrain_model import TerrainModel
 from bare_earth.algorithms.survey.selection import Selection
@@ -455,3 +462,12 @@ def test_the_raster_of_rules_is_no_other_output(file, out, capsys):
     assert run("classify", file, out, "--dtm", rules, "--explain", rules) == 1
     assert "rules.tif" in capsys.readouterr().err
     assert not rules.exists() and not out.exists()
+
+
+def test_decided_cells_that_spread_too_far_are_refused(tmp_path):
+    places, codes = np.array([0, 10**6]), np.array([1, 1], dtype=np.uint8)
+    explanation = Explanation()
+    explanation.add(ExplainedCells(places, places, codes, 1.0, ("lowest-points",)))
+    with pytest.raises(BareEarthError, match="stray coordinates"):
+        explanation.write(tmp_path / "rules.tif", Frame(), Progress())
+    assert not (tmp_path / "rules.tif").exists()
