@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from .core.errors import Cancelled as Cancelled
     from .core.progress import Progress as Progress
     from .core.version import __version__ as __version__
-    from .engine.constraints import Constraints as Constraints
     from .engine.heights import HeightOutput as HeightOutput
     from .engine.key_points import KeyPointMark as KeyPointMark
     from .engine.memory import Resources as Resources
@@ -25,8 +24,6 @@ if TYPE_CHECKING:
     from .engine.options import TileInput as TileInput
     from .engine.options import TileOutput as TileOutput
     from .engine.output import Output as Output
-    from .engine.raster_files import RasterFiles as RasterFiles
-    from .engine.raster_grid import RasterTarget as RasterTarget
     from .engine.requests import ClassifyRequest as ClassifyRequest
     from .engine.requests import HeightRequest as HeightRequest
     from .engine.requests import KeyPointRequest as KeyPointRequest
@@ -35,17 +32,18 @@ if TYPE_CHECKING:
     from .engine.runs import heights as heights
     from .engine.runs import key_points as key_points
     from .engine.runs import terrain as terrain
-    from .engine.trial import compare_settings as compare_settings
-    from .engine.trial_options import TrialOptions as TrialOptions
     from .filters.grid_minimum import GridMinimum as GridMinimum
     from .filters.slope import SlopeFilter as SlopeFilter
     from .filters.tin import TinDensification as TinDensification
     from .grids.model_key_points import ModelKeyPoints as ModelKeyPoints
     from .products.assessment import assess_files as assess  # noqa: F401
+    from .products.constraints import Constraints as Constraints
     from .products.contours import Contours as Contours
     from .products.contours import write_contours as write_contours
     from .products.local_relief import LocalRelief as LocalRelief
     from .products.local_relief import write_local_relief as write_local_relief
+    from .products.raster_files import RasterFiles as RasterFiles
+    from .products.raster_grid import RasterTarget as RasterTarget
     from .products.surface_model import SurfaceModel as SurfaceModel
     from .products.terrain_model import TerrainModel as TerrainModel
     from .rasters.sampling import HeightRaster as HeightRaster
@@ -56,6 +54,8 @@ if TYPE_CHECKING:
     from .survey.vector_files import read_boundary as read_boundary
     from .survey.vector_files import read_corrections as read_corrections
     from .survey.vector_files import read_lines as read_lines
+    from .trial.comparing import compare_settings as compare_settings
+    from .trial.options import TrialOptions as TrialOptions
 
 # The module of each name; with the name in that module, if it differs.
 _MODULES = {
@@ -63,7 +63,7 @@ _MODULES = {
     "Cancelled": "core.errors",
     "Progress": "core.progress",
     "__version__": "core.version",
-    "Constraints": "engine.constraints",
+    "Constraints": "products.constraints",
     "HeightOutput": "engine.heights",
     "KeyPointMark": "engine.key_points",
     "Resources": "engine.memory",
@@ -71,8 +71,8 @@ _MODULES = {
     "TileInput": "engine.options",
     "TileOutput": "engine.options",
     "Output": "engine.output",
-    "RasterFiles": "engine.raster_files",
-    "RasterTarget": "engine.raster_grid",
+    "RasterFiles": "products.raster_files",
+    "RasterTarget": "products.raster_grid",
     "ClassifyRequest": "engine.requests",
     "HeightRequest": "engine.requests",
     "KeyPointRequest": "engine.requests",
@@ -81,8 +81,8 @@ _MODULES = {
     "heights": "engine.runs",
     "key_points": "engine.runs",
     "terrain": "engine.runs",
-    "compare_settings": "engine.trial",
-    "TrialOptions": "engine.trial_options",
+    "compare_settings": "trial.comparing",
+    "TrialOptions": "trial.options",
     "GridMinimum": "filters.grid_minimum",
     "SlopeFilter": "filters.slope",
     "TinDensification": "filters.tin",

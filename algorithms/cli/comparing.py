@@ -66,7 +66,7 @@ def _assess(options: argparse.Namespace) -> int:
 
 def _add_compare_settings(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..engine.memory import Resources
-    from ..engine.trial_options import TrialOptions
+    from ..trial.options import TrialOptions
 
     add_inputs(parser)
     add_crs(parser)
@@ -80,8 +80,8 @@ def _add_compare_settings(parser: argparse.ArgumentParser, arguments: Sequence[s
 
 def _compare_settings(options: argparse.Namespace) -> int:
     from ..engine.memory import Resources
-    from ..engine.trial import compare_settings
-    from ..engine.trial_options import TrialOptions
+    from ..trial.comparing import compare_settings
+    from ..trial.options import TrialOptions
 
     sets = chosen(options)
     what, resources = TrialOptions.among(sets), Resources.among(sets)

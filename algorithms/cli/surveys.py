@@ -15,12 +15,12 @@ from .terminal import Terminal, tell
 
 if TYPE_CHECKING:
     from ..core.parameters import ParameterSet
-    from ..engine.constraints import Constraints
     from ..engine.many_files import SurveySummary
     from ..engine.memory import Resources
-    from ..engine.raster_files import RasterFiles
-    from ..engine.raster_grid import RasterTarget
     from ..engine.workers import Workers
+    from ..products.constraints import Constraints
+    from ..products.raster_files import RasterFiles
+    from ..products.raster_grid import RasterTarget
     from ..survey.area import Area
 
 
@@ -35,7 +35,7 @@ _CONSTRAINTS = {
 
 def add_rasters(parser: argparse.ArgumentParser) -> None:
     """Add the options for rasters."""
-    from ..engine.raster_files import RASTERS
+    from ..products.raster_files import RASTERS
 
     for name, each in RASTERS.items():
         parser.add_argument(
@@ -45,7 +45,7 @@ def add_rasters(parser: argparse.ArgumentParser) -> None:
 
 def rasters_of(options: argparse.Namespace) -> RasterFiles:
     """Return the rasters of the options."""
-    from ..engine.raster_files import RASTERS, RasterFiles
+    from ..products.raster_files import RASTERS, RasterFiles
 
     return RasterFiles(**{name: getattr(options, name) for name in RASTERS})
 
@@ -72,8 +72,8 @@ def contours_after(
     """
     from ..core.files import temporary_folder
     from ..engine.options import RasterOutput
-    from ..engine.raster_files import virtual_of
     from ..products.contours import Contours, check_contours, write_contours
+    from ..products.raster_files import virtual_of
 
     rasters, how = rasters_of(options), Contours.among(sets)
     rest = [each for each in sets if each is not how]
@@ -106,7 +106,7 @@ def add_raster_target(parser: argparse.ArgumentParser) -> None:
 
 def raster_target_of(options: argparse.Namespace) -> RasterTarget:
     """Return the grid and the extent of the rasters."""
-    from ..engine.raster_grid import RasterTarget
+    from ..products.raster_grid import RasterTarget
 
     extent = options.raster_extent
     try:
@@ -153,7 +153,7 @@ def add_constraints(parser: argparse.ArgumentParser, note: str = "") -> None:
 
 def constraints_of(options: argparse.Namespace) -> Constraints:
     """Return the lines and polygons of the options."""
-    from ..engine.constraints import Constraints
+    from ..products.constraints import Constraints
     from ..survey.vector_files import read_boundary, read_lines
 
     found: dict[str, Any] = {}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import collections
 from functools import partial
-from typing import Any, Callable, Iterator, NamedTuple
+from typing import Callable, NamedTuple
 
 import numpy as np
 
@@ -14,18 +14,16 @@ from ..core.progress import SILENT, Notes, Progress
 from ..filters import method_of
 from ..filters.below_ground import below_ground
 from ..filters.bridges.decks import bridge_decks
-from ..filters.high_groups import HighGroups
 from ..filters.method import Decisions
 from ..filters.warnings import warn_of_extent, warn_of_little_ground
 from ..grids.cells import apart
+from ..products.high_groups import HighGroups
 from ..survey.selection import Selection
-from .blocks import BRIDGE, GROUND, HIGH, LOW, Block, BlockPoints, Blocks, Corner, Store
+from .blocks import BRIDGE, GROUND, HIGH, LOW, Block, BlockPoints, Blocks, Store
+from .blockwise import over_blocks
 from .explanation import ExplainedCells, Explanation
-from .memory import Resources, give_back
-from .scheduling import run_jobs
+from .memory import Resources
 
-# Blocks that take so many bytes give their memory back to the system.
-_MUCH = 100_000_000
 # Shares of the time of a block for finding bridges and low outliers.
 _BRIDGES_SHARE, _LOW_SHARE = 0.15, 0.1
 
@@ -100,77 +98,6 @@ def label_ground(
         if result.notes.count:
             notes[number] = result.notes
     _tell(progress, [notes[number] for number in sorted(notes)])
-
-
-def over_blocks(
-    store: Store,
-    blocks: Blocks,
-    work: Callable[[Block, bool, Progress], Any],
-    resources: Resources,
-    progress: Progress,
-    is_wanted: Callable[[Block], bool] | None = None,
-) -> Iterator[tuple[int, Any]]:
-    """Yield the number and the result of each block, in the order in which they finish.
-
-    Parameters
-    ----------
-    store, blocks, resources, progress
-        As for `label_ground`.
-    work : callable
-        Returns the result, given a block, whether it is the only one, and a `Progress`.
-    is_wanted : callable, optional
-        Returns whether a block is to be computed. By default all are.
-    """
-    todo = [each for each in blocks.over(store) if is_wanted is None or is_wanted(each)]
-    if not todo:
-        return
-    leaves = [store.leaves.within(blocks.window(each)) for each in todo]
-    counts = [int(store.leaves.counts[each].sum()) for each in leaves]
-    memory = [
-        blocks.memory(count, len(each) * store.leaves.side**2)
-        for count, each in zip(counts, leaves)
-    ]
-    at_once = _at_once(len(todo), max(memory), resources)
-    jobs = [partial(work, each, len(todo) == 1) for each in todo]
-    is_tight = sum(memory) > resources.bytes
-    for number, result in run_jobs(jobs, counts, at_once, resources.thread_count, progress):
-        if is_tight and memory[number] > _MUCH:
-            give_back()
-        yield number, result
-
-
-def fill(
-    store: Store,
-    blocks: Blocks,
-    values_of: Callable[[BlockPoints, np.ndarray, Corner, Progress], np.ndarray],
-    resources: Resources,
-    progress: Progress,
-) -> None:
-    """Store a value for each wanted point.
-
-    Parameters
-    ----------
-    store, blocks, resources, progress
-        As for `label_ground`.
-    values_of : callable
-        Takes the points of a block and its buffer, which of them are wanted, the corner and a
-        `Progress`. Returns the values of the wanted points, in their order.
-    """
-
-    def found(block: Block, is_only: bool, progress: Progress) -> tuple[np.ndarray, np.ndarray]:
-        contents = blocks.contents(block, store, progress.part(0.0, 0.1))
-        core = blocks.core(block, contents, is_only)
-        part = progress.part(0.1, 1.0)
-        return contents.positions[core], values_of(contents, core, blocks.corner(block), part)
-
-    for _, (positions, values) in over_blocks(store, blocks, found, resources, progress):
-        store.put(positions, values)
-
-
-def _at_once(number: int, largest: int, resources: Resources) -> int:
-    """Return how many blocks can be computed at once; the largest takes `largest` bytes."""
-    fitting = resources.bytes // max(largest, 1)
-    return int(max(1, min(number, resources.thread_count, fitting)))
 
 
 def _label(

@@ -20,7 +20,7 @@ from ..rasters.sampling import HeightRaster, HeightSampler
 from ..survey.area import Area
 from ..survey.ground_classes import GroundClasses, GroundTally
 from .blocks import BlockPoints, Blocks, Corner, Store
-from .ground import fill
+from .blockwise import fill
 from .memory import Cost, Resources
 from .output import HEIGHT_DIMENSION, height_dimension
 from .steps import Marks, PointResult, PointStep, Room

@@ -18,7 +18,7 @@ from ..las.records import check_class
 from ..survey.ground_classes import GroundClasses, GroundTally
 from ..survey.tally import count_classes
 from .blocks import BlockPoints, Blocks, Corner, Store
-from .ground import fill
+from .blockwise import fill
 from .memory import Resources
 from .remembering import Memory
 from .steps import Marks, PointResult, PointStep, Room

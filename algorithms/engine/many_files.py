@@ -14,12 +14,12 @@ from ..core.files import check_output, is_same_file, split_name, temporary_folde
 from ..core.progress import SILENT, Progress
 from ..crs.measurable import require_measurable
 from ..las.writing import check_writable
+from ..products.raster_files import RasterFiles
 from ..survey.files import Survey, open_survey
 from ..survey.shapes import Place
 from ..survey.vpc import check_vpc, write_vpc
 from .blocks import Blocks
 from .output import Output
-from .raster_files import RasterFiles
 from .raster_jobs import make_rasters
 from .rasters import MakeRasters, RasterSize
 from .record import folders_of

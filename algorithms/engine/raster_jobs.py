@@ -14,11 +14,11 @@ from ..core.files import replacing, split_name
 from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
 from ..las.cloud import survey_frame
+from ..products.constraints import parts_of
 from ..products.raster_block import BlockRasters
 from ..survey.files import Survey
 from .block_grid import BlockGrid, BlockIndex, places_of, sources_of
 from .blocks import Block
-from .constraints import parts_of
 from .job_queue import JobQueue
 from .jobs import BlockJob, Share
 from .memory_points import MemoryPoints, SurveyFile

@@ -19,8 +19,21 @@ from ..grids.cell_window import CellWindow
 from ..grids.cells import first_of_each
 from ..grids.dense_surface import VERTICES_A_SIDE
 from ..las.cloud import PointCloud, survey_frame
+from ..products.constraints import NO_CONSTRAINTS, Constraints, FixedTerrain, fixed_terrain
 from ..products.height_above_ground import with_roads
+from ..products.mosaic import Mosaic, gathered_strips
+from ..products.outlines import Held, Outlines, mosaics_of
 from ..products.raster_block import LAYERS, BlockRasters, RasterStep
+from ..products.raster_files import RASTERS, Raster, RasterFiles, folder_of, virtual_of
+from ..products.raster_grid import (
+    ANYWHERE,
+    MOST_CELLS,
+    CellGrid,
+    RasterTarget,
+    box_of,
+    cell_grid,
+    no_points,
+)
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import TerrainModel
 from ..rasters.geotiff import RasterGrid
@@ -30,21 +43,8 @@ from ..survey.area import Area
 from ..survey.ground_classes import GroundClasses, GroundTally
 from ..survey.kept_classes import NOISE
 from .blocks import Block, Blocks, Store
-from .constraints import NO_CONSTRAINTS, Constraints, FixedTerrain, fixed_terrain
-from .ground import over_blocks
+from .blockwise import over_blocks
 from .memory import Cost, Resources
-from .mosaic import Mosaic, gathered_strips
-from .outlines import Held, Outlines, mosaics_of
-from .raster_files import RASTERS, Raster, RasterFiles, folder_of, virtual_of
-from .raster_grid import (
-    ANYWHERE,
-    MOST_CELLS,
-    CellGrid,
-    RasterTarget,
-    box_of,
-    cell_grid,
-    no_points,
-)
 from .steps import Marks, Step
 
 # In a raster of more cells, blocks with points must cover this share. Otherwise it is so large

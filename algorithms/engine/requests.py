@@ -11,7 +11,10 @@ from ..core.parameters import ParameterSet
 from ..crs.stated import stated_wkt
 from ..filters import DEFAULT_METHOD, METHODS
 from ..grids.model_key_points import ModelKeyPoints
+from ..products.constraints import NO_CONSTRAINTS, Constraints
 from ..products.raster_block import LAYERS
+from ..products.raster_files import RasterFiles
+from ..products.raster_grid import ANYWHERE, RasterTarget
 from ..products.surface_model import Gaps, SurfaceModel
 from ..products.terrain_model import TerrainModel
 from ..rasters.sampling import HeightRaster
@@ -19,7 +22,6 @@ from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
-from .constraints import NO_CONSTRAINTS, Constraints
 from .explanation import Explanation
 from .heights import HeightOutput, MeasureHeights
 from .key_points import FindKeyPoints, KeyPointMark
@@ -27,8 +29,6 @@ from .labelling import LabelGround
 from .memory import Resources
 from .options import RasterOutput, TileInput, TileMethod, TileOutput
 from .output import Output
-from .raster_files import RasterFiles
-from .raster_grid import ANYWHERE, RasterTarget
 from .rasters import MakeRasters
 
 _Request = TypeVar("_Request", bound="Request")

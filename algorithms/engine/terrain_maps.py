@@ -12,7 +12,10 @@ from ..core.files import replacing, temporary_folder
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
 from ..filters import DEFAULT_METHOD, METHODS
+from ..products.constraints import NO_CONSTRAINTS, Constraints
 from ..products.contours import Contours, Interval, check_contours, write_contours
+from ..products.raster_files import RasterFiles
+from ..products.raster_grid import ANYWHERE, RasterTarget
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import MapTerrain
 from ..rasters.writing import replacing_raster
@@ -20,13 +23,10 @@ from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.files import is_one_file
 from ..survey.selection import Selection
-from .constraints import NO_CONSTRAINTS, Constraints
 from .many_files import classify_files
 from .one_file import check_cloud, classify_file
 from .options import TileOutput
 from .output import Output
-from .raster_files import RasterFiles
-from .raster_grid import ANYWHERE, RasterTarget
 from .requests import ClassifyRequest, Request
 
 # The longest first, since it ends as the second does.

@@ -11,12 +11,12 @@ import numpy as np
 from ..core.points import Box, Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import parts_of
-from ..filters.confidence import confidence
-from ..filters.high_groups import HighGroups
 from ..grids.cell_window import CellWindow
 from ..grids.cells import are_inside, first_of_each
 from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
 from ..grids.morphology import within_square
+from .confidence import confidence
+from .high_groups import HighGroups
 from .terrain_edges import follow_edges
 
 # Longest edge of the triangles in a block, in metres and in cells. Triangles across wider gaps need

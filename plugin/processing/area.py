@@ -14,7 +14,7 @@ from qgis.core import (
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.core.progress import Progress
 from ...algorithms.engine.output import Output
-from ...algorithms.engine.raster_grid import ANYWHERE, RasterTarget
+from ...algorithms.products.raster_grid import ANYWHERE, RasterTarget
 from ...algorithms.survey.area import Area, Polygon
 from .. import compat
 from ..i18n import mark

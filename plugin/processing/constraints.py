@@ -13,7 +13,7 @@ from qgis.core import (
 )
 
 from ...algorithms.core.progress import Progress
-from ...algorithms.engine.constraints import Constraints
+from ...algorithms.products.constraints import Constraints
 from .. import compat
 from .inputs import CloudCrs, features_of, polygons_of
 

@@ -20,9 +20,9 @@ from qgis.core import (
 
 from ...algorithms.core.files import split_name
 from ...algorithms.engine.options import RasterOutput
-from ...algorithms.engine.raster_files import RASTERS as MODELS
-from ...algorithms.engine.raster_files import RasterFiles, virtual_of
 from ...algorithms.las.backends import WRITING_COPC, missing_packages
+from ...algorithms.products.raster_files import RASTERS as MODELS
+from ...algorithms.products.raster_files import RasterFiles, virtual_of
 from ...algorithms.survey.files import is_one_file
 from .. import compat
 from ..i18n import tr

@@ -8,9 +8,9 @@ from runs import said
 
 from bare_earth.algorithms.engine import file_points
 from bare_earth.algorithms.engine.output import Output
-from bare_earth.algorithms.engine.raster_files import RasterFiles
 from bare_earth.algorithms.engine.requests import ClassifyRequest, TerrainRequest
 from bare_earth.algorithms.engine.runs import classify, terrain
+from bare_earth.algorithms.products.raster_files import RasterFiles
 from bare_earth.algorithms.products.surface_model import SurfaceModel
 from bare_earth.algorithms.rasters.geotiff import read_raster
 from bare_earth.algorithms.survey.ground_classes import GroundClasses

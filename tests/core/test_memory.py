@@ -12,9 +12,9 @@ from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.engine.heights import MeasureHeights
 from bare_earth.algorithms.engine.memory import Resources, give_back
 from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
-from bare_earth.algorithms.engine.raster_files import RasterFiles
 from bare_earth.algorithms.engine.rasters import MakeRasters
 from bare_earth.algorithms.las.cloud import survey_frame
+from bare_earth.algorithms.products.raster_files import RasterFiles
 from bare_earth.algorithms.products.terrain_model import TerrainModel
 
 # So many points that the arrays of a single tile of `DenseSurface` hardly count.

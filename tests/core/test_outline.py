@@ -12,11 +12,11 @@ from scipy.spatial import cKDTree
 from surveys import ORIGIN, cut, write
 
 from bare_earth.algorithms.engine import blocks as blocks_module
-from bare_earth.algorithms.engine import mosaic
-from bare_earth.algorithms.engine.raster_files import RASTERS, RasterFiles
 from bare_earth.algorithms.grids import outline as outline_module
 from bare_earth.algorithms.grids.morphology import closing
 from bare_earth.algorithms.grids.outline import Discs, Outline, with_gaps_inside
+from bare_earth.algorithms.products import mosaic
+from bare_earth.algorithms.products.raster_files import RASTERS, RasterFiles
 from bare_earth.algorithms.products.surface_model import SurfaceModel, without_pits
 from bare_earth.algorithms.products.terrain_model import TerrainModel
 

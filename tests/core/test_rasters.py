@@ -18,7 +18,6 @@ from bare_earth.algorithms.engine import blocks as blocks_module
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
 from bare_earth.algorithms.engine.options import TileOutput
-from bare_earth.algorithms.engine.raster_files import RASTERS, RasterFiles
 from bare_earth.algorithms.engine.raster_jobs import RasterJob
 from bare_earth.algorithms.engine.rasters import MakeRasters, write_rasters
 from bare_earth.algorithms.engine.workers import Processes, Threads
@@ -26,6 +25,7 @@ from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.grids.tin import Tin, hull_corners
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.products.raster_block import LAYERS
+from bare_earth.algorithms.products.raster_files import RASTERS, RasterFiles
 from bare_earth.algorithms.products.surface_model import SurfaceModel
 from bare_earth.algorithms.products.terrain_model import TerrainModel
 

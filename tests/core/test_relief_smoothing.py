@@ -6,15 +6,15 @@ import pytest
 from realdata import real
 
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.engine import mosaic
-from bare_earth.algorithms.engine.raster_files import RasterFiles
 from bare_earth.algorithms.engine.requests import TerrainRequest
 from bare_earth.algorithms.engine.runs import terrain
 from bare_earth.algorithms.grids.hillshade import hillshade
 from bare_earth.algorithms.grids.local_trend import local_trend
 from bare_earth.algorithms.grids.relief_smoothing import smoothing_reach, without_noise
 from bare_earth.algorithms.products import local_relief as local_relief_module
+from bare_earth.algorithms.products import mosaic
 from bare_earth.algorithms.products.local_relief import LocalRelief, write_local_relief
+from bare_earth.algorithms.products.raster_files import RasterFiles
 from bare_earth.algorithms.products.terrain_model import TerrainModel
 
 rasterio = pytest.importorskip("rasterio")

@@ -20,7 +20,6 @@ from bare_earth.algorithms.engine import runs as runs_module
 from bare_earth.algorithms.engine.many_files import write_files
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.output import Output
-from bare_earth.algorithms.engine.raster_files import RasterFiles
 from bare_earth.algorithms.engine.requests import (
     ClassifyRequest,
     HeightRequest,
@@ -29,6 +28,7 @@ from bare_earth.algorithms.engine.requests import (
 )
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
+from bare_earth.algorithms.products.raster_files import RasterFiles
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
 

@@ -30,7 +30,6 @@ from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
 from bare_earth.algorithms.engine.options import TileInput, TileMethod, TileOutput
 from bare_earth.algorithms.engine.output import Output
-from bare_earth.algorithms.engine.raster_files import RasterFiles
 from bare_earth.algorithms.engine.workers import Local, Processes, Threads
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum
@@ -41,6 +40,7 @@ from bare_earth.algorithms.las import copc_octree
 from bare_earth.algorithms.las import reading as reading_module
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
+from bare_earth.algorithms.products.raster_files import RasterFiles
 from bare_earth.algorithms.survey.files import open_survey
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.survey.tally import Tally

@@ -13,9 +13,9 @@ from test_assessment import Tags
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.engine.trial import compare_settings
-from bare_earth.algorithms.engine.trial_options import SETTINGS, TrialOptions
 from bare_earth.algorithms.las.writing import write_classified
+from bare_earth.algorithms.trial.comparing import compare_settings
+from bare_earth.algorithms.trial.options import SETTINGS, TrialOptions
 
 ORIGIN = (500_000.0, 5_700_000.0)
 SIDE = 120.0
@@ -181,7 +181,7 @@ def test_the_context_is_told_and_can_be_chosen(source, made, tmp_path):
 
 
 def test_a_setting_without_ground_is_shown_as_such(source, tmp_path, monkeypatch):
-    from bare_earth.algorithms.engine import trial_points
+    from bare_earth.algorithms.trial import points as trial_points
 
     def none(*arguments):
         raise BareEarthError("No ground was found.")

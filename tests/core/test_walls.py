@@ -27,11 +27,12 @@ FLOORS = {
     "survey": "core crs las",
     "rasters": "core crs",
     "filters": "core grids",
-    "products": "core grids las survey rasters filters",
+    "products": "core crs grids las survey rasters filters",
     "engine": "core crs grids las survey rasters filters products",
-    "cli": "core crs grids las survey rasters filters products engine",
+    "trial": "core crs grids las survey rasters filters products engine",
+    "cli": "core crs grids las survey rasters filters products engine trial",
     "__main__": "cli",
-    "__init__": "core crs grids las survey rasters filters products engine",
+    "__init__": "core crs grids las survey rasters filters products engine trial",
 }
 
 
@@ -112,6 +113,19 @@ def test_no_file_imports_itself_by_way_of_others():
     while free := {path for path, others in left.items() if not others & left.keys()}:
         left = {path: others for path, others in left.items() if path not in free}
     assert not left, sorted(map(name_of, left))
+
+
+@pytest.mark.parametrize("step", ["heights", "key_points", "rasters"])
+def test_steps_for_classified_points_need_no_filter(step):
+    reached, left = set(), [ROOT / "algorithms" / "engine" / f"{step}.py"]
+    while left:
+        path = left.pop()
+        if path not in reached:
+            reached.add(path)
+            # Packages only say what they hold.
+            left += [each for each in _algorithms_of(path) if each.name != "__init__.py"]
+    assert len(reached) > 10
+    assert not {each for each in reached if _room(each) == "filters"}
 
 
 def test_only_the_point_cloud_package_knows_the_file_format():

@@ -13,10 +13,10 @@ from ..crs.matching import described, is_same_map
 from ..crs.stated import HOW
 from ..crs.system import Crs, crs_of_wkt, unit_symbol
 from ..grids.cell_window import CellWindow
-from ..products.terrain_model import TerrainModel
 from ..rasters.geotiff import RasterGrid
 from ..rasters.given_grid import GivenGrid, read_grid
 from ..survey.area import Area
+from .terrain_model import TerrainModel
 
 MOST_CELLS = 4_000_000_000
 # A corner of a given raster so near a multiple of the cell size, as a share of it, is one.

@@ -15,20 +15,20 @@ from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads
 from ..crs.measurable import require_measurable
 from ..crs.system import Crs
+from ..engine.labelling import LabelGround
+from ..engine.memory import Resources
+from ..engine.memory_points import MemoryPoints, SurveyFile
 from ..las.cloud import PointCloud, survey_frame
 from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..products.page import Units
-from ..products.window_trial import Line, Outcome, Window, outcome_of
 from ..survey.area import Area
 from ..survey.files import is_one_file, open_survey
 from ..survey.middle import middle_window, nearest_window
 from ..survey.window import may_touch, read_window
-from .labelling import LabelGround
-from .memory import Resources
-from .memory_points import MemoryPoints, SurveyFile
-from .trial_options import Setting
+from .options import Setting
+from .window import Line, Outcome, Window, outcome_of
 
 # Metres. A wider window would take long.
 _WIDEST = 1000.0

@@ -7,10 +7,10 @@ from typing import NamedTuple, Sequence
 import numpy as np
 
 from ..grids.hillshade import hillshade
-from .page import key, map_figure, page_html, percent, text
-from .pictures import Picture, Relief, rgb
+from ..products.page import key, map_figure, page_html, percent, text
+from ..products.pictures import Picture, Relief, rgb
 from .profile import Profile
-from .window_trial import Figures, Outcome, Window
+from .window import Figures, Outcome, Window
 
 # These colours differ for colour-blind people and in print.
 _LOST, _GAINED = "#d1157f", "#1b62c4"

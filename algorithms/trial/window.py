@@ -8,10 +8,10 @@ from typing import NamedTuple, Sequence
 import numpy as np
 
 from ..core.points import Points
-from ..filters.confidence import confidence
 from ..grids.cells import are_inside
 from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
-from .page import Units
+from ..products.confidence import confidence
+from ..products.page import Units
 
 # Greatest number of cells along the longer side of the terrain, and the sides in metres that cells
 # can have below one metre. Larger cells have whole metres.

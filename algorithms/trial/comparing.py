@@ -11,15 +11,15 @@ from ..core.files import replacing
 from ..core.points import Box, box_in_words
 from ..core.progress import SILENT, Progress
 from ..core.threads import may_use
+from ..engine.file_points import fits_in_memory
+from ..engine.memory import Resources
 from ..products.page import Units, check_page
-from ..products.profile import Profile, can_be_shown
-from ..products.trial_page import TrialPage
-from ..products.window_trial import Outcome, figures_of, line_across
-from .file_points import fits_in_memory
-from .memory import Resources
-from .trial_commands import commands_for
-from .trial_options import USUAL_CONTEXT, TrialOptions
-from .trial_points import TrialPoints, read_trial_points
+from .commands import commands_for
+from .options import USUAL_CONTEXT, TrialOptions
+from .page import TrialPage
+from .points import TrialPoints, read_trial_points
+from .profile import Profile, can_be_shown
+from .window import Outcome, figures_of, line_across
 
 
 @dataclass(frozen=True)

@@ -7,10 +7,10 @@ from typing import NamedTuple
 import numpy as np
 
 from ..las.class_names import CLASSES
+from ..products.page import data_uri, key, round_length
+from ..products.pictures import rgb
 from ..survey.kept_classes import NOISE
-from .page import data_uri, key, round_length
-from .pictures import rgb
-from .window_trial import Line, Outcome, Window
+from .window import Line, Outcome, Window
 
 # Pixels of the picture, and of the axes to its left and below it.
 _WIDTH, _HEIGHT, _LEFT, _BELOW = 900, 220, 56, 24

@@ -18,8 +18,8 @@ from ..grids.cell_window import CellWindow
 from ..grids.cells import are_inside, usual_count
 from ..grids.morphology import closing, within_square
 from ..grids.outline import MOST_CELLS, Discs, Outline, with_gaps_inside
-from ..products.raster_block import ANY, HELD, QUARTERS, BlockRasters, RasterStep
 from .mosaic import Mosaic
+from .raster_block import ANY, HELD, QUARTERS, BlockRasters, RasterStep
 
 # Radius of the discs in usual distances between points. These are not less than a cell.
 _SPACINGS = 4.0

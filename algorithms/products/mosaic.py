@@ -13,8 +13,8 @@ from ..grids.cell_window import CellWindow
 from ..grids.morphology import within_square
 from ..grids.outline import Outline
 from ..grids.surface import CellLattice, Surface
-from ..products.raster_block import BlockRasters
 from ..survey.area import Area
+from .raster_block import BlockRasters
 
 # Cells that are joined at a time.
 _CELLS_A_STRIP = 4_000_000

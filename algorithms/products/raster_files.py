@@ -12,11 +12,11 @@ from ..core.errors import BareEarthError
 from ..core.files import check_distinct, check_output
 from ..grids.hillshade import hillshade, multidirectional_hillshade
 from ..grids.relief_smoothing import smoothing_reach, without_noise
-from ..products.local_relief import local_relief, relief_reach
-from ..products.surface_model import PIT_PASSES, canopy_height, without_pits
-from ..products.terrain_model import TerrainModel
 from ..rasters.geotiff import RasterGrid
 from ..rasters.writing import check_raster_output
+from .local_relief import local_relief, relief_reach
+from .surface_model import PIT_PASSES, canopy_height, without_pits
+from .terrain_model import TerrainModel
 
 
 def _none(grid: RasterGrid, model: TerrainModel) -> int:

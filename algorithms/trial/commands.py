@@ -7,10 +7,10 @@ from typing import Any, Sequence
 
 from ..core.commands import shell_line
 from ..core.files import split_name
-from ..products.trial_page import Commands
+from ..engine.options import TileMethod
 from ..survey.files import is_one_file
-from .options import TileMethod
-from .trial_options import Setting
+from .options import Setting
+from .page import Commands
 
 _MANY_FILES = "bareearth:classifytiles"
 

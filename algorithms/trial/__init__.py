@@ -1,0 +1,1 @@
+"""Compares settings of the filters in a window of a survey."""
