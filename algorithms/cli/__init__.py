@@ -8,7 +8,7 @@ import sys
 import traceback
 from typing import Sequence
 
-from ..core.errors import BareEarthError, Cancelled
+from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay
 from . import classifying, comparing, products
 from .command import FAILED, USAGE
 from .options import UsageError
@@ -31,6 +31,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _say(error, USAGE, arguments)
     except BareEarthError as error:
         return _say(error, FAILED, arguments)
+    except FinishedFilesStay as error:
+        text = "Cancelled. The finished files stay. Continue with --resume."
+        return _say(text, FAILED, arguments, error)
     except (Cancelled, KeyboardInterrupt):
         return _say("Cancelled; nothing was written.", FAILED, [])
     except MemoryError as error:

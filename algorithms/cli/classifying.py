@@ -18,7 +18,6 @@ from .surveys import (
     area_of,
     constraints_of,
     contours_after,
-    finished_files_stay,
     raster_target_of,
     tell_of_survey,
     workers_of,
@@ -114,25 +113,23 @@ def _classify(options: argparse.Namespace) -> int:
 
 
 def _classified(options: argparse.Namespace, request: ClassifyRequest) -> int:
-    """Classify one file or many, and tell what was done."""
-    from ..engine.many_files import classify_files
-    from ..engine.one_file import classify_file
-    from ..survey.files import is_one_file
+    """Classify, and tell what was done."""
+    from ..engine.one_file import Summary
+    from ..engine.runs import classify
 
-    if options.command != _TILES and not options.scheduler and is_one_file(options.input):
-        with Terminal(options.verbose) as progress:
-            summary = classify_file(options.input[0], options.output, request, progress)
-        ground, count = summary.area_ground_count, summary.area_count
-        place = "" if request.area is None else " in the area"
-        text = f"{ground:,} of {count:,} points{place} are ground ({100 * ground / count:.1f} %)"
-        tell(options, summary, f"{options.output}: {text}")
-        return DONE
+    as_survey = options.command == _TILES or bool(options.scheduler)
     workers = workers_of(options, request.resources)
-    with finished_files_stay(), Terminal(options.verbose) as progress:
-        done = classify_files(
-            options.input, options.output, request, progress, workers, options.vpc
+    with Terminal(options.verbose) as progress:
+        done = classify(
+            options.input, options.output, request, progress, workers, options.vpc, as_survey
         )
-    return tell_of_survey(options, done)
+    if not isinstance(done, Summary):
+        return tell_of_survey(options, done)
+    ground, count = done.area_ground_count, done.area_count
+    place = "" if request.area is None else " in the area"
+    text = f"{ground:,} of {count:,} points{place} are ground ({100 * ground / count:.1f} %)"
+    tell(options, done, f"{options.output}: {text}")
+    return DONE
 
 
 _TILES = "classify-tiles"

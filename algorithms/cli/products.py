@@ -18,7 +18,6 @@ from .surveys import (
     area_of,
     constraints_of,
     contours_after,
-    finished_files_stay,
     raster_target_of,
     tell_of_survey,
     workers_of,
@@ -129,33 +128,24 @@ def _add_files(parser: argparse.ArgumentParser, *sets: type[ParameterSet]) -> No
 
 def _write(options: argparse.Namespace) -> int:
     """Write classified files with the heights or key points."""
-    from ..engine.many_files import write_files
-    from ..engine.one_file import write_points
+    from ..engine.many_files import SurveySummary
     from ..engine.requests import HeightRequest, KeyPointRequest
+    from ..engine.runs import write
     from ..rasters.sampling import HeightRaster
-    from ..survey.files import is_one_file
 
+    request: HeightRequest | KeyPointRequest
     if options.command == "height":
         dtm = None if options.dtm is None else HeightRaster.of(options.dtm)
-        request: HeightRequest | KeyPointRequest = HeightRequest.of(
-            chosen(options), dtm=dtm, crs=options.crs
-        )
+        request = HeightRequest.of(chosen(options), dtm=dtm, crs=options.crs)
     else:
         request = KeyPointRequest.of(chosen(options), crs=options.crs)
-    if is_one_file(options.input) and not options.scheduler:
-        with Terminal(options.verbose) as progress:
-            summary = write_points(
-                options.input[0], options.output, request.step, request.resources, progress,
-                request.stated,
-            )  # fmt: skip
-        tell(options, summary, f"{options.output.parent / summary.text}")
-        return DONE
-    workers = workers_of(options, request.resources)
-    with finished_files_stay(), Terminal(options.verbose) as progress:
-        done = write_files(
-            options.input, options.output, [request.step], request, progress, workers
-        )
-    return tell_of_survey(options, done)
+    workers, as_survey = workers_of(options, request.resources), bool(options.scheduler)
+    with Terminal(options.verbose) as progress:
+        done = write(options.input, options.output, request, progress, workers, as_survey)
+    if isinstance(done, SurveySummary):
+        return tell_of_survey(options, done)
+    tell(options, done, f"{options.output.parent / done.text}")
+    return DONE
 
 
 def _add_terrain(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:

@@ -8,7 +8,7 @@ import dataclasses
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Iterator, Sequence
 
-from ..core.errors import BareEarthError, Cancelled
+from ..core.errors import BareEarthError
 from .command import DONE, FAILED
 from .options import UsageError, add_extent
 from .terminal import Terminal, tell
@@ -181,17 +181,6 @@ def workers_of(options: argparse.Namespace, resources: Resources) -> Workers:
     from ..engine.workers import Local
 
     return Cluster(options.scheduler, resources) if options.scheduler else Local(resources)
-
-
-@contextlib.contextmanager
-def finished_files_stay() -> Iterator[None]:
-    """Tell after a cancel that the run can be continued."""
-    try:
-        yield
-    except (Cancelled, KeyboardInterrupt) as error:
-        raise BareEarthError(
-            "Cancelled. The finished files stay. Continue with --resume."
-        ) from error
 
 
 def tell_of_survey(options: argparse.Namespace, summary: SurveySummary) -> int:

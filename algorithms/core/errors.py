@@ -1,4 +1,4 @@
-"""The two exceptions that end a computation of this package early."""
+"""The exceptions that end a computation of this package early."""
 
 from __future__ import annotations
 
@@ -15,6 +15,10 @@ class BareEarthError(Exception):
 
 class Cancelled(Exception):
     """The user asked to stop. Code that catches it must remove incomplete files."""
+
+
+class FinishedFilesStay(Cancelled):
+    """The user stopped a run on many files, which can be continued: the finished ones stay."""
 
 
 def printable(text: str) -> str:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import shutil
 from collections import Counter
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, Iterable, Sequence
+from typing import Any, Iterable, Iterator, Sequence
 
-from ..core.errors import BareEarthError
+from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay
 from ..core.files import check_output, is_same_file, split_name, temporary_folder
 from ..core.progress import SILENT, Progress
 from ..crs.measurable import require_measurable
@@ -108,8 +109,8 @@ def classify_files(
     ------
     BareEarthError
         If no file can be classified, or the outputs cannot be written.
-    Cancelled
-        If the user asked to stop. Finished files stay, and no file is incomplete.
+    FinishedFilesStay
+        If the user asked to stop; no file is incomplete.
     """
     if request.explain is not None:
         raise BareEarthError("The raster of rules (explain) is made of one file, not of many.")
@@ -164,84 +165,137 @@ def write_files(
     ------
     BareEarthError
         If no file can be processed, or the outputs cannot be written.
-    Cancelled
-        If the user asked to stop. Finished files stay, and no file is incomplete.
+    FinishedFilesStay
+        If the user asked to stop; no file is incomplete.
     """
-    folder, sources = Path(folder), [Path(each) for each in sources]
-    workers = workers or Threads(request.resources)
-    vpc = folder / steps[0].vpc_name if vpc is None else Path(vpc)
-    for source in sources:
-        if is_same_file(source, vpc):
+    run = _SurveyRun(folder, steps, request, rasters, vpc)
+    with _finished_files_stay():
+        run.open([Path(each) for each in sources], progress)
+        run.work(workers or Threads(request.resources), progress.part(0.02, 0.98))
+        return run.finish(progress)
+
+
+@contextlib.contextmanager
+def _finished_files_stay() -> Iterator[None]:
+    """Say after a cancel that the run can be continued."""
+    try:
+        yield
+    except (Cancelled, KeyboardInterrupt) as error:
+        raise FinishedFilesStay from error
+
+
+class _SurveyRun:
+    """A run of steps on many files; the parameters are those of `write_files`."""
+
+    def __init__(
+        self,
+        folder: Path,
+        steps: Sequence[PointStep],
+        request: Request,
+        rasters: MakeRasters | None,
+        vpc: Path | None,
+    ) -> None:
+        self._folder, self._steps, self._request = Path(folder), list(steps), request
+        self._rasters = rasters
+        self._vpc = self._folder / steps[0].vpc_name if vpc is None else Path(vpc)
+        # Inputs that cannot be done, and why, by their names.
+        self._failures: dict[str, tuple[Path, str]] = {}
+        self._empty_count = 0
+
+    def open(self, sources: Sequence[Path], progress: Progress) -> None:
+        """Open the inputs, and refuse now what would fail at the end."""
+        for source in sources:
+            if is_same_file(source, self._vpc):
+                raise BareEarthError(
+                    f"Input and output are the same file, {source}. Choose another output."
+                )
+        recursive, stated = self._request.files.recursive, self._request.stated
+        survey = open_survey(sources, recursive, progress.part(0.0, 0.02), stated)
+        _check_survey(survey, self._folder, self._vpc, sources if recursive else [])
+        made = [] if self._rasters is None else [self._rasters]
+        self._steps = located([*self._steps, *made], _place_of(survey), progress)
+        self._rasters = self._steps.pop() if made else None
+        self._steps[0].check_survey(survey.box)
+        targets = _targets_of(survey, self._folder, self._request.tiles.format)
+        if self._rasters is not None:
+            self._rasters.placed(survey.crs, survey.box)
+            others = self._vpc, *targets, *targets.values()
+            _check_rasters(self._rasters, survey, self._folder, others)
+        self._survey = survey
+        self._inputs = {each.path.name: each.path for each in survey.tiles}
+        self._failures = {each.path.name: (each.path, each.reason) for each in survey.broken}
+
+    @property
+    def _places(self) -> list[Path]:
+        """The folder for the outputs of each step."""
+        beside = folders_of(self._folder)[1]
+        waiting = [beside / f"{_WAITING}-{number}" for number in range(len(self._steps) - 1)]
+        return [*waiting, self._folder]
+
+    def _targets(self, survey: Survey, place: Path) -> dict[Path, Path]:
+        """Return the output of each file in a folder."""
+        kind = self._request.tiles.format if place is self._folder else "same"
+        return _targets_of(survey, place, kind)
+
+    def work(self, workers: Workers, progress: Progress) -> None:
+        """Run one step after the other; each reads the outputs of the one before."""
+        resume, survey, places = self._request.tiles.resume, self._survey, self._places
+        of_steps = [self._targets(survey, place) for place in places]
+        tasks = tasks_of(survey, self._steps, of_steps, resume)
+        parts = progress.shares(*[1.0] * len(self._steps))
+        for number, (step, place, part) in enumerate(zip(self._steps, places, parts)):
+            is_last = place is self._folder
+            run = TileRun(survey, place, self._targets(survey, place), step, part, tasks[number])
+            run.work(workers, resume, self._rasters if is_last else None)
+            self._last = run
+            for path, reason in run.failures.items():
+                self._failures[path.name] = self._inputs[path.name], reason
+            if not number:
+                self._empty_count = run.empty_count
+                if (run.done or run.empty_count) and not tasks[-1].kept:
+                    step.tell_of_survey(run.done, progress)
+            if is_last:
+                return
+            if run.done:
+                made = [place / each.name for each in run.done]
+                survey = open_survey(made, progress=SILENT, stated=self._request.stated)
+            elif tasks[-1].kept:  # all that was left to do has failed
+                tasks[-1] = replace(tasks[-1], only=frozenset())
+            else:
+                return
+
+    def finish(self, progress: Progress) -> SurveySummary:
+        """Report the files that are left out, and list the others in a virtual point cloud."""
+        run, request = self._last, self._request
+        reasons = {str(path): reason for path, reason in sorted(self._failures.values())}
+        for path, reason in reasons.items():
+            progress.warning(f"{path} is left out. {reason}")
+        if not run.done:
             raise BareEarthError(
-                f"Input and output are the same file, {source}. Choose another output."
+                f"None of the {len(reasons):,} files could be done."
+                if reasons
+                else "None of the files has points to write in the area."
             )
-    recursive = request.files.recursive
-    survey = open_survey(sources, recursive, progress.part(0.0, 0.02), request.stated)
-    _check_survey(survey, folder, vpc, sources if recursive else [])
-    made = [rasters] if rasters is not None else []
-    steps = located([*steps, *made], _place_of(survey), progress)
-    rasters = steps.pop() if made else None
-    steps[0].check_survey(survey.box)
-    if rasters is not None:  # refused now, and not at the end
-        rasters.placed(survey.crs, survey.box)
-    targets = _targets_of(survey, folder, request.tiles.format)
-    if rasters is not None:
-        _check_rasters(rasters, survey, folder, (vpc, *targets, *targets.values()))
-    failures = {each.path.name: (each.path, each.reason) for each in survey.broken}
-    inputs = {each.path.name: each.path for each in survey.tiles}
-    waiting = [folders_of(folder)[1] / f"{_WAITING}-{each}" for each in range(len(steps) - 1)]
-    parts = progress.part(0.02, 0.98).shares(*[1.0] * len(steps))
-    places = [*waiting, folder]
-    formats = [*["same"] * len(waiting), request.tiles.format]
-    of_steps = [_targets_of(survey, *each) for each in zip(places, formats)]
-    tasks = tasks_of(survey, steps, of_steps, request.tiles.resume)
-    for number, (step, place, task, part) in enumerate(zip(steps, places, tasks, parts)):
-        is_last = place is folder
-        targets = _targets_of(survey, place, formats[number])
-        run = TileRun(survey, place, targets, step, part, task)
-        run.work(workers, request.tiles.resume, rasters if is_last else None)
-        for path, reason in run.failures.items():
-            failures[path.name] = inputs[path.name], reason
-        if not number:
-            empty_count = run.empty_count
-            if (run.done or empty_count) and not tasks[-1].kept:
-                step.tell_of_survey(run.done, progress)
-        if is_last:
-            break
-        if run.done:
-            made = [place / each.name for each in run.done]
-            survey = open_survey(made, progress=SILENT, stated=request.stated)
-        elif tasks[-1].kept:  # all that was left to do has failed
-            tasks[-1] = replace(tasks[-1], only=frozenset())
-        else:
-            break
-    reasons = {str(path): reason for path, reason in sorted(failures.values())}
-    for path, reason in reasons.items():
-        progress.warning(f"{path} is left out. {reason}")
-    if not run.done:
-        raise BareEarthError(
-            f"None of the {len(reasons):,} files could be done."
-            if reasons
-            else "None of the files has points to write in the area."
+        if self._empty_count:
+            progress.info(
+                f"{self._empty_count:,} files are not written: they have no points to write in the"
+                " area."
+            )
+        for place in self._places[:-1]:
+            shutil.rmtree(place, ignore_errors=True)
+        made, part = [self._folder / each.name for each in run.done], progress.part(0.98, 1.0)
+        write_vpc(self._vpc, made, part, request.tiles.overview, request.stated)
+        unknown = self._failures.keys() - self._inputs.keys()
+        return SurveySummary(
+            tile_count=len(self._inputs) - self._empty_count + len(unknown),
+            done_count=len(run.done),
+            kept_count=run.kept_count,
+            point_count=sum(each.point_count for each in run.done),
+            ground_count=sum(getattr(each, "ground_count", 0) for each in run.done),
+            failures=reasons,
+            vpc=str(self._vpc),
+            tiles=tuple(run.done),
         )
-    if empty_count:
-        progress.info(
-            f"{empty_count:,} files are not written: they have no points to write in the area."
-        )
-    for each in waiting:
-        shutil.rmtree(each, ignore_errors=True)
-    made = [folder / each.name for each in run.done]
-    write_vpc(vpc, made, progress.part(0.98, 1.0), request.tiles.overview, request.stated)
-    return SurveySummary(
-        tile_count=len(inputs) - empty_count + len(failures.keys() - inputs.keys()),
-        done_count=len(run.done),
-        kept_count=run.kept_count,
-        point_count=sum(each.point_count for each in run.done),
-        ground_count=sum(getattr(each, "ground_count", 0) for each in run.done),
-        failures=reasons,
-        vpc=str(vpc),
-        tiles=tuple(run.done),
-    )
 
 
 def rasters_of_files(

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..core.files import check_distinct, check_output
+from ..core.files import check_distinct
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
 from ..core.threads import may_use
@@ -19,7 +19,7 @@ from ..las.crs_records import read_crs
 from ..las.extrabytes import remembers
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
-from ..las.writing import check_writable, layers_kept, write_changed
+from ..las.writing import check_cloud, layers_kept, write_changed
 from ..rasters.writing import check_raster_output, replacing_raster
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
@@ -28,7 +28,7 @@ from .file_points import FilePoints
 from .labelling import ClassifiedPoints, LabelGround
 from .memory import Resources
 from .rasters import MakeRasters, RasterSize, write_rasters
-from .requests import ClassifyRequest, TerrainRequest
+from .requests import ClassifyRequest, HeightRequest, KeyPointRequest, TerrainRequest
 from .steps import PointStep, Step, located
 
 
@@ -220,10 +220,8 @@ def _summary(result: ClassifiedPoints, tally: Any, request: ClassifyRequest) -> 
 def write_points(
     source: Path,
     target: Path,
-    step: PointStep,
-    resources: Resources = Resources(),
+    request: HeightRequest | KeyPointRequest,
     progress: Progress = SILENT,
-    stated: str | None = None,
 ) -> Any:
     """Write a file with the values that a step finds for its points, such as heights.
 
@@ -231,14 +229,10 @@ def write_points(
     ----------
     source, target : Path
         The input, and the output (.las, .laz or .copc.laz).
-    step : PointStep
-        The step.
-    resources : Resources
-        Threads and memory.
+    request : HeightRequest or KeyPointRequest
+        What to find.
     progress : Progress
         Receives progress and messages.
-    stated : str, optional
-        The CRS that the user states in place of that of the file, as well-known text.
 
     Returns
     -------
@@ -252,7 +246,8 @@ def write_points(
     Cancelled
         If the user asked to stop; no output is left behind.
     """
-    las, resources = _checked(source, target, resources, stated)
+    las, resources = _checked(source, target, request.resources, request.stated)
+    step = request.step
     with may_use(resources.thread_count):
         first = progress.part(0.0, 0.1)
         with FilePoints.opened(las, target, resources, progress=first) as points:
@@ -298,18 +293,6 @@ def rasters_of_file(
         step = step.seeing((part for _, part in points.parts()), frame, progress)
         made = step.work(store, points.resources, progress.part(0.15, 0.9))
         return write_rasters(made, frame, step, outputs, progress.part(0.9, 1.0))
-
-
-def check_cloud(source: Path, target: Path) -> None:
-    """Refuse, before any work is done, a point cloud that cannot be written.
-
-    Raises
-    ------
-    BareEarthError
-        If its name or folder is unsuitable, or it is the input.
-    """
-    check_output(target, (source,))
-    check_writable(target)
 
 
 def _checked(

@@ -1,4 +1,7 @@
-"""The functions of the public API, for one file or many."""
+"""The entry to all runs, for the library, the command line and the dialogs.
+
+Here it is decided whether a run works on one file, or on many files as one survey.
+"""
 
 from __future__ import annotations
 
@@ -8,8 +11,8 @@ from typing import Any, Iterable, Union
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
 from ..survey.files import is_one_file
-from .many_files import SurveySummary, classify_files, rasters_of_files, write_files
-from .one_file import Summary, classify_file, rasters_of_file, write_points
+from .many_files import classify_files, rasters_of_files, write_files
+from .one_file import classify_file, rasters_of_file, write_points
 from .rasters import RasterSize
 from .requests import ClassifyRequest, HeightRequest, KeyPointRequest, TerrainRequest
 from .workers import Workers
@@ -23,7 +26,9 @@ def classify(
     request: ClassifyRequest = ClassifyRequest(),
     progress: Progress = SILENT,
     workers: Workers | None = None,
-) -> Summary | SurveySummary:
+    vpc: Path | None = None,
+    as_survey: bool = False,
+) -> Any:
     """Classify the ground points of a file, or of many files as one survey.
 
     Parameters
@@ -39,6 +44,10 @@ def classify(
         Receives progress and messages.
     workers : Workers, optional
         The workers for many files; by default threads of this process.
+    vpc : path, optional
+        For many files, the virtual point cloud of the results; by default in the folder.
+    as_survey : bool
+        Whether one file is treated as a survey of many, and its output is in a folder.
 
     Returns
     -------
@@ -50,7 +59,8 @@ def classify(
     BareEarthError
         If an input cannot be read or an output cannot be written.
     Cancelled
-        If the user asked to stop; no output is incomplete.
+        If the user asked to stop; no output is incomplete. It is `FinishedFilesStay` if some of
+        many files can be finished already.
 
     Examples
     --------
@@ -58,10 +68,10 @@ def classify(
     >>> request = ClassifyRequest(parameters=TinDensification(preset="hilly"))
     >>> summary = classify("tile.laz", "classified.laz", request)  # doctest: +SKIP
     """
-    paths, one = _paths(sources), Path(output)
-    if is_one_file(paths):
-        return classify_file(paths[0], one, request, progress)
-    return classify_files(paths, one, request, progress, workers)
+    paths, target = _paths(sources), Path(output)
+    if _is_one(paths, as_survey):
+        return classify_file(paths[0], target, request, progress)
+    return classify_files(paths, target, request, progress, workers, vpc)
 
 
 def heights(
@@ -70,6 +80,7 @@ def heights(
     request: HeightRequest = HeightRequest(),
     progress: Progress = SILENT,
     workers: Workers | None = None,
+    as_survey: bool = False,
 ) -> Any:
     """Write classified files with the height of every point above the ground.
 
@@ -77,7 +88,7 @@ def heights(
     ----------
     request : HeightRequest
         Which points are ground, and where the heights go.
-    sources, output, progress, workers
+    sources, output, progress, workers, as_survey
         As for `classify`.
 
     Returns
@@ -90,7 +101,7 @@ def heights(
     BareEarthError, Cancelled
         As for `classify`, and if the input has no ground.
     """
-    return _written(_paths(sources), Path(output), request, progress, workers)
+    return write(sources, output, request, progress, workers, as_survey)
 
 
 def key_points(
@@ -99,6 +110,7 @@ def key_points(
     request: KeyPointRequest = KeyPointRequest(),
     progress: Progress = SILENT,
     workers: Workers | None = None,
+    as_survey: bool = False,
 ) -> Any:
     """Write classified files with their model key points marked.
 
@@ -106,7 +118,7 @@ def key_points(
     ----------
     request : KeyPointRequest
         How closely the key points follow the ground, and how they are marked.
-    sources, output, progress, workers
+    sources, output, progress, workers, as_survey
         As for `classify`.
 
     Returns
@@ -119,7 +131,7 @@ def key_points(
     BareEarthError, Cancelled
         As for `classify`, and if the input has no ground.
     """
-    return _written(_paths(sources), Path(output), request, progress, workers)
+    return write(sources, output, request, progress, workers, as_survey)
 
 
 def terrain(
@@ -156,23 +168,29 @@ def terrain(
     if not request.ground.ground_classes:
         raise BareEarthError("Choose at least one ground class.")
     request.rasters.check(tuple(paths))
-    if is_one_file(paths):
+    if _is_one(paths):
         return rasters_of_file(paths[0], request, progress)
     return rasters_of_files(paths, request, progress, workers)
 
 
-def _written(
-    paths: list[Path],
-    output: Path,
+def write(
+    sources: Sources,
+    output: str | Path,
     request: HeightRequest | KeyPointRequest,
-    progress: Progress,
-    workers: Workers | None,
+    progress: Progress = SILENT,
+    workers: Workers | None = None,
+    as_survey: bool = False,
 ) -> Any:
-    if is_one_file(paths):
-        return write_points(
-            paths[0], output, request.step, request.resources, progress, request.stated
-        )
-    return write_files(paths, output, [request.step], request, progress, workers)
+    """Do what `heights` or `key_points` does, as the type of the request says."""
+    paths, target = _paths(sources), Path(output)
+    if _is_one(paths, as_survey):
+        return write_points(paths[0], target, request, progress)
+    return write_files(paths, target, [request.step], request, progress, workers)
+
+
+def _is_one(paths: list[Path], as_survey: bool = False) -> bool:
+    """Return whether a run works on one file."""
+    return not as_survey and is_one_file(paths)
 
 
 def _paths(sources: Sources) -> list[Path]:

@@ -12,6 +12,7 @@ from ..core.files import replacing, temporary_folder
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
 from ..filters import DEFAULT_METHOD, METHODS
+from ..las.writing import check_cloud
 from ..products.constraints import NO_CONSTRAINTS, Constraints
 from ..products.contours import Contours, Interval, check_contours, write_contours
 from ..products.raster_files import RasterFiles
@@ -23,11 +24,11 @@ from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.files import is_one_file
 from ..survey.selection import Selection
-from .many_files import classify_files
-from .one_file import check_cloud, classify_file
+from .one_file import Summary
 from .options import TileOutput
 from .output import Output
 from .requests import ClassifyRequest, Request
+from .runs import classify
 
 # The longest first, since it ends as the second does.
 _FORMATS = ("copc.laz", "laz", "las")
@@ -149,7 +150,7 @@ def make_maps(
         if files.contours:
             maps.setdefault("dtm", waiting / "dtm.tif")
         part, tracing = progress.shares(5.0 + 4.4 * bool(maps), 0.3 * bool(files.contours))
-        summary = _classified(sources, cloud, request.classify(RasterFiles(**maps)), part)
+        summary = _classified(sources, cloud, request.classify(RasterFiles(**maps)), part, is_one)
         if files.contours:
             interval = write_contours(maps["dtm"], files.contours, request.contours, tracing)
             summary = summary._replace(contour_interval=interval)
@@ -157,14 +158,15 @@ def make_maps(
 
 
 def _classified(
-    sources: Sequence[Path], target: Path, how: ClassifyRequest, progress: Progress
+    sources: Sequence[Path], target: Path, how: ClassifyRequest, progress: Progress, is_one: bool
 ) -> MapSummary:
-    if is_one_file(sources):
-        one = classify_file(sources[0], target, how, progress)
-        return MapSummary(target, one.area_count, one.ground_count, one.class_counts)
-    name = target.name.lower()
-    kind = next((each for each in _FORMATS if name.endswith(f".{each}")), target.suffix[1:])
-    folder = target.with_name(target.name[: -len(kind) - 1])
-    how = replace(how, tiles=TileOutput(kind if kind in _FORMATS else "same", overview=True))
-    many = classify_files(sources, folder, how, progress)
-    return MapSummary(Path(many.vpc), many.point_count, many.ground_count, many.class_counts)
+    """Classify into a file, or into a folder of this name without its ending."""
+    if not is_one:
+        name = target.name.lower()
+        kind = next((each for each in _FORMATS if name.endswith(f".{each}")), target.suffix[1:])
+        target = target.with_name(target.name[: -len(kind) - 1])
+        how = replace(how, tiles=TileOutput(kind if kind in _FORMATS else "same", overview=True))
+    done = classify(sources, target, how, progress)
+    if isinstance(done, Summary):
+        return MapSummary(target, done.area_count, done.ground_count, done.class_counts)
+    return MapSummary(Path(done.vpc), done.point_count, done.ground_count, done.class_counts)

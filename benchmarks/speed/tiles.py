@@ -82,7 +82,7 @@ def title(count: int) -> str:
     return f"{count / 1e6:g} million"
 
 
-def write(count: int, path: Path) -> None:
+def write(count: int, path: Path, corner: tuple[float, float] = (0.0, 0.0)) -> None:
     """Write a survey of exactly so many points in bounded memory.
 
     Parameters
@@ -91,6 +91,8 @@ def write(count: int, path: Path) -> None:
         Number of points.
     path : Path
         The LAZ file; it gets its name when it is complete.
+    corner : tuple of float
+        Metres by which it lies farther east and north: other land, and a tile of a larger survey.
     """
     import laspy
 
@@ -103,7 +105,7 @@ def write(count: int, path: Path) -> None:
     with laspy.open(
         unfinished, "w", header=header, laz_backend=laspy.LazBackend.LazrsParallel
     ) as file:
-        pieces = survey(count)
+        pieces = survey(count, corner)
         while missing:
             columns = next(pieces)
             kept = min(len(columns["x"]), missing)
@@ -115,7 +117,7 @@ def write(count: int, path: Path) -> None:
     unfinished.replace(path)
 
 
-def survey(count: int) -> Iterator[dict[str, np.ndarray]]:
+def survey(count: int, corner: tuple[float, float] = (0.0, 0.0)) -> Iterator[dict[str, np.ndarray]]:
     """Yield pieces of a survey of a square, as columns of a LAS file, without an end.
 
     The square holds about so many points; after it, the last flight line goes on.
@@ -134,9 +136,10 @@ def survey(count: int) -> Iterator[dict[str, np.ndarray]]:
             row = np.repeat(np.arange(start, end), across)
             column = np.tile(np.arange(across), end - start)
             x = (column + random.uniform(0.1, 0.9, len(row))) * width / across + line * width
-            y = (row + random.uniform(0.1, 0.9, len(row))) * spacing
+            y = (row + random.uniform(0.1, 0.9, len(row))) * spacing + corner[1]
             pulse = row.astype(np.float64) * across + column
             slant = (x - (line + 0.5) * width) / _FLYING_HEIGHT
+            x += corner[0]
             yield _columns(landscape.echoes(x, y, random), x, y, pulse, slant, line, random)
 
 

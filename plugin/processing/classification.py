@@ -104,8 +104,8 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
     ) -> dict[str, Any]:
         """Classify the file."""
         # Imported here, so that QGIS starts faster.
-        from ...algorithms.engine.one_file import classify_file
         from ...algorithms.engine.requests import ClassifyRequest
+        from ...algorithms.engine.runs import classify
 
         chosen = self.chosen(parameters, context)
         output = self.point_cloud_destination(parameters, "OUTPUT", context)
@@ -123,7 +123,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         )
         if explanation:
             paths["EXPLANATION"] = explanation
-        summary = classify_file(self._source, Path(output), request, progress)
+        summary = classify(self._source, output, request, progress)
         counts = summary.area_ground_count, summary.area_count
         progress.share(*counts, in_area=bool(self._limits["area"]))
         show_classified(self, output, summary.class_counts, request, context, progress)

@@ -59,8 +59,8 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
 
     def compute(self, parameters, context, progress):
         """Classify the files."""
-        from ...algorithms.engine.many_files import classify_files
         from ...algorithms.engine.requests import ClassifyRequest
+        from ...algorithms.engine.runs import classify
 
         chosen = options.as_command(self.chosen(parameters, context))
         folder = self.parameterAsFileOutput(parameters, "OUTPUT_FOLDER", context)
@@ -70,10 +70,10 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         given = {"VPC": vpc, **given_options(**self._limits), **paths}
         progress.command(command_line("classify-tiles", words, chosen, given))
         request = ClassifyRequest.of(chosen, rasters=raster_files(paths), **self._limits)
-        summary = classify_files(self.inputs, folder, request, progress, vpc=vpc or None)
+        summary = classify(self.inputs, folder, request, progress, None, vpc or None, True)
         progress.info(f"{summary.text}.")
         self.class_counts = summary.class_counts
         paths = shown_rasters(paths, request.raster_output, context)
         show_classified(self, summary.vpc, self.class_counts, request, context, progress)
-        paths.update({name: getattr(summary, name.lower()) for name in _NUMBERS})
-        return {"OUTPUT_FOLDER": folder, "OUTPUT_VPC": summary.vpc, **paths}
+        counts = {name: getattr(summary, name.lower()) for name in _NUMBERS}
+        return {"OUTPUT_FOLDER": folder, "OUTPUT_VPC": summary.vpc, **paths, **counts}

@@ -13,7 +13,7 @@ from qgis.core import (
 )
 
 from ...algorithms.core.files import check_output
-from ...algorithms.engine.one_file import check_cloud
+from ...algorithms.las.writing import check_cloud
 from ...algorithms.products.contours import check_contours
 from ...algorithms.products.line_files import FORMATS as LINE_FORMATS
 from ...algorithms.products.page import check_page

@@ -12,7 +12,7 @@ import bare_earth.algorithms as package
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import Cancelled
 from bare_earth.algorithms.core.progress import SILENT, Progress
-from bare_earth.algorithms.engine import many_files, one_file
+from bare_earth.algorithms.engine import many_files
 from bare_earth.algorithms.engine.heights import HeightOutput
 from bare_earth.algorithms.engine.key_points import KeyPointMark
 from bare_earth.algorithms.engine.memory import Resources
@@ -25,7 +25,7 @@ from bare_earth.algorithms.engine.requests import (
     KeyPointRequest,
     TerrainRequest,
 )
-from bare_earth.algorithms.engine.runs import terrain
+from bare_earth.algorithms.engine.runs import classify, heights, key_points, terrain
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
 from bare_earth.algorithms.products.surface_model import SurfaceModel
 from bare_earth.algorithms.products.terrain_model import TerrainModel
@@ -72,7 +72,7 @@ def classify_file(
         parameters=parameters, selection=selection, area=area, output=output, terrain=terrain,
         rasters=RasterFiles(dtm=dtm, hillshade=hillshade), resources=resources,
     )  # fmt: skip
-    return one_file.classify_file(source, target, request, progress)
+    return classify(source, target, request, progress)
 
 
 def classify_tiles(
@@ -91,8 +91,8 @@ def write_height_above_ground(
     source, target, ground=GroundClasses(), output=HeightOutput(), resources=Resources(),
     progress=SILENT,
 ):  # fmt: skip
-    request = HeightRequest(ground=ground, output=output)
-    return one_file.write_points(source, target, request.step, resources, progress)
+    request = HeightRequest(ground=ground, output=output, resources=resources)
+    return heights(source, target, request, progress)
 
 
 def write_key_points(
@@ -100,7 +100,7 @@ def write_key_points(
     progress=SILENT,
 ):  # fmt: skip
     request = KeyPointRequest(parameters=parameters, ground=ground, mark=mark)
-    return one_file.write_points(source, target, request.step, progress=progress)
+    return key_points(source, target, request, progress)
 
 
 def write_terrain_models(

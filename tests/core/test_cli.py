@@ -13,13 +13,14 @@ from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.core.parameters import ParameterSet
 from bare_earth.algorithms.core.points import Frame
 from bare_earth.algorithms.core.progress import Progress
-from bare_earth.algorithms.engine import one_file
+from bare_earth.algorithms.engine import runs
 from bare_earth.algorithms.engine.explanation import (
     ExplainedCells,
     Explanation,
     described,
     rules_in,
 )
+from bare_earth.algorithms.engine.one_file import Summary
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.products.terrain_model import TerrainModel
 from bare_earth.algorithms.survey.selection import Selection
@@ -173,7 +174,7 @@ def failing(monkeypatch, error):
     def fail(*_, **__):
         raise error
 
-    monkeypatch.setattr(one_file, "classify_file", fail)
+    monkeypatch.setattr(runs, "classify", fail)
 
 
 @pytest.mark.parametrize(
@@ -273,11 +274,11 @@ def test_an_empty_parameter_is_automatic_as_its_help_says(capsys):
 def heard_by_classify(monkeypatch):
     calls = []
 
-    def classify_file(source, target, request, progress):
+    def classify(sources, output, request, *_):
         calls.append(request)
-        return one_file.Summary(1, 1, 1, 1, 1, {2: 1})
+        return Summary(1, 1, 1, 1, 1, {2: 1})
 
-    monkeypatch.setattr(one_file, "classify_file", classify_file)
+    monkeypatch.setattr(runs, "classify", classify)
     return calls
 
 
