@@ -29,6 +29,8 @@ _MARGIN = 0.1
 _MOST_PLACES = 400
 # Bytes that a point takes in memory while it waits for its block.
 _BYTES_HELD = 48
+# Bytes that a point of a file takes while the file is read.
+_BYTES_READ = 40
 # Least number of groups of blocks for each worker, so that no worker is idle for long.
 _GROUPS_A_WORKER = 4
 _LARGEST_GROUP = 16
@@ -117,11 +119,19 @@ def sources_of(grid: BlockGrid, survey: Survey, place: BlockIndex) -> list[Path]
     return [each.path for each in survey.touching(grid.window([place]))]
 
 
-def memory_of(grid: BlockGrid, survey: Survey, places: Sequence[BlockIndex]) -> int:
-    """Return about how many bytes of memory it takes to filter the blocks one after the other."""
-    count = points_in(survey, grid.window(places))
-    seen = min(count, grid.blocks.most_points)
-    return int(_BYTES_HELD * count) + grid.blocks.memory(seen)
+def memory_held(grid: BlockGrid, count: float) -> int:
+    """Return about how many bytes the blocks of `count` points take, if all wait in memory."""
+    return int(_BYTES_HELD * count) + grid.blocks.memory(count)
+
+
+def least_memory(grid: BlockGrid, survey: Survey, place: BlockIndex) -> int:
+    """Return about how many bytes a block takes if its points wait on disk.
+
+    One file after the other is read.
+    """
+    window = grid.window([place])
+    largest = max((each.count for each in survey.touching(window)), default=0)
+    return int(_BYTES_READ * largest) + grid.blocks.memory(points_in(survey, window))
 
 
 def points_in(survey: Survey, box: Box) -> float:
@@ -161,7 +171,8 @@ def grouped(
         wider = list(_squares(places, width))
         if len(wider) < _GROUPS_A_WORKER * workers:
             break
-        if max(memory_of(grid, survey, group) for group in wider) > memory:
+        counts = (points_in(survey, grid.window(group)) for group in wider)
+        if memory_held(grid, max(counts)) > memory:
             break
         groups, width = wider, 2 * width
     return groups

@@ -10,14 +10,15 @@ from __future__ import annotations
 import itertools
 import math
 from dataclasses import dataclass
-from typing import Callable, Iterator, NamedTuple, Protocol, Sequence
+from typing import Iterator, NamedTuple
 
 import numpy as np
 
 from ..core.points import Box, Points
 from ..core.progress import SILENT, Progress
-from ..core.threads import in_threads, parts_of
+from ..core.threads import parts_of
 from .memory import Cost
+from .store import BlockPoints, Corner, Store
 
 _SIDE, _STEP, _REACHES = 2000.0, 100.0, 4.0
 # Metres from the multiples of the side to the borders of the blocks. Most tiles begin and end at
@@ -37,9 +38,6 @@ _LEVELS = 4
 
 # Labels of points; 0 is none of these.
 GROUND, LOW, BRIDGE, HIGH = 1, 2, 3, 4
-
-# x and y in metres.
-Corner = tuple[float, float]
 
 
 class Block(NamedTuple):
@@ -82,158 +80,6 @@ class Block(NamedTuple):
         return [Block(column + i, row + k, side, self.start) for k, i in places]
 
 
-class Leaves(NamedTuple):
-    """Squares that hold the points of a store; smaller than blocks or equal to them.
-
-    Attributes
-    ----------
-    x, y : numpy.ndarray of float64, shape (n,)
-        Lower left corners in metres.
-    side : float
-        Side in metres.
-    counts : numpy.ndarray of int64, shape (n,)
-        How many points each holds.
-    """
-
-    x: np.ndarray
-    y: np.ndarray
-    side: float
-    counts: np.ndarray
-
-    def within(self, box: Box) -> np.ndarray:
-        """Return the indices of the leaves that a box touches."""
-        west, south, east, north = box
-        # Rounding must not decide where the two have a border in common.
-        touch = (self.x <= east) & (self.x + self.side >= west)
-        return np.flatnonzero(touch & (self.y <= north) & (self.y + self.side >= south))
-
-    def are_inside(self, leaves: np.ndarray, box: Box) -> bool:
-        """Return whether some leaves lie in a box and touch none of its sides."""
-        west, south, east, north = box
-        x, y = self.x[leaves], self.y[leaves]
-        inside = (x > west) & (x + self.side < east) & (y > south) & (y + self.side < north)
-        return bool(inside.all())
-
-
-class Store(Protocol):
-    """Holds points, in memory or on disk, until their block is computed.
-
-    Attributes
-    ----------
-    leaves : Leaves
-        The squares in which the points lie.
-    has_known : bool
-        Whether any of them are known ground.
-    """
-
-    leaves: Leaves
-    has_known: bool
-
-    def read(
-        self,
-        leaves: np.ndarray,
-        box: Box | None = None,
-        corner: Corner = (0.0, 0.0),
-        progress: Progress = SILENT,
-    ) -> BlockPoints:
-        """Return the points of some leaves; only those in a box, if there is one.
-
-        Coordinates and box are relative to a corner. Several threads may call this.
-        """
-
-    def put(self, positions: np.ndarray, labels: np.ndarray) -> None:
-        """Store the labels of points. Only one thread may call this."""
-
-
-class BlockPoints(NamedTuple):
-    """Points of a store.
-
-    Attributes
-    ----------
-    points : Points
-        Their coordinates.
-    known : numpy.ndarray of bool, shape (n,)
-        Which are known ground.
-    wanted : numpy.ndarray of bool, shape (n,)
-        Which are to be labelled; the others are context.
-    positions : numpy.ndarray of int, shape (n,)
-        Their indices in the store.
-    roads : numpy.ndarray of bool, shape (n,)
-        Which are ground where they lie on it.
-    multi_return : numpy.ndarray of bool, shape (n,)
-        Which are of pulses with several returns.
-    """
-
-    points: Points
-    known: np.ndarray
-    wanted: np.ndarray
-    positions: np.ndarray
-    roads: np.ndarray
-    multi_return: np.ndarray
-
-    @classmethod
-    def empty(cls, count: int, kind: type) -> BlockPoints:
-        """Return uninitialised arrays for `count` points; `kind` is the type of the positions."""
-        known, wanted, roads, several = (np.zeros(count, dtype=bool) for _ in range(4))
-        points = Points(*np.empty((3, count)))
-        return cls(points, known, wanted, np.empty(count, dtype=kind), roads, several)
-
-    def put(self, start: int, some: BlockPoints) -> None:
-        """Overwrite points from index `start` on with other points."""
-        where = slice(start, start + some.points.count)
-        for mine, others in zip((*self.points, *self[1:]), (*some.points, *some[1:])):
-            mine[where] = others
-
-    def take(self, which: np.ndarray | slice) -> BlockPoints:
-        """Return the points that a mask or a slice selects."""
-        return BlockPoints(self.points.take(which), *(each[which] for each in self[1:]))
-
-    def within(self, box: Box) -> BlockPoints:
-        """Return the points in a box, without those on its largest x and y."""
-        west, south, east, north = box
-        x, y = self.points.x, self.points.y
-        inside = (x >= west) & (x < east) & (y >= south) & (y < north)
-        return self if inside.all() else self.take(inside)
-
-
-def gathered(
-    counts: Sequence[int],
-    read: Callable[[int], BlockPoints],
-    box: Box | None = None,
-    kind: type = np.int64,
-    progress: Progress = SILENT,
-) -> BlockPoints:
-    """Return points that are read in pieces, which are small enough for the processor's cache.
-
-    Parameters
-    ----------
-    counts : sequence of int
-        Points of each piece.
-    read : callable
-        Returns the points of a piece, given its number. Several threads may call it.
-    box : tuple of float, optional
-        Only points in this box are returned.
-    kind : type
-        Type of integer for the positions.
-    progress : Progress
-        Receives progress.
-    """
-    starts = np.concatenate(([0], np.cumsum(counts, dtype=np.int64))).tolist()
-    whole = BlockPoints.empty(starts[-1], kind)
-    if box is None:
-        in_threads(
-            lambda number: whole.put(starts[number], read(number)), range(len(counts)), progress
-        )
-        return whole
-    end = 0
-    for number in range(len(counts)):
-        some = read(number).within(box)
-        whole.put(end, some)
-        end += some.points.count
-        progress(starts[number + 1] / starts[-1])
-    return whole.take(slice(end))
-
-
 @dataclass(frozen=True)
 class Blocks:
     """How the plane is cut into blocks, from (0, 0) of the frame; in a survey, of the CRS.
@@ -264,7 +110,7 @@ class Blocks:
         return cls(side, reach, start=_START, cost=cost)
 
     def memory(self, count: float, area: float = math.inf) -> int:
-        """Return about how many bytes of memory a block takes.
+        """Return about how many bytes of memory a block takes, or the largest of its parts.
 
         Parameters
         ----------
@@ -273,8 +119,9 @@ class Blocks:
         area : float
             Square metres in which they lie; at most the area of a whole block counts.
         """
-        most = (self.side + 2.0 * self.buffer) ** 2
-        return int(self.cost.a_point * count + self.cost.a_square_metre * min(area, most))
+        area = min(area, (self.side + 2.0 * self.buffer) ** 2)
+        share = min(1.0, self.most_points / max(count, 1.0))
+        return int(self.cost.a_point * count * share + self.cost.a_square_metre * area * share)
 
     def number(self, places: np.ndarray | float) -> np.ndarray:
         """Return the columns of the blocks that hold some x, or the rows for some y, as floats."""
@@ -320,7 +167,8 @@ class Blocks:
 
     def _divided(self, block: Block, store: Store) -> Iterator[Block]:
         """Yield a block, or the smaller blocks into which it is cut."""
-        if store.leaves.counts[store.leaves.within(block.box)].sum() <= self.most_points:
+        most = store.leaves.counts[store.leaves.within(block.box)].sum()
+        if most <= self.most_points:
             yield block
             return
         counts = self._counts(block, store)

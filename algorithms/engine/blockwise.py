@@ -8,9 +8,10 @@ from typing import Any, Callable, Iterator
 import numpy as np
 
 from ..core.progress import Progress
-from .blocks import Block, BlockPoints, Blocks, Corner, Store
+from .blocks import Block, Blocks
 from .memory import Resources, give_back
 from .scheduling import run_jobs
+from .store import BlockPoints, Corner, Store
 
 # Blocks that take so many bytes give their memory back to the system.
 _MUCH = 100_000_000

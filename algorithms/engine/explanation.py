@@ -13,7 +13,7 @@ from ..core.progress import Progress
 from ..filters.method import NOT_GROUND, Decisions
 from ..rasters.geotiff import RasterGrid
 from ..rasters.writing import write_geotiff
-from .blocks import Corner
+from .store import Corner
 
 # What the description of the band begins with; a list of the rules follows.
 _MEANING = f"rule that decided (+{NOT_GROUND}: not ground): "

@@ -15,11 +15,11 @@ from ..las.lasfile import LasFile
 from ..las.reading import read_cloud, read_parts
 from ..survey.shapes import Place
 from ..survey.tally import Tally
-from .blocks import Store
-from .disk_points import DiskPoints, room_on_disk
+from .disk_store import DiskStore, room_on_disk
 from .memory import GIGABYTE, Resources
-from .memory_points import MemoryPoints, SurveyFile
-from .steps import Marks, PointResult, PointStep, Step
+from .memory_store import MemoryStore
+from .steps import PointResult, PointStep, Step
+from .store import Marks, Store
 
 # Bytes that a cloud in memory takes a point, besides what a filter takes for those it sees.
 _BYTES_A_POINT_KEPT, _BYTES_A_POINT_SEEN, _MOST_SEEN = 40, 110, 12_000_000
@@ -201,21 +201,26 @@ class FilePoints:
         stores, shares = [], progress.shares(*[1.0] * len(steps))
         for (step, tally), marks, part in zip(steps, every, shares):
             step.tell(tally, self.path, progress)
-            files = [SurveyFile(self.cloud, *marks)]
             frame = survey_frame(self.cloud.crs, step.origin)
-            stores.append(MemoryPoints(files, frame, step.blocks, part, step.kind))
+            store = MemoryStore(frame, step.blocks, step.kind)
+            store.append(self.cloud, marks)
+            store.finish(part)
+            stores.append(store)
         return stores
 
     def _on_disk(
         self, steps: Sequence[tuple[Step, Any]], parts: Parts, progress: Progress
     ) -> list[Store]:
+        crs = read_crs(self._source)
         stores = [
-            self._files.enter_context(DiskPoints(self._target, step.blocks, step.kind, step.origin))
+            self._files.enter_context(
+                DiskStore(self._target, survey_frame(crs, step.origin), step.blocks, step.kind)
+            )
             for step, _ in steps
         ]
         for _, part in parts:
             for (step, tally), store in zip(steps, stores):
-                store.append(part, *step.marks(part, tally))
+                store.append(part, step.marks(part, tally))
         for (step, tally), store in zip(steps, stores):
             step.tell(tally, self.path, progress)
             store.finish()
@@ -226,8 +231,7 @@ class FilePoints:
     ) -> Iterator[tuple[slice, PointCloud, np.ndarray]]:
         """Yield the points part by part with their indices and their values in a store."""
         for number, (where, part) in enumerate(self.parts(progress)):
-            found = store.labels[0][where] if self.is_in_memory else store.values_of(number, part)
-            yield where, part, found
+            yield where, part, store.values(0)[where] if self.is_in_memory else store.values(number)
 
     def find(
         self, step: PointStep, tally: Any, progress: Progress = SILENT, then: Sequence[Step] = ()

@@ -19,10 +19,11 @@ from ..filters.warnings import warn_of_extent, warn_of_little_ground
 from ..grids.cells import apart
 from ..products.high_groups import HighGroups
 from ..survey.selection import Selection
-from .blocks import BRIDGE, GROUND, HIGH, LOW, Block, BlockPoints, Blocks, Store
+from .blocks import BRIDGE, GROUND, HIGH, LOW, Block, Blocks
 from .blockwise import over_blocks
 from .explanation import ExplainedCells, Explanation
 from .memory import Resources
+from .store import BlockPoints, Store
 
 # Shares of the time of a block for finding bridges and low outliers.
 _BRIDGES_SHARE, _LOW_SHARE = 0.15, 0.1

@@ -19,11 +19,12 @@ from ..products.height_above_ground import height_above_ground, with_roads
 from ..rasters.sampling import HeightRaster, HeightSampler
 from ..survey.area import Area
 from ..survey.ground_classes import GroundClasses, GroundTally
-from .blocks import BlockPoints, Blocks, Corner, Store
+from .blocks import Blocks
 from .blockwise import fill
 from .memory import Cost, Resources
 from .output import HEIGHT_DIMENSION, height_dimension
-from .steps import Marks, PointResult, PointStep, Room
+from .steps import PointResult, PointStep, Room
+from .store import BlockPoints, Corner, Marks, Store
 
 # The buffer of a block in metres, and the memory that it takes.
 _BLOCKS = Blocks.of(100.0, Cost(150.0, 50.0))

@@ -5,6 +5,7 @@ They run in threads, in processes, or on other computers that see the same folde
 
 from __future__ import annotations
 
+import contextlib
 import os
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -19,11 +20,12 @@ from ..core.threads import SharedThreads
 from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
 from ..las.writing import layers_kept, write_changed
-from .block_grid import BlockGrid, BlockIndex, code
+from .block_grid import BlockGrid, BlockIndex, code, memory_held
 from .cloud_cache import CloudCache
+from .disk_store import DiskStore
 from .file_points import FilePoints
 from .memory import Resources
-from .memory_points import MemoryPoints, SurveyFile
+from .memory_store import MemoryStore
 from .record import Fingerprint, write_record
 from .steps import PointStep
 
@@ -115,6 +117,16 @@ class BlockJob:
             if cloud.count:
                 yield cloud
 
+    @contextlib.contextmanager
+    def store(self, share: Share, kind: type = np.uint8) -> Iterator[MemoryStore | DiskStore]:
+        """Yield an empty store for the points: on disk if they do not fit into memory."""
+        frame, blocks = self.grid.frame, self.grid.blocks
+        if memory_held(self.grid, self.count) <= share.resources.bytes:
+            yield MemoryStore(frame, blocks, kind)
+            return
+        with DiskStore(self.files[0], frame, blocks, kind) as store:
+            yield store
+
 
 @dataclass(frozen=True)
 class PointJob(BlockJob):
@@ -130,52 +142,76 @@ class PointJob(BlockJob):
 
     def run(self, share: Share, progress: Progress) -> None:
         """Do it."""
-        parts, codes = self._read(share.cache, progress.part(0.0, 0.3))
-        kind, failure = self.step.kind, ""
-        values = [np.zeros(part.cloud.count, kind) for part in parts]
-        if any(part.wanted.any() and part.selected.any() for part in parts):
-            grid, part = self.grid, progress.part(0.3, 0.35)
-            store = MemoryPoints(parts, grid.frame, grid.blocks, part, kind)
-            try:
-                self.step.work(store, share.resources, progress.part(0.35, 0.95))
-                values = store.labels
-            except BareEarthError as error:
-                failure = str(error)
-        progress(1.0)  # ends a job of a run that was cancelled, before it writes
-        for place, file in zip(self.places, self.files):
-            self._write(file, code(place), parts, codes, values, failure)
+        failure = ""
+        with self.store(share, self.step.kind) as store:
+            parts = self._fill(store, share.cache, progress.part(0.0, 0.3))
+            store.finish(progress.part(0.3, 0.35))
+            if any(part.has_work for part in parts):
+                try:
+                    self.step.work(store, share.resources, progress.part(0.35, 0.95))
+                except BareEarthError as error:
+                    failure = str(error)
+            progress(1.0)  # ends a job of a run that was cancelled, before it writes
+            for number, file in enumerate(self.files):
+                self._write(file, number, parts, store, failure)
 
-    def _read(
-        self, cache: CloudCache, progress: Progress
-    ) -> tuple[list[SurveyFile], list[np.ndarray]]:
-        """Return the points that the blocks need, and the block in which each point lies."""
-        parts, codes = [], []
-        here, tally = np.array([code(place) for place in self.places]), self.step.tally()
+    def _fill(
+        self, store: MemoryStore | DiskStore, cache: CloudCache, progress: Progress
+    ) -> list[_Part]:
+        """Add the points that the blocks need to a store; return what else is known of them."""
+        parts, tally = [], self.step.tally()
+        here = np.array([code(place) for place in self.places])
         for cloud in self.clouds(cache, progress):
-            codes.append(self.grid.codes(cloud))
+            codes = self.grid.codes(cloud)
+            places = np.zeros(cloud.count, dtype=np.uint8)
+            for number, block in enumerate(here.tolist(), start=1):
+                places[codes == block] = number
             marks = self.step.marks(cloud, tally)
-            wanted = marks.wanted & np.isin(codes[-1], here)
-            parts.append(SurveyFile(cloud, *marks._replace(wanted=wanted)))
-        return parts, codes
+            wanted = places > 0
+            if marks.wanted is not None:
+                wanted &= marks.wanted
+            store.append(cloud, marks._replace(wanted=wanted))
+            parts.append(_Part(_key(cloud.path), places, bool((wanted & marks.selected).any())))
+        return parts
 
     def _write(
         self,
         file: Path,
-        block: int,
-        parts: list[SurveyFile],
-        codes: list[np.ndarray],
-        values: list[np.ndarray],
+        number: int,
+        parts: list[_Part],
+        store: MemoryStore | DiskStore,
         failure: str,
     ) -> None:
         """Write the values of a block: for each file those of its points in it, in file order."""
-        kept = {
-            _key(part.cloud.path): some[there == block]
-            for part, there, some in zip(parts, codes, values)
-        }
+        kept = {}
+        for which, part in enumerate(parts):
+            here = part.places == number + 1
+            if failure:
+                kept[part.key] = np.zeros(np.count_nonzero(here), dtype=self.step.kind)
+            else:
+                kept[part.key] = store.values(which)[here]
         if failure:
             kept[_FAILURE] = np.array(failure)
         with replacing(file) as temporary:
             np.savez(temporary, **kept)
+
+
+class _Part(NamedTuple):
+    """What a job knows of a file, beside the points that its store holds.
+
+    Attributes
+    ----------
+    key : str
+        Name of its values.
+    places : numpy.ndarray of uint8, shape (n,)
+        Number of the block that holds each point, from 1; 0 for other blocks.
+    has_work : bool
+        Whether any point is to get a value.
+    """
+
+    key: str
+    places: np.ndarray
+    has_work: bool
 
 
 def _key(path: Path) -> str:

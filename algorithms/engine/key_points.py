@@ -17,11 +17,12 @@ from ..las.lasfile import LasFile
 from ..las.records import check_class
 from ..survey.ground_classes import GroundClasses, GroundTally
 from ..survey.tally import count_classes
-from .blocks import BlockPoints, Blocks, Corner, Store
+from .blocks import Blocks
 from .blockwise import fill
 from .memory import Resources
 from .remembering import Memory
-from .steps import Marks, PointResult, PointStep, Room
+from .steps import PointResult, PointStep, Room
+from .store import BlockPoints, Corner, Marks, Store
 
 # Values that a store holds for key points, and for other ground points.
 _KEY, _OTHER = 1, 2

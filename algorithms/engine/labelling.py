@@ -23,13 +23,14 @@ from ..survey.kept_classes import overlapping
 from ..survey.point_chooser import PointChooser
 from ..survey.selection import Selection
 from ..survey.tally import Tally, count_classes
-from .blocks import BRIDGE, GROUND, HIGH, LOW, Blocks, Store
+from .blocks import BRIDGE, GROUND, HIGH, LOW, Blocks
 from .explanation import Explanation
 from .ground import blocks_of, label_ground
 from .memory import Resources
 from .output import Output, height_dimension
 from .remembering import Memory
-from .steps import Marks, PointResult, PointStep, Room
+from .steps import PointResult, PointStep, Room
+from .store import Marks, Store
 
 
 @dataclass(frozen=True, order=True)

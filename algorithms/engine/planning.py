@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, Mapping, Sequence
 
 from ..survey.files import Survey
-from .block_grid import BlockGrid, BlockIndex, grouped, memory_of, points_in
+from .block_grid import BlockGrid, BlockIndex, grouped, least_memory, points_in
 from .jobs import BlockJob
 from .workers import Workers
 
@@ -43,7 +43,7 @@ def block_jobs(
     **more
         Further attributes of the jobs.
     """
-    least = max((memory_of(grid, survey, [each]) for each in files), default=0)
+    least = max((least_memory(grid, survey, each) for each in files), default=0)
     workers.start(folder, least, len(files), tile_count)
     groups = grouped(grid, survey, list(files), workers.at_once, workers.share.bytes)
     return [

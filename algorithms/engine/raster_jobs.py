@@ -21,7 +21,6 @@ from .block_grid import BlockGrid, BlockIndex, places_of, sources_of
 from .blocks import Block
 from .job_queue import JobQueue
 from .jobs import BlockJob, Share
-from .memory_points import MemoryPoints, SurveyFile
 from .planning import block_jobs
 from .rasters import AROUND_AREA, MakeRasters, RasterSize, no_point_in, write_rasters
 from .record import block_file, stamp_of
@@ -42,24 +41,25 @@ class RasterJob(BlockJob):
 
     def run(self, share: Share, progress: Progress) -> None:
         """Do it."""
-        tally = self.step.tally()
-        parts = [
-            SurveyFile(cloud, *self.step.marks(cloud, tally))
-            for cloud in self.clouds(share.cache, progress.part(0.0, 0.5))
-        ]
+        step, tally, has_points = self.step, self.step.tally(), False
         made: dict[BlockIndex, list[BlockRasters]] = {place: [] for place in self.places}
-        if any(part.selected.any() for part in parts):
-            grid, rest = self.grid, progress.part(0.6, 0.95)
-            store = MemoryPoints(parts, grid.frame, grid.blocks, progress.part(0.5, 0.6))
-
-            def is_wanted(block: Block) -> bool:
-                return self._place(block) in made
-
-            for each in self.step.work(store, share.resources, rest, is_wanted):
-                made[self._place_of(each.window)].append(each)
+        with self.store(share) as store:
+            for cloud in self.clouds(share.cache, progress.part(0.0, 0.5)):
+                marks = step.marks(cloud, tally)
+                has_points |= bool(marks.selected.any())
+                store.append(cloud, marks)
+            store.finish(progress.part(0.5, 0.6))
+            if has_points:
+                rest = progress.part(0.6, 0.95)
+                for each in step.work(store, share.resources, rest, self._is_wanted):
+                    made[self._place_of(each.window)].append(each)
         progress(1.0)  # ends a job of a run that was cancelled, before it writes
         for place, file in zip(self.places, self.files):
             _keep(file, made[place])
+
+    def _is_wanted(self, block: Block) -> bool:
+        """Return whether a block, or a part of one, is one of this job."""
+        return self._place(block) in self.places
 
     def _place(self, block: Block) -> BlockIndex:
         """Return the index of the block that holds a smaller block."""

@@ -42,10 +42,11 @@ from ..rasters.writing import Band, Rows, replacing_raster, write_geotiff
 from ..survey.area import Area
 from ..survey.ground_classes import GroundClasses, GroundTally
 from ..survey.kept_classes import NOISE
-from .blocks import Block, Blocks, Store
+from .blocks import Block, Blocks
 from .blockwise import over_blocks
 from .memory import Cost, Resources
-from .steps import Marks, Step
+from .steps import Step
+from .store import Marks, Store
 
 # In a raster of more cells, blocks with points must cover this share. Otherwise it is so large
 # because of a few points with stray coordinates.

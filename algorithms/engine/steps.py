@@ -11,7 +11,7 @@ import dataclasses
 import hashlib
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Callable, NamedTuple, Sequence
+from typing import Any, Callable, Sequence
 
 import numpy as np
 
@@ -22,32 +22,12 @@ from ..las.cloud import PointCloud
 from ..las.edits import Edits
 from ..las.lasfile import LasFile
 from ..survey.shapes import Geometry, Place
-from .blocks import Blocks, Store
+from .blocks import Blocks
 from .memory import Resources
+from .store import Marks, Store
 
 # Returns an array of one value for each point of a file, given the type of the values.
 Room = Callable[[type], np.ndarray]
-
-
-class Marks(NamedTuple):
-    """Flags of points for a step, boolean arrays of shape (n,).
-
-    Attributes
-    ----------
-    selected : numpy.ndarray
-        Which take part.
-    known : numpy.ndarray
-        Which of them are known ground.
-    wanted : numpy.ndarray
-        Which of them get a value; the others are context.
-    roads : numpy.ndarray or None
-        Which of them are ground where they lie on it.
-    """
-
-    selected: np.ndarray
-    known: np.ndarray
-    wanted: np.ndarray
-    roads: np.ndarray | None = None
 
 
 class Step:

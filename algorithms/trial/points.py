@@ -17,7 +17,7 @@ from ..crs.measurable import require_measurable
 from ..crs.system import Crs
 from ..engine.labelling import LabelGround
 from ..engine.memory import Resources
-from ..engine.memory_points import MemoryPoints, SurveyFile
+from ..engine.memory_store import MemoryStore
 from ..las.cloud import PointCloud, survey_frame
 from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
@@ -124,20 +124,23 @@ class TrialPoints:
         """
         step = LabelGround(setting.parameters)
         tally = step.tally()
-        files = [SurveyFile(cloud, *step.marks(cloud, tally)) for cloud in self.clouds]
+        marks = [step.marks(cloud, tally) for cloud in self.clouds]
         step.tell(tally, self.clouds[0].path, progress if is_first else progress.quiet())
         progress.info(f"{setting.label}:")
         frame = survey_frame(self.crs)
-        store = MemoryPoints(files, frame, step.blocks, progress.part(0.0, 0.1), step.kind)
+        store = MemoryStore(frame, step.blocks, step.kind)
+        for cloud, its_marks in zip(self.clouds, marks):
+            store.append(cloud, its_marks)
+        store.finish(progress.part(0.0, 0.1))
         try:
             step.work(store, resources, progress.part(0.1, 1.0))
         except BareEarthError as error:
             progress.warning(f"{setting.label}: {error}")
         classes = np.concatenate(
-            [_classes(step, cloud, labels) for cloud, labels in zip(self.clouds, store.labels)]
+            [_classes(step, cloud, store.values(n)) for n, cloud in enumerate(self.clouds)]
         )
         ground = classes == step.selection.to_class
-        selected = np.concatenate([file.selected for file in files])
+        selected = np.concatenate([its_marks.selected for its_marks in marks])
         return Labelled((setting.name, setting.label), classes, ground, selected)
 
     def outcomes(self, labelled: Sequence[Labelled]) -> list[Outcome]:

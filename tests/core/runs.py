@@ -16,6 +16,7 @@ from bare_earth.algorithms.engine import many_files
 from bare_earth.algorithms.engine.heights import HeightOutput
 from bare_earth.algorithms.engine.key_points import KeyPointMark
 from bare_earth.algorithms.engine.memory import Resources
+from bare_earth.algorithms.engine.memory_store import MemoryStore
 from bare_earth.algorithms.engine.options import RasterOutput, TileInput, TileOutput
 from bare_earth.algorithms.engine.output import Output
 from bare_earth.algorithms.engine.rasters import RasterFiles
@@ -26,6 +27,7 @@ from bare_earth.algorithms.engine.requests import (
     TerrainRequest,
 )
 from bare_earth.algorithms.engine.runs import classify, heights, key_points, terrain
+from bare_earth.algorithms.engine.store import Marks
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
 from bare_earth.algorithms.products.surface_model import SurfaceModel
 from bare_earth.algorithms.products.terrain_model import TerrainModel
@@ -116,3 +118,12 @@ def write_terrain_models(
 
 def write_heights(sources, folder, **rest):
     return many_files.write_files(sources, folder, [HeightRequest().step], **rest)
+
+
+def memory_store(parts, frame, blocks):
+    """Return a store of clouds in memory, each given with its marks."""
+    store = MemoryStore(frame, blocks)
+    for cloud, *marks in parts:
+        store.append(cloud, Marks(*marks))
+    store.finish()
+    return store

@@ -10,7 +10,7 @@ from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.crs.system import Crs
-from bare_earth.algorithms.engine import file_points, ground, labelling, memory_points
+from bare_earth.algorithms.engine import file_points, ground, labelling, memory_store
 from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.below_ground import below_ground
@@ -82,7 +82,7 @@ def test_however_many_points_are_looked_at_together_the_result_is_the_same(
     results = []
     for most in (1 << 19, 700):
         monkeypatch.setattr(cloud_module, "_PART", most)
-        monkeypatch.setattr(memory_points, "_CHOSEN", most)
+        monkeypatch.setattr(memory_store, "_CHOSEN", most)
         heard = las.Heard()
         found = classify_cloud(cloud, TinDensification(), selection, heard, box(20, 5, 400, 35))
         assert heard.fractions == sorted(heard.fractions)

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from runs import memory_store
 from surveys import cloud_of
 
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.ground import label_ground
-from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
 from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum
@@ -67,8 +67,8 @@ def test_the_size_is_what_was_given(parameters, width, las):
 def test_the_same_warning_of_several_blocks_is_told_once(las):
     cloud, heard = land(400, 30), las.Heard()
     blocks = Blocks(100.0, 50.0)
-    part = SurveyFile(cloud, np.ones(cloud.count, bool))
-    store = MemoryPoints([part], survey_frame(cloud.crs), blocks)
+    part = (cloud, np.ones(cloud.count, bool))
+    store = memory_store([part], survey_frame(cloud.crs), blocks)
     label_ground(store, GridMinimum(), blocks, progress=heard)
     (warning,) = heard.warnings
     assert EXTENT in warning and "blocks" not in warning

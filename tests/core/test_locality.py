@@ -5,11 +5,10 @@ import dataclasses
 import numpy as np
 import pytest
 from realdata import real
-from runs import classify_tiles
+from runs import classify_tiles, memory_store
 from surveys import cut, finished, points_of, strip, write
 
 from bare_earth.algorithms.engine.ground import blocks_of, label_ground
-from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
 from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.filters import METHODS, method_of
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum
@@ -113,9 +112,9 @@ def test_quartering_crowded_blocks_changes_no_label_of_a_real_survey(parameters)
     cloud = some(cloud, np.flatnonzero(cloud.x < np.quantile(cloud.x, 0.25)))
     for most in (10_000_000, 4000):
         blocks = dataclasses.replace(blocks_of(parameters), most_points=most)
-        every = SurveyFile(cloud, np.ones(cloud.count, dtype=bool))
-        store = MemoryPoints([every], survey_frame(cloud.crs), blocks)
+        every = (cloud, np.ones(cloud.count, dtype=bool))
+        store = memory_store([every], survey_frame(cloud.crs), blocks)
         assert (len(list(blocks.over(store))) > 1) == (most == 4000)
         label_ground(store, parameters, blocks)
-        labels.append(store.labels[0])
+        labels.append(store.values(0))
     assert np.array_equal(*labels)

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from runs import memory_store
 from surveys import cloud_of
 
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.engine.heights import MeasureHeights
 from bare_earth.algorithms.engine.memory import Resources, give_back
-from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
 from bare_earth.algorithms.engine.rasters import MakeRasters
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.products.raster_files import RasterFiles
@@ -34,9 +34,7 @@ def test_a_block_takes_about_as_much_as_is_reckoned(name):
     z = 100.0 + 8.0 * np.sin(x / 60.0) + random.uniform(0.0, 0.1, COUNT)
     cloud = cloud_of(*(np.rint(each * 100) for each in (x, y, z)))
     ground, every = random.random(COUNT) < 0.9, np.ones(COUNT, dtype=bool)
-    store = MemoryPoints(
-        [SurveyFile(cloud, every, ground, every)], survey_frame(cloud.crs), step.blocks
-    )
+    store = memory_store([(cloud, every, ground, every)], survey_frame(cloud.crs), step.blocks)
     reckoned = step.blocks.memory(COUNT, (SIDE + 2.0 * step.blocks.buffer) ** 2)
     tracemalloc.start()
     try:

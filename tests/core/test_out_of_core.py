@@ -12,7 +12,7 @@ from realdata import real
 from runs import CancelAt, classify_file, environment, write_height_above_ground
 
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.engine import disk_points, file_points, labelling
+from bare_earth.algorithms.engine import disk_store, file_points, labelling
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.heights import HeightOutput
 from bare_earth.algorithms.engine.memory import Resources
@@ -45,7 +45,7 @@ def hungry(monkeypatch):
 def small(monkeypatch):
     """Make parts and blocks small, so that a small file has many."""
     monkeypatch.setattr(reading, "_CHUNK", 1700)
-    monkeypatch.setattr(disk_points, "_GAP", 50)
+    monkeypatch.setattr(disk_store, "_GAP", 50)
     blocks = Blocks(80.0, 30.0, most_points=2500)
     monkeypatch.setattr(labelling, "blocks_of", lambda parameters: blocks)
 

@@ -8,7 +8,7 @@ import os
 import laspy
 import numpy as np
 import pytest
-from runs import CancelAt, classify_file, classify_tiles, write_terrain_models
+from runs import CancelAt, classify_file, classify_tiles, memory_store, write_terrain_models
 from surveys import cloud_of, cut, strip, write
 
 from bare_earth.algorithms.cli import main
@@ -16,7 +16,6 @@ from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.engine import blocks as blocks_module
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
 from bare_earth.algorithms.engine.options import TileOutput
 from bare_earth.algorithms.engine.raster_jobs import RasterJob
 from bare_earth.algorithms.engine.rasters import MakeRasters, write_rasters
@@ -49,8 +48,8 @@ def _made(cloud, folder, max_edge=None, files=("dtm",), cell=2.5, shown=True):
     files = RasterFiles(**{name: folder / f"{name}.tif" for name in files})
     step = MakeRasters(files, TerrainModel(cell), SurfaceModel(max_edge=max_edge))
     every = np.full(cloud.count, shown)
-    files_of = [SurveyFile(cloud, every, every, every)]
-    store = MemoryPoints(files_of, survey_frame(cloud.crs), step.blocks)
+    files_of = [(cloud, every, every, every)]
+    store = memory_store(files_of, survey_frame(cloud.crs), step.blocks)
     made = step.work(store, Resources(), SILENT)
     with contextlib.ExitStack() as outputs:
         write_rasters(made, survey_frame(cloud.crs), step, outputs)

@@ -13,7 +13,7 @@ import laspy
 import numpy as np
 import pytest
 from realdata import real
-from runs import classify_file, classify_tiles, command, environment
+from runs import classify_file, classify_tiles, command, environment, memory_store
 from surveys import CountingJob, DeadlyJob, bytes_of, cut, finished, points_of, strip, write
 
 from bare_earth.algorithms.cli import main
@@ -27,7 +27,6 @@ from bare_earth.algorithms.engine.block_grid import BlockGrid, BlockIndex, group
 from bare_earth.algorithms.engine.blocks import BRIDGE, GROUND, LOW, Blocks
 from bare_earth.algorithms.engine.ground import label_ground
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
 from bare_earth.algorithms.engine.options import TileInput, TileMethod, TileOutput
 from bare_earth.algorithms.engine.output import Output
 from bare_earth.algorithms.engine.workers import Local, Processes, Threads
@@ -75,13 +74,13 @@ def whole_classes(path, parameters, selection=Selection(), blocks=BLOCKS):
     """Return the points of a file with the classes that they get as one cloud in these blocks."""
     cloud = read_cloud(path)
     selected = selection.choose(cloud, Tally())
-    store = MemoryPoints(
-        [SurveyFile(cloud, selected, selection.known_ground(cloud, selected))],
+    store = memory_store(
+        [(cloud, selected, selection.known_ground(cloud, selected))],
         survey_frame(cloud.crs),
         blocks,
     )
     label_ground(store, parameters, blocks, selection)
-    labels = store.labels[0]
+    labels = store.values(0)
     rows = points_of([path])
     unsorted = np.column_stack((cloud.x, cloud.y, cloud.z)).astype(np.int64)
     shift = np.round((np.array(cloud.offset) - (500_000.0, 5_700_000.0, 0.0)) / cloud.scale)

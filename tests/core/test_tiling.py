@@ -7,18 +7,19 @@ import numpy as np
 import pytest
 import surveys
 from realdata import real
+from runs import memory_store
 
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.core.progress import SILENT, Progress
 from bare_earth.algorithms.core.threads import workers
 from bare_earth.algorithms.engine import ground as ground_module
 from bare_earth.algorithms.engine.blocks import Blocks
-from bare_earth.algorithms.engine.disk_points import DiskPoints
+from bare_earth.algorithms.engine.disk_store import DiskStore
 from bare_earth.algorithms.engine.ground import blocks_of, label_ground
 from bare_earth.algorithms.engine.memory import Cost, Resources, free_memory
-from bare_earth.algorithms.engine.memory_points import MemoryPoints, SurveyFile
 from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.engine.scheduling import run_jobs
+from bare_earth.algorithms.engine.store import Marks
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.filters.pipeline import Pipeline, PointRule, Stage
@@ -51,12 +52,10 @@ def survey(count=30_000, width=300.0, depth=130.0):
 
 def labels_of(parts, parameters, blocks, threads=1, depth=1.0, known=None, progress=SILENT):
     frame = survey_frame(parts[0].crs)
-    store = MemoryPoints(
-        [SurveyFile(each, np.ones(each.count, bool)) for each in parts], frame, blocks
-    )
+    store = memory_store([(each, np.ones(each.count, bool)) for each in parts], frame, blocks)
     selection = Selection(low_noise_class=depth is not None, low_noise_depth=depth or 1.0)
     label_ground(store, parameters, blocks, selection, Resources(threads=threads), progress)
-    return store.labels
+    return [store.values(number) for number in range(len(parts))]
 
 
 # Blocks
@@ -79,7 +78,7 @@ def test_a_tile_of_a_kilometre_lies_in_one_block(begin):
     x = np.array([0.0, 999.99]) + begin - ORIGIN[0]
     cloud = cloud_of(*(np.round(each * 100) for each in (x, x - x, x - x)))
     blocks = Blocks.of(100.0)
-    store = MemoryPoints([SurveyFile(cloud, np.ones(2, bool))], survey_frame(cloud.crs), blocks)
+    store = memory_store([(cloud, np.ones(2, bool))], survey_frame(cloud.crs), blocks)
     assert [(each.column, each.row) for each in blocks.over(store)] == [(begin // 2000, 2850)]
 
 
@@ -88,7 +87,7 @@ def test_every_point_lies_in_one_block_and_crowded_blocks_are_quartered():
     crowd = np.random.default_rng(4).uniform(10_000, 12_000, (2, 5000)).astype(int)
     cloud = cloud_of(np.r_[x, crowd[0]], np.r_[y, crowd[1]], np.r_[z, z[:5000]])
     blocks = Blocks(80.0, 8.0, most_points=1500)
-    store = MemoryPoints([SurveyFile(cloud, np.ones(cloud.count, bool))], cloud.frame, blocks)
+    store = memory_store([(cloud, np.ones(cloud.count, bool))], cloud.frame, blocks)
     points, times = cloud.points(slice(None)), np.zeros(cloud.count, int)
     sides = set()
     for block in blocks.over(store):
@@ -115,14 +114,12 @@ def test_a_block_gets_the_points_of_its_window_that_take_part(tmp_path, request,
     blocks = Blocks(80.0, 8.0)
     cuts = (slice(0, 70_000), slice(70_000, 70_001), slice(70_001, None))
     if waiting == "in memory":
-        parts = [
-            SurveyFile(part_of(cloud, cut), selected[cut], known[cut], wanted[cut]) for cut in cuts
-        ]
-        store = MemoryPoints(parts, survey_frame(cloud.crs), blocks)
+        parts = [(part_of(cloud, cut), selected[cut], known[cut], wanted[cut]) for cut in cuts]
+        store = memory_store(parts, survey_frame(cloud.crs), blocks)
     else:
-        store = DiskPoints(tmp_path / "out.laz", blocks)
+        store = DiskStore(tmp_path / "out.laz", survey_frame(cloud.crs), blocks)
         for cut in cuts:
-            store.append(part_of(cloud, cut), selected[cut], known[cut], wanted[cut])
+            store.append(part_of(cloud, cut), Marks(selected[cut], known[cut], wanted[cut]))
         request.addfinalizer(store.__exit__)
         store.finish()
     assert store.leaves.counts.sum() == selected.sum()
@@ -219,12 +216,11 @@ def test_points_that_are_only_context_get_no_label_and_their_blocks_no_filter():
     cloud, blocks = cloud_of(x, y, z), Blocks(80.0, 40.0)
     every, wanted = np.ones(cloud.count, bool), x < 7000
     whole, some = (
-        MemoryPoints([SurveyFile(cloud, every, None, each)], cloud.frame, blocks)
-        for each in (None, wanted)
+        memory_store([(cloud, every, None, each)], cloud.frame, blocks) for each in (None, wanted)
     )
     for store in (whole, some):
         label_ground(store, GridMinimum(), blocks)
-    assert np.array_equal(some.labels[0], np.where(wanted, whole.labels[0], 0))
+    assert np.array_equal(some.values(0), np.where(wanted, whole.values(0), 0))
 
 
 # Stray points and messages

@@ -1,8 +1,8 @@
-"""Points in memory, until their block is computed."""
+"""Points in memory, until their block is computed, and their values."""
 
 from __future__ import annotations
 
-from typing import Iterator, NamedTuple, Sequence
+from typing import Any, Iterator, NamedTuple
 
 import numpy as np
 
@@ -10,81 +10,65 @@ from ..core.points import Box, Frame
 from ..core.progress import SILENT, Progress
 from ..core.threads import over_parts, parts_of
 from ..las.cloud import PointCloud
-from .blocks import BlockPoints, Blocks, Corner, Leaves, gathered
+from .blocks import Blocks
 from .leaf_index import LeafIndex, Sorted, code_of, smallest_integers
+from .store import BlockPoints, Corner, Leaves, Marks, gathered
 
 # Points that are sorted and read together.
 _CHOSEN, _SORTED, _READ = 1 << 19, 1 << 16, 1 << 15
 
 
-class SurveyFile(NamedTuple):
-    """The points of one file, in file order.
-
-    Attributes
-    ----------
-    cloud : PointCloud
-        All points of the file.
-    selected : numpy.ndarray of bool, shape (n,)
-        Which take part.
-    known : numpy.ndarray of bool, shape (n,), optional
-        Which of them are known ground.
-    wanted : numpy.ndarray of bool, shape (n,), optional
-        Which of them are to be labelled. By default all are.
-    roads : numpy.ndarray of bool, shape (n,), optional
-        Which of them are ground where they lie on it.
-    """
+class _Part(NamedTuple):
+    """The points of a part with their flags."""
 
     cloud: PointCloud
     selected: np.ndarray
-    known: np.ndarray | None = None
-    wanted: np.ndarray | None = None
-    roads: np.ndarray | None = None
+    known: np.ndarray | None
+    wanted: np.ndarray | None
+    roads: np.ndarray | None
 
 
-class MemoryPoints:
-    """The points of one or more files.
+class MemoryStore:
+    """A `Store` whose points are those of clouds in memory.
 
     Parameters
     ----------
-    parts : sequence of SurveyFile
-        The files.
     frame : Frame
         Frame of the survey.
     blocks : Blocks
         The blocks in which the points will be read.
-    progress : Progress
-        Receives progress.
     kind : type
         Type of the value that is stored for each point.
-
-    Attributes
-    ----------
-    labels : list of numpy.ndarray, shape (n,)
-        For each file the values of its points; 0 if none was stored. For `LabelGround` they are
-        `GROUND`, `LOW`, `BRIDGE` or `HIGH`.
-    leaves, has_known
-        As `Store` says.
     """
 
-    def __init__(
-        self,
-        parts: Sequence[SurveyFile],
-        frame: Frame,
-        blocks: Blocks,
-        progress: Progress = SILENT,
-        kind: type = np.uint8,
-    ) -> None:
-        self._parts, self._frame = [_as_needed(part) for part in parts], frame
-        self.labels = [np.zeros(part.cloud.count, dtype=kind) for part in self._parts]
-        self.has_known = any(part.known is not None for part in self._parts)
+    leaves: Leaves
+
+    def __init__(self, frame: Frame, blocks: Blocks, kind: type = np.uint8) -> None:
+        self._frame, self._blocks, self._value_kind = frame, blocks, kind
+        self._parts: list[_Part] = []
+        self.has_known = False
+
+    def append(self, part: PointCloud, marks: Marks) -> None:
+        """Add the selected points of the next part."""
+        known, wanted, roads = marks.known, marks.wanted, marks.roads
+        # Without flags that are equal for all points.
+        known = known if known is not None and known.any() else None
+        wanted = wanted if wanted is not None and not wanted.all() else None
+        roads = roads if roads is not None and roads.any() else None
+        self._parts.append(_Part(part, marks.selected, known, wanted, roads))
+        self.has_known |= known is not None
+
+    def finish(self, progress: Progress = SILENT) -> None:
+        """Finish adding points."""
         counts = [part.cloud.count for part in self._parts]
-        self._starts = np.concatenate(([0], np.cumsum(counts)))
+        self._values: list[np.ndarray] = [np.zeros(n, dtype=self._value_kind) for n in counts]
+        self._starts = np.concatenate(([0], np.cumsum(counts, dtype=np.int64)))
         self._kind = smallest_integers(self._starts[-1])
-        # Selected points of each file. Indices of runs count through all files.
+        # Selected points of each part. Indices of runs count through all parts.
         self._orders = [_indices(part, progress.part(0.0, 0.3)) for part in self._parts]
-        self._ends = np.cumsum([len(order) for order in self._orders])
+        self._ends = np.cumsum([len(order) for order in self._orders], dtype=np.int64)
         self._runs = LeafIndex()
-        only = self._only_block(blocks)
+        only, blocks = self._only_block(), self._blocks
         side = blocks.leaf_side if only is None else blocks.side
         self._start = blocks.start
         self._sort(side if only is None else None, progress.part(0.3, 1.0))
@@ -92,9 +76,10 @@ class MemoryPoints:
         x, y = ((n + by) * side + blocks.start for n, by in zip((column, row), only or (0, 0)))
         self.leaves = Leaves(x, y, side, totals)
 
-    def _only_block(self, blocks: Blocks) -> tuple[float, float] | None:
+    def _only_block(self) -> tuple[float, float] | None:
         """Return column and row of the block if one holds all points, otherwise None."""
-        if self._ends[-1] > blocks.most_points:
+        blocks = self._blocks
+        if not self._parts or self._ends[-1] > blocks.most_points:
             return None
         corners = np.array([part.cloud.bounds(self._frame) for part in self._parts]).reshape(-1, 2)
         numbers = blocks.number(corners)
@@ -120,7 +105,7 @@ class MemoryPoints:
         So the points of a leaf are later read nearly in file order.
         """
         cloud, order = self._parts[number].cloud, self._orders[number]
-        found: list = [None] * len(parts_of(len(order), _SORTED))
+        found: list[Any] = [None] * len(parts_of(len(order), _SORTED))
 
         def sort(piece: slice) -> None:
             places = cloud.places(order[piece], self._frame)
@@ -169,29 +154,26 @@ class MemoryPoints:
         points = part.cloud.points(which, frame)
         return BlockPoints(points, known, wanted, positions, roads, several)
 
-    def put(self, positions: np.ndarray, labels: np.ndarray) -> None:
-        """Store the labels of points."""
-        for number, mine in enumerate(self.labels):
+    def put(self, positions: np.ndarray, values: np.ndarray) -> None:
+        """Store the values of points."""
+        for number, mine in enumerate(self._values):
             start, end = self._starts[number], self._starts[number + 1]
-            if len(self.labels) == 1:
-                mine[positions] = labels
+            if len(self._values) == 1:
+                mine[positions] = values
                 continue
             here = (positions >= start) & (positions < end)
-            mine[positions[here] - start] = labels[here]
+            mine[positions[here] - start] = values[here]
+
+    def values(self, number: int) -> np.ndarray:
+        """Return the values of all points of a part."""
+        return self._values[number]
 
 
-def _as_needed(part: SurveyFile) -> SurveyFile:
-    """Return a part without flags that are equal for all points."""
-    known = part.known if part.known is not None and part.known.any() else None
-    wanted = part.wanted if part.wanted is not None and not part.wanted.all() else None
-    roads = part.roads if part.roads is not None and part.roads.any() else None
-    return part._replace(known=known, wanted=wanted, roads=roads)
-
-
-def _indices(part: SurveyFile, progress: Progress) -> np.ndarray:
+def _indices(part: _Part, progress: Progress) -> np.ndarray:
     """Return the indices of the selected points of a part, in the smallest integer type."""
     count = np.count_nonzero(part.selected)
-    indices, end = np.empty(count, dtype=smallest_integers(part.cloud.count)), 0
+    indices: np.ndarray = np.empty(count, dtype=smallest_integers(part.cloud.count))
+    end = 0
     for some in parts_of(part.cloud.count, _CHOSEN):
         found = np.flatnonzero(part.selected[some])
         indices[end : end + len(found)] = found

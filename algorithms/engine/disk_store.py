@@ -1,0 +1,237 @@
+"""Points on disk, until their block is computed, and their values."""
+
+from __future__ import annotations
+
+import bisect
+import contextlib
+import dataclasses
+import os
+import threading
+from pathlib import Path
+from typing import Any, BinaryIO, Iterator, NamedTuple, Sequence
+
+import numpy as np
+
+from ..core.files import describe_write_error, reach_disk, unnamed_file
+from ..core.points import Box, Frame
+from ..core.progress import SILENT, Progress
+from ..las.cloud import PointCloud
+from .blocks import Blocks
+from .leaf_index import LeafIndex, Sorted, smallest_integers
+from .store import BlockPoints, Corner, Leaves, Marks, gathered
+
+_RECORD = np.dtype([("x", "<i4"), ("y", "<i4"), ("z", "<i4"), ("flags", "u1")])
+_INDEX = np.dtype("<i4")
+_KNOWN, _WANTED, _ROAD, _MULTI_RETURN = 1, 2, 4, 8
+# If fewer points than this lie between two labelled ones, one access to the file is cheaper.
+_GAP = 1 << 16
+# Points that are read at a time.
+_MOST_READ = 1 << 15
+# Bytes that are written at a time to allocate a file.
+_STEP = 1 << 24
+
+
+class _Part(NamedTuple):
+    """A part without its points, the position of its first point, and its number of points."""
+
+    cloud: PointCloud
+    start: int
+    size: int
+
+
+class DiskStore:
+    """A `Store` whose points are in temporary files without a name.
+
+    The system removes the files when they are closed or the process ends, even if it is killed.
+
+    Parameters
+    ----------
+    target : Path
+        The output. The files are in its folder.
+    frame : Frame
+        Frame of the survey.
+    blocks : Blocks
+        The points are sorted by their leaves, part by part.
+    kind : type
+        Type of the value that is stored for each point.
+    """
+
+    leaves: Leaves
+
+    def __init__(self, target: Path, frame: Frame, blocks: Blocks, kind: type = np.uint8) -> None:
+        self._kind = np.dtype(kind)
+        self._count, self.has_known = 0, False
+        self._target, self._frame = Path(target), frame
+        self._side, self._start = blocks.leaf_side, blocks.start
+        self._lock, self._files = threading.Lock(), contextlib.ExitStack()
+        with self._told():
+            self._records, self._orders, self._values = (self._file() for _ in range(3))
+        self._parts: list[_Part] = []
+        self._runs = LeafIndex()
+
+    def _file(self) -> BinaryIO:
+        return self._files.enter_context(unnamed_file(self._target.parent))
+
+    def __enter__(self) -> DiskStore:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        with self._lock:
+            self._files.close()
+
+    @contextlib.contextmanager
+    def _told(self) -> Iterator[None]:
+        try:
+            yield
+        except OSError as error:
+            raise describe_write_error(self._target, error) from error
+
+    def append(self, part: PointCloud, marks: Marks) -> None:
+        """Add the selected points of the next part."""
+        which = np.flatnonzero(marks.selected)
+        places = part.places(which, self._frame)
+        found = Sorted.of(*(np.floor((each - self._start) / self._side) for each in places[::-1]))
+        which = which[found.order]
+        records = np.empty(len(which), dtype=_RECORD)
+        for name in ("x", "y", "z"):
+            records[name] = getattr(part, name)[which]
+        records["flags"] = _flags(part, marks, which)
+        self.has_known |= bool((records["flags"] & _KNOWN).any())
+        with self._told():
+            self._records.write(records.tobytes())
+            self._orders.write(which.astype(_INDEX).tobytes())
+        self._runs.add(found.codes, found.counts, self._count)
+        self._parts.append(_Part(_without_points(part), self._count, part.count))
+        self._count += len(which)
+
+    def finish(self, progress: Progress = SILENT) -> None:
+        """Finish adding points."""
+        rows, columns, totals = self._runs.finish()
+        x, y = (number * self._side + self._start for number in (columns, rows))
+        self.leaves = Leaves(x, y, self._side, totals)
+        with self._told():
+            reach_disk(self._records)
+            reach_disk(self._orders)
+            self._values.truncate(self._count * self._kind.itemsize)
+
+    def read(
+        self,
+        leaves: np.ndarray,
+        box: Box | None = None,
+        corner: Corner = (0.0, 0.0),
+        progress: Progress = SILENT,
+    ) -> BlockPoints:
+        """Return the points of some leaves in file order; only those in a box, if given."""
+        starts = [part.start for part in self._parts]
+        runs, frame = (
+            list(_joined(*self._runs.of(leaves), starts)),
+            self._frame.moved(corner),
+        )
+        kind = smallest_integers(self._count)
+
+        def read(number: int) -> BlockPoints:
+            start, end = runs[number]
+            with self._lock:
+                records = _read(self._records, _RECORD, start, end)
+            x, y, z = (records[name] for name in "xyz")
+            # Files can differ in scale and offset.
+            part = self._parts[bisect.bisect_right(starts, start) - 1]
+            points = dataclasses.replace(part.cloud, x=x, y=y, z=z).points(slice(None), frame)
+            flags = records["flags"]
+            positions: np.ndarray = np.arange(start, end, dtype=kind)
+            kinds = _KNOWN, _WANTED, _ROAD, _MULTI_RETURN
+            known, wanted, roads, several = (flags & each > 0 for each in kinds)
+            return BlockPoints(points, known, wanted, positions, roads, several)
+
+        return gathered([end - start for start, end in runs], read, box, kind, progress)
+
+    def put(self, positions: np.ndarray, values: np.ndarray) -> None:
+        """Store the values of points, whose positions must ascend."""
+        if not len(positions):
+            return
+        cuts = np.flatnonzero(np.diff(positions) > _GAP) + 1
+        with self._told():
+            for where, some in zip(np.split(positions, cuts), np.split(values, cuts)):
+                first, last = int(where[0]), int(where[-1]) + 1
+                held = _read(self._values, self._kind, first, last).copy()
+                held[where - first] = some
+                self._values.seek(first * self._kind.itemsize)
+                self._values.write(held.tobytes())
+            reach_disk(self._values)
+
+    def values(self, number: int) -> np.ndarray:
+        """Return the values of all points of a part."""
+        part = self._parts[number]
+        values = np.zeros(part.size, dtype=self._kind)
+        ends = [*(each.start for each in self._parts[number + 1 :]), self._count]
+        which = _read(self._orders, _INDEX, part.start, ends[0])
+        values[which] = _read(self._values, self._kind, part.start, ends[0])
+        return values
+
+
+def _without_points(part: PointCloud) -> PointCloud:
+    """Return a cloud with all but its points."""
+    columns: dict[str, Any] = {
+        name: value[:0] for name, value in vars(part).items() if isinstance(value, np.ndarray)
+    }
+    return dataclasses.replace(part, **columns)
+
+
+def _flags(part: PointCloud, marks: Marks, which: np.ndarray) -> np.ndarray:
+    """Return the flags of some points as the bits of an integer."""
+    flags = (_MULTI_RETURN * (part.number_of_returns[which] > 1)).astype(np.uint8)
+    kinds = (_KNOWN, marks.known, False), (_WANTED, marks.wanted, True), (_ROAD, marks.roads, False)
+    for bit, mask, default in kinds:
+        flags |= np.uint8(bit * default) if mask is None else (bit * mask[which]).astype(np.uint8)
+    return flags
+
+
+def _read(file: BinaryIO, kind: np.dtype, start: int, end: int) -> np.ndarray:
+    """Return some of the values in a file, all of which are of one type."""
+    file.seek(start * kind.itemsize)
+    return np.frombuffer(file.read((end - start) * kind.itemsize), dtype=kind)
+
+
+def room_on_disk(target: Path, kind: type, count: int) -> np.ndarray:
+    """Return room for values of points in a temporary file without a name.
+
+    Parameters
+    ----------
+    target : Path
+        The output. The file is in its folder.
+    kind : type
+        Type of the values.
+    count : int
+        Number of values.
+
+    Raises
+    ------
+    BareEarthError
+        If the disk is full. Without this check, writing to the mapped file would end the process.
+    """
+    try:
+        with unnamed_file(target.parent) as file:
+            size = max(count, 1) * np.dtype(kind).itemsize
+            if hasattr(os, "posix_fallocate"):
+                os.posix_fallocate(file.fileno(), 0, size)
+            else:
+                for start in range(0, size, _STEP):
+                    file.write(bytes(min(_STEP, size - start)))
+                file.flush()
+            return np.memmap(file, kind, "r+", shape=(count,))
+    except OSError as error:
+        raise describe_write_error(target, error) from error
+
+
+def _joined(
+    starts: np.ndarray, counts: np.ndarray, parts: Sequence[int]
+) -> Iterator[tuple[int, int]]:
+    """Yield start and end of runs; adjacent ones of a part are joined, and long ones are split."""
+    if not len(starts):
+        return
+    ends = starts + counts
+    breaks = np.flatnonzero((starts[1:] != ends[:-1]) | np.isin(starts[1:], parts))
+    firsts, lasts = np.r_[0, breaks + 1], np.r_[breaks, len(starts) - 1]
+    for start, end in zip(starts[firsts].tolist(), ends[lasts].tolist()):
+        for first in range(start, end, _MOST_READ):
+            yield first, min(first + _MOST_READ, end)

@@ -1,0 +1,203 @@
+"""Stores: what holds points until their block is computed, and then their values."""
+
+from __future__ import annotations
+
+from typing import Callable, NamedTuple, Protocol, Sequence
+
+import numpy as np
+
+from ..core.points import Box, Points
+from ..core.progress import SILENT, Progress
+from ..core.threads import in_threads
+from ..las.cloud import PointCloud
+
+# x and y in metres.
+Corner = tuple[float, float]
+
+
+class Leaves(NamedTuple):
+    """Squares that hold the points of a store; smaller than blocks or equal to them.
+
+    Attributes
+    ----------
+    x, y : numpy.ndarray of float64, shape (n,)
+        Lower left corners in metres.
+    side : float
+        Side in metres.
+    counts : numpy.ndarray of int64, shape (n,)
+        How many points each holds.
+    """
+
+    x: np.ndarray
+    y: np.ndarray
+    side: float
+    counts: np.ndarray
+
+    def within(self, box: Box) -> np.ndarray:
+        """Return the indices of the leaves that a box touches."""
+        west, south, east, north = box
+        # Rounding must not decide where the two have a border in common.
+        touch = (self.x <= east) & (self.x + self.side >= west)
+        return np.flatnonzero(touch & (self.y <= north) & (self.y + self.side >= south))
+
+    def are_inside(self, leaves: np.ndarray, box: Box) -> bool:
+        """Return whether some leaves lie in a box and touch none of its sides."""
+        west, south, east, north = box
+        x, y = self.x[leaves], self.y[leaves]
+        inside = (x > west) & (x + self.side < east) & (y > south) & (y + self.side < north)
+        return bool(inside.all())
+
+
+class Marks(NamedTuple):
+    """Flags of points for a step, boolean arrays of shape (n,).
+
+    Attributes
+    ----------
+    selected : numpy.ndarray
+        Which take part.
+    known : numpy.ndarray or None
+        Which of them are known ground; None for none.
+    wanted : numpy.ndarray or None
+        Which of them get a value; the others are context. None for all.
+    roads : numpy.ndarray or None
+        Which of them are ground where they lie on it; None for none.
+    """
+
+    selected: np.ndarray
+    known: np.ndarray | None = None
+    wanted: np.ndarray | None = None
+    roads: np.ndarray | None = None
+
+
+class BlockPoints(NamedTuple):
+    """Points of a store.
+
+    Attributes
+    ----------
+    points : Points
+        Their coordinates.
+    known : numpy.ndarray of bool, shape (n,)
+        Which are known ground.
+    wanted : numpy.ndarray of bool, shape (n,)
+        Which are to be labelled; the others are context.
+    positions : numpy.ndarray of int, shape (n,)
+        Their indices in the store.
+    roads : numpy.ndarray of bool, shape (n,)
+        Which are ground where they lie on it.
+    multi_return : numpy.ndarray of bool, shape (n,)
+        Which are of pulses with several returns.
+    """
+
+    points: Points
+    known: np.ndarray
+    wanted: np.ndarray
+    positions: np.ndarray
+    roads: np.ndarray
+    multi_return: np.ndarray
+
+    @classmethod
+    def empty(cls, count: int, kind: type) -> BlockPoints:
+        """Return uninitialised arrays for `count` points; `kind` is the type of the positions."""
+        known, wanted, roads, several = (np.zeros(count, dtype=bool) for _ in range(4))
+        points = Points(*np.empty((3, count)))
+        return cls(points, known, wanted, np.empty(count, dtype=kind), roads, several)
+
+    def put(self, start: int, some: BlockPoints) -> None:
+        """Overwrite points from index `start` on with other points."""
+        where = slice(start, start + some.points.count)
+        for mine, others in zip((*self.points, *self[1:]), (*some.points, *some[1:])):
+            mine[where] = others
+
+    def take(self, which: np.ndarray | slice) -> BlockPoints:
+        """Return the points that a mask or a slice selects."""
+        return BlockPoints(self.points.take(which), *(each[which] for each in self[1:]))
+
+    def within(self, box: Box) -> BlockPoints:
+        """Return the points in a box, without those on its largest x and y."""
+        west, south, east, north = box
+        x, y = self.points.x, self.points.y
+        inside = (x >= west) & (x < east) & (y >= south) & (y < north)
+        return self if inside.all() else self.take(inside)
+
+
+class Store(Protocol):
+    """Holds points, in memory or on disk, and a value for each of them.
+
+    Points are added part by part, in any number of files. After `finish` they are read by the
+    squares in which they lie.
+
+    Attributes
+    ----------
+    leaves : Leaves
+        The squares in which the points lie; after `finish`.
+    has_known : bool
+        Whether any of them are known ground.
+    """
+
+    leaves: Leaves
+    has_known: bool
+
+    def append(self, part: PointCloud, marks: Marks) -> None:
+        """Add the selected points of the next part."""
+
+    def finish(self, progress: Progress = SILENT) -> None:
+        """Finish adding points."""
+
+    def read(
+        self,
+        leaves: np.ndarray,
+        box: Box | None = None,
+        corner: Corner = (0.0, 0.0),
+        progress: Progress = SILENT,
+    ) -> BlockPoints:
+        """Return the points of some leaves; only those in a box, if there is one.
+
+        Coordinates and box are relative to a corner. Several threads may call this.
+        """
+
+    def put(self, positions: np.ndarray, values: np.ndarray) -> None:
+        """Store the values of points. Only one thread may call this."""
+
+    def values(self, number: int) -> np.ndarray:
+        """Return the values of all points of a part, in its order; 0 where none was stored.
+
+        `number` is how many parts were added before it.
+        """
+
+
+def gathered(
+    counts: Sequence[int],
+    read: Callable[[int], BlockPoints],
+    box: Box | None = None,
+    kind: type = np.int64,
+    progress: Progress = SILENT,
+) -> BlockPoints:
+    """Return points that are read in pieces, which are small enough for the processor's cache.
+
+    Parameters
+    ----------
+    counts : sequence of int
+        Points of each piece.
+    read : callable
+        Returns the points of a piece, given its number. Several threads may call it.
+    box : tuple of float, optional
+        Only points in this box are returned.
+    kind : type
+        Type of integer for the positions.
+    progress : Progress
+        Receives progress.
+    """
+    starts = np.concatenate(([0], np.cumsum(counts, dtype=np.int64))).tolist()
+    whole = BlockPoints.empty(starts[-1], kind)
+    if box is None:
+        in_threads(
+            lambda number: whole.put(starts[number], read(number)), range(len(counts)), progress
+        )
+        return whole
+    end = 0
+    for number in range(len(counts)):
+        some = read(number).within(box)
+        whole.put(end, some)
+        end += some.points.count
+        progress(starts[number + 1] / starts[-1])
+    return whole.take(slice(end))
