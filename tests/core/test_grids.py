@@ -40,9 +40,11 @@ def test_the_minimum_of_each_cell_and_its_point_agree_with_a_loop():
     assert sorted(points.z[lowest]) == sorted(expected.values())
 
 
-@pytest.mark.parametrize("has_fast_at", [True, False])
-def test_the_least_of_many_values_stays_at_each_place(monkeypatch, has_fast_at):
-    monkeypatch.setattr(cells_module, "_HAS_FAST_AT", has_fast_at)
+@pytest.mark.parametrize("rounds", [0, 1, 100])
+@pytest.mark.parametrize("part", [7, 10_000])
+def test_the_least_of_many_values_stays_at_each_place(monkeypatch, rounds, part):
+    monkeypatch.setattr(cells_module, "_ROUNDS", rounds)
+    monkeypatch.setattr(cells_module, "_VALUES_A_PART", part)
     random = np.random.default_rng(4)
     index, values = random.integers(0, 40, 3000), random.integers(-9, 9, 3000) / 4.0
     target = np.where(np.arange(50) % 2, np.inf, -1.5)
