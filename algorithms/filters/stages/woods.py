@@ -63,11 +63,9 @@ def share_around(which: np.ndarray, cells: Cells, width: float, default: float) 
     """
     from scipy import ndimage
 
-    counts = cells.counts().astype(np.float32)
-    some = np.bincount(cells.index[which], minlength=counts.size).reshape(cells.shape)
     side = max(2 * round(width / cells.size / 2.0 - 0.5) + 1, 1)
     total, some = (
         ndimage.uniform_filter(grid.astype(np.float32), side, mode="constant")
-        for grid in (counts, some)
+        for grid in (cells.counts, cells.counts_of(which))
     )
     return np.where(total > 0.0, some / np.maximum(total, 1e-6), default)
