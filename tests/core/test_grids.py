@@ -53,6 +53,20 @@ def test_the_least_of_many_values_stays_at_each_place(monkeypatch, rounds, part)
     assert np.array_equal(target, expected)
 
 
+def test_points_are_counted_and_found_by_their_cells(monkeypatch):
+    monkeypatch.setattr(cells_module, "_POINTS_A_PART", 7)
+    monkeypatch.setattr(cells_module, "_POINTS_A_COUNT", 11)
+    random = np.random.default_rng(5)
+    points = Points(*random.uniform(0.0, 6.0, (3, 100)))
+    cells, chosen = Cells.over(points, 2.0), random.random(100) < 0.3
+    marked = np.zeros(cells.shape, dtype=bool)
+    marked[1, ::2] = True
+    inside = marked.ravel()[cells.index]
+    assert np.array_equal(cells.points_in(marked), np.flatnonzero(inside))
+    assert np.array_equal(cells.counts.ravel(), np.bincount(cells.index))
+    assert cells.counts_of(chosen)[marked].sum() == np.count_nonzero(chosen & inside)
+
+
 def test_of_points_equally_low_the_choice_does_not_depend_on_their_order():
     points = Points(np.array([0.7, 0.2, 0.5]), np.array([0.1, 0.9, 0.3]), np.zeros(3))
     back = points.take(np.array([2, 1, 0]))
