@@ -9,6 +9,7 @@ import numpy as np
 
 from ..core.points import Points
 from ..core.progress import Progress
+from ..core.threads import in_threads
 from ..grids.cells import Cells, first_of_each, spacing
 from ..grids.height_grid import HeightGrid
 
@@ -211,8 +212,7 @@ class State:
         which, heights = np.flatnonzero(found), self.points.z.copy()
         heights[which] = np.inf
         self.points = Points(self.points.x, self.points.y, heights)
-        for grid in self.grids:
-            grid.take_again(self.points, which)
+        in_threads(lambda grid: grid.take_again(self.points, which), self.grids)
 
     def codes(self, not_ground: int) -> tuple[np.ndarray, float]:
         """Return the number of the rule that decided the cell of each point, and the cell size.

@@ -7,9 +7,10 @@ from typing import ClassVar
 
 import numpy as np
 
+from ...core.threads import in_threads
 from ...grids.cells import Cells
 from ..pipeline import PointRule, Stage
-from ..state import State
+from ..state import GridState, State
 
 
 @dataclass(frozen=True)
@@ -36,11 +37,14 @@ class Woods(PointRule):
 
     def apply(self, state: State) -> None:
         """Find the cells under trees."""
-        if state.multi_return is None or not state.multi_return.any():
+        several = state.multi_return
+        if several is None or not several.any():
             return
-        for grid in state.grids:
-            shares = share_around(state.multi_return, grid.cells, self.width, 0.0)
-            grid.woods = shares >= self.share
+
+        def find(grid: GridState) -> None:
+            grid.woods = share_around(several, grid.cells, self.width, 0.0) >= self.share
+
+        in_threads(find, state.grids)
 
 
 def share_around(which: np.ndarray, cells: Cells, width: float, default: float) -> np.ndarray:
