@@ -75,6 +75,11 @@ class Points(_Columns):
             float(self.y.max()),
         )
 
+    @cached_property
+    def found(self) -> dict[str, float]:
+        """What functions have found out about the points, by name, to look it up again."""
+        return {}
+
     @property
     def sides(self) -> tuple[float, float]:
         """Width and height of the box in metres."""

@@ -12,7 +12,7 @@ import numpy as np
 from ..core.files import check_distinct
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
-from ..core.threads import may_use
+from ..core.threads import import_early, may_use
 from ..crs.measurable import require_measurable
 from ..las.cloud import PointCloud, survey_frame
 from ..las.crs_records import read_crs
@@ -150,6 +150,7 @@ def classify_file(
     first, finding, drawing, measuring, last = progress.shares(1.5, 5.0, *made_too, 0.8)
     changes_more = request.output.changes_points or request.selection.remember_classes
     is_copied = not (changes_more or remembers(las)) and layers_kept(las, target) is not None
+    import_early("scipy.ndimage", "scipy.spatial", "scipy.sparse.csgraph")
     with contextlib.ExitStack() as outputs:
         outputs.enter_context(may_use(resources.thread_count))
         points = FilePoints.opened(las, target, resources, not is_copied, first)

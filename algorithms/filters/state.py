@@ -9,6 +9,7 @@ import numpy as np
 
 from ..core.points import Points
 from ..core.progress import Progress
+from ..core.threads import in_threads
 from ..grids.cells import Cells, first_of_each, spacing
 from ..grids.height_grid import HeightGrid
 
@@ -126,7 +127,7 @@ class GridState:
         self.points = points
         cells = np.zeros(self.cells.rows * self.cells.columns, dtype=bool)
         cells[self.cells.index[changed]] = True
-        which = np.flatnonzero(cells[self.cells.index])
+        which = self.cells.points_in(cells)
         which = which[np.isfinite(points.z[which])]
         some = points.take(which)
         first = first_of_each(self.cells.index[which], cells.size, some.z, some.x, some.y)
@@ -208,9 +209,10 @@ class State:
             return
         self.low_noise = found if self.low_noise is None else self.low_noise | found
         # Infinitely high, they are never the lowest, and not close to any surface.
-        self.points = Points(self.points.x, self.points.y, np.where(found, np.inf, self.points.z))
-        for grid in self.grids:
-            grid.take_again(self.points, found)
+        which, heights = np.flatnonzero(found), self.points.z.copy()
+        heights[which] = np.inf
+        self.points = Points(self.points.x, self.points.y, heights)
+        in_threads(lambda grid: grid.take_again(self.points, which), self.grids)
 
     def codes(self, not_ground: int) -> tuple[np.ndarray, float]:
         """Return the number of the rule that decided the cell of each point, and the cell size.

@@ -204,7 +204,7 @@ class _Neighbourhood:
         side = self._radius * (1.0 - _ROUNDING) / math.sqrt(2.0)
         if math.prod(points.sides) < _most_cells(points) * side**2:
             cells = Cells.over(points, side)
-            doubtful = np.flatnonzero(cells.counts().ravel()[cells.index] <= at_least)
+            doubtful = np.flatnonzero(cells.counts.ravel()[cells.index] <= at_least)
         radius = np.empty(len(doubtful))
         if len(doubtful):
             self._tree = cKDTree(np.column_stack(points[:2]))

@@ -11,14 +11,15 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.points import Points
 from ..core.progress import SILENT
-from ..core.threads import over_parts, parts_of
+from ..core.threads import in_threads, over_parts, parts_of
 
 # Most cells of a grid: a larger one would not fit into memory.
 _MOST_CELLS = 200_000_000
 _POINTS_A_PART = 1 << 17
 _POINTS_A_COUNT = 1 << 20
-# In older NumPy, `ufunc.at` takes three times as long as a loop without it.
-_HAS_FAST_AT = np.lib.NumpyVersion(np.__version__) >= "1.25.0"
+# Values of which the least are found at a time, and how often values are stored before
+# `minimum.at`, which takes eight times as long, finds the rest.
+_VALUES_A_PART, _ROUNDS = 1 << 16, 6
 # Side in metres of the blocks in which points are counted. A block without a point is a gap in the
 # survey.
 _BLOCK = 10.0
@@ -131,28 +132,45 @@ class Cells:
         keys = points.x[which], points.y[which]
         return which[first_of_each(self.index[which], lowest.size, *keys)]
 
+    @cached_property
     def counts(self) -> np.ndarray:
-        """Return the number of points in each cell; int32, shape (rows, columns)."""
+        """Number of points in each cell; int32, shape (rows, columns)."""
+        return self.counts_of(None)
+
+    def counts_of(self, which: np.ndarray | None) -> np.ndarray:
+        """Return the number of selected points, a mask (n,) or None for all, in each cell."""
         counts = np.zeros(self.rows * self.columns, dtype=np.int32)
         for part in parts_of(len(self.index), _POINTS_A_COUNT):
             # Part by part, because bincount copies the indices to 8 bytes each.
-            step = np.bincount(self.index[part])
+            index = self.index[part]
+            step = np.bincount(index if which is None else index[which[part]])
             counts[: len(step)] += step
         return counts.reshape(self.shape)
+
+    def points_in(self, which: np.ndarray) -> np.ndarray:
+        """Return the indices of the points in the marked cells (rows, columns), in their order."""
+        marked = which.ravel()
+
+        def found(part: slice) -> np.ndarray:
+            return np.flatnonzero(marked.take(self.index[part])) + part.start
+
+        parts = parts_of(len(self.index), _POINTS_A_PART)
+        return np.concatenate(in_threads(found, parts) or [np.empty(0, dtype=np.intp)])
 
     def spacing(self, counts: np.ndarray, dense: float = 1.0, step: float = _SPACING_STEP) -> float:
         """Return the usual distance between points in metres, from the count of each cell.
 
         As the function `spacing`, with blocks of whole cells.
         """
+        return _rounded(self._apart(counts), dense, step)
+
+    def _apart(self, counts: np.ndarray) -> float:
+        """Return the usual distance between points in metres, from the count of each cell."""
         side = max(1, round(_BLOCK / self.size))
         for axis, (first, count) in enumerate(zip(self.first, self.shape)):
             starts = np.unique((first + np.arange(count)) // side, return_index=True)[1]
             counts = np.add.reduceat(counts, starts, axis=axis)
-        apart = side * self.size / math.sqrt(usual_count(counts))
-        if apart >= 1.0:
-            return max(dense, step * round(apart / step))
-        return max(dense, 2.0 ** (round(2.0 * math.log2(apart)) / 2.0))
+        return side * self.size / math.sqrt(usual_count(counts))
 
     @cached_property
     def occupied(self) -> np.ndarray:
@@ -281,14 +299,16 @@ def lower_at(target: np.ndarray, index: np.ndarray, values: np.ndarray) -> None:
     values : numpy.ndarray, shape (n,)
         The values.
     """
-    if _HAS_FAST_AT:
-        np.minimum.at(target, index, values)
-        return
-    left = np.flatnonzero(values < target[index])
-    while len(left):
-        at, some = index[left], values[left]
-        target[at] = some  # of several values for one element, one is stored
-        left = left[some < target[at]]
+    for part in parts_of(len(index), _VALUES_A_PART):
+        left, some = index[part], values[part]
+        for _ in range(_ROUNDS):
+            lower = np.flatnonzero(some < target.take(left))
+            if not len(lower):
+                break
+            left, some = left.take(lower), some.take(lower)
+            target[left] = some  # of several values for one element, the last one
+        else:
+            np.minimum.at(target, left, some)
 
 
 def spacing(points: Points, dense: float = 1.0, step: float = _SPACING_STEP) -> float:
@@ -310,8 +330,17 @@ def spacing(points: Points, dense: float = 1.0, step: float = _SPACING_STEP) -> 
     area = math.prod(points.sides)
     if _SURELY * area <= dense**2 * points.count:
         return dense
-    blocks = Cells.over(points, _BLOCK)
-    return blocks.spacing(blocks.counts(), dense, step)
+    if "apart" not in points.found:
+        blocks = Cells.over(points, _BLOCK)
+        points.found["apart"] = blocks._apart(blocks.counts)
+    return _rounded(points.found["apart"], dense, step)
+
+
+def _rounded(apart: float, dense: float, step: float) -> float:
+    """Return a distance between points in coarse steps; see `spacing`."""
+    if apart >= 1.0:
+        return max(dense, step * round(apart / step))
+    return max(dense, 2.0 ** (round(2.0 * math.log2(apart)) / 2.0))
 
 
 def usual_count(counts: np.ndarray) -> float:

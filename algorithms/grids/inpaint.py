@@ -70,11 +70,11 @@ def _filled(grid: np.ndarray, known: np.ndarray, relaxations: int, first: First)
     coarse = _filled(*_coarser(grid, known, odd), relaxations, half)
     unknown = ~known
     if np.count_nonzero(unknown) > _MANY * known.size:
-        padded = np.pad(np.where(known, grid, _finer(coarse, grid.shape, odd)), 1, mode="edge")
+        padded = _padded(np.where(known, grid, _finer(coarse, grid.shape, odd)))
         _relax_all(padded, unknown, relaxations)
     else:
         row, column = np.nonzero(unknown)
-        padded = np.pad(grid, 1, mode="edge")
+        padded = _padded(grid)
         padded[row + 1, column + 1] = _finer_at(coarse, row + odd[0], column + odd[1])
         _pad_again(padded)
         _relax_some(padded, row, column, relaxations)
@@ -108,6 +108,14 @@ def _relax_some(padded: np.ndarray, row: np.ndarray, column: np.ndarray, relaxat
         _pad_again(padded)
 
 
+def _padded(grid: np.ndarray) -> np.ndarray:
+    """Return a grid with a frame of its border cells; `numpy.pad` is slow for small grids."""
+    padded = np.empty((grid.shape[0] + 2, grid.shape[1] + 2), dtype=grid.dtype)
+    padded[1:-1, 1:-1] = grid
+    _pad_again(padded)
+    return padded
+
+
 def _pad_again(padded: np.ndarray) -> None:
     padded[0], padded[-1] = padded[1], padded[-2]
     padded[:, 0], padded[:, -1] = padded[:, 1], padded[:, -2]
@@ -138,7 +146,7 @@ def _pairs(grid: np.ndarray, axis: int, odd: int) -> np.ndarray:
 
 def _finer(coarse: np.ndarray, shape: tuple[int, int], odd: First) -> np.ndarray:
     """Interpolate bilinearly to cells of half the size."""
-    padded = np.pad(coarse, 1, mode="edge")
+    padded = _padded(coarse)
     rows = np.empty((2 * coarse.shape[0], padded.shape[1]), dtype=coarse.dtype)
     fine = np.empty((rows.shape[0], 2 * coarse.shape[1]), dtype=coarse.dtype)
     near, far = _THREE_QUARTERS * padded[1:-1], _QUARTER * padded

@@ -145,10 +145,21 @@ def median_of_nine(grid: np.ndarray) -> np.ndarray:
     -------
     numpy.ndarray of the same type, shape (rows, columns)
     """
-    padded = np.pad(grid, 1, mode="edge")
+    padded, median = np.pad(grid, 1, mode="edge"), np.empty_like(grid)
+    strip = max(_CELLS_A_STRIP // padded.shape[1], 1)
+
+    def fill(first: int) -> None:
+        median[first : first + strip] = _median_of_nine(padded[first : first + strip + 2])
+
+    in_threads(fill, range(0, len(grid), strip))
+    return median
+
+
+def _median_of_nine(padded: np.ndarray) -> np.ndarray:
+    """Return the median of the 3 x 3 cells round each, without those at the border."""
     # Rank each three rows first, then combine the ranks of each three columns.
     lowest, middle, highest = _ranked(padded[:-2], padded[1:-1], padded[2:])
-    left, centre, right = (slice(k, k + grid.shape[1]) for k in range(3))
+    left, centre, right = (slice(k, k + padded.shape[1] - 2) for k in range(3))
     return _ranked(
         np.maximum(np.maximum(lowest[:, left], lowest[:, centre]), lowest[:, right]),
         _ranked(middle[:, left], middle[:, centre], middle[:, right])[1],

@@ -40,15 +40,31 @@ def test_the_minimum_of_each_cell_and_its_point_agree_with_a_loop():
     assert sorted(points.z[lowest]) == sorted(expected.values())
 
 
-@pytest.mark.parametrize("has_fast_at", [True, False])
-def test_the_least_of_many_values_stays_at_each_place(monkeypatch, has_fast_at):
-    monkeypatch.setattr(cells_module, "_HAS_FAST_AT", has_fast_at)
+@pytest.mark.parametrize("rounds", [0, 1, 100])
+@pytest.mark.parametrize("part", [7, 10_000])
+def test_the_least_of_many_values_stays_at_each_place(monkeypatch, rounds, part):
+    monkeypatch.setattr(cells_module, "_ROUNDS", rounds)
+    monkeypatch.setattr(cells_module, "_VALUES_A_PART", part)
     random = np.random.default_rng(4)
     index, values = random.integers(0, 40, 3000), random.integers(-9, 9, 3000) / 4.0
     target = np.where(np.arange(50) % 2, np.inf, -1.5)
     expected = [min([target[at], *values[index == at]]) for at in range(50)]
     lower_at(target, index, values)
     assert np.array_equal(target, expected)
+
+
+def test_points_are_counted_and_found_by_their_cells(monkeypatch):
+    monkeypatch.setattr(cells_module, "_POINTS_A_PART", 7)
+    monkeypatch.setattr(cells_module, "_POINTS_A_COUNT", 11)
+    random = np.random.default_rng(5)
+    points = Points(*random.uniform(0.0, 6.0, (3, 100)))
+    cells, chosen = Cells.over(points, 2.0), random.random(100) < 0.3
+    marked = np.zeros(cells.shape, dtype=bool)
+    marked[1, ::2] = True
+    inside = marked.ravel()[cells.index]
+    assert np.array_equal(cells.points_in(marked), np.flatnonzero(inside))
+    assert np.array_equal(cells.counts.ravel(), np.bincount(cells.index))
+    assert cells.counts_of(chosen)[marked].sum() == np.count_nonzero(chosen & inside)
 
 
 def test_of_points_equally_low_the_choice_does_not_depend_on_their_order():

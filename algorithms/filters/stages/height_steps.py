@@ -279,9 +279,10 @@ class HeightSteps:
         parts = []
         for each in steps:
             cells = np.flatnonzero(regions[: -each.offset] != regions[each.offset :])
-            rise, sign = self._rise(cells, each), each.sign[cells]
-            face = np.zeros(len(cells), dtype=np.float32)
+            sign = each.sign[cells]
+            rise, face = np.zeros((2, len(cells)), dtype=np.float32)
             stepped = np.flatnonzero(sign)
+            rise[stepped] = self._rise(cells[stepped], each)
             face[stepped] = self._face_slopes(cells[stepped], each.offset)
             parts.append((regions[cells], regions[cells + each.offset], sign, rise, face))
         return Border(count, *(np.concatenate(each) for each in zip(*parts)))

@@ -148,7 +148,7 @@ class LowGroups(PointRule):
         rows, columns = (np.array(places) - cells.first).T
         near[rows, columns] = True
         near = within_square(np.maximum, near.view(np.uint8), reach).astype(bool)
-        which = np.flatnonzero(near.ravel()[cells.index])
+        which = cells.points_in(near)
         order = np.argsort(cells.index[which], kind="stable")
         which, index = which[order], cells.index[which[order]]
         for group, row, column in zip(groups, rows.tolist(), columns.tolist()):

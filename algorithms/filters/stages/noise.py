@@ -25,7 +25,7 @@ _SQUARE, _SQUARE_PERCENTILE = 3, 10
 _NOISE_FACTOR, _MEAN_POINTS, _MEANS = 2.5, 4, 2
 # The lowest of n points lies below the ground by so many times the noise, times sqrt(2 ln n).
 _LOWEST_FACTOR = 0.8
-_POINTS_A_PART, _POINTS_A_SUM = 1 << 17, 1 << 19
+_POINTS_A_PART, _POINTS_A_SUM = 1 << 15, 1 << 19
 
 
 def middle_of_noise(
@@ -106,7 +106,8 @@ def _noise(sums: np.ndarray, percentile: float) -> float:
 
 def from_middle(points: Points, cells: Cells, cell: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the distances of points north and east of the middle of their cell, in metres."""
-    row, column = np.divmod(cell, cells.columns)
+    row = cell // cells.columns  # much faster than `numpy.divmod`
+    column = cell - row * cells.columns
     north = points.y - (row + (cells.first_row + 0.5)) * cells.size
     east = points.x - (column + (cells.first_column + 0.5)) * cells.size
     return north, east
@@ -125,9 +126,9 @@ def _rises(
     def near(part: slice) -> tuple[np.ndarray, np.ndarray]:
         cell = cells.index[part]
         north, east = from_middle(points.take(part), cells, cell)
-        rise = points.z[part] - height[cell]
-        rise -= to_north[cell] * north
-        rise -= to_east[cell] * east
+        rise = points.z[part] - height.take(cell)
+        rise -= to_north.take(cell) * north
+        rise -= to_east.take(cell) * east
         which = np.flatnonzero(np.abs(rise) <= _FARTHEST)
         rise = np.rint(rise[which] * _STEPS_A_METRE) / _STEPS_A_METRE
         return cell[which], rise.astype(np.float32)

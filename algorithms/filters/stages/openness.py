@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ...core.points import Points
+from ...core.progress import SILENT
+from ...core.threads import over_parts
 from ...grids.cells import Cells
 from .woods import share_around
 
@@ -13,6 +15,7 @@ from .woods import share_around
 _NEAR = 0.6
 # Side in metres of the square in which they are counted.
 _WIDTH = 5.0
+_POINTS_A_PART = 1 << 16
 
 
 def openness(points: Points, cells: Cells, lowest: np.ndarray, rise: np.ndarray) -> np.ndarray:
@@ -38,5 +41,10 @@ def openness(points: Points, cells: Cells, lowest: np.ndarray, rise: np.ndarray)
     """
     heights = np.zeros(rise.size)
     heights[cells.index[lowest]] = points.z[lowest]
-    near = points.z <= (heights + rise.ravel() + _NEAR)[cells.index]
+    highest, near = heights + rise.ravel() + _NEAR, np.empty(points.count, dtype=bool)
+
+    def compare(part: slice) -> None:
+        np.less_equal(points.z[part], highest.take(cells.index[part]), out=near[part])
+
+    over_parts(compare, points.count, _POINTS_A_PART, SILENT)
     return share_around(near, cells, _WIDTH, 1.0)

@@ -236,7 +236,7 @@ class IsolatedLowPoints(GridRule):
         even = even_cells(grid)
         around = ndimage.uniform_filter(even.astype(np.float32), 3, mode="nearest")
         doubtful = (depth > self.depth) & (9.0 * around > self.least_even - 0.5)
-        which = np.flatnonzero(doubtful.ravel()[cells.index])
+        which = cells.points_in(doubtful)
         which = which[np.lexsort((z[which], cells.index[which]))]
         cell, first, count = np.unique(cells.index[which], return_index=True, return_counts=True)
         several = count >= self.least_points

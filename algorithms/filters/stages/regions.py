@@ -24,7 +24,7 @@ class Border(NamedTuple):
     sign : numpy.ndarray of int8, shape (pairs,)
         1 where the second is higher by more than is allowed, -1 where it is lower, else 0.
     rise : numpy.ndarray of float32, shape (pairs,)
-        Height of the second above the first in metres, beyond the trend.
+        Height of the second above the first in metres, beyond the trend; 0 where `sign` is 0.
     face : numpy.ndarray of float32, shape (pairs,)
         Slope (rise over run) of the face that the step between them is part of. It is the slope of
         the face's second step, because the first may be a wall below a roof. 0 where there is no
@@ -61,9 +61,11 @@ class Border(NamedTuple):
         """
         pairs = ~(removed[self.first] | removed[self.second])
         known = pairs & (self.first > 0) & (self.second > 0)
-        down, up = known & (self.sign == -sign), known & (self.sign == sign)
-        drops = self._total(down, up)
-        height = self._total(down, up, np.abs(self.rise)) / np.maximum(drops, 1)
+        stepped = np.flatnonzero(known & (self.sign != 0))
+        of_steps = Border(self.regions, *(each[stepped] for each in self[1:]))
+        down, up = of_steps.sign == -sign, of_steps.sign == sign
+        drops = of_steps._total(down, up)
+        height = of_steps._total(down, up, np.abs(of_steps.rise)) / np.maximum(drops, 1)
         return drops, self._total(known, known), self._total(pairs, pairs), height
 
     def _total(

@@ -26,7 +26,7 @@ _STEEPEST, _RELAXATIONS = 5.0, 2
 def density(cells: Cells) -> float:
     """Return the median number of points per square metre, of blocks within the survey."""
     blocks = CellBlocks.over(cells, _DENSITY_BLOCK, least=1)
-    return usual_count(blocks.total(cells.counts())) / blocks.size**2
+    return usual_count(blocks.total(cells.counts)) / blocks.size**2
 
 
 @dataclass(frozen=True)

@@ -196,13 +196,11 @@ class GentleRegions(GridRule):
         if self.judges_gaps:
             # A gap in a roof must not count as ground beside the roof.
             raised = raised | (~grid.heights.known & (grid.filled - grid.surface > step))
-        sides = [self._steps(grid, raised, smooth, axis, step) for axis in (0, 1)]
-        one, other, sign = (np.concatenate(parts) for parts in zip(*sides))
-        if self.judges_gaps:
             # The filling of a gap in the survey, or beside a wall, slopes down gently from any
             # roof.
-            both = grid.surveyed.ravel()[one] & grid.surveyed.ravel()[other]
-            one, other, sign = one[both], other[both], sign[both]
+            raised &= grid.surveyed
+        sides = [self._steps(grid, raised, smooth, axis, step) for axis in (0, 1)]
+        one, other, sign = (np.concatenate(parts) for parts in zip(*sides))
         return raised_regions(grid, raised, (one, other, sign), self.judges_gaps)
 
     def _steps(
@@ -222,6 +220,8 @@ class GentleRegions(GridRule):
         behind = tuple(slice(None, -1) if side == axis else slice(None) for side in (0, 1))
         matters = np.zeros(filled.shape, dtype=bool)
         np.logical_or(raised[ahead], raised[behind], out=matters[behind])
+        if self.judges_gaps:
+            matters[behind] &= grid.surveyed[ahead] & grid.surveyed[behind]
         one = np.flatnonzero(matters)
         other = one + (filled.shape[1] if axis == 0 else 1)
         rise = filled.ravel()[other] - filled.ravel()[one]

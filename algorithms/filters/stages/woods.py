@@ -7,9 +7,10 @@ from typing import ClassVar
 
 import numpy as np
 
+from ...core.threads import in_threads
 from ...grids.cells import Cells
 from ..pipeline import PointRule, Stage
-from ..state import State
+from ..state import GridState, State
 
 
 @dataclass(frozen=True)
@@ -36,11 +37,14 @@ class Woods(PointRule):
 
     def apply(self, state: State) -> None:
         """Find the cells under trees."""
-        if state.multi_return is None or not state.multi_return.any():
+        several = state.multi_return
+        if several is None or not several.any():
             return
-        for grid in state.grids:
-            shares = share_around(state.multi_return, grid.cells, self.width, 0.0)
-            grid.woods = shares >= self.share
+
+        def find(grid: GridState) -> None:
+            grid.woods = share_around(several, grid.cells, self.width, 0.0) >= self.share
+
+        in_threads(find, state.grids)
 
 
 def share_around(which: np.ndarray, cells: Cells, width: float, default: float) -> np.ndarray:
@@ -63,11 +67,9 @@ def share_around(which: np.ndarray, cells: Cells, width: float, default: float) 
     """
     from scipy import ndimage
 
-    counts = cells.counts().astype(np.float32)
-    some = np.bincount(cells.index[which], minlength=counts.size).reshape(cells.shape)
     side = max(2 * round(width / cells.size / 2.0 - 0.5) + 1, 1)
     total, some = (
         ndimage.uniform_filter(grid.astype(np.float32), side, mode="constant")
-        for grid in (counts, some)
+        for grid in (cells.counts, cells.counts_of(which))
     )
     return np.where(total > 0.0, some / np.maximum(total, 1e-6), default)
