@@ -10,6 +10,7 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet
+from ..core.points import Box
 from ..core.progress import SILENT, Notes, Progress
 from ..filters import method_of
 from ..filters.below_ground import below_ground
@@ -24,13 +25,14 @@ from .blockwise import over_blocks
 from .explanation import ExplainedCells, Explanation
 from .memory import Resources
 from .store import BlockPoints, Store
+from .surroundings import near, tell_spacing, thinned
 
 # Shares of the time of a block for finding bridges and low outliers.
 _BRIDGES_SHARE, _LOW_SHARE = 0.15, 0.1
 
 
 # A function that labels the points of a window, and tells which rules decided.
-_Label = Callable[[BlockPoints, Progress], "tuple[np.ndarray, Decisions | None]"]
+_Label = Callable[[Box, BlockPoints, Progress], "tuple[np.ndarray, Decisions | None]"]
 
 
 class _Labelled(NamedTuple):
@@ -105,10 +107,14 @@ def _label(
     parameters: ParameterSet,
     selection: Selection,
     explains: bool,
+    box: Box,
     contents: BlockPoints,
     progress: Progress,
 ) -> tuple[np.ndarray, Decisions | None]:
-    """Return the label of each point of a window, and the rules that decided if they are wanted."""
+    """Return the label of each point of a window, and the rules that decided if they are wanted.
+
+    All points in the box are here, and some of those round it.
+    """
     method, finds_low = method_of(parameters), selection.low_noise_class
     end = 1.0 - _LOW_SHARE if finds_low else 1.0
     finds_bridges = selection.bridges == "find" or (
@@ -119,6 +125,7 @@ def _label(
     if points.count == 1:
         # One point cannot be compared with others, and such groups can be many.
         return np.array([GROUND], dtype=np.uint8), None
+    tell_spacing(points, box)
     warn_of_extent(points, *method.largest(parameters), progress)
     ground, outliers, decided = method.ground(
         points, parameters, part, known, contents.multi_return, explains
@@ -146,26 +153,33 @@ def _labelled(
     store: Store, blocks: Blocks, label: _Label, block: Block, is_only: bool, progress: Progress
 ) -> _Labelled:
     """Label the points of a block."""
-    contents = blocks.contents(block, store, progress.part(0.0, 0.15))
+    corner = blocks.corner(block)
+    west, south, east, north = block.box
+    box = near((west - corner[0], south - corner[1], east - corner[0], north - corner[1]))
+    contents = thinned(blocks.contents(block, store, progress.part(0.0, 0.15)), box)
     core = blocks.core(block, contents, is_only)
     positions = contents.positions if core.all() else contents.positions[core]
     notes = _Notes(progress.part(0.15, 1.0), len(positions), is_only)
     labels, cells = np.zeros(len(positions), dtype=np.uint8), None
     if notes.count:
         try:
-            found, decided = _labels(contents, core, label, blocks.buffer, notes)
+            found, decided = _labels(contents, core, partial(label, box), blocks.buffer, notes)
             labels = found[core]
             if decided is not None:
                 some = contents.points.take(core)
                 decided = decided._replace(codes=decided.codes[core])
-                cells = ExplainedCells.of(some.x, some.y, decided, blocks.corner(block))
+                cells = ExplainedCells.of(some.x, some.y, decided, corner)
         except BareEarthError as error:
             notes.failure = error
     return _Labelled(positions, labels, notes, cells)
 
 
 def _labels(
-    contents: BlockPoints, wanted: np.ndarray, label: _Label, reach: float, progress: Progress
+    contents: BlockPoints,
+    wanted: np.ndarray,
+    label: Callable[[BlockPoints, Progress], tuple[np.ndarray, Decisions | None]],
+    reach: float,
+    progress: Progress,
 ) -> tuple[np.ndarray, Decisions | None]:
     """Return the label of each wanted point of a window, and the rules that decided.
 

@@ -211,7 +211,8 @@ class State:
         # Infinitely high, they are never the lowest, and not close to any surface.
         which, heights = np.flatnonzero(found), self.points.z.copy()
         heights[which] = np.inf
-        self.points = Points(self.points.x, self.points.y, heights)
+        spacing_of, self.points = self.points, Points(self.points.x, self.points.y, heights)
+        self.points.found.update(spacing_of.found)
         in_threads(lambda grid: grid.take_again(self.points, which), self.grids)
 
     def codes(self, not_ground: int) -> tuple[np.ndarray, float]:

@@ -331,9 +331,14 @@ def spacing(points: Points, dense: float = 1.0, step: float = _SPACING_STEP) -> 
     if _SURELY * area <= dense**2 * points.count:
         return dense
     if "apart" not in points.found:
-        blocks = Cells.over(points, _BLOCK)
-        points.found["apart"] = blocks._apart(blocks.counts)
+        keep_spacing(points, points)
     return _rounded(points.found["apart"], dense, step)
+
+
+def keep_spacing(points: Points, some: Points) -> None:
+    """Let `spacing` return for points what it returns for some of them."""
+    blocks = Cells.over(some, _BLOCK)
+    points.found["apart"] = blocks._apart(blocks.counts)
 
 
 def _rounded(apart: float, dense: float, step: float) -> float:

@@ -1,0 +1,63 @@
+"""The points round a block, which only decide about the points in it.
+
+Far from the block they matter by the surface that they lie on alone, so that the lowest of them are
+enough. This saves time and memory where points are dense.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..core.points import Box, Points
+from ..grids.cells import Cells, keep_spacing
+from .store import BlockPoints
+
+# All points up to so many metres from a block are used. That is farther than any rule looks that
+# counts points.
+_NEAR = 40.0
+# Side in metres of the cells of whose points only the lowest is used farther away. The cells of the
+# filters are made of such cells, so that their lowest points stay.
+_CELL = 0.5
+
+
+def near(box: Box) -> Box:
+    """Return the box round a block in which all points are used."""
+    west, south, east, north = box
+    return west - _NEAR, south - _NEAR, east + _NEAR, north + _NEAR
+
+
+def thinned(contents: BlockPoints, box: Box) -> BlockPoints:
+    """Return the points of a block and its buffer, without most of those that are far from it.
+
+    Parameters
+    ----------
+    contents : BlockPoints
+        The points.
+    box : tuple of float
+        The result of `near`.
+    """
+    far = np.flatnonzero(~_within(contents.points, box))
+    if not len(far):
+        return contents
+    some = contents.points.take(far)
+    lowest = Cells.over(some, _CELL).lowest_points(some)
+    stays = np.ones(contents.points.count, dtype=bool)
+    stays[far] = False
+    stays[far[lowest]] = True
+    stays |= contents.known | contents.roads
+    return contents.take(stays)
+
+
+def tell_spacing(points: Points, box: Box) -> None:
+    """Let points have the spacing of those in a box, which are not thinned."""
+    inside = _within(points, box)
+    if inside.any() and not inside.all():
+        keep_spacing(points, points.take(inside))
+
+
+def _within(points: Points, box: Box) -> np.ndarray:
+    """Return which points lie in a box."""
+    west, south, east, north = box
+    inside = (points.x >= west) & (points.x < east)
+    inside &= (points.y >= south) & (points.y < north)
+    return inside
