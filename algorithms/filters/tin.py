@@ -300,7 +300,6 @@ def _classic(resolved: TinDensification) -> Pipeline:
                 on_slope=None,
                 gentle_border=GentleBorder(0.5, rise_counts=False, small_buildings=None),
                 level_border=None,
-                open_border=None,
                 rocks=None,
                 ramps=None,
             ),

@@ -84,13 +84,6 @@ def test_the_wider_a_plateau_the_less_of_its_border_a_ramp_has_to_be(width, is_g
     assert _ground(heights, window=60.0)[plateau].all() == is_ground
 
 
-def test_the_uppermost_terrace_in_a_corner_of_the_survey_is_ground():
-    rows, columns = np.indices((120, 120))
-    heights = 4.0 * (rows + columns < 60)
-    assert _ground(heights, window=60.0).all()
-    assert not _ground(heights, window=60.0, open_border=None).all()
-
-
 def test_a_building_in_a_corner_of_the_survey_is_not_ground():
     rows, columns = np.indices((120, 120))
     roof = (rows < 40) & (columns < 40)

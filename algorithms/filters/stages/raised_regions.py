@@ -55,9 +55,8 @@ class RaisedRegions(NamedTuple):
         The raised cells.
     feet : RegionCells
         Those that are level with the ground beside them, once for each such side.
-    area, above, open : numpy.ndarray of float64, shape (regions,)
-        Square metres; mean height above the ground in metres; sides of cells at the border of the
-        survey.
+    area, above : numpy.ndarray of float64, shape (regions,)
+        Square metres; mean height above the ground in metres.
     filled : numpy.ndarray of float32, shape (rows, columns)
         Heights of all cells in metres, without NaN.
     borders : list
@@ -71,7 +70,6 @@ class RaisedRegions(NamedTuple):
     feet: RegionCells
     area: np.ndarray
     above: np.ndarray
-    open: np.ndarray
     borders: list[list[_Pairs]]
     filled: np.ndarray
 
@@ -125,7 +123,6 @@ def raised_regions(
         of_regions.take(np.searchsorted(cells, feet[seen[feet]])),
         area,
         np.bincount(number, above, count) * size**2 / area,
-        np.bincount(number, _unsurveyed(grid.surveyed).ravel()[cells], count),
         _borders(region, up, steps, seen),
         grid.filled,
     )
@@ -154,13 +151,6 @@ def _numbered(up: np.ndarray, one: np.ndarray, other: np.ndarray) -> tuple[np.nd
     graph = coo_matrix((np.ones(len(one), dtype=bool), pairs), shape=(len(cells),) * 2)
     count, region[cells] = connected_components(graph, directed=False)
     return region, count
-
-
-def _unsurveyed(surveyed: np.ndarray) -> np.ndarray:
-    """Return how many of the four neighbours of each cell lie outside the survey."""
-    beyond = np.pad(~surveyed, 1, constant_values=True).astype(np.int8)
-    rows = beyond[:-2, 1:-1] + beyond[2:, 1:-1]
-    return rows + beyond[1:-1, :-2] + beyond[1:-1, 2:]
 
 
 def _borders(

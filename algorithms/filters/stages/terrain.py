@@ -110,35 +110,6 @@ class LevelBorder(Rule):
 
 
 @dataclass(frozen=True)
-class OpenBorder(Rule):
-    """A large region is terrain if much of its border is that of the survey: little is known of it.
-
-    Attributes
-    ----------
-    area : float
-        Least area in square metres.
-    height : float
-        Such a region is no terrain if its mean height above the ground, in metres, is larger: it
-        may be a building cut by the border of the survey.
-    share : float
-        More than this share of its border is the border of the survey. It is less than half,
-        because the sides of cells make a slanted edge longer than it is.
-    """
-
-    stage: ClassVar = Stage.TERRAIN
-
-    area: float = 800.0
-    height: float = 4.5
-    share: float = 0.45
-
-    def fits(self, regions: RaisedRegions, borders: Borders) -> np.ndarray:
-        """Return which regions are terrain by this rule; boolean, shape (regions,)."""
-        large = (regions.area >= self.area) & (regions.above <= self.height)
-        bounded = borders.level + borders.rising + borders.sharp
-        return large & (regions.open > self.share * (bounded + regions.open))
-
-
-@dataclass(frozen=True)
 class GentleRegions(GridRule):
     """A raised region that continues gently into the ground is terrain.
 
@@ -173,7 +144,6 @@ class GentleRegions(GridRule):
     on_slope: OnSlope | None = OnSlope()
     gentle_border: GentleBorder | None = GentleBorder()
     level_border: LevelBorder | None = LevelBorder()
-    open_border: OpenBorder | None = OpenBorder()
     rocks: Rocks | None = Rocks()
     ramps: Ramps | None = Ramps()
     low_banks: LowBanks | None = LowBanks()
@@ -237,7 +207,7 @@ class GentleRegions(GridRule):
     def _joined(self, regions: RaisedRegions, landforms: np.ndarray) -> np.ndarray:
         """Return which regions pass into the ground, or into others that do."""
         joined, count = landforms.copy(), len(regions.area)
-        rules = [rule for rule in (self.gentle_border, self.level_border, self.open_border) if rule]
+        rules = [rule for rule in (self.gentle_border, self.level_border) if rule]
         sharp = np.sum(
             [np.bincount(drop[0], minlength=count) for _, drop, _ in regions.borders], axis=0
         )
