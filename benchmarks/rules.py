@@ -41,7 +41,6 @@ GROUPS = {
 # Other values of a rule: its class, and the values.
 VALUES: dict[str, tuple[type[Rule], dict[str, Any]]] = {
     "one grid": (LowestPoints, {"grids": 1}),
-    "large cells where points are dense": (LowestPoints, {"dense_size": None}),
     "objects on the cells of the filter": (RaisedObjects, {"wide": None}),
     "low and wide objects": (RaisedObjects, {"steepness": 0.0}),
     "nothing beyond the survey": (ProgressiveOpening, {"level_beyond": False}),
