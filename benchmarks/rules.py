@@ -17,7 +17,7 @@ from bare_earth.algorithms.filters.pipeline import Pipeline, Rule
 from bare_earth.algorithms.filters.stages.lowest import LowestPoints
 from bare_earth.algorithms.filters.stages.objects import RaisedObjects
 from bare_earth.algorithms.filters.stages.opening import ProgressiveOpening
-from bare_earth.algorithms.filters.stages.terrain import GentleBorder, GentleRegions
+from bare_earth.algorithms.filters.stages.terrain import GentleRegions
 
 # The variant with all rules.
 BASE = "base"
@@ -45,7 +45,6 @@ VALUES: dict[str, tuple[type[Rule], dict[str, Any]]] = {
     "low and wide objects": (RaisedObjects, {"steepness": 0.0}),
     "nothing beyond the survey": (ProgressiveOpening, {"level_beyond": False}),
     "gaps are not judged": (GentleRegions, {"judges_gaps": False}),
-    "rising borders are not gentle": (GentleBorder, {"rise_counts": False}),
 }
 
 

@@ -61,26 +61,23 @@ class GentleBorder(Rule):
     Attributes
     ----------
     share : float
-        Least share of the border that is level with the ground, or rises to it.
-    rise_counts : bool
-        Whether a border that rises to the ground counts, as at the tread of a terrace.
+        Least share of the border, without what rises to the ground, that is level with it.
     """
 
     stage: ClassVar = Stage.TERRAIN
 
     share: float = 0.3
-    rise_counts: bool = True
     small_buildings: SmallBuildings | None = SmallBuildings()
 
     def fits(self, regions: RaisedRegions, borders: Borders) -> np.ndarray:
         """Return which regions are terrain by this rule; boolean, shape (regions,)."""
-        gentle = borders.level + borders.rising if self.rise_counts else borders.level
         share = np.full(len(regions.area), self.share)
         if self.small_buildings:
             house = self.small_buildings
             is_house = (regions.area < house.area) & (regions.above > house.height)
             share[is_house] = max(house.share, self.share)
-        return (gentle > 0) & (gentle >= share * (gentle + borders.sharp))
+        level = borders.level
+        return (level > 0) & (level >= share * (level + borders.sharp))
 
 
 @dataclass(frozen=True)
