@@ -16,7 +16,6 @@ from bare_earth.algorithms.filters.method import Method
 from bare_earth.algorithms.filters.pipeline import Pipeline, Rule
 from bare_earth.algorithms.filters.stages.lowest import LowestPoints
 from bare_earth.algorithms.filters.stages.objects import RaisedObjects
-from bare_earth.algorithms.filters.stages.opening import ProgressiveOpening
 from bare_earth.algorithms.filters.stages.terrain import GentleRegions
 
 # The variant with all rules.
@@ -43,7 +42,6 @@ VALUES: dict[str, tuple[type[Rule], dict[str, Any]]] = {
     "one grid": (LowestPoints, {"grids": 1}),
     "objects on the cells of the filter": (RaisedObjects, {"wide": None}),
     "low and wide objects": (RaisedObjects, {"steepness": 0.0}),
-    "nothing beyond the survey": (ProgressiveOpening, {"level_beyond": False}),
     "gaps are not judged": (GentleRegions, {"judges_gaps": False}),
 }
 
