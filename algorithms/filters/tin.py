@@ -301,7 +301,6 @@ def _classic(resolved: TinDensification) -> Pipeline:
                 gentle_border=GentleBorder(0.5, small_buildings=None),
                 level_border=None,
                 rocks=None,
-                ramps=None,
             ),
             Seeds(objects_wait=True),
             KnownGround(),

@@ -16,30 +16,6 @@ _Pairs = tuple[np.ndarray, np.ndarray]
 Steps = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
-class RegionCells(NamedTuple):
-    """Cells of raised regions.
-
-    Attributes
-    ----------
-    region : numpy.ndarray of int64, shape (n,)
-        Region of each cell.
-    north, east : numpy.ndarray of float, shape (n,)
-        Coordinates of each cell in metres.
-    heights, above : numpy.ndarray of float, shape (n,)
-        Height of each, and its height above the ground, in metres.
-    """
-
-    region: np.ndarray
-    north: np.ndarray
-    east: np.ndarray
-    heights: np.ndarray
-    above: np.ndarray
-
-    def take(self, which: np.ndarray) -> RegionCells:
-        """Return some of the cells."""
-        return RegionCells(*(column[which] for column in self))
-
-
 class RaisedRegions(NamedTuple):
     """The raised regions of a grid, with what rules ask about them.
 
@@ -49,12 +25,12 @@ class RaisedRegions(NamedTuple):
         Side of a cell in metres.
     shape : tuple of int
         Rows and columns of the grid.
-    which : numpy.ndarray of intp, shape (n,)
+    cells : numpy.ndarray of intp, shape (n,)
         The raised cells, in the flattened grid.
-    cells : RegionCells
-        The raised cells.
-    feet : RegionCells
-        Those that are level with the ground beside them, once for each such side.
+    number : numpy.ndarray of int64, shape (n,)
+        Region of each of these cells.
+    heights, heights_above : numpy.ndarray of float, shape (n,)
+        Height of each of these cells, and its height above the ground, in metres.
     area, above : numpy.ndarray of float64, shape (regions,)
         Square metres; mean height above the ground in metres.
     filled : numpy.ndarray of float32, shape (rows, columns)
@@ -65,23 +41,24 @@ class RaisedRegions(NamedTuple):
 
     size: float
     shape: tuple[int, int]
-    which: np.ndarray
-    cells: RegionCells
-    feet: RegionCells
+    cells: np.ndarray
+    number: np.ndarray
+    heights: np.ndarray
+    heights_above: np.ndarray
     area: np.ndarray
     above: np.ndarray
-    borders: list[list[_Pairs]]
     filled: np.ndarray
+    borders: list[list[_Pairs]]
 
     @property
     def even(self) -> np.ndarray:
         """Which raised cells are even (`even_cells`); boolean, shape (n,)."""
-        return even_cells(self.filled).ravel()[self.which]
+        return even_cells(self.filled).ravel()[self.cells]
 
     def spread(self, regions: np.ndarray) -> np.ndarray:
         """Return the cells of some regions (boolean, one each) as a mask (rows, columns)."""
         mask = np.zeros(self.shape, dtype=bool)
-        mask.ravel()[self.which] = regions[self.cells.region]
+        mask.ravel()[self.cells] = regions[self.number]
         return mask
 
 
@@ -112,19 +89,17 @@ def raised_regions(
     area = np.bincount(number, minlength=count) * size**2
     heights = grid.filled.ravel()[cells]
     above = heights - grid.surface.ravel()[cells]
-    row, column = np.divmod(cells, raised.shape[1])
-    of_regions = RegionCells(number, size * row, size * column, heights, above)
-    feet = np.where(up[one], one, other)[(sign == 0) & (up[one] != up[other])]
     return RaisedRegions(
         size,
         raised.shape,
         cells,
-        of_regions,
-        of_regions.take(np.searchsorted(cells, feet[seen[feet]])),
+        number,
+        heights,
+        above,
         area,
         np.bincount(number, above, count) * size**2 / area,
-        _borders(region, up, steps, seen),
         grid.filled,
+        _borders(region, up, steps, seen),
     )
 
 
