@@ -286,7 +286,6 @@ def _classic(resolved: TinDensification) -> Pipeline:
         cliff_faces=None,
         plateaus=None,
         narrow_pits=pits,
-        isolated_low_points=None,
     )
     return Pipeline(
         (

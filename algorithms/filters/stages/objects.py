@@ -20,7 +20,7 @@ from ...grids.height_grid import HeightGrid
 from ..pipeline import GridRule, Rule, Stage
 from ..state import GridState, covered
 from .height_steps import HeightSteps
-from .outliers import IsolatedLowPoints, NarrowPits
+from .outliers import NarrowPits
 from .regions import Regions
 
 
@@ -194,7 +194,6 @@ class RaisedObjects(GridRule):
     cliff_faces: CliffFaces | None = CliffFaces()
     plateaus: Plateaus | None = Plateaus()
     narrow_pits: NarrowPits | None = NarrowPits()
-    isolated_low_points: IsolatedLowPoints | None = IsolatedLowPoints()
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
         """Find the cells of objects and plateaus."""
@@ -220,8 +219,6 @@ class RaisedObjects(GridRule):
         wide = HeightGrid(cells.minimum(grid.points.z), cells.size, cells.first)
         if self.narrow_pits:
             wide.values[self.narrow_pits.find(wide, grid.points, cells)] = np.nan
-        if self.isolated_low_points:
-            wide.values[self.isolated_low_points.find(wide, cells, grid.points.z)] = np.nan
         return cells, wide
 
     def find(self, grid: HeightGrid, progress: Progress = SILENT) -> Objects:
