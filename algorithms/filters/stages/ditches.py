@@ -18,6 +18,9 @@ from .raised_regions import even_cells
 class BetweenDitches(GridRule):
     """Even land with ditches beside it, and land as high beyond them, is ground.
 
+    No real tile needs it so far. Without it the slope filter and grid minimum lose a fifth to three
+    quarters of generated land with a ditch each 10 or 15 m.
+
     Attributes
     ----------
     width, depth : float

@@ -48,7 +48,7 @@ class CliffFaces(Rule):
     """An exception: regions with faces of cliffs round them are no objects.
 
     At the wall of a building, one step is nearly all of the drop; on the face of a cliff there are
-    points between.
+    points between. No real tile needs it so far; without it a tenth of a generated mesa is lost.
 
     Attributes
     ----------
@@ -74,7 +74,8 @@ class LargeBuildings(Rule):
     """Large buildings that are low on one side: on a slope their roofs meet the ground uphill.
 
     Where a roof is level with the ground, no drop bounds it. Such places are mostly short, so
-    regions are cut at their necks.
+    regions are cut at their necks. No real tile needs it so far; without it a fifth of generated
+    groups of halls on slopes stays.
 
     Attributes
     ----------
