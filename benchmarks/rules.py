@@ -30,7 +30,6 @@ GROUPS = {
     ),
     "all plateaus": ("plateaus", "cut-plateaus"),
     "landforms": ("rocks", "low-banks", "between-ditches"),
-    "kinds of borders": ("small-buildings", "level-border"),
     "checks of seeds": ("plants", "level-seeds"),
     "kinds of tolerance": ("measured-noise", "even-ground", "breaks"),
     "nothing alone on real land": (

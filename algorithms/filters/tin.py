@@ -297,7 +297,7 @@ def _classic(resolved: TinDensification) -> Pipeline:
             GentleRegions(
                 judges_gaps=False,
                 on_slope=None,
-                gentle_border=GentleBorder(0.5, small_buildings=None),
+                gentle_border=GentleBorder(0.5),
                 level_border=None,
                 rocks=None,
             ),

@@ -56,16 +56,6 @@ def test_a_slope_is_ground_and_a_house_on_it_is_not():
     assert ground[60:].all()
 
 
-def test_the_lower_side_of_a_roof_that_begins_level_with_a_slope_is_not_ground():
-    rows, columns = np.indices((90, 100))
-    heights = 0.6 * columns
-    roof = (rows >= 35) & (rows < 57) & (columns >= 40) & (columns < 56)
-    heights[roof] = 0.6 * 56 + 0.2
-    ground = _ground(heights)
-    assert ground[~roof].all()
-    assert not ground[35:57, 40:46].any()
-
-
 def test_a_platform_with_walls_on_three_sides_and_a_ramp_on_the_fourth_is_ground():
     rows, columns = np.indices((120, 120))
     ramp = 2.4 * np.clip((74 - rows) / 14.0, 0.0, 1.0)

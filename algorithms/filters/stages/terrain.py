@@ -36,25 +36,6 @@ class Borders(NamedTuple):
 
 
 @dataclass(frozen=True)
-class SmallBuildings(Rule):
-    """An exception: a house may be level with the ground on one side of its roof, on a slope.
-
-    Attributes
-    ----------
-    area, height : float
-        A region may be a house if it is smaller (m2) and on average higher (m) than this.
-    share : float
-        At least this share of its border must then be gentle.
-    """
-
-    stage: ClassVar = Stage.TERRAIN
-
-    area: float = 400.0
-    height: float = 2.5
-    share: float = 0.5
-
-
-@dataclass(frozen=True)
 class GentleBorder(Rule):
     """A region is terrain if a large share of its border is gentle.
 
@@ -67,17 +48,11 @@ class GentleBorder(Rule):
     stage: ClassVar = Stage.TERRAIN
 
     share: float = 0.3
-    small_buildings: SmallBuildings | None = SmallBuildings()
 
     def fits(self, regions: RaisedRegions, borders: Borders) -> np.ndarray:
         """Return which regions are terrain by this rule; boolean, shape (regions,)."""
-        share = np.full(len(regions.area), self.share)
-        if self.small_buildings:
-            house = self.small_buildings
-            is_house = (regions.area < house.area) & (regions.above > house.height)
-            share[is_house] = max(house.share, self.share)
         level = borders.level
-        return (level > 0) & (level >= share * (level + borders.sharp))
+        return (level > 0) & (level >= self.share * (level + borders.sharp))
 
 
 @dataclass(frozen=True)
