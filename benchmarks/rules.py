@@ -14,8 +14,8 @@ from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.method import Method
 from bare_earth.algorithms.filters.pipeline import Pipeline, Rule
-from bare_earth.algorithms.filters.stages.lowest import LowestPoints
 from bare_earth.algorithms.filters.stages.objects import RaisedObjects
+from bare_earth.algorithms.filters.stages.seeds import LowestPoints
 from bare_earth.algorithms.filters.stages.terrain import GentleRegions
 
 # The variant with all rules.

@@ -23,13 +23,12 @@ from .pipeline import Pipeline
 from .stages.accept import NearSurface, OnlyKeyPoints
 from .stages.breaks import LevelSeeds, Plants
 from .stages.densify import Densification
-from .stages.ditches import BetweenDitches
+from .stages.landforms import BetweenDitches
 from .stages.low_groups import LowGroups
-from .stages.lowest import LowestPoints
 from .stages.objects import RaisedObjects
 from .stages.opening import CutPlateaus, ProgressiveOpening
 from .stages.outliers import DenseOutliers, IsolatedLowPoints, NarrowPits
-from .stages.seeds import KnownGround, Seeds
+from .stages.seeds import KnownGround, LowestPoints, Seeds
 from .stages.terrain import GentleBorder, GentleRegions
 from .stages.tolerance import NOISE_SPACING, PlainSurface, ToleranceSurface
 from .stages.woods import Woods

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bare_earth.algorithms.core.progress import SILENT
-from bare_earth.algorithms.filters.stages.ditches import BetweenDitches
+from bare_earth.algorithms.filters.stages.landforms import BetweenDitches
 from bare_earth.algorithms.filters.stages.opening import (
     CutPlateaus,
     ProgressiveOpening,

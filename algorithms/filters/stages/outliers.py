@@ -21,7 +21,7 @@ from ...grids.height_grid import HeightGrid
 from ...grids.morphology import median_of_nine, within_square
 from ..pipeline import GridRule, PointRule, Rule, Stage
 from ..state import GridState, State
-from .lowest import DENSE_SPACING
+from .seeds import DENSE_SPACING
 from .surroundings import LowestOfCells
 
 # A cell of an even surface is at most so many metres off the median of the 3 x 3 cells round it.

@@ -14,9 +14,8 @@ import numpy as np
 from ...core.progress import SILENT, Progress
 from ..pipeline import GridRule, Rule, Stage
 from ..state import GridState
-from .landforms import LowBanks, Rocks
-from .raised_regions import RaisedRegions, raised_regions
-from .slopes import OnSlope
+from .landforms import LowBanks, OnSlope, Rocks
+from .regions import RaisedRegions, raised_regions
 
 
 class Borders(NamedTuple):

@@ -1,4 +1,4 @@
-"""Where trees stand: their leaves and branches split pulses."""
+"""Where trees stand, and how open the ground is: shares of points in the surroundings of cells."""
 
 from __future__ import annotations
 
@@ -7,9 +7,16 @@ from typing import ClassVar
 
 import numpy as np
 
+from ...core.points import Points
 from ...grids.cells import Cells
 from ..pipeline import PointRule, Stage
 from ..state import State
+
+# Points up to so many metres above the lowest one of their cell count as near it, and on slopes
+# what the ground rises within the cell.
+_NEAR = 0.6
+# Side in metres of the square in which they are counted.
+_WIDTH = 5.0
 
 
 @dataclass(frozen=True)
@@ -71,3 +78,30 @@ def share_around(which: np.ndarray, cells: Cells, width: float, default: float) 
         for grid in (counts, some)
     )
     return np.where(total > 0.0, some / np.maximum(total, 1e-6), default)
+
+
+def openness(points: Points, cells: Cells, lowest: np.ndarray, rise: np.ndarray) -> np.ndarray:
+    """Return the share of points near the lowest one of their cell, in the surroundings of a cell.
+
+    It is about 1 on open ground, on roofs and where points are sparse, and 0.2 to 0.6 under trees.
+
+    Parameters
+    ----------
+    points : Points
+        All points that take part, mostly last returns.
+    cells : Cells
+        Their cells.
+    lowest : numpy.ndarray of intp
+        The lowest point of each cell.
+    rise : numpy.ndarray of float, shape (rows, columns)
+        How much the ground rises from side to side of a cell, in metres.
+
+    Returns
+    -------
+    numpy.ndarray of float32, shape (rows, columns)
+        0 to 1; 1 where there are no points.
+    """
+    heights = np.zeros(rise.size)
+    heights[cells.index[lowest]] = points.z[lowest]
+    near = points.z <= (heights + rise.ravel() + _NEAR)[cells.index]
+    return share_around(near, cells, _WIDTH, 1.0)
