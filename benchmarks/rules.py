@@ -15,6 +15,7 @@ from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.method import Method
 from bare_earth.algorithms.filters.pipeline import Pipeline, Rule
 from bare_earth.algorithms.filters.stages.objects import RaisedObjects
+from bare_earth.algorithms.filters.stages.opening import ProgressiveOpening
 from bare_earth.algorithms.filters.stages.seeds import LowestPoints
 from bare_earth.algorithms.filters.stages.terrain import GentleRegions
 
@@ -41,6 +42,7 @@ VALUES: dict[str, tuple[type[Rule], dict[str, Any]]] = {
     "one grid": (LowestPoints, {"grids": 1}),
     "objects on the cells of the filter": (RaisedObjects, {"wide": None}),
     "low and wide objects": (RaisedObjects, {"steepness": 0.0}),
+    "nothing beyond the survey": (ProgressiveOpening, {"level_beyond": False}),
     "gaps are not judged": (GentleRegions, {"judges_gaps": False}),
 }
 

@@ -102,8 +102,19 @@ class GridState:
 
     @cached_property
     def filled(self) -> np.ndarray:
-        """Heights as float32, with gaps filled smoothly."""
-        return self.heights.filled().astype(np.float32)
+        """Heights as float32, with gaps filled smoothly; beyond the survey those of its border.
+
+        Otherwise the filling would make a roof at the border wider than it is.
+        """
+        from scipy import ndimage
+
+        filled = self.heights.filled().astype(np.float32)
+        if self.surveyed.all():
+            return filled
+        nearest = ndimage.distance_transform_edt(
+            ~self.surveyed, return_distances=False, return_indices=True
+        )
+        return filled[tuple(nearest)]
 
     @cached_property
     def surface(self) -> np.ndarray:

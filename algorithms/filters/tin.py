@@ -291,7 +291,7 @@ def _classic(resolved: TinDensification) -> Pipeline:
             LowestPoints(size=_CELL),
             pits,
             objects,
-            ProgressiveOpening(size / 2.0, wide_windows=None),
+            ProgressiveOpening(size / 2.0, level_beyond=False, wide_windows=None),
             CutPlateaus(),
             GentleRegions(
                 judges_gaps=False,

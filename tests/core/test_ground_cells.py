@@ -81,6 +81,18 @@ def test_a_building_in_a_corner_of_the_survey_is_not_ground():
     assert not found[roof].any() and found[~roof].all()
 
 
+def test_beyond_the_survey_a_roof_goes_on_where_gaps_are_judged():
+    heights = np.zeros((40, 70))
+    heights[13:27, 26:40] = 6.0
+    heights[:, 40:] = np.nan
+    # A window of 6 m cuts off the corners of what is 14 m wide, but not where it goes on.
+    corners = [13, 26], [39, 39]
+    assert _ground(heights, window=6.0)[corners].all()
+    opening = ProgressiveOpening(6.0, level_beyond=False)
+    found = ground_of(grid_of(heights), opening=opening, regions=GentleRegions(judges_gaps=False))
+    assert not found[corners].any()
+
+
 def test_a_rock_with_walls_all_round_is_ground_and_buildings_as_high_are_not():
     rows, columns = np.indices((60, 60)) - 30.0
     inside = np.hypot(rows, columns) < 12.0

@@ -100,11 +100,13 @@ class ProgressiveOpening(GridRule):
         slope of the terrain is taken.
     smoothing, steepest : float
         Metres over which this surface is smoothed, and the largest slope that counts.
+    level_beyond : bool
+        Whether heights beyond the survey are those of its border, not filled smoothly.
     """
 
     stage: ClassVar = Stage.OPENING
-    reads: ClassVar = ("heights", "filled", "objects", "woods")
-    writes: ClassVar = ("raised",)
+    reads: ClassVar = ("heights", "objects", "woods")
+    writes: ClassVar = ("filled", "raised")
 
     largest_window: float
     base: float = 0.15
@@ -114,11 +116,14 @@ class ProgressiveOpening(GridRule):
     first_slope: float = 0.12
     smoothing: float = 5.0
     steepest: float = 0.6
+    level_beyond: bool = True
     wide_windows: WideWindows | None = WideWindows()
     crown_windows: CrownWindows | None = CrownWindows()
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
         """Raise the cells that stand out, and the objects."""
+        if not self.level_beyond:
+            grid.filled = grid.heights.filled().astype(np.float32)
         size, filled = grid.cells.size, grid.filled
         # Squares of cells begin at multiples of their side, wherever the grid starts.
         south, west = (start % _TOGETHER for start in grid.heights.origin)
