@@ -14,10 +14,10 @@ from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.method import Method
 from bare_earth.algorithms.filters.pipeline import Pipeline, Rule
-from bare_earth.algorithms.filters.stages.lowest import LowestPoints
 from bare_earth.algorithms.filters.stages.objects import RaisedObjects
 from bare_earth.algorithms.filters.stages.opening import ProgressiveOpening
-from bare_earth.algorithms.filters.stages.terrain import GentleBorder, GentleRegions
+from bare_earth.algorithms.filters.stages.seeds import LowestPoints
+from bare_earth.algorithms.filters.stages.terrain import GentleRegions
 
 # The variant with all rules.
 BASE = "base"
@@ -30,23 +30,20 @@ GROUPS = {
 
     ),
     "all plateaus": ("plateaus", "cut-plateaus"),
-    "landforms": ("rocks", "ramps", "low-banks", "between-ditches"),
-    "kinds of borders": ("small-buildings", "level-border", "open-border"),
+    "landforms": ("rocks", "low-banks", "between-ditches"),
     "checks of seeds": ("plants", "level-seeds"),
     "kinds of tolerance": ("measured-noise", "even-ground", "breaks"),
     "nothing alone on real land": (
-        "cliff-faces", "large-buildings", "open-border", "ramps", "low-banks", "between-ditches",
+        "cliff-faces", "large-buildings", "low-banks", "between-ditches",
     ),
 }  # fmt: skip
 # Other values of a rule: its class, and the values.
 VALUES: dict[str, tuple[type[Rule], dict[str, Any]]] = {
     "one grid": (LowestPoints, {"grids": 1}),
-    "large cells where points are dense": (LowestPoints, {"dense_size": None}),
     "objects on the cells of the filter": (RaisedObjects, {"wide": None}),
     "low and wide objects": (RaisedObjects, {"steepness": 0.0}),
     "nothing beyond the survey": (ProgressiveOpening, {"level_beyond": False}),
     "gaps are not judged": (GentleRegions, {"judges_gaps": False}),
-    "rising borders are not gentle": (GentleBorder, {"rise_counts": False}),
 }
 
 

@@ -21,14 +21,13 @@ from .method import Method, Toolbox
 from .pipeline import Pipeline
 from .stages.accept import NearSurface
 from .stages.breaks import LevelSeeds, Plants
-from .stages.ditches import BetweenDitches
+from .stages.landforms import BetweenDitches
 from .stages.low_groups import LowGroups
-from .stages.lowest import LowestPoints
 from .stages.objects import RaisedObjects, TallObjects
 from .stages.opening import CutPlateaus, ProgressiveOpening
 from .stages.outliers import DenseOutliers, IsolatedLowPoints, NarrowPits
 from .stages.rims import BlockPits, FineSeeds, PaperSurface, Rims, density
-from .stages.seeds import Seeds
+from .stages.seeds import LowestPoints, Seeds
 from .stages.terrain import GentleRegions
 from .stages.tolerance import ToleranceSurface
 from .stages.woods import Woods

@@ -23,20 +23,19 @@ from .pipeline import Pipeline
 from .stages.accept import NearSurface, OnlyKeyPoints
 from .stages.breaks import LevelSeeds, Plants
 from .stages.densify import Densification
-from .stages.ditches import BetweenDitches
+from .stages.landforms import BetweenDitches
 from .stages.low_groups import LowGroups
-from .stages.lowest import DENSE_SPACING, LowestPoints
 from .stages.objects import RaisedObjects
 from .stages.opening import CutPlateaus, ProgressiveOpening
 from .stages.outliers import DenseOutliers, IsolatedLowPoints, NarrowPits
-from .stages.seeds import KnownGround, Seeds
+from .stages.seeds import KnownGround, LowestPoints, Seeds
 from .stages.terrain import GentleBorder, GentleRegions
 from .stages.tolerance import NOISE_SPACING, PlainSurface, ToleranceSurface
 from .stages.woods import Woods
 
 # Side in metres of the cells whose lowest points may become vertices of the TIN, unless points are
-# farther apart. The second is for points so dense that their noise is measured.
-_CELL, _DENSE_CELL = 1.0, 0.5
+# farther apart.
+_CELL = 1.0
 # Least spacing of points in metres; a smaller one counts as this.
 _LEAST_SPACING = 0.01
 # Points affect each other within so many times the largest building, and within at least so many
@@ -248,7 +247,7 @@ def pipeline(points: Points, parameters: TinDensification, progress: Progress) -
     size = resolved.max_building_size
     return Pipeline(
         (
-            LowestPoints(least_size=_CELL, dense_size=_DENSE_CELL, grids=2),
+            LowestPoints(max(_CELL, apart), grids=2),
             Woods(),
             DenseOutliers(),
             LowGroups(),
@@ -286,7 +285,6 @@ def _classic(resolved: TinDensification) -> Pipeline:
         cliff_faces=None,
         plateaus=None,
         narrow_pits=pits,
-        isolated_low_points=None,
     )
     return Pipeline(
         (
@@ -298,11 +296,9 @@ def _classic(resolved: TinDensification) -> Pipeline:
             GentleRegions(
                 judges_gaps=False,
                 on_slope=None,
-                gentle_border=GentleBorder(0.5, rise_counts=False, small_buildings=None),
+                gentle_border=GentleBorder(0.5),
                 level_border=None,
-                open_border=None,
                 rocks=None,
-                ramps=None,
             ),
             Seeds(objects_wait=True),
             KnownGround(),
@@ -348,10 +344,9 @@ def _in_words(parameters: TinDensification, of_spacing: str) -> str:
 
 def _of_spacing(apart: float) -> str:
     """Return what follows from the spacing of the points, for the log."""
-    text = f", cells of {_DENSE_CELL:g} m" if apart <= DENSE_SPACING else ""
-    if apart <= NOISE_SPACING:
-        text += f", a tolerance that follows the noise, as points lie {apart:.2g} m apart"
-    return text
+    if apart > NOISE_SPACING:
+        return ""
+    return f", a tolerance that follows the noise, as points lie {apart:.2g} m apart"
 
 
 _ABOUT = (

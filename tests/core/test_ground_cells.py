@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bare_earth.algorithms.core.progress import SILENT
-from bare_earth.algorithms.filters.stages.ditches import BetweenDitches
+from bare_earth.algorithms.filters.stages.landforms import BetweenDitches
 from bare_earth.algorithms.filters.stages.opening import (
     CutPlateaus,
     ProgressiveOpening,
@@ -56,16 +56,6 @@ def test_a_slope_is_ground_and_a_house_on_it_is_not():
     assert ground[60:].all()
 
 
-def test_the_lower_side_of_a_roof_that_begins_level_with_a_slope_is_not_ground():
-    rows, columns = np.indices((90, 100))
-    heights = 0.6 * columns
-    roof = (rows >= 35) & (rows < 57) & (columns >= 40) & (columns < 56)
-    heights[roof] = 0.6 * 56 + 0.2
-    ground = _ground(heights)
-    assert ground[~roof].all()
-    assert not ground[35:57, 40:46].any()
-
-
 def test_a_platform_with_walls_on_three_sides_and_a_ramp_on_the_fourth_is_ground():
     rows, columns = np.indices((120, 120))
     ramp = 2.4 * np.clip((74 - rows) / 14.0, 0.0, 1.0)
@@ -82,13 +72,6 @@ def test_the_wider_a_plateau_the_less_of_its_border_a_ramp_has_to_be(width, is_g
     ramp[(np.abs(columns) > 0.4 * width) | (rows < 0)] = 0.0
     heights = np.where(plateau, 4.0, ramp)
     assert _ground(heights, window=60.0)[plateau].all() == is_ground
-
-
-def test_the_uppermost_terrace_in_a_corner_of_the_survey_is_ground():
-    rows, columns = np.indices((120, 120))
-    heights = 4.0 * (rows + columns < 60)
-    assert _ground(heights, window=60.0).all()
-    assert not _ground(heights, window=60.0, open_border=None).all()
 
 
 def test_a_building_in_a_corner_of_the_survey_is_not_ground():
@@ -119,20 +102,6 @@ def test_a_rock_with_walls_all_round_is_ground_and_buildings_as_high_are_not():
     # Two roofs one above the other, joined by what fills a gap between them.
     stairs = np.interp(columns, (-2.0, 2.0), (8.0, 24.0))
     assert not _ground(np.where(inside, stairs, 0.0), inside)[inside].any()
-
-
-@pytest.mark.parametrize("angle", [0.0, 0.7])
-def test_a_ramp_with_walls_is_ground_and_a_bridge_as_wide_is_not(angle):
-    rows, columns = np.indices((120, 120)) - 60.0
-    along = rows * np.cos(angle) + columns * np.sin(angle)
-    across = columns * np.cos(angle) - rows * np.sin(angle)
-    road = (np.abs(along) < 35.0) & (np.abs(across) < 4.0)
-    ramp = np.where(road, 0.09 * (along + 35.0), 0.0)
-    assert _ground(ramp).all()
-    assert not _ground(ramp, ramps=None).all()
-    # It begins on the ground and ends there, and drops on both sides.
-    bridge = np.where(road, 6.0 - 6.0 * (along / 35.0) ** 2, 0.0)
-    assert not _ground(bridge)[road & (bridge > 3.0)].any()
 
 
 def test_a_dam_is_ground_where_cells_are_wide_and_some_of_its_sides_empty():
@@ -172,10 +141,10 @@ def test_a_plateau_goes_as_a_whole_where_a_window_cuts_off_part_of_it():
 def test_a_spur_is_ground_and_a_hall_on_a_gentle_slope_is_not():
     rows, columns = np.indices((160, 160)) - 80.0
     spur = 0.7 * (columns - 0.5 * np.abs(rows))
-    uncut = _ground(spur, window=75.0, area=1e9, rocks=None, ramps=None)
+    uncut = _ground(spur, window=75.0, area=1e9, rocks=None)
     assert uncut[20:-20, 20:-20].mean() > 0.99
     opening = ProgressiveOpening(75.0, wide_windows=WideWindows(per_slope=0.0))
-    regions = GentleRegions(area=1e9, rocks=None, ramps=None)
+    regions = GentleRegions(area=1e9, rocks=None)
     cut = ground_of(grid_of(spur), opening=opening, regions=regions)
     assert cut[20:-20, 20:-20].mean() < 0.9
     heights = 0.08 * columns

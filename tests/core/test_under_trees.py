@@ -9,9 +9,8 @@ from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.stages.breaks import LevelSeeds, Plants
 from bare_earth.algorithms.filters.stages.opening import ProgressiveOpening
-from bare_earth.algorithms.filters.stages.openness import openness
 from bare_earth.algorithms.filters.stages.outliers import NarrowPits, UnderCanopy
-from bare_earth.algorithms.filters.stages.woods import Woods
+from bare_earth.algorithms.filters.stages.woods import Woods, openness
 from bare_earth.algorithms.filters.state import GridState, State
 from bare_earth.algorithms.grids.cells import Cells
 from bare_earth.algorithms.grids.height_grid import HeightGrid

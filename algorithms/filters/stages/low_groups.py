@@ -43,13 +43,10 @@ class LowGroups(PointRule):
         Radius of the surroundings in metres.
     ring_cells : int
         Least radius of the surroundings in cells, for sparse points.
-    level, level_share, level_most : float
-        A height belongs to the plane up to this share of the depth of the group, but at least
-        `level` and at most `level_most` metres from it.
+    level : float
+        A height belongs to the plane up to so many metres from it.
     sides : int
         On so many of eight sides, half of the heights must belong to the plane.
-    heights : int
-        Least number of heights in the surroundings.
     """
 
     stage: ClassVar = Stage.LOW_NOISE
@@ -62,10 +59,7 @@ class LowGroups(PointRule):
     ring: float = 6.0
     ring_cells: int = 4
     level: float = 0.25
-    level_share: float = 0.25
-    level_most: float = 0.75
     sides: int = 5
-    heights: int = 8
 
     def apply(self, state: State) -> None:
         """Add the groups to the low noise."""
@@ -109,22 +103,17 @@ class LowGroups(PointRule):
         """Yield the places that are groups, with the planes above them."""
         plane, misfit = around.plane()
         depth = plane[:, 2]
-        on_plane = around.known & (np.abs(misfit) <= self._level(depth)[:, None])
+        on_plane = around.known & (np.abs(misfit) <= self.level)
         deviation = _DEVIATION * around.median(np.abs(misfit), on_plane)
         as_low = around.known & (misfit < -0.5 * depth[:, None])
         as_low &= around.distance > _BESIDE_GROUP * self.width
         deep = depth > np.maximum(self.depth, self.deviations * deviation)
-        seen = around.number_known >= self.heights
         alone = ~as_low.any(axis=1)
-        for number in np.flatnonzero(deep & seen & alone & self._enclosed(around, on_plane)):
+        for number in np.flatnonzero(deep & alone & self._enclosed(around, on_plane)):
             east, north, height = plane[number].tolist()
             x, y, z = (float(column[number]) for column in around.centre)
             margin = max(self.level, 3.0 * float(deviation[number]))
             yield _Group(x, y, z + height - margin, east, north)
-
-    def _level(self, depth: np.ndarray) -> np.ndarray:
-        """Return how far a height may be from the plane above groups of some depths."""
-        return np.clip(self.level_share * depth, self.level, self.level_most)
 
     def _enclosed(self, around: Surroundings, on_plane: np.ndarray) -> np.ndarray:
         """Return round which places the surroundings lie on the plane on most sides."""

@@ -21,7 +21,7 @@ from ...grids.height_grid import HeightGrid
 from ...grids.morphology import median_of_nine, within_square
 from ..pipeline import GridRule, PointRule, Rule, Stage
 from ..state import GridState, State
-from .lowest import DENSE_SPACING
+from .seeds import DENSE_SPACING
 from .surroundings import LowestOfCells
 
 # A cell of an even surface is at most so many metres off the median of the 3 x 3 cells round it.
@@ -226,14 +226,11 @@ class IsolatedLowPoints(GridRule):
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
         """Remove the cells of lone points."""
-        grid.remove(self.find(grid.heights, grid.cells, grid.points.z))
-
-    def find(self, grid: HeightGrid, cells: Cells, z: np.ndarray) -> np.ndarray:
-        """Return the cells of lone points; boolean, shape (rows, columns)."""
         from scipy import ndimage
 
-        depth = depth_of_pits(grid)
-        even = even_cells(grid)
+        heights, cells, z = grid.heights, grid.cells, grid.points.z
+        depth = depth_of_pits(heights)
+        even = even_cells(heights)
         around = ndimage.uniform_filter(even.astype(np.float32), 3, mode="nearest")
         doubtful = (depth > self.depth) & (9.0 * around > self.least_even - 0.5)
         which = cells.points_in(doubtful)
@@ -245,8 +242,8 @@ class IsolatedLowPoints(GridRule):
         pits = np.zeros(depth.shape, dtype=bool)
         pits.ravel()[cell] = gap >= self.gap * depth.ravel()[cell]
         if self.corroborated:
-            pits &= ~self.corroborated.spared(grid, pits, depth, even)
-        return pits
+            pits &= ~self.corroborated.spared(heights, pits, depth, even)
+        grid.remove(pits)
 
 
 @dataclass(frozen=True)

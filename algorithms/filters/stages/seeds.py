@@ -1,4 +1,4 @@
-"""The first points of the ground: lowest points of cells that are ground."""
+"""The lowest points of cells, and those that are the first points of the ground."""
 
 from __future__ import annotations
 
@@ -8,14 +8,46 @@ from typing import ClassVar
 import numpy as np
 
 from ...core.errors import BareEarthError
+from ...core.threads import in_threads
 from ...grids.cells import Cells
 from ..pipeline import PointRule, Stage
 from ..state import GridState, State
 
+# Largest spacing in metres at which cells hold many points, and show breaks by themselves.
+DENSE_SPACING = 0.17
 _NO_SEED = "No point can be taken for ground with certainty."
 # States of a point on a grid: not the lowest of its cell; on an object or a low outlier; perhaps
 # ground; ground.
 _HIDDEN, _OBJECT, _OPEN, _GROUND = range(4)
+
+
+@dataclass(frozen=True)
+class LowestPoints(PointRule):
+    """The lowest point of each cell may be ground.
+
+    It is chance where cells begin, so there can be a second grid, half a cell apart.
+
+    Attributes
+    ----------
+    size : float
+        Side of the cells in metres.
+    grids : int
+        1 or 2.
+    """
+
+    stage: ClassVar = Stage.LOWEST
+    reads: ClassVar = ("points", "spacing")
+    writes: ClassVar = ("grids",)
+
+    size: float
+    grids: int = 1
+
+    def apply(self, state: State) -> None:
+        """Make the grids."""
+        shifts = (0.0, 0.5 * self.size)[: self.grids]
+        state.grids = in_threads(
+            lambda shift: GridState.of(state.points, state.spacing, self.size, shift), shifts
+        )
 
 
 @dataclass(frozen=True)

@@ -55,11 +55,6 @@ class Surroundings(NamedTuple):
     side: np.ndarray
     known: np.ndarray
 
-    @property
-    def number_known(self) -> np.ndarray:
-        """Number of heights round each place."""
-        return np.count_nonzero(self.known, axis=1)
-
     def plane(self) -> tuple[np.ndarray, np.ndarray]:
         """Return the plane through most of the heights round each place, and the heights above it.
 

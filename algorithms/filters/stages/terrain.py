@@ -14,9 +14,8 @@ import numpy as np
 from ...core.progress import SILENT, Progress
 from ..pipeline import GridRule, Rule, Stage
 from ..state import GridState
-from .landforms import LowBanks, Ramps, Rocks
-from .raised_regions import RaisedRegions, raised_regions
-from .slopes import OnSlope
+from .landforms import LowBanks, OnSlope, Rocks
+from .regions import RaisedRegions, raised_regions
 
 
 class Borders(NamedTuple):
@@ -36,51 +35,23 @@ class Borders(NamedTuple):
 
 
 @dataclass(frozen=True)
-class SmallBuildings(Rule):
-    """An exception: a house may be level with the ground on one side of its roof, on a slope.
-
-    Attributes
-    ----------
-    area, height : float
-        A region may be a house if it is smaller (m2) and on average higher (m) than this.
-    share : float
-        At least this share of its border must then be gentle.
-    """
-
-    stage: ClassVar = Stage.TERRAIN
-
-    area: float = 400.0
-    height: float = 2.5
-    share: float = 0.5
-
-
-@dataclass(frozen=True)
 class GentleBorder(Rule):
     """A region is terrain if a large share of its border is gentle.
 
     Attributes
     ----------
     share : float
-        Least share of the border that is level with the ground, or rises to it.
-    rise_counts : bool
-        Whether a border that rises to the ground counts, as at the tread of a terrace.
+        Least share of the border, without what rises to the ground, that is level with it.
     """
 
     stage: ClassVar = Stage.TERRAIN
 
     share: float = 0.3
-    rise_counts: bool = True
-    small_buildings: SmallBuildings | None = SmallBuildings()
 
     def fits(self, regions: RaisedRegions, borders: Borders) -> np.ndarray:
         """Return which regions are terrain by this rule; boolean, shape (regions,)."""
-        gentle = borders.level + borders.rising if self.rise_counts else borders.level
-        share = np.full(len(regions.area), self.share)
-        if self.small_buildings:
-            house = self.small_buildings
-            is_house = (regions.area < house.area) & (regions.above > house.height)
-            share[is_house] = max(house.share, self.share)
-        return (gentle > 0) & (gentle >= share * (gentle + borders.sharp))
+        level = borders.level
+        return (level > 0) & (level >= self.share * (level + borders.sharp))
 
 
 @dataclass(frozen=True)
@@ -107,35 +78,6 @@ class LevelBorder(Rule):
         bounded = borders.level + borders.rising + borders.sharp
         is_level = (borders.level > 0) & (borders.level >= share * bounded)
         return is_level & (regions.area >= self.areas[0])
-
-
-@dataclass(frozen=True)
-class OpenBorder(Rule):
-    """A large region is terrain if much of its border is that of the survey: little is known of it.
-
-    Attributes
-    ----------
-    area : float
-        Least area in square metres.
-    height : float
-        Such a region is no terrain if its mean height above the ground, in metres, is larger: it
-        may be a building cut by the border of the survey.
-    share : float
-        More than this share of its border is the border of the survey. It is less than half,
-        because the sides of cells make a slanted edge longer than it is.
-    """
-
-    stage: ClassVar = Stage.TERRAIN
-
-    area: float = 800.0
-    height: float = 4.5
-    share: float = 0.45
-
-    def fits(self, regions: RaisedRegions, borders: Borders) -> np.ndarray:
-        """Return which regions are terrain by this rule; boolean, shape (regions,)."""
-        large = (regions.area >= self.area) & (regions.above <= self.height)
-        bounded = borders.level + borders.rising + borders.sharp
-        return large & (regions.open > self.share * (bounded + regions.open))
 
 
 @dataclass(frozen=True)
@@ -173,16 +115,14 @@ class GentleRegions(GridRule):
     on_slope: OnSlope | None = OnSlope()
     gentle_border: GentleBorder | None = GentleBorder()
     level_border: LevelBorder | None = LevelBorder()
-    open_border: OpenBorder | None = OpenBorder()
     rocks: Rocks | None = Rocks()
-    ramps: Ramps | None = Ramps()
     low_banks: LowBanks | None = LowBanks()
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
         """Let regions be ground that are terrain; objects only where they are landforms."""
         regions = self.regions(grid)
         landforms = np.zeros(len(regions.area), dtype=bool)
-        for rule in (self.rocks, self.ramps, self.low_banks):
+        for rule in (self.rocks, self.low_banks):
             if rule:
                 landforms |= rule.fits(regions)
         terrain = self._joined(regions, landforms)
@@ -237,7 +177,7 @@ class GentleRegions(GridRule):
     def _joined(self, regions: RaisedRegions, landforms: np.ndarray) -> np.ndarray:
         """Return which regions pass into the ground, or into others that do."""
         joined, count = landforms.copy(), len(regions.area)
-        rules = [rule for rule in (self.gentle_border, self.level_border, self.open_border) if rule]
+        rules = [rule for rule in (self.gentle_border, self.level_border) if rule]
         sharp = np.sum(
             [np.bincount(drop[0], minlength=count) for _, drop, _ in regions.borders], axis=0
         )

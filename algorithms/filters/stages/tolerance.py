@@ -14,8 +14,8 @@ from ...grids.inpaint import inpaint
 from ...grids.morphology import within_square
 from ..pipeline import PointRule, Rule, Stage
 from ..state import State
-from .lowest import DENSE_SPACING
 from .noise import below_middle, from_middle, middle_of_noise, noise_of_squares
+from .seeds import DENSE_SPACING
 
 # Metres over which the surface is smoothed to move vertices along its slope, how often they are
 # moved, and the steepest slope for this (rise over run).
