@@ -59,18 +59,18 @@ class Outputs(NamedTuple):
             If a name or folder is unsuitable, or there is nothing to write.
         """
         check_distinct(self)
-        if checkpoints is None and (self.table is not None or self.residuals is not None):
+        if checkpoints is None and (self.table or self.residuals):
             raise BareEarthError(
                 "Points that are held out have no table and no layer, only a page. Give"
                 " checkpoints."
             )
-        if self.report is not None:
+        if self.report:
             check_page(self.report, sources)
-        if self.table is not None:
+        if self.table:
             check_output(self.table, sources)
             if self.table.suffix.lower() != ".csv":
                 raise BareEarthError(f"Cannot write {self.table}: the table is CSV, name it .csv.")
-        if self.residuals is not None:
+        if self.residuals:
             check_residuals(self.residuals, sources)
 
     def write(
@@ -96,17 +96,17 @@ class Outputs(NamedTuple):
         """
         with contextlib.ExitStack() as opened:
             folder = None
-            if self.residuals is not None and found is not None:
+            if self.residuals and found is not None:
                 folder = opened.enter_context(temporary_folder(self.residuals.parent))
                 _write_layer(folder / self.residuals.name, found, survey, progress)
-            if self.table is not None and found is not None:
+            if self.table and found is not None:
                 table = opened.enter_context(replacing(self.table))
                 table.write_text(_table_of(found), encoding="utf-8", newline="")
-            if self.report is not None:
+            if self.report:
                 page = opened.enter_context(replacing(self.report))
                 page.write_text(checkpoint_html(check, found, survey), encoding="utf-8")
             progress(1.0)  # the last moment to cancel
-            if folder is not None and self.residuals is not None:
+            if folder is not None and self.residuals:
                 replace_with_files_of(folder, self.residuals, files_beside(self.residuals))
 
 

@@ -6,14 +6,9 @@ import numpy as np
 
 from ..survey.files import Survey
 from .accuracy import Figures
-from .checkpoint_results import COUNTED, REASONS, Check, Residuals
+from .checkpoint_results import COLOURS, COUNTED, NOT_COUNTED, REASONS, Check, Residuals, limits_of
 from .page import key, page_html, round_length, text
 
-# Blue: the data lie below the checkpoint; red: above it. They differ for colour-blind people.
-COLOURS = ("#2166ac", "#92c5de", "#f7f7f7", "#f4a582", "#b2182b")
-_LEFT_OUT = "#888888"
-# Limits between the colours, as shares of the limit of the scale.
-_LIMITS = (-0.6, -0.2, 0.2, 0.6)
 _BARS = 15
 # Sizes of the drawings in pixels.
 _WIDTH, _HEIGHT, _BELOW, _LEFT = 800, 180, 40, 46
@@ -41,8 +36,8 @@ def checkpoint_html(check: Check, found: Residuals | None, survey: Survey) -> st
     more = f" and {len(files) - 1:,} more" if files[1:] else ""
     parts = [f'<p class="files">Points: {text(files[0])}{more}</p>']
     if found is not None:
-        parts += [_summary(check), _histogram(found), _map(found, survey), _others(check)]
-        parts += [_largest(check), _table(found, survey)]
+        parts += [_summary(check), _histogram(check, found), _map(check, found, survey)]
+        parts += [_others(check), _largest(check), _table(found, survey)]
     if check.hold_out is not None:
         parts.append(_held_out(check))
     return page_html("Check against checkpoints", "\n".join(parts), _STYLE)
@@ -99,18 +94,12 @@ def _figures(rows: dict[str, Figures | None]) -> str:
 </table>"""
 
 
-def _scale_of(found: Residuals) -> float:
-    """Return the error in metres at which the colours end."""
-    errors = np.abs(found.errors[found.counted])
-    return round_length(max(float(np.percentile(errors, 95.0)), 0.001) * 2.0)
+def _colour(error: float, scale: float) -> str:
+    return COLOURS[int(np.searchsorted(limits_of(scale), error))]
 
 
-def _colour(error: float, limit: float) -> str:
-    return COLOURS[int(np.searchsorted(_LIMITS, error / limit))]
-
-
-def _histogram(found: Residuals) -> str:
-    errors, limit = found.errors[found.counted], _scale_of(found)
+def _histogram(check: Check, found: Residuals) -> str:
+    errors, limit = found.errors[found.counted], check.scale
     edges = np.linspace(-limit, limit, _BARS + 1)
     counts, _ = np.histogram(np.clip(errors, -limit, limit), edges)
     wide, highest = _WIDTH / _BARS, max(int(counts.max()), 1)
@@ -138,13 +127,13 @@ def _histogram(found: Residuals) -> str:
 <p>Ground points minus checkpoints. The outermost bars hold what lies beyond them.</p>"""
 
 
-def _map(found: Residuals, survey: Survey) -> str:
+def _map(check: Check, found: Residuals, survey: Survey) -> str:
     x, y, _ = found.checkpoints.xyz.T
     boxes = np.array([each.outer_box for each in survey.tiles])
     west, south = np.minimum(boxes[:, :2].min(axis=0), (x.min(), y.min())).tolist()
     east, north = np.maximum(boxes[:, 2:].max(axis=0), (x.max(), y.max())).tolist()
     scale = min(_WIDTH / max(east - west, 1e-6), _TALLEST / max(north - south, 1e-6))
-    high, limit = (north - south) * scale, _scale_of(found)
+    high, limit = (north - south) * scale, check.scale
     drawn = [
         f'<rect x="{(a - west) * scale:.1f}" y="{(north - d) * scale:.1f}"'
         f' width="{(c - a) * scale:.1f}" height="{(d - b) * scale:.1f}"/>'
@@ -154,7 +143,7 @@ def _map(found: Residuals, survey: Survey) -> str:
     for place in range(len(x)):
         is_counted = found.states[place] == COUNTED
         error = float(found.errors[place])
-        colour = _colour(error, limit) if is_counted else _LEFT_OUT
+        colour = _colour(error, limit) if is_counted else NOT_COUNTED
         what = f"{error:+.3f} m" if is_counted else REASONS[found.states[place]]
         marks.append(
             f'<circle cx="{(x[place] - west) * scale:.1f}" cy="{(north - y[place]) * scale:.1f}"'
@@ -162,7 +151,7 @@ def _map(found: Residuals, survey: Survey) -> str:
             "</circle>"
         )
     legend = "".join(key(colour, words) for colour, words in zip(COLOURS, _ranges(limit))) + key(
-        _LEFT_OUT, "not counted"
+        NOT_COUNTED, "not counted"
     )
     unit = survey.crs.horizontal_unit
     length = round_length((east - west) / 4 or 1.0)
@@ -179,7 +168,7 @@ def _map(found: Residuals, survey: Survey) -> str:
 
 def _ranges(limit: float) -> list[str]:
     """Return what the colours mean."""
-    first, second, third, fourth = (f"{each * limit:+.3g}" for each in _LIMITS)
+    first, second, third, fourth = (f"{each:+.3g}" for each in limits_of(limit))
     return [
         f"below {first} m", f"{first} to {second} m", f"{second} to {third} m",
         f"{third} to {fourth} m", f"above {fourth} m",
@@ -228,7 +217,8 @@ def _table(found: Residuals, survey: Survey) -> str:
 <th>x</th><th>y</th><th>z</th><th>Ground</th><th>Difference, m</th>{dtm}
 <th class="text">Not counted</th></tr>
 {chr(10).join(rows)}</table>
-<p>x, y and heights are in the units of the CRS: {text(survey.crs.name or "not stated")}.</p>{left}"""
+<p>x, y and heights are in the units of the CRS: {text(survey.crs.name or "not stated")}.</p>
+{left}"""
 
 
 def _number(value: float) -> str:

@@ -12,6 +12,11 @@ from .accuracy import NEEDED, Figures
 from .hold_out import HoldOut
 
 COUNTED = "counted"
+# Colours of errors, from low to high. Blue: the data lie below the checkpoint; red: above it. They
+# differ for colour-blind people. And the colour of checkpoints that are not counted.
+COLOURS, NOT_COUNTED = ("#2166ac", "#92c5de", "#f7f7f7", "#f4a582", "#b2182b"), "#888888"
+# Limits between the colours, as shares of the scale.
+_SHARES = (-0.6, -0.2, 0.2, 0.6)
 # Why a checkpoint is not counted, and what it means.
 REASONS = {
     "outside": "outside of the survey",
@@ -77,6 +82,8 @@ class Check:
         The class to meet.
     meets_class : bool or None
         Whether the TIN meets it; None if no class is given or no checkpoint is counted.
+    scale : float
+        Error in metres at which the colours of maps and bars end.
     statement, dtm_statement : str
         The statements for the points and for the terrain model; empty if there is nothing to state.
     hold_out : HoldOut or None
@@ -95,9 +102,25 @@ class Check:
     needed: int = NEEDED
     accuracy_class: float | None = None
     meets_class: bool | None = None
+    scale: float = 1.0
     statement: str = ""
     dtm_statement: str = ""
     hold_out: HoldOut | None = None
+
+    @property
+    def nva_rmse(self) -> float | None:
+        """RMSE on land without vegetation, with the error of the checkpoints."""
+        return self.nva and self.nva.total_rmse
+
+    @property
+    def vva_rmse(self) -> float | None:
+        """RMSE on land with vegetation, with the error of the checkpoints."""
+        return self.vva and self.vva.total_rmse
+
+    @property
+    def hold_out_rmse(self) -> float | None:
+        """RMSE of the points that were left out."""
+        return self.hold_out and self.hold_out.all and self.hold_out.all.rmse
 
     def as_dict(self) -> dict[str, Any]:
         """Return all figures for JSON."""
@@ -136,6 +159,11 @@ class Check:
             )
         statements = {"": self.statement, "Terrain model: ": self.dtm_statement}
         return rows + [f"{whose}{words}" for whose, words in statements.items() if words]
+
+
+def limits_of(scale: float) -> tuple[float, ...]:
+    """Return the four errors between the `COLOURS` in metres, given the scale of a `Check`."""
+    return tuple(float(f"{share * scale:.3g}") for share in _SHARES)
 
 
 def _line(name: str, figures: Figures) -> str:

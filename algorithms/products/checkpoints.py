@@ -24,6 +24,7 @@ from .accuracy import NEEDED, VEGETATED, Accuracy, Figures, is_vegetated, statem
 from .checkpoint_outputs import Outputs
 from .checkpoint_results import COUNTED, REASONS, Check, Residuals
 from .hold_out import HoldOut, hold_out
+from .page import round_length
 from .survey_ground import SurveyGround
 
 # How many of the largest errors are named.
@@ -199,7 +200,7 @@ def _sampled(
     source: str | None, ground: SurveyGround, x: np.ndarray, y: np.ndarray, up: float | None = None
 ) -> np.ndarray | None:
     """Return values of a raster at places; heights in units of `up` metres. None for no raster."""
-    if source is None:
+    if not source:
         return None
     raster = HeightRaster.of(source)
     raster.check(ground.survey.crs, ground.place.name)
@@ -225,6 +226,12 @@ def _touches(survey: Survey, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         west, south, east, north = tile.outer_box
         inside |= (x >= west) & (x <= east) & (y >= south) & (y <= north)
     return inside
+
+
+def _scale_of(found: Residuals) -> float:
+    """Return the error in metres at which colours end: most lie well within it."""
+    most = float(np.percentile(np.abs(found.errors[found.counted]), 95.0))
+    return round_length(2.0 * max(most, 0.001))
 
 
 def _check_of(found: Residuals | None, accuracy: Accuracy, held: HoldOut | None) -> Check:
@@ -259,6 +266,6 @@ def _check_of(found: Residuals | None, accuracy: Accuracy, held: HoldOut | None)
             if counted[each]
         ],
         None if nva is None else nva.mean, NEEDED, goal,
-        None if goal is None or nva is None else nva.total_rmse <= goal,
+        None if goal is None or nva is None else nva.total_rmse <= goal, _scale_of(found),
         statement(nva, vva, goal), statement(dtm_nva, dtm_vva, goal) if has_dtm else "", held,
     )  # fmt: skip
