@@ -145,10 +145,10 @@ def statement(nva: Figures | None, vva: Figures | None, accuracy_class: float | 
     if nva is None:
         return (
             f"No checkpoint lies on land without vegetation: this is no test by {_STANDARD}."
-            f"{_found('Vegetated', 'VVA', vva, '')}"
+            f"{_found('Vegetated', 'VVA', vva)}"
         )
-    few = " using the reduced number of checkpoints" if nva.count < NEEDED else ""
-    found = _found("Non-Vegetated", "NVA", nva, few) + _found("Vegetated", "VVA", vva, few)
+    few = nva.count < NEEDED
+    found = _found("Non-Vegetated", "NVA", nva) + _found("Vegetated", "VVA", vva)
     reduced = (
         f" Although the Standards call for a minimum of thirty ({NEEDED}) checkpoints, this test"
         f" was performed using ONLY {nva.count} checkpoints."
@@ -164,9 +164,10 @@ def statement(nva: Figures | None, vva: Figures | None, accuracy_class: float | 
     return f"This data set was tested to meet {_STANDARD} for {named}.{found}"
 
 
-def _found(land: str, short: str, figures: Figures | None, few: str) -> str:
+def _found(land: str, short: str, figures: Figures | None) -> str:
     if figures is None:
         return ""
+    few = " using the reduced number of checkpoints" if figures.count < NEEDED else ""
     return (
         f" The {land} Vertical Accuracy ({short}) was found to be RMSEV ="
         f" {_cm(figures.total_rmse)} cm{few}."

@@ -369,7 +369,8 @@ def test_the_statement_has_the_form_of_the_standard():
         "This data set was tested to meet ASPRS Positional Accuracy Standards for Digital"
         " Geospatial Data, Edition 2 (2023) for a 10 cm RMSEV Vertical Accuracy Class. The"
         " Non-Vegetated Vertical Accuracy (NVA) was found to be RMSEV = 8 cm. The Vegetated"
-        " Vertical Accuracy (VVA) was found to be RMSEV = 8 cm."
+        " Vertical Accuracy (VVA) was found to be RMSEV = 8 cm using the reduced number of"
+        " checkpoints."
     )
     text = statement(few, None, 0.1)
     assert "ONLY 29 checkpoints" in text and "was produced to meet a 10 cm" in text
