@@ -110,17 +110,18 @@ class Check:
     @property
     def nva_rmse(self) -> float | None:
         """RMSE on land without vegetation, with the error of the checkpoints."""
-        return self.nva and self.nva.total_rmse
+        return None if self.nva is None else self.nva.total_rmse
 
     @property
     def vva_rmse(self) -> float | None:
         """RMSE on land with vegetation, with the error of the checkpoints."""
-        return self.vva and self.vva.total_rmse
+        return None if self.vva is None else self.vva.total_rmse
 
     @property
     def hold_out_rmse(self) -> float | None:
         """RMSE of the points that were left out."""
-        return self.hold_out and self.hold_out.all and self.hold_out.all.rmse
+        figures = None if self.hold_out is None else self.hold_out.all
+        return None if figures is None else figures.rmse
 
     def as_dict(self) -> dict[str, Any]:
         """Return all figures for JSON."""

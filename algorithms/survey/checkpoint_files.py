@@ -9,6 +9,7 @@ from typing import Any, Mapping, Sequence
 import numpy as np
 
 from ..core.errors import BareEarthError
+from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..crs.stated import stated_wkt
 from .point_tables import (
@@ -104,8 +105,25 @@ class Checkpoints(Geometry):
             As for `Geometry.located`.
         near : float
             It is an error if all lie farther from the points than this, in metres.
+
+        Raises
+        ------
+        BareEarthError
+            As for `Geometry.located`, and if x and y seem to be exchanged.
         """
+        x, y, _ = self.xyz.T
+        if place.box is not None and not _inside(x, y, place.box) and _inside(y, x, place.box):
+            raise BareEarthError(
+                "No checkpoint lies in the points, but some would if x and y were exchanged. Say"
+                " which columns they are, such as x=East,y=North or x=3,y=2."
+            )
         return replace(self, places=located(self.places, "the checkpoints", place, progress, near))
+
+
+def _inside(x: np.ndarray, y: np.ndarray, box: Box) -> bool:
+    """Return whether a place lies in a box."""
+    west, south, east, north = box
+    return bool(((x >= west) & (x <= east) & (y >= south) & (y <= north)).any())
 
 
 def read_checkpoints(

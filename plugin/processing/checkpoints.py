@@ -139,7 +139,7 @@ def checkpoints_of(
     context: QgsProcessingContext,
     crs: CloudCrs,
     progress: FeedbackProgress,
-) -> tuple[Checkpoints | None, dict[str, str]]:
+) -> tuple[Checkpoints | None, dict[str, Any]]:
     """Return the checkpoints in the CRS of the points, and the options for the command line.
 
     Progress receives a message on how to give a layer in the command line.

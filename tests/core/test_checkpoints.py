@@ -165,6 +165,12 @@ def test_checkpoints_outside_and_in_voids_are_named_and_not_counted(survey):
         check([survey], points(xy[2:3]))
 
 
+def test_north_before_east_is_noticed(survey):
+    rows = points(places(5)).xyz[:, [1, 0, 2]]
+    with pytest.raises(BareEarthError, match="if x and y were exchanged"):
+        check([survey], Checkpoints.of(rows))
+
+
 def test_many_files_equal_one(survey, tmp_path):
     x, y, z, classes = cloud()
     order = np.random.default_rng(5).permutation(len(x))
