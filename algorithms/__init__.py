@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from .grids.model_key_points import ModelKeyPoints as ModelKeyPoints
     from .products.accuracy import Accuracy as Accuracy
     from .products.assessment import assess_files as assess  # noqa: F401
-    from .products.checkpoint_outputs import Outputs as CheckOutputs  # noqa: F401
+    from .products.checkpoint_outputs import CheckOutputs as CheckOutputs
     from .products.checkpoints import CheckOptions as CheckOptions
     from .products.checkpoints import CheckRequest as CheckRequest
     from .products.checkpoints import check_files as check  # noqa: F401
@@ -97,7 +97,7 @@ _MODULES = {
     "assess": "products.assessment:assess_files",
     "Accuracy": "products.accuracy",
     "CheckOptions": "products.checkpoints",
-    "CheckOutputs": "products.checkpoint_outputs:Outputs",
+    "CheckOutputs": "products.checkpoint_outputs",
     "CheckRequest": "products.checkpoints",
     "check": "products.checkpoints:check_files",
     "Contours": "products.contours",

@@ -64,7 +64,7 @@ def _add_check(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> Non
 
 
 def _check(options: argparse.Namespace) -> int:
-    from ..products.checkpoint_outputs import Outputs
+    from ..products.checkpoint_outputs import CheckOutputs
     from ..products.checkpoints import CheckOptions, CheckRequest, check_files
     from ..survey.checkpoint_files import read_checkpoints
 
@@ -77,7 +77,7 @@ def _check(options: argparse.Namespace) -> int:
     request = CheckRequest.of(
         sets, checkpoints=points, dtm=options.dtm, confidence=options.confidence,
         vegetated=tuple(options.vegetated), crs=options.crs,
-        outputs=Outputs(options.report, options.table, options.residuals),
+        outputs=CheckOutputs(options.report, options.table, options.residuals),
     )  # fmt: skip
     with Terminal(options.verbose) as progress:
         check = check_files(options.input, request, progress)

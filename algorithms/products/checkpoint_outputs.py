@@ -33,7 +33,7 @@ FIELDS: dict[str, type] = {
 }  # fmt: skip
 
 
-class Outputs(NamedTuple):
+class CheckOutputs(NamedTuple):
     """The files to write, each of which can be None.
 
     Attributes

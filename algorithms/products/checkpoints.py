@@ -21,7 +21,7 @@ from ..survey.checkpoint_files import Checkpoints
 from ..survey.files import Survey
 from ..survey.ground_classes import GroundClasses
 from .accuracy import NEEDED, VEGETATED, Accuracy, Figures, is_vegetated, statement
-from .checkpoint_outputs import Outputs
+from .checkpoint_outputs import CheckOutputs
 from .checkpoint_results import COUNTED, REASONS, Check, Residuals
 from .hold_out import HoldOut, hold_out
 from .page import round_length
@@ -86,7 +86,7 @@ class CheckRequest:
         A raster of its confidence, 0 to 1.
     vegetated : tuple of str
         Land covers with a word that begins or ends so are vegetated.
-    outputs : Outputs
+    outputs : CheckOutputs
         The files to write.
     crs : str or None
         The CRS of the points in place of the one that files state, as for `stated_wkt`.
@@ -99,7 +99,7 @@ class CheckRequest:
     dtm: str | None = None
     confidence: str | None = None
     vegetated: tuple[str, ...] = VEGETATED
-    outputs: Outputs = field(default_factory=Outputs)
+    outputs: CheckOutputs = field(default_factory=CheckOutputs)
     crs: str | None = None
 
     @classmethod

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ...algorithms.products.accuracy import Accuracy
-from ...algorithms.products.checkpoint_outputs import Outputs
+from ...algorithms.products.checkpoint_outputs import CheckOutputs
 from ...algorithms.products.checkpoints import CheckOptions, CheckRequest, check_files
 from ...algorithms.survey.ground_classes import GroundClasses
 from ..styles import layers
@@ -69,7 +69,7 @@ class CheckAlgorithm(ProductAlgorithm):
         rest.update(self._judgement)
         flags = {**flags, **rest, "report": page, "residuals": layer}
         progress.command(command_line("check", [str(self.source)], chosen, flags))
-        outputs = Outputs(Path(page) if page else None, None, Path(layer) if layer else None)
+        outputs = CheckOutputs(Path(page) if page else None, None, Path(layer) if layer else None)
         request = CheckRequest.of(chosen, checkpoints=given, outputs=outputs, **rest)
         check = check_files([self.source], request, progress)
         progress.info("\n".join(check.lines()))

@@ -15,7 +15,7 @@ from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.products import survey_ground
 from bare_earth.algorithms.products.accuracy import Accuracy, Figures, is_vegetated, statement
-from bare_earth.algorithms.products.checkpoint_outputs import Outputs
+from bare_earth.algorithms.products.checkpoint_outputs import CheckOutputs
 from bare_earth.algorithms.products.checkpoints import CheckOptions, CheckRequest, check_files
 from bare_earth.algorithms.survey.checkpoint_files import Checkpoints, read_checkpoints
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
@@ -426,7 +426,7 @@ def test_layers_of_other_formats(survey, tmp_path, suffix):
     pyogrio = pytest.importorskip("pyogrio")
     given = points(np.concatenate((places(5), [(150.0, 50.0)])), 0.04)
     target = tmp_path / f"r{suffix}"
-    check([survey], given, outputs=Outputs(residuals=target))
+    check([survey], given, outputs=CheckOutputs(residuals=target))
     about, _, shapes, values = pyogrio.raw.read(str(target))
     fields = dict(zip(about["fields"], values))
     assert "25832" in about["crs"] and about["geometry_type"].endswith("Z")
@@ -438,17 +438,17 @@ def test_layers_of_other_formats(survey, tmp_path, suffix):
 def test_what_cannot_be_done_is_refused_before_the_work(survey, tmp_path, capsys):
     given = points(places(3))
     for outputs, words in {
-        Outputs(report=tmp_path / "r.pdf"): "name it .html",
-        Outputs(table=tmp_path / "r.xls"): "name it .csv",
-        Outputs(residuals=tmp_path / "r.kml"): "Name it so",
-        Outputs(report=tmp_path / "missing" / "r.html"): "does not exist",
+        CheckOutputs(report=tmp_path / "r.pdf"): "name it .html",
+        CheckOutputs(table=tmp_path / "r.xls"): "name it .csv",
+        CheckOutputs(residuals=tmp_path / "r.kml"): "Name it so",
+        CheckOutputs(report=tmp_path / "missing" / "r.html"): "does not exist",
     }.items():
         with pytest.raises(BareEarthError, match=words):
             check([tmp_path / "missing.laz"], given, outputs=outputs)
     with pytest.raises(BareEarthError, match="Give checkpoints"):
         check([survey])
     with pytest.raises(BareEarthError, match="Give checkpoints"):
-        outputs = Outputs(table=tmp_path / "t.csv")
+        outputs = CheckOutputs(table=tmp_path / "t.csv")
         check([survey], None, CheckOptions(hold_out=0.1), outputs=outputs)
     assert main(["check", str(survey)]) == 2
     assert "--hold-out" in capsys.readouterr().err
