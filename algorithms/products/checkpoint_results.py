@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Sequence
 
 import numpy as np
 
@@ -17,6 +17,8 @@ COUNTED = "counted"
 COLOURS, NOT_COUNTED = ("#2166ac", "#92c5de", "#f7f7f7", "#f4a582", "#b2182b"), "#888888"
 # Limits between the colours, as shares of the scale.
 _SHARES = (-0.6, -0.2, 0.2, 0.6)
+# Most names in a sentence.
+_MOST_NAMES = 30
 # Why a checkpoint is not counted, and what it means.
 REASONS = {
     "outside": "outside of the survey",
@@ -135,7 +137,7 @@ class Check:
                 f"checkpoints       {self.counted:>6,} of {self.checkpoint_count:,} counted"
             )
         for reason, names in (self.not_counted or {}).items():
-            rows.append(f"not counted       {len(names):>6,} {REASONS[reason]}: {', '.join(names)}")
+            rows.append(f"not counted       {len(names):>6,} {REASONS[reason]}: {listed(names)}")
         named = {
             "points NVA": self.nva, "points VVA": self.vva,
             "DTM NVA": self.dtm_nva, "DTM VVA": self.dtm_vva,
@@ -160,6 +162,16 @@ class Check:
             )
         statements = {"": self.statement, "Terrain model: ": self.dtm_statement}
         return rows + [f"{whose}{words}" for whose, words in statements.items() if words]
+
+
+def listed(names: Sequence[str]) -> str:
+    """Return names in a sentence: the first ones, and the number of the others.
+
+    >>> listed(["P1", "P2"])
+    'P1, P2'
+    """
+    more = len(names) - _MOST_NAMES
+    return ", ".join(names[:_MOST_NAMES]) + (f" and {more:,} more" if more > 0 else "")
 
 
 def limits_of(scale: float) -> tuple[float, ...]:

@@ -22,7 +22,7 @@ from ..survey.files import Survey
 from ..survey.ground_classes import GroundClasses
 from .accuracy import NEEDED, VEGETATED, Accuracy, Figures, is_vegetated, statement
 from .checkpoint_outputs import CheckOutputs
-from .checkpoint_results import COUNTED, REASONS, Check, Residuals
+from .checkpoint_results import COUNTED, REASONS, Check, Residuals, listed
 from .hold_out import HoldOut, hold_out
 from .page import round_length
 from .survey_ground import SurveyGround
@@ -216,7 +216,7 @@ def _tell_of_gaps(checkpoints: Checkpoints, gaps: np.ndarray, progress: Progress
             "The terrain model has no value at any checkpoint. Give one that covers them."
         )
     if names:
-        progress.warning(f"The terrain model has no value at checkpoints {', '.join(names)}.")
+        progress.warning(f"The terrain model has no value at checkpoints {listed(names)}.")
 
 
 def _touches(survey: Survey, x: np.ndarray, y: np.ndarray) -> np.ndarray:

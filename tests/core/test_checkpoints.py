@@ -171,7 +171,7 @@ def test_north_before_east_is_noticed(survey):
         check([survey], Checkpoints.of(rows))
 
 
-def test_many_files_equal_one(survey, tmp_path):
+def test_many_files_equal_one(survey, tmp_path, monkeypatch):
     x, y, z, classes = cloud()
     order = np.random.default_rng(5).permutation(len(x))
     for number in range(6):
@@ -179,7 +179,12 @@ def test_many_files_equal_one(survey, tmp_path):
         write(tmp_path / f"{number}.laz", *(each[part] for each in (x, y, z, classes)))
     given = points(places(60), 0.03)
     how = CheckOptions(hold_out=0.1)
-    assert check([tmp_path], given, how) == check([survey], given, how)
+    one = check([survey], given, how)
+    assert check([tmp_path], given, how) == one
+    # Neither does it matter how many points and places are looked at together.
+    monkeypatch.setattr(survey_ground, "_TOGETHER", 1_000)
+    monkeypatch.setattr(survey_ground, "_PLACES", 37)
+    assert check([tmp_path], given, how) == one
 
 
 def test_held_out_points_are_the_same_in_each_run_and_tell_the_noise(tmp_path):
