@@ -36,7 +36,12 @@ if TYPE_CHECKING:
     from .filters.slope import SlopeFilter as SlopeFilter
     from .filters.tin import TinDensification as TinDensification
     from .grids.model_key_points import ModelKeyPoints as ModelKeyPoints
+    from .products.accuracy import Accuracy as Accuracy
     from .products.assessment import assess_files as assess  # noqa: F401
+    from .products.checkpoint_outputs import CheckOutputs as CheckOutputs
+    from .products.checkpoints import CheckOptions as CheckOptions
+    from .products.checkpoints import CheckRequest as CheckRequest
+    from .products.checkpoints import check_files as check  # noqa: F401
     from .products.constraints import Constraints as Constraints
     from .products.contours import Contours as Contours
     from .products.contours import write_contours as write_contours
@@ -48,6 +53,8 @@ if TYPE_CHECKING:
     from .products.terrain_model import TerrainModel as TerrainModel
     from .rasters.sampling import HeightRaster as HeightRaster
     from .survey.area import Area as Area
+    from .survey.checkpoint_files import Checkpoints as Checkpoints
+    from .survey.checkpoint_files import read_checkpoints as read_checkpoints
     from .survey.corrections import Corrections as Corrections
     from .survey.ground_classes import GroundClasses as GroundClasses
     from .survey.selection import Selection as Selection
@@ -88,6 +95,11 @@ _MODULES = {
     "TinDensification": "filters.tin",
     "ModelKeyPoints": "grids.model_key_points",
     "assess": "products.assessment:assess_files",
+    "Accuracy": "products.accuracy",
+    "CheckOptions": "products.checkpoints",
+    "CheckOutputs": "products.checkpoint_outputs",
+    "CheckRequest": "products.checkpoints",
+    "check": "products.checkpoints:check_files",
     "Contours": "products.contours",
     "write_contours": "products.contours",
     "LocalRelief": "products.local_relief",
@@ -96,6 +108,8 @@ _MODULES = {
     "TerrainModel": "products.terrain_model",
     "HeightRaster": "rasters.sampling",
     "Area": "survey.area",
+    "Checkpoints": "survey.checkpoint_files",
+    "read_checkpoints": "survey.checkpoint_files",
     "Corrections": "survey.corrections",
     "GroundClasses": "survey.ground_classes",
     "Selection": "survey.selection",

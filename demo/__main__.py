@@ -41,7 +41,7 @@ def main() -> int:
     cloud, truth, classes, northing = options.cloud, options.truth, (2,), None
     if cloud is None:
         cloud, truth = _OUTPUT / "scene.laz", _OUTPUT / "truth.laz"
-        count = write_scene(cloud, truth)
+        count = write_scene(cloud, truth, checkpoints=_OUTPUT / "checkpoints.csv")
         classes, northing = GROUND_CLASSES, _SCENE_NORTHING
         print(f"Generated a scene of {count:,} points: {cloud} (true classes: {truth})")
     results = [_OUTPUT / name for name in ("classified.laz", "dtm.tif", "hillshade.tif")]

@@ -20,6 +20,8 @@ from benchmarks.scenes.classes import (
 from benchmarks.scenes.scene import ORIGIN
 
 KIND, SEED = "mixed_land", 2004
+# Checkpoints on open land, and under trees.
+_OPEN, _FOREST = 35, 12
 # Water counts as ground, as in a terrain model; noise, the bridge and cars do not.
 GROUND_CLASSES = (GROUND, WATER)
 
@@ -35,7 +37,13 @@ _WKT = (
 )
 
 
-def write_scene(cloud: Path, truth: Path, density: float = 8.0, seed: int = SEED) -> int:
+def write_scene(
+    cloud: Path,
+    truth: Path,
+    density: float = 8.0,
+    seed: int = SEED,
+    checkpoints: Path | None = None,
+) -> int:
     """Write a survey without classes, and the same points with their true classes.
 
     Parameters
@@ -46,17 +54,51 @@ def write_scene(cloud: Path, truth: Path, density: float = 8.0, seed: int = SEED
         Pulses per square metre.
     seed : int
         The same seed gives the same files.
+    checkpoints : Path, optional
+        A table to write of points surveyed on the ground, with errors of 1.5 cm.
 
     Returns
     -------
     int
         Number of points.
     """
-    las = _las(make(KIND, seed, density=density))
+    scene = make(KIND, seed, density=density)
+    if checkpoints is not None:
+        checkpoints.write_text(_checkpoints(scene), encoding="utf-8")
+    las = _las(scene)
     las.write(truth)
     las.classification = np.zeros(len(las.points), dtype=np.uint8)
     las.write(cloud)
     return len(las.points)
+
+
+def _checkpoints(scene: Scene) -> str:
+    """Return places that a surveyor can reach, their heights and land cover, as CSV."""
+    from scipy.spatial import cKDTree
+
+    random = np.random.default_rng(scene.seed)
+    x, y = random.uniform(-0.48, 0.48, (2, 400)) * scene.settings.size
+    x, y = x + scene.corner[0], y + scene.corner[1]
+
+    def near(distance: float, *classes: int) -> np.ndarray:
+        some = scene.points.take(np.isin(scene.classes, classes))
+        tree = cKDTree(np.column_stack((some.x, some.y)))
+        return tree.query(np.column_stack((x, y)))[0] < distance
+
+    is_free = ~near(3.0, BUILDING, WATER, BRIDGE)
+    is_forest = near(1.0, HIGH_VEGETATION)
+    z = scene.terrain(x, y) + random.normal(0.0, 0.015, len(x))
+    chosen = [
+        *np.flatnonzero(is_free & ~is_forest)[:_OPEN],
+        *np.flatnonzero(is_free & is_forest)[:_FOREST],
+    ]
+    west, south = (middle - scene.settings.size / 2 for middle in scene.corner)
+    rows = [
+        f"P{number},{x[k] - west + ORIGIN[0]:.3f},{y[k] - south + ORIGIN[1]:.3f},{z[k]:.3f},"
+        f"{'forest' if is_forest[k] else 'open'}"
+        for number, k in enumerate(chosen, start=1)
+    ]
+    return "\n".join(["Name,East,North,Height,Land cover", *rows]) + "\n"
 
 
 def _las(scene: Scene) -> laspy.LasData:

@@ -37,6 +37,7 @@ if hasattr(Qgis, "ProcessingParameterFlag"):
     INTEGER = Qgis.ProcessingNumberParameterType.Integer
     POLYGONS = Qgis.ProcessingSourceType.VectorPolygon
     LINES = Qgis.ProcessingSourceType.VectorLine
+    POINTS = Qgis.ProcessingSourceType.VectorPoint
     FILES = Qgis.ProcessingSourceType.File
     FOLDER = Qgis.ProcessingFileParameterBehavior.Folder
 else:
@@ -46,6 +47,7 @@ else:
     INTEGER = QgsProcessingParameterNumber.Type.Integer
     POLYGONS = QgsProcessing.SourceType.TypeVectorPolygon
     LINES = QgsProcessing.SourceType.TypeVectorLine
+    POINTS = QgsProcessing.SourceType.TypeVectorPoint
     FILES = QgsProcessing.SourceType.TypeFile
     FOLDER = QgsProcessingParameterFile.Behavior.Folder
 

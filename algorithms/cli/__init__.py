@@ -9,12 +9,14 @@ import traceback
 from typing import Sequence
 
 from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay
-from . import classifying, comparing, products
+from . import checking, classifying, comparing, products
 from .command import FAILED, USAGE
 from .options import UsageError
 
 _EMPTY = "Where the help says what an empty value means, give the word none for it."
-_COMMANDS = (*classifying.COMMANDS, *comparing.COMMANDS, *products.COMMANDS)
+_COMMANDS = (
+    *classifying.COMMANDS, *comparing.COMMANDS, *checking.COMMANDS, *products.COMMANDS,
+)  # fmt: skip
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Iterator
+from typing import Iterator, NamedTuple
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from ..core.progress import SILENT, Progress
 from ..grids.isolines import Isoline, Isolines
 from ..grids.local_trend import local_trend, reach_of
 from ..rasters.rows import RowsOfRaster
-from .line_files import ContourLine, files_beside, line_writer
+from .line_files import Feature, Layer, feature_writer, files_beside
 
 # A map with about so many lines is easy to read.
 _LINES = 20
@@ -31,6 +31,25 @@ INDEX = 5
 _CELLS = 4_000_000
 # A smaller standard deviation, in cells, changes nothing.
 _LEAST_SIGMA = 0.3
+_FIELDS = {"ID": int, "ELEV": float, "INDEX": int}
+
+
+class ContourLine(NamedTuple):
+    """A line to write.
+
+    Attributes
+    ----------
+    height : float
+        In the unit of the raster.
+    is_index : bool
+        Whether it is an index contour, drawn thick.
+    corners : numpy.ndarray of float64, shape (n, 2)
+        x and y.
+    """
+
+    height: float
+    is_index: bool
+    corners: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -121,7 +140,7 @@ def check_contours(target: Path, others: tuple[Path, ...] = ()) -> None:
         If the name or folder is unsuitable, or a library is missing.
     """
     check_output(target, others)
-    line_writer(target)
+    feature_writer(target, "contour lines")
 
 
 def write_contours(
@@ -155,7 +174,7 @@ def write_contours(
     """
     target = Path(target)
     check_contours(target, (Path(source),))
-    write = line_writer(target)
+    write = feature_writer(target, "contour lines")
     raster = RowsOfRaster.of(source)
     low, high = _range_of(raster, progress.part(0.0, 0.2))
     height = contours.interval(low, high, raster.frame.vertical_unit)
@@ -167,7 +186,12 @@ def write_contours(
         )
     with temporary_folder(target.parent) as folder:
         lines = _lines_of(raster, contours, height, progress.part(0.2, 1.0))
-        count = write(folder / target.name, lines, raster, progress)
+        layer = Layer("contours", "LineString", _FIELDS, raster.frame.wkt, raster.epsg)
+        features = (
+            Feature((number, each.height, int(each.is_index)), each.corners)
+            for number, each in enumerate(lines)
+        )
+        count = write(folder / target.name, features, layer, progress)
         progress.info(f"{count:,} contour lines, one every {interval.text()}")
         progress(1.0)
         replace_with_files_of(folder, target, files_beside(target))

@@ -1,13 +1,14 @@
-"""Writes lines with their heights: GeoJSON here, other formats by pyogrio, or by GDAL in QGIS."""
+"""Writes lines or points with values: GeoJSON here, other formats by pyogrio, or GDAL in QGIS."""
 
 from __future__ import annotations
 
 import importlib.util
 import json
+import math
 import struct
 import warnings
 from pathlib import Path
-from typing import Callable, Iterable, Iterator, NamedTuple
+from typing import Any, Callable, Iterable, Iterator, Mapping, NamedTuple
 
 import numpy as np
 
@@ -15,7 +16,6 @@ from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
 from ..core.temporary import shown
 from ..rasters.libraries import GdalErrors
-from ..rasters.rows import RowsOfRaster
 
 # The formats, and their names in GDAL.
 FORMATS = {".gpkg": "GPKG", ".geojson": "GeoJSON", ".shp": "ESRI Shapefile", ".fgb": "FlatGeobuf"}
@@ -24,34 +24,63 @@ _BESIDE = {
     ".shp": (".dbf", ".shx", ".prj", ".cpg", ".qpj", ".qix", ".sbn", ".sbx"),
     ".gpkg": (".gpkg-wal", ".gpkg-shm", ".gpkg-journal"),
 }
-# Formats to which lines cannot be added later.
+# Formats to which features cannot be added later.
 _AT_ONCE = (".fgb",)
-_LINES_A_STEP = 20_000
-_LAYER = "contours"
+_FEATURES_A_STEP = 20_000
+# Numbers of the kinds in well-known binary; those with z are 1000 more.
+_KINDS = {"Point": 1, "LineString": 2}
 
 
-class ContourLine(NamedTuple):
-    """A line to write.
+class Layer(NamedTuple):
+    """What the features of a file have in common.
 
     Attributes
     ----------
-    height : float
-        In the unit of the raster.
-    is_index : bool
-        Whether it is an index contour, drawn thick.
-    corners : numpy.ndarray of float64, shape (n, 2)
-        x and y.
+    name : str
+        The name of the layer, in formats with several layers.
+    kind : str
+        "LineString", or "Point" with z.
+    fields : mapping of str to type
+        The names of the fields, and the types of their values: int, float or str.
+    wkt : str or None
+        The CRS as well-known text.
+    epsg : int or None
+        Its EPSG code.
     """
 
-    height: float
-    is_index: bool
+    name: str
+    kind: str
+    fields: Mapping[str, type]
+    wkt: str | None
+    epsg: int | None
+
+
+class Feature(NamedTuple):
+    """A line or a point to write.
+
+    Attributes
+    ----------
+    values : tuple
+        One value for each field; NaN and None for none.
+    corners : numpy.ndarray of float64, shape (n, 2) or (1, 3)
+        x and y of a line; x, y and z of a point.
+    """
+
+    values: tuple[Any, ...]
     corners: np.ndarray
 
 
-def line_writer(target: Path) -> Callable[..., int]:
-    """Return the function that writes lines: ``write(target, lines, raster, progress)``.
+def feature_writer(target: Path, what: str) -> Callable[..., int]:
+    """Return the function that writes features: ``write(target, features, layer, progress)``.
 
-    It returns the number of lines. Their fields are ID, ELEV (the height) and INDEX (1 or 0).
+    It returns the number of features.
+
+    Parameters
+    ----------
+    target : Path
+        The file to make.
+    what : str
+        What the features are, for messages: "contour lines".
 
     Raises
     ------
@@ -61,7 +90,7 @@ def line_writer(target: Path) -> Callable[..., int]:
     suffix = target.suffix.lower()
     if suffix not in FORMATS:
         raise BareEarthError(
-            f"Cannot write {target}: contour lines are written as {', '.join(FORMATS)}. Name it so."
+            f"Cannot write {target}: {what} are written as {', '.join(FORMATS)}. Name it so."
         )
     if importlib.util.find_spec("osgeo") is not None:
         return _by_gdal
@@ -76,51 +105,52 @@ def line_writer(target: Path) -> Callable[..., int]:
 
 
 def _geojson(
-    target: Path, lines: Iterable[ContourLine], raster: RowsOfRaster, progress: Progress = SILENT
+    target: Path, features: Iterable[Feature], layer: Layer, progress: Progress = SILENT
 ) -> int:
-    crs, count = f"urn:ogc:def:crs:EPSG::{raster.epsg}" if raster.epsg else None, 0
+    crs, count = f"urn:ogc:def:crs:EPSG::{layer.epsg}" if layer.epsg else None, 0
     if crs is None:
         progress.warning(
             f"{target.name} states no CRS, since GeoJSON can hold only EPSG codes. Write .gpkg to"
             " keep it."
         )
     stated = {"crs": {"type": "name", "properties": {"name": crs}}} if crs else {}
-    head = json.dumps({"type": "FeatureCollection", "name": _LAYER, **stated})
+    head = json.dumps({"type": "FeatureCollection", "name": layer.name, **stated})
     with target.open("w", encoding="utf-8", newline="\n") as file:
         file.write(f'{head[:-1]}, "features": [')
-        for line in lines:
-            places = np.round(line.corners, 3).tolist()
-            values = {"ID": count, "ELEV": line.height, "INDEX": int(line.is_index)}
-            shape = {"type": "LineString", "coordinates": places}
-            feature = {"type": "Feature", "properties": values, "geometry": shape}
-            file.write(f"{',' if count else ''}\n{json.dumps(feature)}")
+        for feature in features:
+            places = np.round(feature.corners, 3).tolist()
+            values = dict(zip(layer.fields, map(_or_none, feature.values)))
+            shape = {"type": layer.kind, "coordinates": places}
+            if layer.kind == "Point":
+                shape["coordinates"] = places[0]
+            whole = {"type": "Feature", "properties": values, "geometry": shape}
+            file.write(f"{',' if count else ''}\n{json.dumps(whole)}")
             count += 1
         file.write("\n]}\n")
     return count
 
 
 def _by_pyogrio(
-    target: Path, lines: Iterable[ContourLine], raster: RowsOfRaster, progress: Progress = SILENT
+    target: Path, features: Iterable[Feature], layer: Layer, progress: Progress = SILENT
 ) -> int:
     import pyogrio
 
-    count, names = 0, ["ID", "ELEV", "INDEX"]
-    most = None if target.suffix.lower() in _AT_ONCE else _LINES_A_STEP
+    count, kinds = 0, {int: np.int32, float: np.float64, str: object}
+    most = None if target.suffix.lower() in _AT_ONCE else _FEATURES_A_STEP
     try:
-        for some in _in_steps(lines, most):
+        for some in _in_steps(features, most):
             fields = [
-                np.arange(count, count + len(some), dtype=np.int32),
-                np.array([each.height for each in some], dtype=np.float64),
-                np.array([each.is_index for each in some], dtype=np.int32),
+                np.array([each.values[place] for each in some], dtype=kinds[kind])
+                for place, kind in enumerate(layer.fields.values())
             ]
             shapes = np.empty(len(some), dtype=object)
-            shapes[:] = [_wkb(each.corners) for each in some]
+            shapes[:] = [_wkb(layer.kind, each.corners) for each in some]
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")  # if there is no CRS
                 pyogrio.raw.write(
-                    str(target), shapes, fields, names, layer=_layer_of(target),
-                    driver=FORMATS[target.suffix.lower()], geometry_type="LineString",
-                    crs=raster.frame.wkt, append=count > 0,
+                    str(target), shapes, fields, list(layer.fields), crs=layer.wkt,
+                    layer=_layer_of(target, layer), driver=FORMATS[target.suffix.lower()],
+                    geometry_type=layer.kind + _with_z(layer.kind, " Z"), append=count > 0,
                 )  # fmt: skip
             count += len(some)
     except (BareEarthError, MemoryError):
@@ -131,56 +161,65 @@ def _by_pyogrio(
 
 
 def _by_gdal(
-    target: Path, lines: Iterable[ContourLine], raster: RowsOfRaster, progress: Progress = SILENT
+    target: Path, features: Iterable[Feature], layer: Layer, progress: Progress = SILENT
 ) -> int:
     from osgeo import gdal, ogr, osr
 
     count = 0
+    kinds = {int: ogr.OFTInteger, float: ogr.OFTReal, str: ogr.OFTString}
+    shapes = {"Point": ogr.wkbPoint25D, "LineString": ogr.wkbLineString}
     with GdalErrors(gdal, "write") as errors:
         driver = ogr.GetDriverByName(FORMATS[target.suffix.lower()])
         made = driver.CreateDataSource(str(target))
         errors.check(target)
-        reference = osr.SpatialReference(raster.frame.wkt) if raster.frame.wkt else None
+        reference = osr.SpatialReference(layer.wkt) if layer.wkt else None
         if reference is not None:
             reference.SetAxisMappingStrategy(osr.OAMS_TRADITIONAL_GIS_ORDER)
-        layer = made.CreateLayer(_layer_of(target), reference, ogr.wkbLineString)
-        for name, kind in (
-            ("ID", ogr.OFTInteger),
-            ("ELEV", ogr.OFTReal),
-            ("INDEX", ogr.OFTInteger),
-        ):
-            layer.CreateField(ogr.FieldDefn(name, kind))
+        into = made.CreateLayer(_layer_of(target, layer), reference, shapes[layer.kind])
+        for name, kind in layer.fields.items():
+            into.CreateField(ogr.FieldDefn(name, kinds[kind]))
         errors.check(target)
-        # One transaction, since a GeoPackage would otherwise commit each line.
-        layer.StartTransaction()
-        for line in lines:
-            feature = ogr.Feature(layer.GetLayerDefn())
-            for place, value in enumerate((count, line.height, int(line.is_index))):
-                feature.SetField(place, value)
-            feature.SetGeometry(ogr.CreateGeometryFromWkb(_wkb(line.corners)))
-            layer.CreateFeature(feature)
+        # One transaction, since a GeoPackage would otherwise commit each feature.
+        into.StartTransaction()
+        for each in features:
+            feature = ogr.Feature(into.GetLayerDefn())
+            for place, value in enumerate(map(_or_none, each.values)):
+                if value is not None:
+                    feature.SetField(place, value)
+            feature.SetGeometry(ogr.CreateGeometryFromWkb(_wkb(layer.kind, each.corners)))
+            into.CreateFeature(feature)
             count += 1
-        layer.CommitTransaction()
-        del layer, made
+        into.CommitTransaction()
+        del into, made
         errors.check(target)
     return count
 
 
-def _layer_of(target: Path) -> str:
+def _layer_of(target: Path, layer: Layer) -> str:
     """Return the name of the layer; formats with one layer have that of the file."""
-    return _LAYER if target.suffix.lower() == ".gpkg" else target.stem
+    return layer.name if target.suffix.lower() == ".gpkg" else target.stem
 
 
-def _wkb(corners: np.ndarray) -> bytes:
-    return struct.pack("<BII", 1, 2, len(corners)) + np.ascontiguousarray(corners, "<f8").tobytes()
+def _or_none(value: Any) -> Any:
+    return None if isinstance(value, float) and math.isnan(value) else value
 
 
-def _in_steps(lines: Iterable[ContourLine], most: int | None) -> Iterator[list[ContourLine]]:
-    """Yield lists of lines; one empty list if there are none."""
-    some: list[ContourLine] = []
+def _with_z(kind: str, yes: Any, no: Any = "") -> Any:
+    return yes if kind == "Point" else no
+
+
+def _wkb(kind: str, corners: np.ndarray) -> bytes:
+    code, count = _KINDS[kind] + _with_z(kind, 1000, 0), struct.pack("<I", len(corners))
+    head = struct.pack("<BI", 1, code) + _with_z(kind, b"", count)
+    return head + np.ascontiguousarray(corners, "<f8").tobytes()
+
+
+def _in_steps(features: Iterable[Feature], most: int | None) -> Iterator[list[Feature]]:
+    """Yield lists of features; one empty list if there are none."""
+    some: list[Feature] = []
     is_first = True
-    for line in lines:
-        some.append(line)
+    for each in features:
+        some.append(each)
         if most is not None and len(some) >= most:
             yield some
             some, is_first = [], False
@@ -189,5 +228,5 @@ def _in_steps(lines: Iterable[ContourLine], most: int | None) -> Iterator[list[C
 
 
 def files_beside(path: Path) -> list[str]:
-    """Return the names of further files of a format; old ones would do harm to new lines."""
+    """Return the names of further files of a format; old ones would do harm to new features."""
     return [f"{path.stem}{each}" for each in _BESIDE.get(path.suffix.lower(), ())]

@@ -1,4 +1,4 @@
-"""Reading polygons and lines from files: GeoJSON and WKT here, other formats by a library."""
+"""Reading polygons, lines and points: GeoJSON and WKT here, other formats by a library."""
 
 from __future__ import annotations
 
@@ -34,6 +34,7 @@ _CRS_NAME = re.compile(r"(EPSG|ESRI|IGNF|OGC|CRS)[:/](?:[\w.]*[:/])?(\w+)$", re.
 _SRID = re.compile(r"\s*SRID\s*=\s*(\d+)\s*;", re.IGNORECASE)
 # Levels of lists: a line is a list of corners, a polygon a list of rings.
 _DEPTHS = {"LineString": 1, "Polygon": 2}
+_WORDS = {"LineString": "line", "Polygon": "polygon", "Point": "point"}
 
 
 def read_boundary(path: Path) -> tuple[Polygon, ...]:
@@ -96,12 +97,34 @@ def read_lines(path: Path) -> tuple[np.ndarray, ...]:
     return _shapes(path, "LineString", lambda corners, _: _line(corners))
 
 
+def read_points(path: Path) -> tuple[tuple[np.ndarray, dict[str, Any]], ...]:
+    """Read the points of a file with all of their attributes.
+
+    Parameters
+    ----------
+    path : Path
+        A file as for `read_boundary`, but no .wkt.
+
+    Returns
+    -------
+    Shapes of tuple
+        x, y and z of each point, numpy.ndarray of float64, shape (3,), and its attributes; NaN for
+        z where the file has none.
+
+    Raises
+    ------
+    BareEarthError
+        As for `read_boundary`.
+    """
+    return _shapes(path, "Point", lambda place, attributes: (_line([place])[0], attributes))
+
+
 def _shapes(path: Path, kind: str, made: Callable[[Any, dict], Any]) -> Shapes:
     """Return what `made` returns for coordinates and attributes of each geometry of a kind."""
-    what = "polygon" if kind == "Polygon" else "line"
+    what = _WORDS[kind]
     name = _TEXTS.get(Path(path).suffix.lower())
     if name is None:
-        found, crs = read_features(path, kind, CLASS_FIELD)
+        found, crs = read_features(path, kind, None if kind == "Point" else CLASS_FIELD)
     else:
         text = _text_of(path)
     try:

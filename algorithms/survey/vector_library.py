@@ -27,7 +27,7 @@ class _Layer(NamedTuple):
 
 
 def read_features(
-    path: Path | str, kind: str, attribute: str
+    path: Path | str, kind: str, attribute: str | None
 ) -> tuple[list[tuple[Any, dict[str, Any]]], str | None]:
     """Read the geometries of a kind from a vector file.
 
@@ -36,9 +36,9 @@ def read_features(
     path : Path or str
         The file; ``FILE|layername=NAME`` for one layer of it.
     kind : str
-        "Polygon" or "LineString".
-    attribute : str
-        The attribute to read as well, if there is one of this name.
+        "Polygon", "LineString" or "Point".
+    attribute : str or None
+        The attribute to read as well, if there is one of this name; None for all attributes.
 
     Returns
     -------
@@ -73,7 +73,7 @@ def read_features(
         raise BareEarthError(f"{name} has no layer {wanted}. Check its name.")
     filled = [each for each in found if found[each][0]]
     if len(filled) > 1:
-        what = "polygons" if kind == "Polygon" else "lines"
+        what = {"Polygon": "polygons", "Point": "points"}.get(kind, "lines")
         raise BareEarthError(
             f"{name} has {what} in the layers {', '.join(filled)}. Give one of them:"
             f" '{name}{_LAYER}{filled[0]}'."
@@ -103,22 +103,21 @@ def _library(name: str) -> Any:
     )
 
 
-def _by_pyogrio(name: str, attribute: str) -> Iterator[_Layer]:
+def _by_pyogrio(name: str, attribute: str | None) -> Iterator[_Layer]:
     import pyogrio
 
     for layer, kind in pyogrio.list_layers(name):
         if kind is None:  # a table
             continue
-        columns = [
-            field for field in pyogrio.read_info(name, layer)["fields"] if field == attribute
-        ]
+        fields = pyogrio.read_info(name, layer)["fields"].tolist()
+        columns = [field for field in fields if attribute in (None, field)]
         about, _, shapes, values = pyogrio.raw.read(name, layer, columns=columns)
         rows = zip(*(each.tolist() for each in values)) if columns else [()] * len(shapes)
         features = [(shape, dict(zip(columns, row))) for shape, row in zip(shapes, rows)]
         yield _Layer(layer, about["crs"], features)
 
 
-def _by_gdal(name: str, attribute: str) -> Iterator[_Layer]:
+def _by_gdal(name: str, attribute: str | None) -> Iterator[_Layer]:
     from osgeo import gdal
 
     gdal.PushErrorHandler("CPLQuietErrorHandler")
@@ -128,11 +127,13 @@ def _by_gdal(name: str, attribute: str) -> Iterator[_Layer]:
             raise OSError(f"{name} is no vector file")
         for number in range(source.GetLayerCount()):
             layer, features = source.GetLayer(number), []
-            has = layer.GetLayerDefn().GetFieldIndex(attribute) >= 0
+            known = layer.GetLayerDefn()
+            fields = [known.GetFieldDefn(each).GetName() for each in range(known.GetFieldCount())]
+            columns = [field for field in fields if attribute in (None, field)]
             for feature in layer:
                 shape = feature.GetGeometryRef()
                 shape = shape.GetLinearGeometry() if shape is not None else None
-                values = {attribute: feature.GetField(attribute)} if has else {}
+                values = {each: feature.GetField(each) for each in columns}
                 features.append((bytes(shape.ExportToIsoWkb()) if shape else None, values))
             reference = layer.GetSpatialRef()
             yield _Layer(layer.GetName(), reference and reference.ExportToWkt(), features)

@@ -20,14 +20,15 @@ _MOST_LEVELS = 20
 
 
 def geometries_of(data: bytes) -> Iterator[tuple[str, Any]]:
-    """Yield the lines and polygons of a geometry, also those of multi-geometries and collections.
+    """Yield the points, lines and polygons of a geometry, also those of collections.
 
     Yields
     ------
     str
-        "LineString" or "Polygon".
+        "Point", "LineString" or "Polygon".
     numpy.ndarray of float64, shape (n, 2) or (n, 3), or list of such
-        The corners of a line, or the rings of a polygon; m is left out.
+        The corners of a line, or the rings of a polygon; of a point one row, shape (2,) or (3,).
+        m is left out, and so are empty points.
 
     Raises
     ------
@@ -58,7 +59,10 @@ def _read(data: bytes, start: int, found: list[tuple[str, Any]], level: int) -> 
     has_z = flags in (1, 3) or bool(code & _HAS_Z)
     width = 2 + has_z + (flags in (2, 3) or bool(code & _HAS_M))
     if kind == _POINT:
-        return start + 8 * width
+        corners, start = _corners(data, start, order, 1, width, has_z)
+        if not np.isnan(corners[0, :2]).all():  # an empty point
+            found.append(("Point", corners[0]))
+        return start
     (count,) = struct.unpack_from(f"{order}I", data, start)
     start += 4
     if kind == _LINE:

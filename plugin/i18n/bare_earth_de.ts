@@ -24,8 +24,16 @@
         <translation>&lt;b&gt;Werte der Voreinstellungen&lt;/b&gt; für Felder, die leer bleiben</translation>
     </message>
     <message>
+        <source>A checkpoint has no height. Choose the attribute with the heights.</source>
+        <translation>Ein Kontrollpunkt hat keine Höhe. Wählen Sie das Attribut mit den Höhen.</translation>
+    </message>
+    <message>
         <source>A class of their own</source>
         <translation>Eine eigene Klasse</translation>
+    </message>
+    <message>
+        <source>A land cover is vegetated if a word of its name begins or ends with one of these.</source>
+        <translation>Eine Bodenbedeckung gilt als bewachsen, wenn ein Wort ihres Namens mit einem dieser Wörter beginnt oder endet.</translation>
     </message>
     <message>
         <source>A list of the classified files, which QGIS 3.32 and newer shows as one layer. Without a name it is classified.vpc in their folder.</source>
@@ -84,12 +92,20 @@
         <translation>Eine Webseite mit den Zahlen und einer Karte, wo die Fehler liegen.</translation>
     </message>
     <message>
+        <source>A web page with the figures, the statement, and a map of the errors.</source>
+        <translation>Eine Webseite mit den Kennzahlen, der Erklärung und einer Karte der Fehler.</translation>
+    </message>
+    <message>
         <source>A web page, which the Results Viewer opens.</source>
         <translation>Eine Webseite, die sich aus der Ergebnisanzeige öffnen lässt.</translation>
     </message>
     <message>
         <source>About how much memory a run may use. A file that needs more is read twice, and its points wait in a temporary file in the output folder. With many files, fewer are worked on at the same time. The result does not depend on it. Empty: half of the free memory.</source>
         <translation>Wie viel Arbeitsspeicher ein Lauf etwa belegen darf. Eine Datei, die mehr braucht, wird zweimal gelesen, und ihre Punkte warten in einer temporären Datei im Ausgabeordner. Bei vielen Dateien sind weniger gleichzeitig in Arbeit. Das Ergebnis hängt nicht davon ab. Leer: die Hälfte des freien Arbeitsspeichers.</translation>
+    </message>
+    <message>
+        <source>Accuracy class</source>
+        <translation>Genauigkeitsklasse</translation>
     </message>
     <message>
         <source>Add the height above ground</source>
@@ -242,6 +258,22 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
         <translation>Zellen mit einer Höhe</translation>
     </message>
     <message>
+        <source>Check against checkpoints</source>
+        <translation>Mit Kontrollpunkten vergleichen</translation>
+    </message>
+    <message>
+        <source>Checkpoints</source>
+        <translation>Kontrollpunkte</translation>
+    </message>
+    <message>
+        <source>Checkpoints in triangles with a longer edge lie in a void of the ground, such as a building, and are not counted.</source>
+        <translation>Kontrollpunkte in Dreiecken mit einer längeren Kante liegen in einer Lücke des Bodens, etwa einem Gebäude, und zählen nicht.</translation>
+    </message>
+    <message>
+        <source>Checkpoints where the raster of confidence has less are not counted.</source>
+        <translation>Kontrollpunkte, an denen das Raster der Verlässlichkeit weniger hat, zählen nicht.</translation>
+    </message>
+    <message>
         <source>Choose a file: {}.</source>
         <translation>Wählen Sie eine Datei: {}.</translation>
     </message>
@@ -366,12 +398,22 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
         <translation>Vergleicht eine klassifizierte Punktwolke mit einer Referenz: Fehler 1. und 2. Art, Kappa.</translation>
     </message>
     <message>
+        <source>Compares ground points and a terrain model with points surveyed on the ground.</source>
+        <translation>Vergleicht Bodenpunkte und ein Geländemodell mit Punkten, die am Boden vermessen wurden.</translation>
+    </message>
+    <message>
         <source>Compares heights above a surface that follows the terrain (white top-hat), not elevations, so that ground on slopes is not lost.</source>
         <translation>Vergleicht Höhen über einer Fläche, die dem Gelände folgt (weißer Top-Hat), nicht die Höhen selbst, damit Boden am Hang nicht verloren geht.</translation>
     </message>
     <message>
         <source>Compares the ground of a classified point cloud with a reference that holds the same points, or a part of them. Type I error: the share of the reference's ground that was rejected. Type II error: the share of all other points that was accepted as ground. The report is a web page with a map.</source>
         <translation>Vergleicht den Boden einer klassifizierten Punktwolke mit einer Referenz, die dieselben Punkte oder einen Teil davon enthält. Fehler 1. Art: der Anteil des Bodens der Referenz, der verworfen wurde. Fehler 2. Art: der Anteil aller anderen Punkte, der als Boden angenommen wurde. Der Bericht ist eine Webseite mit einer Karte.</translation>
+    </message>
+    <message>
+        <source>Compares the triangulation (TIN) of the ground points of a classified point cloud, and a terrain model, with checkpoints: points that were surveyed on the ground. It gives the figures and the statement of the ASPRS Positional Accuracy Standards, edition 2, on land without vegetation (NVA) and with it (VVA). Nothing is shifted.
+Without checkpoints, it can leave out a share of the ground points and measure how well the others predict them.</source>
+        <translation>Vergleicht die Dreiecksvermaschung (TIN) der Bodenpunkte einer klassifizierten Punktwolke und ein Geländemodell mit Kontrollpunkten: Punkten, die am Boden vermessen wurden. Das Ergebnis sind die Kennzahlen und die Erklärung der ASPRS Positional Accuracy Standards, Ausgabe 2, für Flächen ohne Bewuchs (NVA) und mit Bewuchs (VVA). Nichts wird verschoben.
+Ohne Kontrollpunkte kann ein Anteil der Bodenpunkte weggelassen und gemessen werden, wie gut die übrigen sie vorhersagen.</translation>
     </message>
     <message>
         <source>Comparison of settings</source>
@@ -388,6 +430,10 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
     <message>
         <source>Confidence of the terrain model</source>
         <translation>Verlässlichkeit des Geländemodells</translation>
+    </message>
+    <message>
+        <source>Confidence of the terrain model, 0 to 1. Checkpoints where it is low are not counted.</source>
+        <translation>Verlässlichkeit des Geländemodells, 0 bis 1. Kontrollpunkte, an denen sie gering ist, zählen nicht.</translation>
     </message>
     <message>
         <source>Context round the window</source>
@@ -408,6 +454,10 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
     <message>
         <source>Corrections</source>
         <translation>Korrekturen</translation>
+    </message>
+    <message>
+        <source>Counted checkpoints</source>
+        <translation>Gezählte Kontrollpunkte</translation>
     </message>
     <message>
         <source>Cuts each raster of many files into one GeoTIFF for each file. They get the names of the files, in a folder with the name of the raster. A virtual raster (.vrt) beside this folder shows them as one.</source>
@@ -446,8 +496,16 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
         <translation>Fehlerkarte</translation>
     </message>
     <message>
+        <source>Error of the checkpoints</source>
+        <translation>Fehler der Kontrollpunkte</translation>
+    </message>
+    <message>
         <source>Errors</source>
         <translation>Fehler</translation>
+    </message>
+    <message>
+        <source>Errors at checkpoints</source>
+        <translation>Fehler an Kontrollpunkten</translation>
     </message>
     <message>
         <source>Every {}</source>
@@ -686,6 +744,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Höhe hoher Ausreißer</translation>
     </message>
     <message>
+        <source>Height of the checkpoints</source>
+        <translation>Höhe der Kontrollpunkte</translation>
+    </message>
+    <message>
         <source>Height threshold</source>
         <translation>Höhenschwelle</translation>
     </message>
@@ -838,6 +900,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>LAZ-Unterstützung…</translation>
     </message>
     <message>
+        <source>Land cover of the checkpoints</source>
+        <translation>Bodenbedeckung der Kontrollpunkte</translation>
+    </message>
+    <message>
         <source>Largest angle between a triangle and the line from one of its corners to a new point. A larger angle follows rugged ground better, a smaller one keeps low objects out: 4 deg in flat terrain, 10 deg and more in steep terrain. Empty: from the preset.</source>
         <translation>Größter Winkel zwischen einem Dreieck und der Linie von einer seiner Ecken zu einem neuen Punkt. Ein größerer Winkel folgt rauem Gelände besser, ein kleinerer hält niedrige Objekte fern: 4 Grad in flachem, 10 Grad und mehr in steilem Gelände. Leer: aus der Voreinstellung.</translation>
     </message>
@@ -854,12 +920,20 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Letzte Echos erreichen den Boden. Nehmen Sie alle Echos, wenn die Nummern der Echos in der Datei falsch sind.</translation>
     </message>
     <message>
+        <source>Least confidence</source>
+        <translation>Geringste Verlässlichkeit</translation>
+    </message>
+    <message>
         <source>Leave out</source>
         <translation>Weglassen</translation>
     </message>
     <message>
         <source>Leave out; they keep their class</source>
         <translation>Weglassen; sie behalten ihre Klasse</translation>
+    </message>
+    <message>
+        <source>Leaves out so large a share of the ground points, such as 0.02, and measures how well the others predict them, on open land, under trees and on steep land. This needs no checkpoints, but it does not tell how right the heights are.</source>
+        <translation>Lässt einen so großen Anteil der Bodenpunkte weg, etwa 0,02, und misst, wie gut die übrigen sie vorhersagen: auf freiem Land, unter Bäumen und an steilen Stellen. Das braucht keine Kontrollpunkte, sagt aber nicht, wie richtig die Höhen sind.</translation>
     </message>
     <message>
         <source>LiDAR360's values</source>
@@ -892,6 +966,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>Local relief</source>
         <translation>Lokales Relief</translation>
+    </message>
+    <message>
+        <source>Longest edge of a triangle</source>
+        <translation>Längste Kante eines Dreiecks</translation>
     </message>
     <message>
         <source>Lowest height</source>
@@ -940,6 +1018,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Größte Geländeneigung</translation>
     </message>
     <message>
+        <source>Mean difference [m]</source>
+        <translation>Mittlere Abweichung [m]</translation>
+    </message>
+    <message>
         <source>Memory</source>
         <translation>Arbeitsspeicher</translation>
     </message>
@@ -964,6 +1046,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Modelle</translation>
     </message>
     <message>
+        <source>Name of the checkpoints</source>
+        <translation>Name der Kontrollpunkte</translation>
+    </message>
+    <message>
         <source>No Python interpreter was found beside this QGIS, so pip cannot be run: choose a wheel file instead.</source>
         <translation>Neben diesem QGIS wurde kein Python-Interpreter gefunden, pip lässt sich also nicht ausführen: Wählen Sie stattdessen eine Wheel-Datei.</translation>
     </message>
@@ -982,6 +1068,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>None</source>
         <translation>Keine</translation>
+    </message>
+    <message>
+        <source>Not counted</source>
+        <translation>Nicht gezählt</translation>
     </message>
     <message>
         <source>Not ground</source>
@@ -1132,6 +1222,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Punkte, die teilnahmen und weit unter dem Boden liegen (Mehrwegeausbreitung, Fehler des Sensors), werden tiefes Rauschen, Klasse 7. Ist dies aus, werden sie wie die übrigen Punkte behandelt.</translation>
     </message>
     <message>
+        <source>Points that were surveyed on the ground, of any CRS, or a table (.csv) in the CRS of the point cloud. May stay empty if points are held out.</source>
+        <translation>Punkte, die am Boden vermessen wurden, in beliebigem KBS, oder eine Tabelle (.csv) im KBS der Punktwolke. Kann leer bleiben, wenn Punkte weggelassen werden.</translation>
+    </message>
+    <message>
         <source>Points up to this distance outside the window are read too, but not shown. A larger value is slower, and gives classes closer to those of the whole file near the edges of the window and beside large buildings. Empty: as far as the methods look, at most 50 m.</source>
         <translation>Punkte bis zu dieser Entfernung außerhalb des Fensters werden auch gelesen, aber nicht gezeigt. Ein größerer Wert ist langsamer und gibt nahe dem Rand des Fensters und neben großen Gebäuden Klassen, die näher an denen der ganzen Datei sind. Leer: so weit die Verfahren schauen, höchstens 50 m.</translation>
     </message>
@@ -1166,6 +1260,22 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Quality</source>
         <translation>Qualität</translation>
+    </message>
+    <message>
+        <source>RMSE of held-out points [m]</source>
+        <translation>RMSE weggelassener Punkte [m]</translation>
+    </message>
+    <message>
+        <source>RMSE of the heights of the checkpoints themselves, as their survey states it. The standard adds it to that of the data: square root of the sum of the squares.</source>
+        <translation>RMSE der Höhen der Kontrollpunkte selbst, wie ihre Vermessung sie angibt. Der Standard rechnet sie zu der der Daten: Wurzel aus der Summe der Quadrate.</translation>
+    </message>
+    <message>
+        <source>RMSE with vegetation [m]</source>
+        <translation>RMSE mit Bewuchs [m]</translation>
+    </message>
+    <message>
+        <source>RMSE without vegetation [m]</source>
+        <translation>RMSE ohne Bewuchs [m]</translation>
     </message>
     <message>
         <source>Radius of the local relief</source>
@@ -1270,6 +1380,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Settings</source>
         <translation>Einstellungen</translation>
+    </message>
+    <message>
+        <source>Share of ground points to hold out</source>
+        <translation>Anteil wegzulassender Bodenpunkte</translation>
     </message>
     <message>
         <source>Share of wrong points</source>
@@ -1448,8 +1562,24 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Das Attribut dieser Polygone, das ihre Klasse enthält: 2 für Boden, 1 für nicht klassifiziert.</translation>
     </message>
     <message>
+        <source>The attribute with the heights, in the unit of the heights of the points. Empty: z of the points, or an attribute with a usual name, such as H or elevation.</source>
+        <translation>Das Attribut mit den Höhen, in der Einheit der Höhen der Punktwolke. Leer: z der Punkte, oder ein Attribut mit einem üblichen Namen wie H oder Höhe.</translation>
+    </message>
+    <message>
+        <source>The attribute with the land cover, such as forest or NVA. Points on vegetated land are reported apart. Empty: an attribute with a usual name, such as class.</source>
+        <translation>Das Attribut mit der Bodenbedeckung, etwa Wald oder NVA. Punkte auf bewachsenem Land werden getrennt ausgewiesen. Leer: ein Attribut mit einem üblichen Namen wie Klasse.</translation>
+    </message>
+    <message>
+        <source>The attribute with the names. Empty: an attribute with a usual name, such as id, or else numbers from 1 on.</source>
+        <translation>Das Attribut mit den Namen. Leer: ein Attribut mit einem üblichen Namen wie id, sonst Nummern ab 1.</translation>
+    </message>
+    <message>
         <source>The boundary holds no polygon. Choose one that does.</source>
         <translation>Die Begrenzung enthält kein Polygon. Wählen Sie eine, die eines enthält.</translation>
+    </message>
+    <message>
+        <source>The checkpoints with their errors (ERROR, in metres): ground minus checkpoint.</source>
+        <translation>Die Kontrollpunkte mit ihren Fehlern (ERROR, in Metern): Boden minus Kontrollpunkt.</translation>
     </message>
     <message>
         <source>The class of bridge decks that are not ground. In the LAS specification it is 17, and every point format can hold it. Empty: the class of other points.</source>
@@ -1470,6 +1600,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>The class that key points get. Points that already have it count as ground; those that are not needed get the first of the ground classes. Point formats 0 to 5 hold classes up to 31.</source>
         <translation>Die Klasse, die Schlüsselpunkte bekommen. Punkte, die sie schon haben, gelten als Boden; die nicht gebrauchten bekommen die erste der Bodenklassen. Die Punktformate 0 bis 5 fassen Klassen bis 31.</translation>
+    </message>
+    <message>
+        <source>The confidence is not a file. Export it as GeoTIFF first.</source>
+        <translation>Die Verlässlichkeit ist keine Datei. Exportieren Sie sie zuerst als GeoTIFF.</translation>
     </message>
     <message>
         <source>The corrections have no attribute {}. Choose the one to use.</source>
@@ -1496,6 +1630,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Der Höhenabstand der Höhenlinien, in der Höheneinheit des KBS: Meter, oder Fuß, wenn die Höhen in Fuß sind. Leer: das 1-, 2- oder 5-Fache einer Zehnerpotenz, so dass es etwa 20 Linien gibt. Jede fünfte Linie ist eine Zählkurve.</translation>
     </message>
     <message>
+        <source>The heights of this raster are compared with the checkpoints as well.</source>
+        <translation>Die Höhen dieses Rasters werden ebenfalls mit den Kontrollpunkten verglichen.</translation>
+    </message>
+    <message>
         <source>The highest point of each cell, noise left out.</source>
         <translation>Der höchste Punkt jeder Zelle, ohne Rauschen.</translation>
     </message>
@@ -1518,6 +1656,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>The layer "{}" is being edited. Save or discard the edits first.</source>
         <translation>Der Layer „{}“ wird gerade bearbeitet. Speichern oder verwerfen Sie zuerst die Änderungen.</translation>
+    </message>
+    <message>
+        <source>The layer of the checkpoints has no points.</source>
+        <translation>Der Layer der Kontrollpunkte hat keine Punkte.</translation>
     </message>
     <message>
         <source>The paper's values</source>
@@ -1598,6 +1740,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>The values of the method for a kind of terrain. For other values, use the command line or the algorithm of the method.</source>
         <translation>Die Werte des Verfahrens für eine Geländeart. Andere Werte nehmen die Befehlszeile und der Algorithmus des Verfahrens.</translation>
+    </message>
+    <message>
+        <source>The vertical accuracy class that the data are to meet, as RMSE: 0.1 for the 10 cm class. It is tested by the checkpoints on land without vegetation. Empty: the figures are only reported.</source>
+        <translation>Die Klasse der Höhengenauigkeit, die die Daten erfüllen sollen, als RMSE: 0,1 für die Klasse 10 cm. Geprüft wird sie an den Kontrollpunkten ohne Bewuchs. Leer: nur die Kennzahlen werden ausgewiesen.</translation>
     </message>
     <message>
         <source>The window to classify, such as the map's extent: at most 1,000 m wide, and quick up to about 250 x 250 m. It is transformed to the CRS of the points. Empty: 250 x 250 m in the middle of the points; the log says where.</source>
@@ -1684,6 +1830,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Wie die übrigen benutzen</translation>
     </message>
     <message>
+        <source>Vegetated land covers</source>
+        <translation>Bewachsene Bodenbedeckungen</translation>
+    </message>
+    <message>
         <source>Virtual point cloud</source>
         <translation>Virtuelle Punktwolke</translation>
     </message>
@@ -1762,6 +1912,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>between ditches</source>
         <translation>zwischen Gräben</translation>
+    </message>
+    <message>
+        <source>checkpoints,check points,control points,gcp,accuracy,quality,rmse,rmsez,vertical accuracy,nva,vva,asprs,validation,lascontrol,hold-out</source>
+        <translation>kontrollpunkte,passpunkte,prüfpunkte,gcp,genauigkeit,qualität,rmse,rmsez,höhengenauigkeit,nva,vva,asprs,validierung,lascontrol</translation>
     </message>
     <message>
         <source>chm,ndsm,canopy,vegetation,vegetation height,normalize,normalise,hag,lasheight</source>

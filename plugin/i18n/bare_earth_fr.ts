@@ -24,8 +24,16 @@
         <translation>&lt;b&gt;Valeurs des préréglages&lt;/b&gt; pour les champs laissés vides</translation>
     </message>
     <message>
+        <source>A checkpoint has no height. Choose the attribute with the heights.</source>
+        <translation>Un point de contrôle n'a pas d'altitude. Choisissez l'attribut qui contient les altitudes.</translation>
+    </message>
+    <message>
         <source>A class of their own</source>
         <translation>Une classe à part</translation>
+    </message>
+    <message>
+        <source>A land cover is vegetated if a word of its name begins or ends with one of these.</source>
+        <translation>Une occupation du sol compte comme végétation si un mot de son nom commence ou finit par l'un de ceux-ci.</translation>
     </message>
     <message>
         <source>A list of the classified files, which QGIS 3.32 and newer shows as one layer. Without a name it is classified.vpc in their folder.</source>
@@ -84,12 +92,20 @@
         <translation>Une page web avec les chiffres, et une carte de l'emplacement des erreurs.</translation>
     </message>
     <message>
+        <source>A web page with the figures, the statement, and a map of the errors.</source>
+        <translation>Une page web avec les chiffres, la déclaration et une carte des erreurs.</translation>
+    </message>
+    <message>
         <source>A web page, which the Results Viewer opens.</source>
         <translation>Une page web, qui s'ouvre depuis le visualiseur de résultats.</translation>
     </message>
     <message>
         <source>About how much memory a run may use. A file that needs more is read twice, and its points wait in a temporary file in the output folder. With many files, fewer are worked on at the same time. The result does not depend on it. Empty: half of the free memory.</source>
         <translation>La mémoire qu'un traitement peut prendre, environ. Un fichier qui en demande plus est lu deux fois, et ses points attendent dans un fichier temporaire du dossier de sortie. Avec de nombreux fichiers, moins de fichiers sont traités en même temps. Le résultat n'en dépend pas. Vide : la moitié de la mémoire libre.</translation>
+    </message>
+    <message>
+        <source>Accuracy class</source>
+        <translation>Classe de précision</translation>
     </message>
     <message>
         <source>Add the height above ground</source>
@@ -242,6 +258,22 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
         <translation>Cellules avec une altitude</translation>
     </message>
     <message>
+        <source>Check against checkpoints</source>
+        <translation>Vérifier avec des points de contrôle</translation>
+    </message>
+    <message>
+        <source>Checkpoints</source>
+        <translation>Points de contrôle</translation>
+    </message>
+    <message>
+        <source>Checkpoints in triangles with a longer edge lie in a void of the ground, such as a building, and are not counted.</source>
+        <translation>Les points de contrôle dans des triangles dont un côté est plus long se trouvent dans une lacune du sol, par exemple un bâtiment, et ne comptent pas.</translation>
+    </message>
+    <message>
+        <source>Checkpoints where the raster of confidence has less are not counted.</source>
+        <translation>Les points de contrôle où le raster de fiabilité a une valeur plus basse ne comptent pas.</translation>
+    </message>
+    <message>
         <source>Choose a file: {}.</source>
         <translation>Choisissez un fichier : {}.</translation>
     </message>
@@ -366,12 +398,22 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
         <translation>Compare un nuage de points classé avec une référence : erreurs de type I et II, kappa.</translation>
     </message>
     <message>
+        <source>Compares ground points and a terrain model with points surveyed on the ground.</source>
+        <translation>Compare les points de sol et un modèle de terrain à des points levés au sol.</translation>
+    </message>
+    <message>
         <source>Compares heights above a surface that follows the terrain (white top-hat), not elevations, so that ground on slopes is not lost.</source>
         <translation>Compare les hauteurs au-dessus d'une surface qui suit le terrain (chapeau haut-de-forme blanc), et non les altitudes, pour ne pas perdre le sol en pente.</translation>
     </message>
     <message>
         <source>Compares the ground of a classified point cloud with a reference that holds the same points, or a part of them. Type I error: the share of the reference's ground that was rejected. Type II error: the share of all other points that was accepted as ground. The report is a web page with a map.</source>
         <translation>Compare le sol d'un nuage de points classé avec une référence qui contient les mêmes points, ou une partie d'entre eux. Erreur de type I : la part du sol de la référence qui a été rejetée. Erreur de type II : la part de tous les autres points qui a été acceptée comme sol. Le rapport est une page web avec une carte.</translation>
+    </message>
+    <message>
+        <source>Compares the triangulation (TIN) of the ground points of a classified point cloud, and a terrain model, with checkpoints: points that were surveyed on the ground. It gives the figures and the statement of the ASPRS Positional Accuracy Standards, edition 2, on land without vegetation (NVA) and with it (VVA). Nothing is shifted.
+Without checkpoints, it can leave out a share of the ground points and measure how well the others predict them.</source>
+        <translation>Compare la triangulation (TIN) des points de sol d'un nuage classé, et un modèle de terrain, à des points de contrôle : des points levés au sol. Le résultat comprend les chiffres et la déclaration des ASPRS Positional Accuracy Standards, édition 2, sans végétation (NVA) et avec végétation (VVA). Rien n'est décalé.
+Sans points de contrôle, une part des points de sol peut être mise de côté pour mesurer comment les autres la prédisent.</translation>
     </message>
     <message>
         <source>Comparison of settings</source>
@@ -388,6 +430,10 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
     <message>
         <source>Confidence of the terrain model</source>
         <translation>Fiabilité du modèle de terrain</translation>
+    </message>
+    <message>
+        <source>Confidence of the terrain model, 0 to 1. Checkpoints where it is low are not counted.</source>
+        <translation>Fiabilité du modèle de terrain, de 0 à 1. Les points de contrôle où elle est basse ne comptent pas.</translation>
     </message>
     <message>
         <source>Context round the window</source>
@@ -408,6 +454,10 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
     <message>
         <source>Corrections</source>
         <translation>Corrections</translation>
+    </message>
+    <message>
+        <source>Counted checkpoints</source>
+        <translation>Points de contrôle comptés</translation>
     </message>
     <message>
         <source>Cuts each raster of many files into one GeoTIFF for each file. They get the names of the files, in a folder with the name of the raster. A virtual raster (.vrt) beside this folder shows them as one.</source>
@@ -446,8 +496,16 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
         <translation>Carte des erreurs</translation>
     </message>
     <message>
+        <source>Error of the checkpoints</source>
+        <translation>Erreur des points de contrôle</translation>
+    </message>
+    <message>
         <source>Errors</source>
         <translation>Erreurs</translation>
+    </message>
+    <message>
+        <source>Errors at checkpoints</source>
+        <translation>Erreurs aux points de contrôle</translation>
     </message>
     <message>
         <source>Every {}</source>
@@ -686,6 +744,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Hauteur des points aberrants hauts</translation>
     </message>
     <message>
+        <source>Height of the checkpoints</source>
+        <translation>Altitude des points de contrôle</translation>
+    </message>
+    <message>
         <source>Height threshold</source>
         <translation>Seuil de hauteur</translation>
     </message>
@@ -838,6 +900,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Prise en charge LAZ…</translation>
     </message>
     <message>
+        <source>Land cover of the checkpoints</source>
+        <translation>Occupation du sol des points de contrôle</translation>
+    </message>
+    <message>
         <source>Largest angle between a triangle and the line from one of its corners to a new point. A larger angle follows rugged ground better, a smaller one keeps low objects out: 4 deg in flat terrain, 10 deg and more in steep terrain. Empty: from the preset.</source>
         <translation>Le plus grand angle entre un triangle et la ligne d'un de ses sommets à un nouveau point. Un angle plus grand suit mieux un terrain accidenté, un plus petit écarte les objets bas : 4 degrés en terrain plat, 10 degrés et plus en terrain raide. Vide : d'après le préréglage.</translation>
     </message>
@@ -854,12 +920,20 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Les derniers retours atteignent le sol. Prenez tous les retours si les numéros de retour du fichier sont faux.</translation>
     </message>
     <message>
+        <source>Least confidence</source>
+        <translation>Fiabilité minimale</translation>
+    </message>
+    <message>
         <source>Leave out</source>
         <translation>Laisser de côté</translation>
     </message>
     <message>
         <source>Leave out; they keep their class</source>
         <translation>Laisser de côté ; ils gardent leur classe</translation>
+    </message>
+    <message>
+        <source>Leaves out so large a share of the ground points, such as 0.02, and measures how well the others predict them, on open land, under trees and on steep land. This needs no checkpoints, but it does not tell how right the heights are.</source>
+        <translation>Met de côté cette part des points de sol, par exemple 0,02, et mesure comment les autres la prédisent : en terrain ouvert, sous les arbres et dans les pentes. Aucun point de contrôle n'est nécessaire, mais cela ne dit pas si les altitudes sont justes.</translation>
     </message>
     <message>
         <source>LiDAR360's values</source>
@@ -892,6 +966,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>Local relief</source>
         <translation>Relief local</translation>
+    </message>
+    <message>
+        <source>Longest edge of a triangle</source>
+        <translation>Plus long côté d'un triangle</translation>
     </message>
     <message>
         <source>Lowest height</source>
@@ -940,6 +1018,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Pente maximale du terrain</translation>
     </message>
     <message>
+        <source>Mean difference [m]</source>
+        <translation>Écart moyen [m]</translation>
+    </message>
+    <message>
         <source>Memory</source>
         <translation>Mémoire</translation>
     </message>
@@ -964,6 +1046,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Modèles</translation>
     </message>
     <message>
+        <source>Name of the checkpoints</source>
+        <translation>Nom des points de contrôle</translation>
+    </message>
+    <message>
         <source>No Python interpreter was found beside this QGIS, so pip cannot be run: choose a wheel file instead.</source>
         <translation>Aucun interpréteur Python n'a été trouvé à côté de ce QGIS, pip ne peut donc pas s'exécuter : choisissez plutôt un fichier wheel.</translation>
     </message>
@@ -982,6 +1068,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>None</source>
         <translation>Aucun</translation>
+    </message>
+    <message>
+        <source>Not counted</source>
+        <translation>Non comptés</translation>
     </message>
     <message>
         <source>Not ground</source>
@@ -1132,6 +1222,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Les points qui ont participé et se trouvent bien au-dessous du sol (trajets multiples, défauts du capteur) deviennent du bruit bas, classe 7. Sans cette option, ils sont traités comme les autres points.</translation>
     </message>
     <message>
+        <source>Points that were surveyed on the ground, of any CRS, or a table (.csv) in the CRS of the point cloud. May stay empty if points are held out.</source>
+        <translation>Des points levés au sol, dans n'importe quel SCR, ou un tableau (.csv) dans le SCR du nuage. Peut rester vide si des points sont mis de côté.</translation>
+    </message>
+    <message>
         <source>Points up to this distance outside the window are read too, but not shown. A larger value is slower, and gives classes closer to those of the whole file near the edges of the window and beside large buildings. Empty: as far as the methods look, at most 50 m.</source>
         <translation>Les points jusqu'à cette distance hors de la fenêtre sont lus aussi, mais pas montrés. Une valeur plus grande est plus lente, et donne près des bords de la fenêtre et à côté de grands bâtiments des classes plus proches de celles du fichier entier. Vide : aussi loin que les méthodes regardent, au plus 50 m.</translation>
     </message>
@@ -1166,6 +1260,22 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Quality</source>
         <translation>Qualité</translation>
+    </message>
+    <message>
+        <source>RMSE of held-out points [m]</source>
+        <translation>RMSE des points mis de côté [m]</translation>
+    </message>
+    <message>
+        <source>RMSE of the heights of the checkpoints themselves, as their survey states it. The standard adds it to that of the data: square root of the sum of the squares.</source>
+        <translation>RMSE des altitudes des points de contrôle eux-mêmes, selon leur levé. La norme l'ajoute à celle des données : racine de la somme des carrés.</translation>
+    </message>
+    <message>
+        <source>RMSE with vegetation [m]</source>
+        <translation>RMSE avec végétation [m]</translation>
+    </message>
+    <message>
+        <source>RMSE without vegetation [m]</source>
+        <translation>RMSE sans végétation [m]</translation>
     </message>
     <message>
         <source>Radius of the local relief</source>
@@ -1270,6 +1380,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Settings</source>
         <translation>Réglages</translation>
+    </message>
+    <message>
+        <source>Share of ground points to hold out</source>
+        <translation>Part des points de sol à mettre de côté</translation>
     </message>
     <message>
         <source>Share of wrong points</source>
@@ -1448,8 +1562,24 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>L'attribut de ces polygones qui contient leur classe : 2 pour le sol, 1 pour non classé.</translation>
     </message>
     <message>
+        <source>The attribute with the heights, in the unit of the heights of the points. Empty: z of the points, or an attribute with a usual name, such as H or elevation.</source>
+        <translation>L'attribut qui contient les altitudes, dans l'unité des altitudes du nuage. Vide : z des points, ou un attribut au nom courant, comme H ou altitude.</translation>
+    </message>
+    <message>
+        <source>The attribute with the land cover, such as forest or NVA. Points on vegetated land are reported apart. Empty: an attribute with a usual name, such as class.</source>
+        <translation>L'attribut de l'occupation du sol, comme forêt ou NVA. Les points dans la végétation sont indiqués à part. Vide : un attribut au nom courant, comme classe.</translation>
+    </message>
+    <message>
+        <source>The attribute with the names. Empty: an attribute with a usual name, such as id, or else numbers from 1 on.</source>
+        <translation>L'attribut des noms. Vide : un attribut au nom courant, comme id, sinon des numéros à partir de 1.</translation>
+    </message>
+    <message>
         <source>The boundary holds no polygon. Choose one that does.</source>
         <translation>La limite ne contient aucun polygone. Choisissez-en une qui en contient.</translation>
+    </message>
+    <message>
+        <source>The checkpoints with their errors (ERROR, in metres): ground minus checkpoint.</source>
+        <translation>Les points de contrôle avec leurs erreurs (ERROR, en mètres) : sol moins point de contrôle.</translation>
     </message>
     <message>
         <source>The class of bridge decks that are not ground. In the LAS specification it is 17, and every point format can hold it. Empty: the class of other points.</source>
@@ -1470,6 +1600,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>The class that key points get. Points that already have it count as ground; those that are not needed get the first of the ground classes. Point formats 0 to 5 hold classes up to 31.</source>
         <translation>La classe que reçoivent les points clés. Les points qui l'ont déjà comptent comme sol ; ceux qui ne sont pas nécessaires reçoivent la première des classes de sol. Les formats de point 0 à 5 contiennent des classes jusqu'à 31.</translation>
+    </message>
+    <message>
+        <source>The confidence is not a file. Export it as GeoTIFF first.</source>
+        <translation>La fiabilité n'est pas un fichier. Exportez-la d'abord en GeoTIFF.</translation>
     </message>
     <message>
         <source>The corrections have no attribute {}. Choose the one to use.</source>
@@ -1496,6 +1630,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>La différence d'altitude entre les courbes de niveau, dans l'unité verticale du SCR : mètres, ou pieds si les altitudes sont en pieds. Vide : 1, 2 ou 5 fois une puissance de dix, de sorte qu'il y ait environ 20 courbes. Une courbe sur cinq est une courbe maîtresse.</translation>
     </message>
     <message>
+        <source>The heights of this raster are compared with the checkpoints as well.</source>
+        <translation>Les altitudes de ce raster sont aussi comparées aux points de contrôle.</translation>
+    </message>
+    <message>
         <source>The highest point of each cell, noise left out.</source>
         <translation>Le point le plus haut de chaque cellule, sans le bruit.</translation>
     </message>
@@ -1518,6 +1656,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>The layer "{}" is being edited. Save or discard the edits first.</source>
         <translation>La couche « {} » est en cours d'édition. Enregistrez ou annulez d'abord les modifications.</translation>
+    </message>
+    <message>
+        <source>The layer of the checkpoints has no points.</source>
+        <translation>La couche des points de contrôle n'a aucun point.</translation>
     </message>
     <message>
         <source>The paper's values</source>
@@ -1598,6 +1740,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>The values of the method for a kind of terrain. For other values, use the command line or the algorithm of the method.</source>
         <translation>Les valeurs de la méthode pour un type de terrain. Pour d'autres valeurs, utilisez la ligne de commande ou l'algorithme de la méthode.</translation>
+    </message>
+    <message>
+        <source>The vertical accuracy class that the data are to meet, as RMSE: 0.1 for the 10 cm class. It is tested by the checkpoints on land without vegetation. Empty: the figures are only reported.</source>
+        <translation>La classe de précision altimétrique que les données doivent respecter, en RMSE : 0,1 pour la classe 10 cm. Elle est testée aux points de contrôle sans végétation. Vide : les chiffres sont seulement indiqués.</translation>
     </message>
     <message>
         <source>The window to classify, such as the map's extent: at most 1,000 m wide, and quick up to about 250 x 250 m. It is transformed to the CRS of the points. Empty: 250 x 250 m in the middle of the points; the log says where.</source>
@@ -1684,6 +1830,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Utiliser comme les autres</translation>
     </message>
     <message>
+        <source>Vegetated land covers</source>
+        <translation>Occupations du sol avec végétation</translation>
+    </message>
+    <message>
         <source>Virtual point cloud</source>
         <translation>Nuage de points virtuel</translation>
     </message>
@@ -1762,6 +1912,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>between ditches</source>
         <translation>entre des fossés</translation>
+    </message>
+    <message>
+        <source>checkpoints,check points,control points,gcp,accuracy,quality,rmse,rmsez,vertical accuracy,nva,vva,asprs,validation,lascontrol,hold-out</source>
+        <translation>points de contrôle,points d'appui,gcp,précision,qualité,rmse,rmsez,précision altimétrique,nva,vva,asprs,validation,lascontrol</translation>
     </message>
     <message>
         <source>chm,ndsm,canopy,vegetation,vegetation height,normalize,normalise,hag,lasheight</source>

@@ -1,6 +1,7 @@
 """The Processing algorithms: thin wrappers of the classifier."""
 
 from .assess import AssessAlgorithm
+from .check import CheckAlgorithm
 from .classify_tiles import ClassifyTilesAlgorithm
 from .compare_settings import CompareSettingsAlgorithm
 from .ground_filters import GROUND_FILTERS
@@ -19,5 +20,6 @@ ALGORITHMS = (
     ModelKeyPointsAlgorithm,
     CompareSettingsAlgorithm,
     AssessAlgorithm,
+    CheckAlgorithm,
     RemoveOffTerrainObjectsAlgorithm,
 )

@@ -17,12 +17,13 @@ from .inputs import raster_of
 DTM = "DTM"
 
 
-def add_terrain(algorithm: QgsProcessingAlgorithm) -> None:
-    """Add the field to a dialog."""
+def add_terrain(algorithm: QgsProcessingAlgorithm, text: str = "") -> None:
+    """Add the field to a dialog; `text` is its help, if heights are not measured above it."""
     algorithm.addParameter(
         QgsProcessingParameterRasterLayer(DTM, "Terrain model", None, True),
-        "Heights are measured above this raster, and not above the ground points. It must have the"
-        " CRS of the points. Empty: above the ground points.",
+        text
+        or "Heights are measured above this raster, and not above the ground points. It must have"
+        " the CRS of the points. Empty: above the ground points.",
     )
 
 

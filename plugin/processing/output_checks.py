@@ -14,6 +14,7 @@ from qgis.core import (
 
 from ...algorithms.core.files import check_output
 from ...algorithms.las.writing import check_cloud
+from ...algorithms.products.checkpoint_outputs import check_residuals
 from ...algorithms.products.contours import check_contours
 from ...algorithms.products.line_files import FORMATS as LINE_FORMATS
 from ...algorithms.products.page import check_page
@@ -61,7 +62,7 @@ def _check_of(output: QgsProcessingParameterDefinition) -> Check:
         return _check_folder
     ending = f".{output.defaultFileExtension()}"
     if ending in LINE_FORMATS:
-        return check_contours
+        return check_contours if output.name() == "CONTOURS" else check_residuals
     checks: dict[str, Check] = {
         ".html": check_page,
         ".tif": check_raster_output,

@@ -34,6 +34,13 @@ _WORDS = {
     "comparesettings": (
         _CLOUD, _GROUND, _TERRAIN, mark("preview,try,test,preset,parameters,compare,profile"),
     ),
+    "check": (
+        _CLOUD, _TERRAIN, _TIN,
+        mark(
+            "checkpoints,check points,control points,gcp,accuracy,quality,rmse,rmsez,vertical"
+            " accuracy,nva,vva,asprs,validation,lascontrol,hold-out"
+        ),
+    ),
     "assess": (
         _CLOUD,
         mark("ground,accuracy,quality,error,validation,kappa,confusion matrix,reference"),

@@ -125,6 +125,11 @@ def contours(interval: Interval) -> Look:
     return Look(mark("Contour lines"), 8, vectors.contours(interval))
 
 
+def residuals(scale: float) -> Look:
+    """Return the look of errors at checkpoints; see `vectors.residuals`."""
+    return Look(mark("Errors at checkpoints"), 9, vectors.residuals(scale))
+
+
 def arrange(
     context: QgsProcessingContext,
     looks: Mapping[str, Look],

@@ -1,4 +1,4 @@
-"""Style of contour lines."""
+"""Styles of contour lines, and of errors at checkpoints."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import Callable
 
 from qgis.core import (
     QgsLineSymbol,
+    QgsMarkerSymbol,
     QgsPalLayerSettings,
     QgsRuleBasedLabeling,
     QgsRuleBasedRenderer,
@@ -15,6 +16,7 @@ from qgis.core import (
 )
 from qgis.PyQt.QtGui import QColor
 
+from ...algorithms.products.checkpoint_results import COLOURS, NOT_COUNTED, limits_of
 from ...algorithms.products.contours import INDEX, Interval
 from .. import compat
 from ..i18n import tr
@@ -46,6 +48,36 @@ def contours(interval: Interval) -> Callable[[QgsVectorLayer], None]:
         layer.setLabelsEnabled(True)
 
     return dress
+
+
+def residuals(scale: float) -> Callable[[QgsVectorLayer], None]:
+    """Return a function that colours checkpoints by their errors: blue below, red above."""
+    limits = limits_of(scale)
+    words = [
+        f"< {limits[0]:+g} m",
+        *(f"{low:+g} … {high:+g} m" for low, high in zip(limits, limits[1:])),
+        f"> {limits[-1]:+g} m",
+    ]
+    bounds = [*(f'"ERROR" < {each!r}' for each in limits), '"ERROR" IS NOT NULL']
+
+    def dress(layer: QgsVectorLayer) -> None:
+        root = QgsRuleBasedRenderer.Rule(None)
+        for colour, label, number in zip(COLOURS, words, range(len(words))):
+            rule = f"\"STATE\" = 'counted' AND {bounds[number]}"
+            if number:
+                rule += f' AND "ERROR" >= {limits[number - 1]!r}'
+            root.appendChild(QgsRuleBasedRenderer.Rule(_mark(colour), 0, 0, rule, label))
+        others = _mark(NOT_COUNTED, "2")
+        root.appendChild(QgsRuleBasedRenderer.Rule(others, 0, 0, "ELSE", tr("Not counted")))
+        layer.setRenderer(QgsRuleBasedRenderer(root))
+
+    return dress
+
+
+def _mark(colour: str, size: str = "3") -> QgsMarkerSymbol:
+    return QgsMarkerSymbol.createSimple(
+        {"name": "circle", "color": colour, "size": size, "outline_color": "#333333"}
+    )
 
 
 def _label() -> QgsPalLayerSettings:

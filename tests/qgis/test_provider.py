@@ -116,6 +116,11 @@ PARAMETERS = {
         "CLASSIFIED", "REFERENCE", "CRS", "GROUND_CLASSES", "IGNORED_CLASSES", "MAP_CELL_SIZE",
         "REPORT", "ERROR_MAP",
     ],
+    "bareearth:check": [
+        "INPUT", "CHECKPOINTS", "Z_FIELD", "COVER_FIELD", "NAME_FIELD", "DTM", "CRS",
+        "ACCURACY_CLASS", "SURVEY_ERROR", "MAX_EDGE", "MIN_CONFIDENCE", "HOLD_OUT",
+        "GROUND_CLASSES", "OVERLAP", "VEGETATED", "CONFIDENCE", "OUTPUT", "REPORT",
+    ],
     "bareearth:removeoffterrainobjects": [
         "INPUT", "MAX_OBJECT_SIZE", "SLOPE_THRESHOLD", "BAND", "OUTPUT",
     ],
@@ -175,6 +180,16 @@ OUTPUTS = {
         "TOTAL_ERROR",
         "CLASSIFIED_ONLY",
         "REFERENCE_ONLY",
+    ],
+    "bareearth:check": [
+        "OUTPUT",
+        "REPORT",
+        "CHECKPOINT_COUNT",
+        "COUNTED",
+        "NVA_RMSE",
+        "VVA_RMSE",
+        "SHIFT",
+        "HOLD_OUT_RMSE",
     ],
     "bareearth:removeoffterrainobjects": ["OUTPUT", "CELL_COUNT", "REMOVED_COUNT"],
 }

@@ -1,0 +1,98 @@
+"""The command `check`, which compares points with checkpoints."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import Sequence
+
+from .command import DONE, Command
+from .options import UsageError, add_crs, add_inputs, add_json, add_parameters, chosen
+from .terminal import Terminal
+
+
+def _add_check(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
+    from ..products.accuracy import VEGETATED, Accuracy
+    from ..products.checkpoints import CheckOptions
+    from ..products.line_files import FORMATS as LAYERS
+    from ..survey.checkpoint_files import FORMATS
+    from ..survey.ground_classes import GroundClasses
+
+    add_inputs(parser, "a classified file, or ")
+    add_crs(parser)
+    parser.add_argument(
+        "--checkpoints", metavar="FILE", help=f"points that were surveyed on the ground ({FORMATS})"
+    )
+    parser.add_argument(
+        "--columns", metavar="x=E,y=N,z=H,cover=Class,name=ID",
+        help="the columns or attributes of the checkpoints, by name or by number from 1 on; those"
+        " that are not given are recognised by their names",
+    )  # fmt: skip
+    parser.add_argument(
+        "--checkpoints-crs", metavar="CRS",
+        help="the CRS of x and y of the checkpoints, such as EPSG:4326; without it, what the file"
+        " states, or the CRS of the points",
+    )  # fmt: skip
+    parser.add_argument(
+        "--vegetated", metavar="WORD", nargs="+", default=VEGETATED,
+        help="land covers with a word that begins or ends so are vegetated (default:"
+        f" {' '.join(VEGETATED[:5])} and others)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--dtm", metavar="RASTER", help="check this terrain model as well, in the CRS of the points"
+    )
+    parser.add_argument(
+        "--confidence", metavar="RASTER",
+        help="the confidence of the terrain model, 0 to 1, as 'terrain --confidence' makes it;"
+        " checkpoints where it is low are not counted",
+    )  # fmt: skip
+    parser.add_argument("--report", metavar="FILE", type=Path, help="write a page (.html)")
+    parser.add_argument(
+        "--table", metavar="FILE", type=Path, help="write the checkpoints and their errors (.csv)"
+    )
+    parser.add_argument(
+        "--residuals", metavar="FILE", type=Path,
+        help=f"write the checkpoints and their errors as points ({', '.join(LAYERS)}); all but"
+        " .geojson need pyogrio",
+    )  # fmt: skip
+    add_json(parser, "the figures ")
+    add_parameters(
+        parser, Accuracy, CheckOptions, GroundClasses,
+        titles=("Accuracy", "What is compared", "Ground points"),
+    )  # fmt: skip
+
+
+def _check(options: argparse.Namespace) -> int:
+    from ..products.checkpoint_outputs import CheckOutputs
+    from ..products.checkpoints import CheckOptions, CheckRequest, check_files
+    from ..survey.checkpoint_files import read_checkpoints
+
+    sets = chosen(options)
+    if options.checkpoints is None and CheckOptions.among(sets).hold_out is None:
+        raise UsageError("Give --checkpoints, or a share of the ground points with --hold-out.")
+    points = options.checkpoints and read_checkpoints(
+        options.checkpoints, options.columns, options.checkpoints_crs
+    )
+    request = CheckRequest.of(
+        sets, checkpoints=points, dtm=options.dtm, confidence=options.confidence,
+        vegetated=tuple(options.vegetated), crs=options.crs,
+        outputs=CheckOutputs(options.report, options.table, options.residuals),
+    )  # fmt: skip
+    with Terminal(options.verbose) as progress:
+        check = check_files(options.input, request, progress)
+    print(json.dumps(check.as_dict()) if options.json else "\n".join(check.lines()))
+    return DONE
+
+
+COMMANDS = (
+    Command(
+        "check",
+        "compare the ground with checkpoints, or with points that are held out",
+        "Compares the TIN of the ground points, and a terrain model, with checkpoints: RMSE and"
+        " other figures, on land with and without vegetation, and the statement of the ASPRS"
+        " Positional Accuracy Standards, edition 2. With --hold-out, it needs no checkpoints.",
+        _add_check,
+        _check,
+    ),
+)

@@ -1,0 +1,179 @@
+"""Figures of the vertical accuracy of heights, and the statement of the ASPRS standard.
+
+References
+----------
+ASPRS (2023): Positional Accuracy Standards for Digital Geospatial Data, edition 2, version 1.0:
+the checkpoints, the error of their survey, land cover, and how accuracy is stated.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Sequence
+
+import numpy as np
+
+from ..core.parameters import ParameterSet, parameter
+
+# Fewest checkpoints for a test by the standard.
+NEEDED = 30
+# A land cover is vegetated if a word of its name begins or ends with one of these.
+VEGETATED = (
+    "veg", "vva", "forest", "wood", "tree", "shrub", "brush", "bush", "scrub", "crop", "weed",
+    "tall grass", "high grass", "reed", "hedge", "orchard", "vineyard", "wald", "baum", "busch",
+    "gebüsch", "strauch", "schilf", "hohes gras", "foret", "forêt", "bois", "arbre", "bosque",
+    "arbol", "árbol", "matorral", "bosco", "skog",
+)  # fmt: skip
+# But not if the name begins so.
+_NOT = re.compile(r"non|unveg|nva|(not|no|nicht|keine?|ohne|sans|sin|without)(?![^\W\d_])")
+_WORD = re.compile(r"[^\W\d_]+")
+_STANDARD = "ASPRS Positional Accuracy Standards for Digital Geospatial Data, Edition 2 (2023)"
+
+
+@dataclass(frozen=True)
+class Accuracy(ParameterSet):
+    """What the accuracy is compared with."""
+
+    accuracy_class: float | None = parameter(
+        None,
+        kind="number",
+        label="Accuracy class",
+        unit="m",
+        minimum=0.001,
+        maximum=100.0,
+        empty="only figures",
+        help="The vertical accuracy class that the data are to meet, as RMSE: 0.1 for the 10 cm"
+        " class. It is tested by the checkpoints on land without vegetation. Empty: the figures are"
+        " only reported.",
+    )
+    survey_error: float = parameter(
+        0.0,
+        label="Error of the checkpoints",
+        unit="m",
+        minimum=0.0,
+        maximum=10.0,
+        help="RMSE of the heights of the checkpoints themselves, as their survey states it. The"
+        " standard adds it to that of the data: square root of the sum of the squares.",
+    )
+
+
+@dataclass(frozen=True)
+class Figures:
+    """Errors of heights in metres: height of the data minus that of the checkpoint.
+
+    Attributes
+    ----------
+    count : int
+        Number of errors, at least one.
+    rmse : float
+        Root mean square of the errors.
+    total_rmse : float
+        The same with the error of the checkpoints.
+    mean, median, standard_deviation, minimum, maximum : float
+        Of the errors; the standard deviation of one error is 0.
+    percentile_95 : float
+        The absolute error that 95 % of the errors do not exceed.
+    """
+
+    count: int
+    rmse: float
+    total_rmse: float
+    mean: float
+    median: float
+    standard_deviation: float
+    minimum: float
+    maximum: float
+    percentile_95: float
+
+    @classmethod
+    def of(cls, errors: np.ndarray, survey_error: float = 0.0) -> Figures | None:
+        """Return the figures of errors, shape (n,); None if there are none.
+
+        Examples
+        --------
+        >>> Figures.of(np.array([0.03, -0.03]), survey_error=0.04).total_rmse
+        0.05
+        """
+        if not len(errors):
+            return None
+        square = float(np.mean(errors**2))
+        values = (
+            np.sqrt(square), np.sqrt(square + survey_error**2), errors.mean(), np.median(errors),
+            errors.std(ddof=1) if len(errors) > 1 else 0.0, errors.min(), errors.max(),
+            np.percentile(np.abs(errors), 95.0),
+        )  # fmt: skip
+        return cls(len(errors), *(round(float(each), 6) for each in values))
+
+
+def is_vegetated(cover: str, words: Sequence[str] = VEGETATED) -> bool:
+    """Return whether a land cover is vegetated, by its name.
+
+    Parameters
+    ----------
+    cover : str
+        The land cover, such as "Forest" or "NVA"; an empty one is not vegetated.
+    words : sequence of str
+        The names, or parts of them, of land covers that are vegetated.
+
+    Examples
+    --------
+    >>> [is_vegetated(each) for each in ("Mixed forest", "VVA", "non-vegetated", "Street", "")]
+    [True, True, False, False, False]
+    """
+    name = cover.strip().lower()
+    if _NOT.match(name):
+        return False
+    given = [each.strip().lower() for each in words]
+    return any(
+        each.startswith(word) or each.endswith(word) or (" " in word and word in name)
+        for each in _WORD.findall(name)
+        for word in given
+    )
+
+
+def statement(nva: Figures | None, vva: Figures | None, accuracy_class: float | None) -> str:
+    """Return the statement on the accuracy of data, in the words of the standard.
+
+    Parameters
+    ----------
+    nva, vva : Figures or None
+        Errors at checkpoints without and with vegetation.
+    accuracy_class : float or None
+        The class to meet, in metres; None for no class.
+    """
+    if nva is None:
+        return (
+            f"No checkpoint lies on land without vegetation: this is no test by {_STANDARD}."
+            f"{_found('Vegetated', 'VVA', vva)}"
+        )
+    few = nva.count < NEEDED
+    found = _found("Non-Vegetated", "NVA", nva) + _found("Vegetated", "VVA", vva)
+    reduced = (
+        f" Although the Standards call for a minimum of thirty ({NEEDED}) checkpoints, this test"
+        f" was performed using ONLY {nva.count} checkpoints."
+    )
+    tested = f"This data set was tested as required by {_STANDARD}.{reduced if few else ''}"
+    if accuracy_class is None:
+        return f"{tested}{found}"
+    named = f"a {_cm(accuracy_class)} cm RMSEV Vertical Accuracy Class"
+    if nva.total_rmse > accuracy_class:
+        return f"{tested} It does not meet {named}.{found}"
+    if few:
+        return f"{tested} This data set was produced to meet {named}.{found}"
+    return f"This data set was tested to meet {_STANDARD} for {named}.{found}"
+
+
+def _found(land: str, short: str, figures: Figures | None) -> str:
+    if figures is None:
+        return ""
+    few = " using the reduced number of checkpoints" if figures.count < NEEDED else ""
+    return (
+        f" The {land} Vertical Accuracy ({short}) was found to be RMSEV ="
+        f" {_cm(figures.total_rmse)} cm{few}."
+    )
+
+
+def _cm(metres: float) -> str:
+    """Return metres as centimetres, with one digit if it is needed."""
+    return f"{100.0 * metres:.1f}".removesuffix(".0")

@@ -1,0 +1,158 @@
+"""Writes checkpoints with their errors: as a page, a table and a layer of points."""
+
+from __future__ import annotations
+
+import contextlib
+import csv
+import io
+from pathlib import Path
+from typing import Any, Iterator, NamedTuple
+
+import numpy as np
+
+from ..core.errors import BareEarthError, printable
+from ..core.files import (
+    check_distinct,
+    check_output,
+    replace_with_files_of,
+    replacing,
+    temporary_folder,
+)
+from ..core.progress import SILENT, Progress
+from ..survey.checkpoint_files import Checkpoints
+from ..survey.files import Survey
+from .checkpoint_page import checkpoint_html
+from .checkpoint_results import Check, Residuals
+from .line_files import Feature, Layer, feature_writer, files_beside
+from .page import check_page
+
+# Fields of the layer. Heights are in the unit of the points, errors in metres.
+FIELDS: dict[str, type] = {
+    "NAME": str, "COVER": str, "KIND": str, "STATE": str, "Z": float, "GROUND": float,
+    "ERROR": float, "DTM": float, "DTM_ERROR": float,
+}  # fmt: skip
+
+
+class CheckOutputs(NamedTuple):
+    """The files to write, each of which can be None.
+
+    Attributes
+    ----------
+    report : Path
+        A web page (.html).
+    table : Path
+        A table of all checkpoints (.csv).
+    residuals : Path
+        The checkpoints with their errors as points (.gpkg, .geojson, .shp or .fgb).
+    """
+
+    report: Path | None = None
+    table: Path | None = None
+    residuals: Path | None = None
+
+    def check(self, sources: tuple[Path, ...], checkpoints: Checkpoints | None) -> None:
+        """Refuse, before any work is done, files that could not be written at the end.
+
+        Raises
+        ------
+        BareEarthError
+            If a name or folder is unsuitable, or there is nothing to write.
+        """
+        check_distinct(self)
+        if checkpoints is None and (self.table or self.residuals):
+            raise BareEarthError(
+                "Points that are held out have no table and no layer, only a page. Give"
+                " checkpoints."
+            )
+        if self.report:
+            check_page(self.report, sources)
+        if self.table:
+            check_output(self.table, sources)
+            if self.table.suffix.lower() != ".csv":
+                raise BareEarthError(f"Cannot write {self.table}: the table is CSV, name it .csv.")
+        if self.residuals:
+            check_residuals(self.residuals, sources)
+
+    def write(
+        self, check: Check, found: Residuals | None, survey: Survey, progress: Progress = SILENT
+    ) -> None:
+        """Write the files: all of them or none.
+
+        Parameters
+        ----------
+        check : Check
+            The figures.
+        found : Residuals or None
+            The checkpoints with their errors.
+        survey : Survey
+            The files that were checked.
+        progress : Progress
+            Receives progress and messages.
+
+        Raises
+        ------
+        BareEarthError
+            If a file cannot be written.
+        """
+        with contextlib.ExitStack() as opened:
+            folder = None
+            if self.residuals and found is not None:
+                folder = opened.enter_context(temporary_folder(self.residuals.parent))
+                _write_layer(folder / self.residuals.name, found, survey, progress)
+            if self.table and found is not None:
+                table = opened.enter_context(replacing(self.table))
+                table.write_text(_table_of(found), encoding="utf-8", newline="")
+            if self.report:
+                page = opened.enter_context(replacing(self.report))
+                page.write_text(checkpoint_html(check, found, survey), encoding="utf-8")
+            progress(1.0)  # the last moment to cancel
+            if folder is not None and self.residuals:
+                replace_with_files_of(folder, self.residuals, files_beside(self.residuals))
+
+
+def check_residuals(target: Path, sources: tuple[Path, ...] = ()) -> None:
+    """Refuse, before any work is done, a layer that could not be written at the end.
+
+    Raises
+    ------
+    BareEarthError
+        If the name or folder is unsuitable, or a library is missing.
+    """
+    check_output(target, sources)
+    feature_writer(target, "the errors at checkpoints")
+
+
+def _rows_of(found: Residuals) -> Iterator[tuple[Any, ...]]:
+    """Yield x, y, and the values of `FIELDS` of each checkpoint."""
+    points = found.checkpoints
+    kinds = np.where(found.vegetated, "VVA", "NVA").tolist()
+    rounded = [np.round(each, 4).tolist() for each in (
+        found.ground, found.errors, found.dtm, found.dtm_errors)]  # fmt: skip
+    places = points.xyz.tolist()
+    for place, *others in zip(places, points.names, points.covers, kinds, found.states, *rounded):
+        yield (*place[:2], *others[:4], place[2], *others[4:])
+
+
+def _write_layer(target: Path, found: Residuals, survey: Survey, progress: Progress) -> None:
+    layer = Layer("checkpoints", "Point", FIELDS, survey.crs.wkt, survey.crs.epsg)
+    places = found.checkpoints.places
+    features = (Feature(row[2:], place) for row, place in zip(_rows_of(found), places))
+    feature_writer(target, "the errors at checkpoints")(target, features, layer, progress)
+
+
+def _table_of(found: Residuals) -> str:
+    """Return the table as CSV, with empty cells where there is no value."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["x", "y", *map(str.lower, FIELDS)])
+    for row in _rows_of(found):
+        writer.writerow(["" if each != each else _cell(each) for each in row])
+    return text.getvalue()
+
+
+def _cell(value: Any) -> Any:
+    """Return a value for a cell; a name must not look like a formula to a spreadsheet."""
+    if not isinstance(value, str):
+        return value
+    value = printable(value)
+    return f"'{value}" if value[:1] in ("=", "+", "-", "@") else value

@@ -1,0 +1,188 @@
+"""The results of a comparison with checkpoints."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any, NamedTuple, Sequence
+
+import numpy as np
+
+from ..survey.checkpoint_files import Checkpoints
+from .accuracy import NEEDED, Figures
+from .hold_out import HoldOut
+
+COUNTED = "counted"
+# Colours of errors, from low to high. Blue: the data lie below the checkpoint; red: above it. They
+# differ for colour-blind people. And the colour of checkpoints that are not counted.
+COLOURS, NOT_COUNTED = ("#2166ac", "#92c5de", "#f7f7f7", "#f4a582", "#b2182b"), "#888888"
+# Limits between the colours, as shares of the scale.
+_SHARES = (-0.6, -0.2, 0.2, 0.6)
+# Most names in a sentence.
+_MOST_NAMES = 30
+# Why a checkpoint is not counted, and what it means.
+REASONS = {
+    "outside": "outside of the survey",
+    "void": "where there is no ground near",
+    "doubtful": "where the confidence is low",
+}
+
+
+class Residuals(NamedTuple):
+    """The checkpoints with their errors, one value for each.
+
+    Attributes
+    ----------
+    checkpoints : Checkpoints
+        The checkpoints in the CRS of the points.
+    vegetated : numpy.ndarray of bool, shape (n,)
+        Which have a land cover that is vegetated.
+    states : tuple of str
+        "counted", or a key of `REASONS`.
+    ground, dtm : numpy.ndarray of float64, shape (n,)
+        Heights of the TIN and of the terrain model, in the unit of the heights of the points; NaN
+        where there is none.
+    errors, dtm_errors : numpy.ndarray of float64, shape (n,)
+        These heights minus those of the checkpoints, in metres.
+    """
+
+    checkpoints: Checkpoints
+    vegetated: np.ndarray
+    states: tuple[str, ...]
+    ground: np.ndarray
+    dtm: np.ndarray
+    errors: np.ndarray
+    dtm_errors: np.ndarray
+
+    @property
+    def counted(self) -> np.ndarray:
+        """Which checkpoints are counted; boolean, shape (n,)."""
+        return np.array([each == COUNTED for each in self.states], dtype=bool)
+
+
+@dataclass(frozen=True)
+class Check:
+    """The result of a comparison with checkpoints; all errors are in metres.
+
+    Attributes
+    ----------
+    checkpoint_count, counted : int
+        Checkpoints that were given, and those that are counted.
+    nva, vva : Figures or None
+        Errors of the TIN of the ground points, on land without and with vegetation.
+    dtm_nva, dtm_vva : Figures or None
+        The same of the terrain model.
+    not_counted : dict of str to list of str
+        The names of the other checkpoints, by the reason as in `REASONS`.
+    largest : list of dict
+        Names and errors of the counted checkpoints with the largest errors of the TIN.
+    shift : float or None
+        The mean error on land without vegetation, which a shift of the heights by its negative
+        would remove. Nothing is shifted.
+    needed : int
+        Fewest checkpoints without vegetation for a test by the standard.
+    accuracy_class : float or None
+        The class to meet.
+    meets_class : bool or None
+        Whether the TIN meets it; None if no class is given or no checkpoint is counted.
+    scale : float
+        Error in metres at which the colours of maps and bars end.
+    statement, dtm_statement : str
+        The statements for the points and for the terrain model; empty if there is nothing to state.
+    hold_out : HoldOut or None
+        The errors at ground points that were left out, if they were asked for.
+    """
+
+    checkpoint_count: int = 0
+    counted: int = 0
+    nva: Figures | None = None
+    vva: Figures | None = None
+    dtm_nva: Figures | None = None
+    dtm_vva: Figures | None = None
+    not_counted: dict[str, list[str]] | None = None
+    largest: list[dict[str, Any]] | None = None
+    shift: float | None = None
+    needed: int = NEEDED
+    accuracy_class: float | None = None
+    meets_class: bool | None = None
+    scale: float = 1.0
+    statement: str = ""
+    dtm_statement: str = ""
+    hold_out: HoldOut | None = None
+
+    @property
+    def nva_rmse(self) -> float | None:
+        """RMSE on land without vegetation, with the error of the checkpoints."""
+        return None if self.nva is None else self.nva.total_rmse
+
+    @property
+    def vva_rmse(self) -> float | None:
+        """RMSE on land with vegetation, with the error of the checkpoints."""
+        return None if self.vva is None else self.vva.total_rmse
+
+    @property
+    def hold_out_rmse(self) -> float | None:
+        """RMSE of the points that were left out."""
+        figures = None if self.hold_out is None else self.hold_out.all
+        return None if figures is None else figures.rmse
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return all figures for JSON."""
+        return asdict(self)
+
+    def lines(self) -> list[str]:
+        """Return the figures as lines of text for a terminal or a log."""
+        rows = []
+        if self.checkpoint_count:
+            rows.append(
+                f"checkpoints       {self.counted:>6,} of {self.checkpoint_count:,} counted"
+            )
+        for reason, names in (self.not_counted or {}).items():
+            rows.append(f"not counted       {len(names):>6,} {REASONS[reason]}: {listed(names)}")
+        named = {
+            "points NVA": self.nva, "points VVA": self.vva,
+            "DTM NVA": self.dtm_nva, "DTM VVA": self.dtm_vva,
+        }  # fmt: skip
+        if self.hold_out is not None:
+            left = self.hold_out
+            rows.append(
+                f"held out          {left.left_out:>6,} ground points, {left.no_height:,} in voids"
+            )
+            named |= {
+                "held out, all": left.all, "open land": left.open,
+                "under trees": left.under_trees, "steep": left.steep,
+            }  # fmt: skip
+        rows += [_line(name, each) for name, each in named.items() if each is not None]
+        if self.largest:
+            worst = ", ".join(f"{each['name']} {each['error']:+.3f} m" for each in self.largest)
+            rows.append(f"largest errors    {worst}")
+        if self.shift is not None:
+            rows.append(
+                f"mean difference   would be removed by a shift of {-self.shift:+.3f} m; nothing is"
+                " shifted"
+            )
+        statements = {"": self.statement, "Terrain model: ": self.dtm_statement}
+        return rows + [f"{whose}{words}" for whose, words in statements.items() if words]
+
+
+def listed(names: Sequence[str]) -> str:
+    """Return names in a sentence: the first ones, and the number of the others.
+
+    >>> listed(["P1", "P2"])
+    'P1, P2'
+    """
+    more = len(names) - _MOST_NAMES
+    return ", ".join(names[:_MOST_NAMES]) + (f" and {more:,} more" if more > 0 else "")
+
+
+def limits_of(scale: float) -> tuple[float, ...]:
+    """Return the four errors between the `COLOURS` in metres, given the scale of a `Check`."""
+    return tuple(float(f"{share * scale:.3g}") for share in _SHARES)
+
+
+def _line(name: str, figures: Figures) -> str:
+    return (
+        f"{name:<17} {figures.count:>6,} RMSE {figures.total_rmse:.3f} m, mean {figures.mean:+.3f},"
+        f" median {figures.median:+.3f}, standard deviation {figures.standard_deviation:.3f},"
+        f" {figures.minimum:+.3f} to {figures.maximum:+.3f}, 95 % within"
+        f" {figures.percentile_95:.3f} m"
+    )

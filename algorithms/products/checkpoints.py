@@ -1,0 +1,271 @@
+"""Compares the ground of a survey, and a terrain model, with checkpoints.
+
+References
+----------
+ASPRS (2023): Positional Accuracy Standards for Digital Geospatial Data, edition 2, version 1.0.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Iterable
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.parameters import ParameterSet, parameter
+from ..core.progress import SILENT, Progress
+from ..rasters.sampling import HeightRaster, HeightSampler
+from ..survey.checkpoint_files import Checkpoints
+from ..survey.files import Survey
+from ..survey.ground_classes import GroundClasses
+from .accuracy import NEEDED, VEGETATED, Accuracy, Figures, is_vegetated, statement
+from .checkpoint_outputs import CheckOutputs
+from .checkpoint_results import COUNTED, REASONS, Check, Residuals, listed
+from .hold_out import HoldOut, hold_out
+from .page import round_length
+from .survey_ground import SurveyGround
+
+# How many of the largest errors are named.
+_LARGEST = 5
+
+
+@dataclass(frozen=True)
+class CheckOptions(ParameterSet):
+    """Where heights are compared."""
+
+    max_edge: float = parameter(
+        20.0,
+        label="Longest edge of a triangle",
+        unit="m",
+        minimum=0.1,
+        maximum=1000.0,
+        advanced=True,
+        help="Checkpoints in triangles with a longer edge lie in a void of the ground, such as a"
+        " building, and are not counted.",
+    )
+    min_confidence: float = parameter(
+        0.5,
+        label="Least confidence",
+        minimum=0.0,
+        maximum=1.0,
+        advanced=True,
+        help="Checkpoints where the raster of confidence has less are not counted.",
+    )
+    hold_out: float | None = parameter(
+        None,
+        kind="number",
+        label="Share of ground points to hold out",
+        minimum=0.0001,
+        maximum=0.5,
+        advanced=True,
+        help="Leaves out so large a share of the ground points, such as 0.02, and measures how well"
+        " the others predict them, on open land, under trees and on steep land. This needs no"
+        " checkpoints, but it does not tell how right the heights are.",
+    )
+
+
+@dataclass(frozen=True)
+class CheckRequest:
+    """A request to compare points with checkpoints, or with points that are held out.
+
+    Attributes
+    ----------
+    checkpoints : Checkpoints or None
+        The checkpoints; they can be left out if points are held out.
+    options : CheckOptions
+        Where heights are compared.
+    accuracy : Accuracy
+        The class to meet, and the error of the checkpoints.
+    ground : GroundClasses
+        Which points are ground.
+    dtm : str or None
+        A terrain model that is compared as well.
+    confidence : str or None
+        A raster of its confidence, 0 to 1.
+    vegetated : tuple of str
+        Land covers with a word that begins or ends so are vegetated.
+    outputs : CheckOutputs
+        The files to write.
+    crs : str or None
+        The CRS of the points in place of the one that files state, as for `stated_wkt`.
+    """
+
+    checkpoints: Checkpoints | None = None
+    options: CheckOptions = field(default_factory=CheckOptions)
+    accuracy: Accuracy = field(default_factory=Accuracy)
+    ground: GroundClasses = field(default_factory=GroundClasses)
+    dtm: str | None = None
+    confidence: str | None = None
+    vegetated: tuple[str, ...] = VEGETATED
+    outputs: CheckOutputs = field(default_factory=CheckOutputs)
+    crs: str | None = None
+
+    @classmethod
+    def of(cls, sets: Iterable[ParameterSet], **others: Any) -> CheckRequest:
+        """Return a request with parameter sets, given in any order, and other attributes."""
+        names = {type(value): name for name, value in vars(cls()).items()}
+        others.update((names[type(each)], each) for each in sets)
+        return cls(**others)
+
+
+def check_files(
+    sources: Iterable[Path],
+    request: CheckRequest = CheckRequest(),
+    progress: Progress = SILENT,
+) -> Check:
+    """Compare the ground points of one file or many, and a terrain model, with checkpoints.
+
+    Each checkpoint is compared with the Delaunay triangle of the ground points that holds it, and
+    with the terrain model between the centres of its cells. Points are read in parts, and only
+    those near checkpoints are kept.
+
+    Parameters
+    ----------
+    sources : iterable of Path
+        Classified LAS, LAZ and COPC files, folders of them, virtual point clouds and lists.
+    request : CheckRequest
+        What they are compared with, and what is written.
+    progress : Progress
+        Receives progress and messages.
+
+    Returns
+    -------
+    Check
+
+    Raises
+    ------
+    BareEarthError
+        If an input cannot be read or an output cannot be written, there is no ground, no checkpoint
+        can be compared, or there are neither checkpoints nor points to hold out.
+    Cancelled
+        If the user asked to stop; no output is left behind.
+
+    Examples
+    --------
+    >>> from bare_earth.algorithms import CheckRequest, check, read_checkpoints
+    >>> points = read_checkpoints("checkpoints.csv")  # doctest: +SKIP
+    >>> check(["ground.laz"], CheckRequest(points)).nva.rmse  # doctest: +SKIP
+    0.043
+    """
+    paths = [Path(each) for each in sources]
+    given, share = request.checkpoints, request.options.hold_out
+    if given is None and share is None:
+        raise BareEarthError("Give checkpoints, or a share of the ground points to hold out.")
+    request.outputs.check(tuple(paths), given)
+    ground = SurveyGround.of(paths, request.ground, progress.part(0.0, 0.05), request.crs)
+    middle, found, held = 0.95 if share is None else 0.5, None, None
+    if given is not None:
+        found = _residuals(ground, given, request, progress.part(0.05, middle))
+    if share is not None:
+        part = progress.part(0.05 if given is None else middle, 0.95)
+        held = hold_out(ground, share, request.options.max_edge, part)
+    check = _check_of(found, request.accuracy, held)
+    request.outputs.write(check, found, ground.survey, progress)
+    return check
+
+
+def _residuals(
+    ground: SurveyGround, checkpoints: Checkpoints, request: CheckRequest, progress: Progress
+) -> Residuals:
+    """Return the errors at checkpoints."""
+    survey, reach = ground.survey, request.options.max_edge
+    checkpoints = checkpoints.located(ground.place, progress, reach)
+    x, y, z = checkpoints.xyz.T
+    across, up = survey.crs.horizontal_unit, survey.crs.vertical_unit
+    dtm = _sampled(request.dtm, ground, x, y, up)
+    sure = _sampled(request.confidence, ground, x, y)
+    if dtm is not None:
+        _tell_of_gaps(checkpoints, np.isnan(dtm), progress)
+    heights = ground.heights(np.column_stack((x, y)) * across, reach, progress).heights
+    if ground.tally.classes.any():  # else no file is near, and all checkpoints are outside
+        ground.check()
+    states = np.full(len(x), COUNTED, dtype=object)
+    if sure is not None:
+        states[~(sure >= request.options.min_confidence)] = "doubtful"
+    states[np.isnan(heights)] = "void"
+    states[np.isnan(heights) & ~_touches(survey, x, y)] = "outside"
+    vegetated = [is_vegetated(each, request.vegetated) for each in checkpoints.covers]
+    if not any(checkpoints.covers):
+        progress.info("The checkpoints have no land cover: all count as without vegetation.")
+    dtm = np.full(len(x), np.nan) if dtm is None else dtm
+    return Residuals(
+        checkpoints, np.array(vegetated, dtype=bool), tuple(states), heights / up, dtm,
+        heights - z * up, (dtm - z) * up,
+    )  # fmt: skip
+
+
+def _sampled(
+    source: str | None, ground: SurveyGround, x: np.ndarray, y: np.ndarray, up: float | None = None
+) -> np.ndarray | None:
+    """Return values of a raster at places; heights in units of `up` metres. None for no raster."""
+    if not source:
+        return None
+    raster = HeightRaster.of(source)
+    raster.check(ground.survey.crs, ground.place.name)
+    values = HeightSampler(raster).heights(x, y)
+    return values if up is None else values * (raster.unit or up) / up
+
+
+def _tell_of_gaps(checkpoints: Checkpoints, gaps: np.ndarray, progress: Progress) -> None:
+    """Warn of checkpoints at which the terrain model has no value, or refuse it."""
+    names = [checkpoints.names[each] for each in np.flatnonzero(gaps)]
+    if len(names) == checkpoints.count:
+        raise BareEarthError(
+            "The terrain model has no value at any checkpoint. Give one that covers them."
+        )
+    if names:
+        progress.warning(f"The terrain model has no value at checkpoints {listed(names)}.")
+
+
+def _touches(survey: Survey, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Return which places lie in the extent of a file."""
+    inside = np.zeros(len(x), dtype=bool)
+    for tile in survey.tiles:
+        west, south, east, north = tile.outer_box
+        inside |= (x >= west) & (x <= east) & (y >= south) & (y <= north)
+    return inside
+
+
+def _scale_of(found: Residuals) -> float:
+    """Return the error in metres at which colours end: most lie well within it."""
+    most = float(np.percentile(np.abs(found.errors[found.counted]), 95.0))
+    return round_length(2.0 * max(most, 0.001))
+
+
+def _check_of(found: Residuals | None, accuracy: Accuracy, held: HoldOut | None) -> Check:
+    """Return the figures of residuals."""
+    if found is None:
+        return Check(accuracy_class=accuracy.accuracy_class, hold_out=held)
+    counted, names = found.counted, found.checkpoints.names
+    others: dict[str, list[str]] = {}
+    for name, state in zip(names, found.states):
+        if state != COUNTED:
+            others.setdefault(state, []).append(name)
+    if not counted.any():
+        why = "; ".join(f"{len(each):,} lie {REASONS[state]}" for state, each in others.items())
+        raise BareEarthError(
+            f"None of the {len(names):,} checkpoints can be compared: {why}. Check their CRS, and"
+            " which classes are ground."
+        )
+    lands = counted & ~found.vegetated, counted & found.vegetated
+    nva, vva, dtm_nva, dtm_vva = (
+        Figures.of(errors[land], accuracy.survey_error)
+        for errors in (found.errors, found.dtm_errors)
+        for land in (each & ~np.isnan(errors) for each in lands)
+    )
+    worst = np.argsort(np.where(counted, -np.abs(found.errors), 0.0), kind="stable")[:_LARGEST]
+    goal = accuracy.accuracy_class
+    has_dtm = dtm_nva is not None or dtm_vva is not None
+    return Check(
+        len(names), int(np.count_nonzero(counted)), nva, vva, dtm_nva, dtm_vva, others,
+        [
+            {"name": names[each], "error": round(float(found.errors[each]), 6)}
+            for each in worst.tolist()
+            if counted[each]
+        ],
+        None if nva is None else nva.mean, NEEDED, goal,
+        None if goal is None or nva is None else nva.total_rmse <= goal, _scale_of(found),
+        statement(nva, vva, goal), statement(dtm_nva, dtm_vva, goal) if has_dtm else "", held,
+    )  # fmt: skip

@@ -1,0 +1,115 @@
+"""Hold-out: how well a part of the ground points is predicted by the others."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..core.progress import SILENT, Progress
+from .accuracy import Figures
+from .survey_ground import SurveyGround
+
+# Most points at which errors are measured. More would hardly change the figures.
+MOST = 10_000
+# Side of the cells by which points are left out, in metres: the points of one place go together.
+_CELL = 0.01
+_STEEP = 20.0
+# Numbers that mix the bits of the coordinates (Steele, Lea & Flood 2014, SplitMix64).
+_MIX = tuple(
+    np.uint64(each) for each in (0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB)
+)
+
+
+@dataclass(frozen=True)
+class HoldOut:
+    """Errors at ground points that were left out of the TIN.
+
+    Attributes
+    ----------
+    share : float
+        The share of the ground points that was left out.
+    left_out : int
+        Their number.
+    no_height : int
+        Points at which errors would be measured, but no short triangle of the others holds them.
+    all, open, under_trees, steep : Figures or None
+        Errors (the TIN minus the point), of all and by land: where the slope is more than 20
+        degrees; elsewhere where the pulse of the point had several returns; and the rest. At most
+        10,000 points are measured.
+    """
+
+    share: float
+    left_out: int
+    no_height: int
+    all: Figures | None
+    open: Figures | None
+    under_trees: Figures | None
+    steep: Figures | None
+
+
+def hold_out(
+    ground: SurveyGround, share: float, max_edge: float, progress: Progress = SILENT
+) -> HoldOut:
+    """Leave out a share of the ground points, and measure how well the others predict them.
+
+    The points are chosen by their coordinates alone. So a survey has the same ones in each run,
+    however it is cut into files.
+
+    Parameters
+    ----------
+    ground : SurveyGround
+        The points.
+    share : float
+        The share to leave out, 0 to 1.
+    max_edge : float
+        Longest edge of a triangle in metres.
+    progress : Progress
+        Receives progress.
+
+    Raises
+    ------
+    BareEarthError
+        If a file cannot be read, or there is no ground.
+    Cancelled
+        If the user asked to stop.
+    """
+    limit = np.uint64(min(int(share * 2.0**64), 2**64 - 1))
+    # x, y, z, and whether their pulses had several returns.
+    kept = np.empty((4, 0))
+    codes, count = np.empty(0, dtype=np.uint64), 0
+    for cloud, is_ground in ground.parts(progress.part(0.0, 0.4)):
+        which = np.flatnonzero(is_ground)
+        points = cloud.points(which, ground.frame)
+        code = _codes(points.x, points.y)
+        chosen = np.flatnonzero(code < limit)
+        count += len(chosen)
+        several = cloud.number_of_returns[which[chosen]] > 1
+        new = np.array([*(each[chosen] for each in points), several])
+        kept, codes = np.concatenate((kept, new), axis=1), np.concatenate((codes, code[chosen]))
+        # Sorted also by height, since points of one place have the same code.
+        order = np.lexsort((*kept, codes))[:MOST]
+        kept, codes = kept[:, order], codes[order]
+    ground.check()
+    if not len(codes):
+        return HoldOut(share, 0, 0, None, None, None, None)
+    found = ground.heights(
+        kept[:2].T, max_edge, progress.part(0.4, 1.0), lambda x, y: _codes(x, y) >= limit
+    )
+    errors, known = found.heights - kept[2], np.isfinite(found.heights)
+    steep, trees = found.slopes > _STEEP, kept[3] > 0.0
+    lands = (known, known & ~steep & ~trees, known & ~steep & trees, known & steep)
+    figures = [Figures.of(errors[each]) for each in lands]
+    return HoldOut(share, count, int(np.count_nonzero(~known)), *figures)
+
+
+def _codes(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Return a number for the cell of each place that looks random, but depends only on it."""
+    column, row = (np.rint(each / _CELL).astype(np.int64).view(np.uint64) for each in (x, y))
+    first, second, third = _MIX
+    with np.errstate(over="ignore"):
+        code = column * first
+        code = (code ^ (code >> np.uint64(29))) + row
+        for by, shift in ((second, 30), (third, 27)):
+            code = (code ^ (code >> np.uint64(shift))) * by
+        return code ^ (code >> np.uint64(31))

@@ -1,0 +1,352 @@
+"""The ground points of a survey of any size, and their TIN at a few thousand places."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Callable, Iterator, NamedTuple, Sequence
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.points import Frame, Points
+from ..core.progress import SILENT, Progress
+from ..grids.enclosing import (
+    NOWHERE,
+    circumcircles,
+    enclosing_triangles,
+    interpolated,
+    longest_edge,
+    picked,
+)
+from ..grids.tin import Tin
+from ..las.cloud import PointCloud, survey_frame
+from ..las.lasfile import LasFile
+from ..las.reading import read_parts
+from ..survey.files import Survey, open_survey
+from ..survey.ground_classes import GroundClasses, GroundTally
+from ..survey.shapes import Place
+
+# Points near places are kept in so many rounds, with more for the places that are not certain yet.
+# In dense land the first is enough.
+_ROUNDS = (256, 4096, 65_536)
+# Most points that are kept at a time, at about 60 bytes each.
+_MOST_KEPT = 1 << 22
+# Ground points that are looked at together.
+_TOGETHER = 1 << 21
+# Places whose triangles are searched together.
+_PLACES = 1 << 11
+# Points to which the plane of the terrain is fitted.
+_OF_PLANE = 64
+# The same places, but for rounding.
+_INSIDE = 1.0 - 1e-9
+
+# Which of the ground points of a part are used, given their x and y in metres.
+Chooser = Callable[[np.ndarray, np.ndarray], np.ndarray]
+
+
+class TinHeights(NamedTuple):
+    """Heights of the TIN of ground points at places.
+
+    Attributes
+    ----------
+    heights : numpy.ndarray of float64, shape (q,)
+        In metres; NaN where no triangle with edges that are short enough holds the place.
+    slopes : numpy.ndarray of float64, shape (q,)
+        Slope in degrees of a plane through the nearest points; NaN where there are too few.
+    """
+
+    heights: np.ndarray
+    slopes: np.ndarray
+
+
+@dataclass
+class SurveyGround:
+    """The ground points of the files of a survey, which are read in parts.
+
+    Attributes
+    ----------
+    survey : Survey
+        The files.
+    ground : GroundClasses
+        Which points are ground.
+    tally : GroundTally
+        Counts of the points that were read last.
+    """
+
+    survey: Survey
+    ground: GroundClasses
+    tally: GroundTally = field(default_factory=GroundTally)
+
+    @classmethod
+    def of(
+        cls,
+        sources: Sequence[Path],
+        ground: GroundClasses,
+        progress: Progress = SILENT,
+        stated: str | None = None,
+    ) -> SurveyGround:
+        """Open the files; see `open_survey`.
+
+        Raises
+        ------
+        BareEarthError
+            As for `open_survey`, and if a file cannot be read: its part would look like a void.
+        """
+        survey = open_survey(sources, progress=progress, stated=stated)
+        if survey.broken:
+            raise BareEarthError(survey.broken[0].reason)
+        return cls(survey, ground)
+
+    @property
+    def frame(self) -> Frame:
+        """The frame of all coordinates in metres, with its origin at (0, 0) of the CRS."""
+        return survey_frame(self.survey.crs)
+
+    @property
+    def place(self) -> Place:
+        """Where the points lie."""
+        tiles = self.survey.tiles
+        name = str(tiles[0].path) if len(tiles) == 1 else "the files"
+        return Place(name, self.survey.crs, self.survey.box)
+
+    def parts(
+        self, progress: Progress, near: np.ndarray | None = None, reach: float = 0.0
+    ) -> Iterator[tuple[PointCloud, np.ndarray]]:
+        """Yield the points of the files in parts, and which of them are ground.
+
+        Parameters
+        ----------
+        progress : Progress
+            Receives progress.
+        near : numpy.ndarray of float64, shape (q, 2), optional
+            Only files near these places are read, in metres.
+        reach : float
+            How near, in metres.
+        """
+        self.tally = GroundTally()
+        tiles = list(self.survey.tiles)
+        if near is not None and len(tiles) > 1:
+            tiles = [each for each in tiles if self._is_near(each, near, reach)]
+        for tile, part in zip(tiles, progress.shares(*[max(each.count, 1) for each in tiles])):
+            for cloud in read_parts(tile, part):
+                yield cloud, self.ground.of(cloud, self.tally)
+
+    def check(self) -> None:
+        """Refuse a survey without ground, after all of its parts were read.
+
+        Raises
+        ------
+        BareEarthError
+            If none of the points that were read is ground.
+        """
+        self.ground.check(self.tally, Path(self.place.name))
+
+    def _is_near(self, tile: LasFile, places: np.ndarray, reach: float) -> bool:
+        west, south, east, north = (each * self.frame.horizontal_unit for each in tile.outer_box)
+        x, y = places.T
+        inside = (x >= west - reach) & (x <= east + reach)
+        return bool((inside & (y >= south - reach) & (y <= north + reach)).any())
+
+    def heights(
+        self,
+        places: np.ndarray,
+        max_edge: float,
+        progress: Progress = SILENT,
+        chooser: Chooser | None = None,
+    ) -> TinHeights:
+        """Return the heights of the TIN of all ground points at places.
+
+        The corners of a triangle with edges up to `max_edge` lie that near its places. Of the
+        points that near, only the nearest are kept: enough if the circumcircle of the triangle
+        holds no place that is farther away than these. Places where it does are looked at again
+        with more points. So memory does not depend on the survey, and neither do heights depend on
+        its files.
+
+        Parameters
+        ----------
+        places : numpy.ndarray of float64, shape (q, 2)
+            x and y in metres.
+        max_edge : float
+            Triangles with a longer edge have no height.
+        progress : Progress
+            Receives progress.
+        chooser : callable, optional
+            Which of the ground points make the TIN.
+
+        Raises
+        ------
+        BareEarthError
+            If a file cannot be read.
+        Cancelled
+            If the user asked to stop.
+        """
+        heights, slopes = (np.full(len(places), np.nan) for _ in range(2))
+        left, parts = np.arange(len(places)), iter(progress.shares(0.7, 0.2, 0.1))
+        for count in _ROUNDS:
+            count = min(count, max(_MOST_KEPT // max(len(left), 1), 32))
+            nearest = _Nearest(places[left], count, max_edge)
+            for points in self._near(places[left], max_edge, next(parts), chooser):
+                nearest.add(points)
+            if len(left) == len(places):
+                slopes[:] = nearest.slopes()
+            heights[left], sure = nearest.heights()
+            left = left[~sure]
+            if not len(left):
+                break
+        progress(1.0)
+        return TinHeights(heights, slopes)
+
+    def _near(
+        self, places: np.ndarray, reach: float, progress: Progress, chooser: Chooser | None
+    ) -> Iterator[Points]:
+        """Yield the ground points near places, many at a time."""
+        cells, frame = _CellsRound(places, reach), self.frame
+        waiting: list[Points] = []
+        for cloud, ground in self.parts(progress, places, reach):
+            points = cloud.points(ground, frame)
+            points = points.take(cells.hold(points.x, points.y))
+            if chooser is not None:
+                points = points.take(chooser(points.x, points.y))
+            waiting.append(points)
+            if sum(each.count for each in waiting) >= _TOGETHER:
+                yield Points(*map(np.concatenate, zip(*waiting)))
+                waiting = []
+        if waiting:
+            yield Points(*map(np.concatenate, zip(*waiting)))
+
+
+class _CellsRound:
+    """The square cells round places, to leave out most of the other points quickly."""
+
+    def __init__(self, places: np.ndarray, size: float) -> None:
+        self._size = size
+        column, row = np.floor(places.T / size).astype(np.int64)
+        self._start = int(column.min()) - 1, int(row.min()) - 1
+        self._columns = int(column.max()) - self._start[0] + 2
+        self._rows = int(row.max()) - self._start[1] + 2
+        across = np.arange(-1, 2)
+        columns = np.add.outer(column, np.tile(across, 3)).ravel()
+        self._codes = np.unique(
+            self._code(columns, np.add.outer(row, np.repeat(across, 3)).ravel())
+        )
+
+    def _code(self, column: np.ndarray, row: np.ndarray) -> np.ndarray:
+        return (row - self._start[1]) * self._columns + column - self._start[0]
+
+    def hold(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Return which points lie in the cells."""
+        column = np.floor(x / self._size).astype(np.int64)
+        row = np.floor(y / self._size).astype(np.int64)
+        inside = (column >= self._start[0]) & (column < self._start[0] + self._columns)
+        inside &= (row >= self._start[1]) & (row < self._start[1] + self._rows)
+        inside[inside] = np.isin(self._code(column[inside], row[inside]), self._codes)
+        return inside
+
+
+class _Nearest:
+    """The nearest points of each place.
+
+    Parameters
+    ----------
+    places : numpy.ndarray of float64, shape (q, 2)
+        x and y in metres.
+    count : int
+        How many points are kept for each place.
+    reach : float
+        How far they may be away, in metres.
+    """
+
+    def __init__(self, places: np.ndarray, count: int, reach: float) -> None:
+        self.places, self.count, self._reach = places, count, reach
+        self._distance = np.full((len(places), 0), np.inf)
+        # Relative to the place.
+        self._points = np.empty((3, len(places), 0))
+
+    def add(self, points: Points) -> None:
+        """Add points."""
+        from scipy.spatial import cKDTree
+
+        if not points.count:
+            return
+        xy = np.column_stack((points.x, points.y))
+        distance, which = cKDTree(xy).query(
+            self.places, np.arange(1, min(self.count, points.count) + 1),
+            distance_upper_bound=self._reach * (1.0 + 1e-12), workers=1,
+        )  # fmt: skip
+        which = np.minimum(which, points.count - 1)  # a missing one has the number behind the last
+        new = np.array([
+            points.x[which] - self.places[:, :1], points.y[which] - self.places[:, 1:],
+            points.z[which],
+        ])  # fmt: skip
+        distance = np.concatenate((self._distance, distance), axis=1)
+        found = np.concatenate((self._points, new), axis=2)
+        # The lowest of points at the same place comes first, and is the vertex.
+        order = np.lexsort((found[2], distance), axis=1)[:, : self.count]
+        self._distance = np.take_along_axis(distance, order, axis=1)
+        self._points = np.take_along_axis(found, order[None], axis=2)
+
+    @property
+    def _known(self) -> np.ndarray:
+        """How far from each place all points are known, shape (q,)."""
+        if self._distance.shape[1] < self.count:
+            return np.full(len(self.places), self._reach)
+        return np.minimum(self._distance[:, -1], self._reach)
+
+    def heights(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return the heights at the places, NaN for none, and which cannot change any more."""
+        heights = np.full(len(self.places), np.nan)
+        # All points in reach are known: more cannot be found.
+        sure = self._known >= self._reach
+        for start in range(0, len(heights), _PLACES):
+            part = slice(start, start + _PLACES)
+            found, is_sure = self._in_triangles(part)
+            heights[part], sure[part] = found, sure[part] | is_sure
+            alone = start + np.flatnonzero(sure[part] & ~is_sure)
+            for place in alone.tolist():
+                heights[place] = self._by_triangulation(place)
+        return heights, sure
+
+    def _in_triangles(self, part: slice) -> tuple[np.ndarray, np.ndarray]:
+        """Return heights without a triangulation, and whether they are certain."""
+        missing = ~np.isfinite(self._distance[part]).T
+        x, y, z = (np.ascontiguousarray(each[part].T) for each in self._points)
+        if len(x) < 4:
+            return np.full(x.shape[1], np.nan), np.zeros(x.shape[1], dtype=bool)
+        x[missing] = y[missing] = NOWHERE
+        corners, found, _ = enclosing_triangles(x, y, np.full(4, NOWHERE))
+        a, b, heights = picked(x, corners), picked(y, corners), picked(z, corners)
+        heights = interpolated(a, b, heights)
+        cx, cy, radius = circumcircles(a, b)
+        with np.errstate(invalid="ignore"):
+            sure = found & (np.hypot(cx, cy) + radius <= self._known[part] * _INSIDE)
+        heights[~found | (longest_edge(a, b) > self._reach)] = np.nan
+        return heights, sure & ~missing.all(axis=0)
+
+    def _by_triangulation(self, place: int) -> float:
+        """Return the height at a place from a triangulation of its points."""
+        there = np.isfinite(self._distance[place])
+        if np.count_nonzero(there) < 3:
+            return float("nan")
+        tin = Tin(*self._points[:, place, there])
+        (triangle,) = tin.locate(np.zeros(1), np.zeros(1))
+        if triangle < 0:
+            return float("nan")
+        x, y = (each[tin.triangles[triangle]][:, None] for each in (tin.x, tin.y))
+        if longest_edge(x, y)[0] > self._reach:
+            return float("nan")
+        return float(tin.interpolate(np.zeros(1), np.zeros(1), np.array([triangle]))[0])
+
+    def slopes(self) -> np.ndarray:
+        """Return the slope in degrees of planes through the nearest points; NaN for too few."""
+        x, y, z = self._points[:, :, :_OF_PLANE]
+        there = np.isfinite(self._distance[:, :_OF_PLANE])
+        weight, count = there.astype(np.float64), there.sum(axis=1)
+        safe = np.maximum(count, 1)[:, None]
+        x, y, z = (np.where(there, each, 0.0) for each in (x, y, z))
+        x, y, z = ((each - each.sum(axis=1)[:, None] / safe) * weight for each in (x, y, z))
+        xx, xy, yy = (x * x).sum(axis=1), (x * y).sum(axis=1), (y * y).sum(axis=1)
+        xz, yz = (x * z).sum(axis=1), (y * z).sum(axis=1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            rises = np.hypot(yy * xz - xy * yz, xx * yz - xy * xz) / (xx * yy - xy * xy)
+            return np.where(count > 3, np.degrees(np.arctan(rises)), np.nan)

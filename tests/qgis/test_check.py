@@ -1,0 +1,135 @@
+import csv
+import json
+
+import laspy
+import numpy as np
+import pytest
+from qgis.core import QgsProcessingException, QgsProject, QgsVectorLayer
+from support import Log
+
+ALGORITHM = "bareearth:check"
+
+
+@pytest.fixture
+def cloud(scene, tmp_path):
+    """The scene with its true classes."""
+    las = laspy.read(scene.path)
+    las.classification = np.where(scene.ground, 2, 6)
+    las.write(str(tmp_path / "ground.laz"))
+    return tmp_path / "ground.laz"
+
+
+@pytest.fixture
+def rows(cloud):
+    """Ground points of the cloud, 5 cm lower, as checkpoints; and one that is far away."""
+    las = laspy.read(cloud)
+    x, y, z = (np.asarray(each) for each in (las.x, las.y, las.z))
+    inner = (x > x.min() + 5) & (x < x.max() - 5) & (y > y.min() + 5) & (y < y.max() - 5)
+    which = np.flatnonzero((np.asarray(las.classification) == 2) & inner)[::150][:40]
+    found = [
+        (f"P{each}", x[each], y[each], z[each] - 0.05, "forest" if k % 4 == 0 else "sand")
+        for k, each in enumerate(which)
+    ]
+    return [*found, ("far", x.max() + 500, y.max(), 1.0, "sand")]
+
+
+@pytest.fixture
+def table(rows, tmp_path):
+    with open(tmp_path / "points.csv", "w", encoding="utf-8", newline="") as file:
+        csv.writer(file).writerows([("id", "E", "N", "H", "class"), *rows])
+    return str(tmp_path / "points.csv")
+
+
+def layer_of(rows, tmp_path, z=True):
+    features = [
+        {
+            "type": "Feature",
+            "properties": {"label": name, "up": float(up), "land": cover},
+            "geometry": {"type": "Point", "coordinates": [float(x), float(y), *[float(up)] * z]},
+        }
+        for name, x, y, up, cover in rows
+    ]
+    crs = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::25832"}}
+    path = tmp_path / "points.geojson"
+    path.write_text(json.dumps({"type": "FeatureCollection", "crs": crs, "features": features}))
+    return str(path)
+
+
+def test_run_with_a_table(registry, cloud, table, rows, tmp_path, context, log):
+    from bare_earth.algorithms.cli import main
+
+    parameters = {
+        "INPUT": str(cloud), "CHECKPOINTS": table, "ACCURACY_CLASS": 0.1,
+        "OUTPUT": str(tmp_path / "errors.gpkg"), "REPORT": str(tmp_path / "report.html"),
+    }  # fmt: skip
+    algorithm = registry.createAlgorithmById(ALGORITHM)
+    results, done = algorithm.run(parameters, context, log)
+    assert done, log.text
+    assert results["CHECKPOINT_COUNT"] == len(rows) and results["COUNTED"] == len(rows) - 1
+    assert results["NVA_RMSE"] == pytest.approx(0.05, abs=0.01)
+    assert results["VVA_RMSE"] == pytest.approx(0.05, abs=0.01)
+    assert results["SHIFT"] == pytest.approx(0.05, abs=0.01) and "HOLD_OUT_RMSE" not in results
+    layer = QgsVectorLayer(results["OUTPUT"], "errors")
+    assert layer.isValid() and layer.featureCount() == len(rows)
+    assert layer.crs().authid() == "EPSG:25832"
+    states = [each["STATE"] for each in layer.getFeatures()]
+    assert states.count("outside") == 1
+    page = (tmp_path / "report.html").read_bytes()
+    assert b"produced to meet" in page or b"tested to meet" in page
+    import shlex
+
+    command = next(shlex.split(line) for line in log.said if line.startswith("bare-earth "))
+    (tmp_path / "report.html").unlink()
+    assert main(command[1:]) == 0
+    assert (tmp_path / "report.html").read_bytes() == page
+
+
+@pytest.mark.parametrize("has_z", [True, False])
+def test_a_layer_in_another_crs_and_its_style(cloud, rows, tmp_path, has_z):
+    import processing
+
+    points = QgsVectorLayer(layer_of(rows, tmp_path, has_z), "points")
+    wgs = processing.run(
+        "native:reprojectlayer",
+        {"INPUT": points, "TARGET_CRS": "EPSG:4326", "OUTPUT": "TEMPORARY_OUTPUT"},
+    )["OUTPUT"]
+    parameters = {
+        "INPUT": str(cloud), "CHECKPOINTS": wgs, "COVER_FIELD": "land", "NAME_FIELD": "label",
+        "OUTPUT": str(tmp_path / "errors.gpkg"),
+    }  # fmt: skip
+    if not has_z:
+        with pytest.raises(QgsProcessingException, match="has no height"):
+            processing.run(ALGORITHM, parameters)
+        parameters["Z_FIELD"] = "up"
+    QgsProject.instance().clear()
+    results = processing.runAndLoadResults(ALGORITHM, parameters)
+    assert results["COUNTED"] == len(rows) - 1
+    assert results["NVA_RMSE"] == pytest.approx(0.05, abs=0.01) and results["VVA_RMSE"] > 0
+    (layer,) = QgsProject.instance().mapLayers().values()
+    rules = layer.renderer().rootRule().children()
+    assert len(rules) == 6 and rules[-1].label() == "Not counted"
+    assert rules[0].symbol().color().name() == "#2166ac"
+    names = {each["NAME"] for each in layer.getFeatures()}
+    assert {"far", rows[0][0]} <= names
+    QgsProject.instance().clear()
+
+
+def test_held_out_points_need_no_checkpoints(cloud, tmp_path):
+    import processing
+
+    results = processing.run(ALGORITHM, {"INPUT": str(cloud), "HOLD_OUT": 0.05})
+    assert results["HOLD_OUT_RMSE"] > 0 and "OUTPUT" not in results
+    with pytest.raises(QgsProcessingException, match="Give checkpoints"):
+        processing.run(ALGORITHM, {"INPUT": str(cloud)})
+
+
+def test_cancel_leaves_nothing(registry, cloud, table, tmp_path, context):
+    (tmp_path / "out").mkdir()
+    parameters = {
+        "INPUT": str(cloud), "CHECKPOINTS": table, "HOLD_OUT": 0.05,
+        "OUTPUT": str(tmp_path / "out" / "e.gpkg"), "REPORT": str(tmp_path / "out" / "r.html"),
+    }  # fmt: skip
+    for percent in (1, 40, 70):
+        algorithm = registry.createAlgorithmById(ALGORITHM)
+        assert algorithm.run(parameters, context, Log(cancel_at=percent))[0] == {}
+        assert list((tmp_path / "out").iterdir()) == []
