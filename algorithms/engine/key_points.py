@@ -20,8 +20,7 @@ from ..survey.tally import count_classes
 from .blocks import Blocks
 from .blockwise import fill
 from .memory import Resources
-from .remembering import Memory
-from .steps import PointResult, PointStep, Room
+from .steps import Memory, PointResult, PointStep, Room
 from .store import BlockPoints, Corner, Marks, Store
 
 # Values that a store holds for key points, and for other ground points.

@@ -28,8 +28,7 @@ from .explanation import Explanation
 from .ground import blocks_of, label_ground
 from .memory import Resources
 from .output import Output, height_dimension
-from .remembering import Memory
-from .steps import PointResult, PointStep, Room
+from .steps import Memory, PointResult, PointStep, Room
 from .store import Marks, Store
 
 

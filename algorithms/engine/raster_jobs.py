@@ -19,9 +19,8 @@ from ..products.raster_block import BlockRasters
 from ..survey.files import Survey
 from .block_grid import BlockGrid, BlockIndex, places_of, sources_of
 from .blocks import Block
-from .job_queue import JobQueue
+from .job_queue import JobQueue, block_jobs
 from .jobs import BlockJob, Share
-from .planning import block_jobs
 from .rasters import AROUND_AREA, MakeRasters, RasterSize, no_point_in, write_rasters
 from .record import block_file, stamp_of
 from .workers import Workers

@@ -20,7 +20,9 @@ from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
+from ..las.extrabytes import REMEMBERED, ExtraDimension
 from ..las.lasfile import LasFile
+from ..survey.corrections import to_remember
 from ..survey.shapes import Geometry, Place
 from .blocks import Blocks
 from .memory import Resources
@@ -202,3 +204,33 @@ def _plain(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         return hashlib.sha256(value.tobytes()).hexdigest()
     return str(value) if isinstance(value, Path) else value
+
+
+class Memory:
+    """The classes of a file that are to be remembered.
+
+    Parameters
+    ----------
+    room : callable
+        Returns an array of one value for each point.
+    begins : bool
+        Whether classes are remembered even if the file has none remembered yet.
+    """
+
+    def __init__(self, room: Room, begins: bool = False) -> None:
+        self._room, self._begins = room, begins
+        self._values: np.ndarray | None = None
+
+    def add(self, where: slice, part: PointCloud, classes: np.ndarray) -> None:
+        """Add the new classes of some points."""
+        if self._begins or part.remembered is not None:
+            if self._values is None:
+                self._values = self._room(np.uint8)
+            self._values[where] = to_remember(part, classes)
+
+    def added_to(self, edits: Edits) -> Edits:
+        """Return edits with the remembered classes."""
+        if self._values is None:
+            return edits
+        dimension = ExtraDimension(REMEMBERED, "Before changes by hand", self._values)
+        return dataclasses.replace(edits, remembered=dimension)
