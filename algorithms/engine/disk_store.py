@@ -203,7 +203,7 @@ def _read(file: BinaryIO, kind: np.dtype, start: int, end: int) -> np.ndarray:
     return np.frombuffer(file.read((end - start) * kind.itemsize), dtype=kind)
 
 
-def room_on_disk(target: Path, kind: type, count: int) -> np.ndarray:
+def allocated_on_disk(target: Path, kind: type, count: int) -> np.ndarray:
     """Return room for values of points in a temporary file without a name.
 
     Parameters

@@ -29,7 +29,7 @@ from .memory import Resources
 from .store import Marks, Store
 
 # Returns an array of one value for each point of a file, given the type of the values.
-Room = Callable[[type], np.ndarray]
+Allocate = Callable[[type], np.ndarray]
 
 
 class Step:
@@ -149,7 +149,7 @@ class PointStep(Step):
     def tell_of_survey(self, done: Sequence[Any], progress: Progress) -> None:
         """Report on all files together, given their summaries."""
 
-    def result(self, path: Path, room: Room) -> PointResult:
+    def result(self, path: Path, allocate: Allocate) -> PointResult:
         """Return an object that collects the values of a file."""
         raise NotImplementedError
 
@@ -206,26 +206,26 @@ def _plain(value: Any) -> Any:
     return str(value) if isinstance(value, Path) else value
 
 
-class Memory:
+class RememberedClasses:
     """The classes of a file that are to be remembered.
 
     Parameters
     ----------
-    room : callable
+    allocate : callable
         Returns an array of one value for each point.
     begins : bool
         Whether classes are remembered even if the file has none remembered yet.
     """
 
-    def __init__(self, room: Room, begins: bool = False) -> None:
-        self._room, self._begins = room, begins
+    def __init__(self, allocate: Allocate, begins: bool = False) -> None:
+        self._allocate, self._begins = allocate, begins
         self._values: np.ndarray | None = None
 
     def add(self, where: slice, part: PointCloud, classes: np.ndarray) -> None:
         """Add the new classes of some points."""
         if self._begins or part.remembered is not None:
             if self._values is None:
-                self._values = self._room(np.uint8)
+                self._values = self._allocate(np.uint8)
             self._values[where] = to_remember(part, classes)
 
     def added_to(self, edits: Edits) -> Edits:
