@@ -58,6 +58,8 @@ class PointCloud:
         The class that an earlier run gave each point, if the file has the dimension `REMEMBERED`.
     gps_time : numpy.ndarray of float64, shape (n,), optional
         GPS time of each point, if it was read.
+    strip : numpy.ndarray of uint16, shape (n,), optional
+        Flight strip of each point (point source id), if it was read.
     records : numpy.ndarray of uint8, shape (n, record length), optional
         The records of the file, if they were kept for writing.
     file : LasFile, optional
@@ -80,6 +82,7 @@ class PointCloud:
     overlap: np.ndarray | None = None
     remembered: np.ndarray | None = None
     gps_time: np.ndarray | None = None
+    strip: np.ndarray | None = None
     records: np.ndarray | None = None
     file: LasFile | None = None
 

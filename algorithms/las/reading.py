@@ -85,13 +85,17 @@ def read_cloud(
     return cloud
 
 
-def read_parts(path: Path | LasFile, progress: Progress = SILENT) -> Iterator[PointCloud]:
+def read_parts(
+    path: Path | LasFile, progress: Progress = SILENT, strips: bool = False
+) -> Iterator[PointCloud]:
     """Read a file part by part, if it may not fit into memory.
 
     Parameters
     ----------
     path, progress
         As for `read_cloud`.
+    strips : bool
+        Whether to read the flight strip of each point.
 
     Yields
     ------
@@ -108,9 +112,11 @@ def read_parts(path: Path | LasFile, progress: Progress = SILENT) -> Iterator[Po
     layout = open_las(path)
     require_packages(layout)
     crs, start = read_crs(layout, progress), 0
-    for chunk in read_chunks(layout):
+    for chunk in read_chunks(layout, strips=strips):
         part = _empty_cloud(layout, len(chunk), crs)
         _fill(part, slice(None), chunk)
+        if strips:
+            part.strip = np.array(chunk["point_source_id"], dtype=np.uint16)
         yield part
         start += len(chunk)
         progress(start / layout.count)
@@ -250,13 +256,16 @@ def require_packages(layout: LasFile) -> None:
     require(*(("laspy", "lazrs") if layout.is_compressed else ("laspy",)))
 
 
-def read_chunks(layout: LasFile, times: bool = False) -> Iterator[laspy.PackedPointRecord]:
+def read_chunks(
+    layout: LasFile, times: bool = False, strips: bool = False
+) -> Iterator[laspy.PackedPointRecord]:
     """Yield all points in parts, which are always the same. Parts share their memory.
 
-    The GPS times are undefined in point formats 6 to 10, unless `times` is true.
+    The GPS times are undefined in point formats 6 to 10, unless `times` is true, and the point
+    source ids unless `strips` is.
     """
-    pieces = parts_of(layout.count, _CHUNK)
-    for records in read_records(layout, _CHUNK, columns=needed(layout, times), pieces=pieces):
+    pieces, columns = parts_of(layout.count, _CHUNK), needed(layout, times, strips)
+    for records in read_records(layout, _CHUNK, columns=columns, pieces=pieces):
         yield named(layout, records)
 
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import lazrs
 
 _NEEDED, _REMEMBERED = ("Z", "CLASSIFICATION", "FLAGS"), "ALL_EXTRA_BYTES"
-_TIMES = "GPS_TIME"
+_TIMES, _STRIPS = "GPS_TIME", "POINT_SOURCE_ID"
 # Most points at a time, through a buffer and if all of them are in memory.
 _MOST, MOST_KEPT = 1_000_000, 8_000_000
 _BLOCK = 1 << 24
@@ -52,13 +52,15 @@ def check_class(path: object, point_format: int, value: int, what: str) -> None:
         )
 
 
-def needed(layout: LasFile, times: bool = False) -> tuple[str, ...]:
-    """Return the layers of points (formats 6 to 10) that a `PointCloud` needs; perhaps with times.
+def needed(layout: LasFile, times: bool = False, strips: bool = False) -> tuple[str, ...]:
+    """Return the layers of points (formats 6 to 10) that a `PointCloud` needs.
+
+    GPS times, and the strips of points (point source ids), are needed only if that is said.
 
     x, y, returns and scanner channel are always decompressed, and not in this list.
     """
     layers = (*_NEEDED, _REMEMBERED) if remembers(layout) else _NEEDED
-    return (*layers, _TIMES) if times else layers
+    return (*layers, *[_TIMES] * times, *[_STRIPS] * strips)
 
 
 def selection_of(columns: Sequence[str]) -> lazrs.DecompressionSelection:
